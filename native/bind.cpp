@@ -1,0 +1,14 @@
+// The compiled kernels behind crumple._core: one registration function per engine.
+#include <nanobind/nanobind.h>
+
+namespace nb = nanobind;
+
+namespace crumple::multibody {
+void bind(nb::module_& m);
+}
+
+NB_MODULE(_kernels, m) {
+    m.doc() = "Compiled kernels of Crumple; use them through crumple.multibody and crumple.shell.";
+    auto multibody = m.def_submodule("multibody", "Implicit convex stepper for trees of rigid bodies with plastic hinges.");
+    crumple::multibody::bind(multibody);
+}

@@ -1,0 +1,3 @@
+#include <nanobind/nanobind.h>
+namespace nb = nanobind;
+namespace crumple::multibody { void bind(nb::module_& m) { m.def("alive", [] { return 1; }); } }

@@ -1,0 +1,81 @@
+"""What can go wrong, said so that the reader knows what to do: exceptions and the status of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+
+class CrumpleError(Exception):
+    """Base of every error that Crumple raises on purpose."""
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One mistake in the input.
+
+    Attributes
+    ----------
+    what
+        The mistake in one sentence.
+    came
+        What the input says, shortened; empty where nothing came.
+    allowed
+        What would have been accepted.
+    todo
+        What the engineer can do about it.
+    where
+        Path inside the input, for example ``members.tube.section``.
+    file, line
+        File and 1-based line; ``line`` 0 when unknown (a model built in Python).
+    """
+
+    what: str
+    came: str = ""
+    allowed: str = ""
+    todo: str = ""
+    where: str = ""
+    file: str = ""
+    line: int = 0
+
+    def __str__(self) -> str:
+        place = ":".join(part for part in (self.file, str(self.line) if self.line else "") if part)
+        head = ": ".join(part for part in (place, self.where, self.what) if part)
+        details = (("came", self.came), ("allowed", self.allowed), ("do", self.todo))
+        return "\n".join([head, *(f"    {name + ':':<9}{text}" for name, text in details if text)])
+
+
+class InputError(CrumpleError):
+    """The description of the structure or analysis cannot be accepted; holds every problem found.
+
+    Parameters
+    ----------
+    problems
+        One or more problems; a plain string is taken as a problem without a place.
+    """
+
+    def __init__(self, problems: str | Problem | Sequence[Problem]) -> None:
+        if isinstance(problems, str):
+            problems = Problem(problems)
+        self.problems: list[Problem] = [problems] if isinstance(problems, Problem) else list(problems)
+        super().__init__("\n".join(str(problem) for problem in self.problems))
+
+    def __reduce__(self) -> tuple[type[InputError], tuple[list[Problem]]]:
+        return (type(self), (self.problems,))
+
+
+class Status(Enum):
+    """How a run ended; the value is the message that people read."""
+
+    COMPLETE = "complete"
+    RESIDUAL_EXCEEDED = "ended, but the energy residual passed its bound: do not trust this result"
+    STEP_COLLAPSED = "stopped: the time step fell below its minimum"
+    NOT_CONVERGED = "stopped: the step's equations did not converge"
+    NOT_FINITE = "stopped: a state became infinite or not a number"
+    CANCELLED = "cancelled by the caller"
+
+    @property
+    def ok(self) -> bool:
+        """Whether the run reached its end and kept its bounds."""
+        return self is Status.COMPLETE

@@ -1,0 +1,124 @@
+"""What every hinge law offers: a pure function from rotation to capacity, with a source and a range.
+
+A law is the envelope of the moment that a collapsing section can carry, against one named softening
+variable.  The moment itself is the solver's answer: a rigid-plastic hinge at rest carries any moment
+up to its capacity.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
+
+
+class SofteningVariable(Enum):
+    """Which rotation the collapse curve runs on, per sense of rotation."""
+
+    PEAK = "peak"
+    """Largest plastic rotation reached so far in this sense: a hinge bent back does not regain strength."""
+    ROTATION = "rotation"
+    """Current plastic rotation in this sense (zero when bent the other way): reversible curve."""
+    ACCUMULATED = "accumulated"
+    """Sum of all plastic rotation, both senses together."""
+
+
+class Trust(Enum):
+    """How far a formula can be trusted; every law says which."""
+
+    PUBLISHED = "read in the cited publication"
+    DERIVED = "derived here and checked numerically; the cited work gave the idea, not the formula"
+    QUOTED = "widely quoted; the original text was not seen"
+    MEASURED = "measured curve supplied by the user"
+    ASSUMED = "chosen by the user"
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where a law comes from: citation, how far it can be trusted, and a note in one sentence."""
+
+    citation: str
+    trust: Trust
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Validity:
+    """Range in which a law is backed by evidence.
+
+    Attributes
+    ----------
+    rotation_max
+        Largest rotation of the softening variable [rad] up to which the law is backed.
+    basis
+        What backs it, in one sentence.
+    warnings
+        One sentence for each condition on section or material that does not hold.
+    uncertainty
+        Relative half-width of the band in which the moment is believed to lie inside the range
+        (for example 0.11), or None where nothing is known.
+    """
+
+    rotation_max: float
+    basis: str
+    warnings: tuple[str, ...] = ()
+    uncertainty: float | None = None
+
+
+@runtime_checkable
+class HingeLaw(Protocol):
+    """A collapse law of one section about one axis; pure, frozen, without memory.
+
+    Attributes
+    ----------
+    name, title
+        Short key (``kecman``) and one line for people.
+    softening_variable
+        What ``rotation`` means in `moment_capacity`.
+    elastic_stiffness
+        Rotational stiffness of the hinge [N m/rad] when the law brings its own, else None: the
+        elastic form then uses the tributary length of the member.
+    jamming_angle
+        Rotation [rad] at which the walls touch, or None.
+    """
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def title(self) -> str: ...
+    @property
+    def source(self) -> Source: ...
+    @property
+    def softening_variable(self) -> SofteningVariable: ...
+    @property
+    def elastic_stiffness(self) -> float | None: ...
+    @property
+    def jamming_angle(self) -> float | None: ...
+    @property
+    def validity(self) -> Validity: ...
+
+    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
+        """Quasi-static moment capacity.
+
+        Parameters
+        ----------
+        rotation
+            Softening variable [rad], >= 0, any shape.
+        sense
+            +1 or -1: the sense in which the hinge turns.
+
+        Returns
+        -------
+        NDArray
+            Capacity [N m], >= 0, same shape.
+        """
+        ...
+
+    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
+        """Factor on the capacity at a rotation rate [rad/s]; 1 at rest, same shape as the rate."""
+        ...

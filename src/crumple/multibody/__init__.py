@@ -1,0 +1,1 @@
+"""The multibody room."""
