@@ -1,0 +1,121 @@
+"""One metal, isotropic: the few numbers that plastic hinges and shells both need."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from crumple.errors import InputError, Problem
+from crumple.material.rate import CowperSymonds
+
+
+@dataclass(frozen=True)
+class Material:
+    """Isotropic elastic-plastic metal.
+
+    Attributes
+    ----------
+    name
+        What the input calls it.
+    youngs_modulus
+        [Pa], > 0.
+    poissons_ratio
+        [-], from 0 to below 0.5.
+    density
+        [kg/m^3], > 0.
+    yield_stress
+        [Pa], > 0, below Young's modulus.
+    ultimate_stress
+        Nominal ultimate strength [Pa], at least the yield stress, or None where unknown.
+    given_flow_stress
+        Mean stress [Pa] in a fold at large strain, or None: see `flow_stress`.
+    yield_rate, flow_rate
+        Strain-rate law at yield and at large strain; None: no rate effect.
+
+    Raises
+    ------
+    InputError
+        With every value that cannot be accepted.
+    """
+
+    name: str
+    youngs_modulus: float
+    poissons_ratio: float
+    density: float
+    yield_stress: float
+    ultimate_stress: float | None = None
+    given_flow_stress: float | None = None
+    yield_rate: CowperSymonds | None = None
+    flow_rate: CowperSymonds | None = None
+
+    def __post_init__(self) -> None:
+        problems = [*_not_positive(self), *_inconsistent(self)]
+        if problems:
+            raise InputError(problems)
+
+    @property
+    def flow_stress(self) -> float:
+        """Stress that folds work against [Pa]: the given flow stress, else the yield stress.
+
+        The yield stress is the choice of an elastic-perfectly plastic metal.  It is on the low side for one
+        that hardens: Kecman-type mechanisms take the nominal ultimate strength there, so give that
+        (or an energy-equivalent stress) as the flow stress where it is known.
+        """
+        return self.yield_stress if self.given_flow_stress is None else self.given_flow_stress
+
+    @property
+    def shear_modulus(self) -> float:
+        """E / (2 (1 + nu)) [Pa]."""
+        return self.youngs_modulus / (2.0 * (1.0 + self.poissons_ratio))
+
+
+def _not_positive(material: Material) -> list[Problem]:
+    """Problems of values that must be positive and finite."""
+    values = {
+        "youngs_modulus": (material.youngs_modulus, "Pa", "steel has about 210 GPa"),
+        "density": (material.density, "kg/m^3", "steel has about 7850 kg/m^3"),
+        "yield_stress": (material.yield_stress, "Pa", "structural steel starts at 235 MPa"),
+        "ultimate_stress": (material.ultimate_stress, "Pa", "leave it out where it is not known"),
+        "flow_stress": (material.given_flow_stress, "Pa", "leave it out to use the yield stress"),
+    }
+    return [
+        Problem(f"{name.replace('_', ' ')} must be positive", f"{value:g} {unit}", f"> 0 {unit}", todo, name)
+        for name, (value, unit, todo) in values.items()
+        if value is not None and not (math.isfinite(value) and value > 0.0)
+    ]
+
+
+def _inconsistent(material: Material) -> list[Problem]:
+    """Problems of values that contradict each other or leave their physical range."""
+    problems = []
+    if not 0.0 <= material.poissons_ratio < 0.5:
+        problems.append(
+            Problem(
+                "Poisson's ratio is out of range",
+                f"{material.poissons_ratio:g}",
+                "0 <= nu < 0.5",
+                "metals have about 0.3",
+                "poissons_ratio",
+            )
+        )
+    if material.yield_stress >= material.youngs_modulus > 0.0:
+        problems.append(
+            Problem(
+                "the yield stress is not below Young's modulus",
+                f"{material.yield_stress:g} Pa with E = {material.youngs_modulus:g} Pa",
+                "a yield strain well below 1",
+                "check the units of both (MPa, GPa)",
+                "yield_stress",
+            )
+        )
+    if material.ultimate_stress is not None and 0.0 < material.ultimate_stress < material.yield_stress:
+        problems.append(
+            Problem(
+                "the ultimate stress is below the yield stress",
+                f"{material.ultimate_stress:g} Pa with yield {material.yield_stress:g} Pa",
+                "ultimate >= yield",
+                "exchange the two, or leave the ultimate stress out",
+                "ultimate_stress",
+            )
+        )
+    return problems
