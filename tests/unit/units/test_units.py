@@ -94,6 +94,7 @@ def test_other_units_come_from_pint(text: str, unit: str, value: float) -> None:
         "0x10 mm",
         "5 mm^9",
         "5 mm^99",
+        "5 m^7*m^-6",
         "5 mm^1.5",
         "5 mm**2**3",
         "5 (mm)",
