@@ -22,6 +22,7 @@ FUNCTIONS: list[TimeFunction] = [
     Transition("havsin", -0.01, 1.0, 0.02, 4.0),
     TABLE,
     Sum((RAMP, TABLE, Constant(-1.0))),
+    Sum((RAMP, RAMP, RAMP)),
     BOUNCE,
     Stop(Transition("step", 0.0, -0.02, 0.05, 0.03), -0.01, 0.02, 1e5, 1.0, 50.0, 1e-3),
 ]
@@ -58,7 +59,7 @@ def test_sampling_is_sparse() -> None:
     assert times.size == 87 + 1 + 2
 
 
-@pytest.mark.parametrize("function", FUNCTIONS[:6], ids=lambda f: type(f).__name__)
+@pytest.mark.parametrize("function", FUNCTIONS[:7], ids=lambda f: type(f).__name__)
 def test_derivative_is_the_finite_difference(function: TimeFunction) -> None:
     times, small = np.linspace(-0.0049, 0.0583, 37), 1e-7
     difference = (function(times + small) - function(times - small)) / (2 * small)
