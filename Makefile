@@ -1,0 +1,70 @@
+# Everything a fresh clone needs is Python >= 3.11 with its headers and venv, a C++17 compiler and make.
+#
+#   make demo     run the first example and say where its report is
+#   make test     unit, verification and regression tests
+#   make check    format, lint, types, import contract, sizes
+#   make verify   slow verification too, the native code under sanitizers, and docs/verification.md anew
+#   make bench    speed, as ratios within one run
+#   make clean    remove what make made
+
+VENV ?= .venv
+PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 python3.11 python,\
+	$(shell $(p) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
+BIN := $(VENV)/bin
+NATIVE := $(shell find native -type f -name '*.[ch]pp') CMakeLists.txt pyproject.toml
+DEMO := out/demo
+SANITIZED := build/sanitized
+
+.PHONY: demo test check verify bench clean install
+
+demo: $(VENV)/installed
+	$(BIN)/crumple run examples/01_tube_bending.yaml --out $(DEMO)
+	@echo "Report: $(CURDIR)/$(DEMO)/report.html"
+
+test: $(VENV)/installed-test
+	$(BIN)/python -m pytest -m "not slow"
+
+check: $(VENV)/installed-test $(VENV)/installed-check
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	$(BIN)/python tools/sizes.py
+
+verify: $(VENV)/installed-test $(SANITIZED)/installed
+	mkdir -p out
+	$(BIN)/python -m pytest --figures out/figures.json
+	$(BIN)/python tools/verification_table.py out/figures.json docs/verification.md
+	tools/sanitized.sh $(SANITIZED)/bin/python -m pytest tests/verification tests/unit/multibody -m "not slow"
+
+bench: $(VENV)/installed-test
+	@set -e; for script in tests/benchmark/*.py; do echo "== $$script"; $(BIN)/python $$script; done
+
+clean:
+	rm -rf $(VENV) build dist out
+
+install: $(VENV)/installed
+
+$(BIN)/python:
+	@test -n "$(PYTHON)" || { echo "Crumple needs Python 3.11 or newer; none was found. Install it, or run: make PYTHON=/path/to/python3 ..."; exit 1; }
+	$(PYTHON) -m venv $(VENV)
+
+# pip builds in isolation and brings CMake and Ninja itself where the machine has none
+$(VENV)/installed: $(BIN)/python $(NATIVE)
+	$(BIN)/python -m pip install --quiet --editable .
+	@touch $@
+
+$(VENV)/installed-%: tools/extra.py $(VENV)/installed
+	$(BIN)/python $< $* > $(VENV)/$*.txt
+	$(BIN)/python -m pip install --quiet --requirement $(VENV)/$*.txt
+	@touch $@
+
+# a second environment that borrows the packages of the first, but not its editable Crumple
+$(SANITIZED)/installed: $(VENV)/installed-test $(NATIVE) $(shell find src -name '*.py')
+	$(BIN)/python -m venv $(SANITIZED)
+	$(BIN)/python tools/borrow.py $(SANITIZED)
+	$(SANITIZED)/bin/python -m pip install --quiet --no-deps --force-reinstall . \
+		--config-settings=build-dir=build/sanitized-kernels \
+		--config-settings=cmake.build-type=RelWithDebInfo \
+		--config-settings=cmake.define.CRUMPLE_SANITIZE=ON
+	@touch $@
