@@ -3,6 +3,9 @@
 A law is the envelope of the moment that a collapsing section can carry, against one named softening
 variable.  The moment itself is the solver's answer: a rigid-plastic hinge at rest carries any moment
 up to its capacity.
+
+Unloading is the same for every law: along the elastic line in the elastic-plastic form, at once in the
+rigid forms.  The capacity does not recover unless the softening variable says so.
 """
 
 from __future__ import annotations
@@ -13,6 +16,9 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from crumple.hinge.rate import HingeRate
+from crumple.hinge.stop import Stop
 
 Floats = NDArray[np.float64]
 
@@ -69,6 +75,15 @@ class Validity:
     warnings: tuple[str, ...] = ()
     uncertainty: float | None = None
 
+    def warning_at(self, rotation: float) -> str | None:
+        """Say that a rotation [rad] of the softening variable is beyond the range, or None if it is not."""
+        if rotation <= self.rotation_max:
+            return None
+        reached, backed = np.degrees(rotation), np.degrees(self.rotation_max)
+        return (
+            f"the hinge turned by {reached:.1f} deg, its law is backed up to {backed:.1f} deg: {self.basis}"
+        )
+
 
 @runtime_checkable
 class HingeLaw(Protocol):
@@ -85,6 +100,10 @@ class HingeLaw(Protocol):
         elastic form then uses the tributary length of the member.
     jamming_angle
         Rotation [rad] at which the walls touch, or None.
+    rate
+        Strain-rate law of the hinge, or None.
+    stop
+        Stop that the law itself asks for (jammed walls), or None.
     """
 
     @property
@@ -101,6 +120,15 @@ class HingeLaw(Protocol):
     def jamming_angle(self) -> float | None: ...
     @property
     def validity(self) -> Validity: ...
+
+    @property
+    def rate(self) -> HingeRate | None: ...
+    @property
+    def stop(self) -> Stop | None: ...
+
+    def kinks(self, sense: int = 1) -> tuple[float, ...]:
+        """Rotations [rad] up to half a turn where the slope of the capacity jumps; sampling keeps them."""
+        ...
 
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Quasi-static moment capacity.

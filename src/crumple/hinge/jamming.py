@@ -1,0 +1,78 @@
+"""What follows when the walls of a fold touch: an explicit choice, never a silent constant.
+
+A jammed fold is stiff; the moment rises until the member folds again beside it.  No published formula of
+that rise was obtained, so the choices are models: `SECOND_FOLD` restarts the curve as a hinge in series.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from enum import Enum
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crumple.hinge.law import Floats
+
+# Ramp from the jammed moment to the next fold's curve, as a fraction of the jamming angle: short enough to
+# cost little energy, long enough that the capacity is continuous and a time step can follow it.
+RAMP_FRACTION = 0.02
+
+
+class AfterJamming(Enum):
+    """What the capacity does beyond the jamming angle."""
+
+    SECOND_FOLD = "second_fold"
+    """The curve restarts as a further hinge in series, reached over a short ramp; and so on."""
+    STOP = "stop"
+    """The capacity keeps its last value and an elastic stop takes the load: nothing folds further."""
+    HOLD = "hold"
+    """The capacity keeps its last value, chosen on purpose."""
+
+
+def continued(
+    single_fold: Callable[[Floats], Floats], rotation: ArrayLike, jamming_angle: float, after: AfterJamming
+) -> Floats:
+    """Capacity before and beyond jamming.
+
+    Parameters
+    ----------
+    single_fold
+        Capacity [N m] of one fold for rotations from 0 to the jamming angle.
+    rotation
+        [rad], >= 0, any shape.
+    jamming_angle
+        [rad].
+    after
+        What follows.
+
+    Returns
+    -------
+    NDArray
+        Capacity [N m], continuous, same shape as the rotation.
+    """
+    rotation = np.asarray(rotation, np.float64)
+    if after is not AfterJamming.SECOND_FOLD:
+        return single_fold(np.minimum(rotation, jamming_angle))
+    # the closed ends of the folds: a rotation of exactly n jamming angles belongs to the fold that ends there
+    folds = np.maximum(np.ceil(rotation / jamming_angle) - 1.0, 0.0)
+    within = np.clip(rotation - folds * jamming_angle, 0.0, jamming_angle)
+    fresh = single_fold(within)
+    jammed = float(single_fold(np.array([jamming_angle]))[0])
+    share = np.where(folds > 0.0, np.minimum(within / (RAMP_FRACTION * jamming_angle), 1.0), 1.0)
+    return np.asarray(jammed + (fresh - jammed) * share, np.float64)
+
+
+def continued_kinks(
+    single_fold: tuple[float, ...], jamming_angle: float, after: AfterJamming
+) -> tuple[float, ...]:
+    """Kinks up to half a turn from those within one fold, rotations in [rad]."""
+    if after is not AfterJamming.SECOND_FOLD:
+        return (*single_fold, jamming_angle)
+    ramp_end = RAMP_FRACTION * jamming_angle
+    kinks = [*single_fold]
+    for fold in range(1, math.ceil(math.pi / jamming_angle) + 1):
+        start = fold * jamming_angle
+        kinks += [start, start + ramp_end, *(start + kink for kink in single_fold)]
+    return tuple(sorted(kink for kink in set(kinks) if kink <= math.pi))

@@ -1,0 +1,99 @@
+"""Constant capacity: the classical rigid-plastic hinge.
+
+    M(theta) = M_0
+
+Without a given moment M_0 is the plastic moment of the section, yield_stress * Z_pl: every wall at yield, an
+upper bound.  Compact walls keep it over large rotations; thin walls fold and lose it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crumple.errors import InputError, Problem
+from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
+from crumple.hinge.registry import law_type
+from crumple.hinge.stop import Stop
+from crumple.material import Material
+from crumple.section import Axis, Section
+
+CHOSEN = Source("none", Trust.ASSUMED, "the moment is the user's choice")
+PLASTIC_MOMENT = Source(
+    "plastic moment, yield stress times plastic section modulus",
+    Trust.DERIVED,
+    "an upper bound of the peak; thin walls fold and carry less",
+)
+
+
+@law_type("constant")
+@dataclass(frozen=True)
+class ConstantLaw:
+    """Constant capacity in both senses.
+
+    Attributes
+    ----------
+    moment
+        Capacity [N m], > 0.
+
+    References
+    ----------
+    docs/theory/constant_and_table.md.  Verified in tests/unit/hinge/test_constant.py.
+    """
+
+    name: ClassVar[str] = "constant"
+
+    moment: float
+    source: Source = CHOSEN
+    validity: Validity = Validity(math.inf, "the moment is the user's choice")  # noqa: RUF009  (frozen)
+    rate: HingeRate | None = None
+    softening_variable: SofteningVariable = SofteningVariable.PEAK
+    elastic_stiffness: float | None = None
+    jamming_angle: float | None = None
+    stop: Stop | None = None
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.moment) and self.moment > 0.0):
+            todo = "give the moment at which the hinge turns"
+            raise InputError(
+                Problem("the moment must be positive", f"{self.moment:g} N m", "> 0 N m", todo, "moment")
+            )
+
+    @classmethod
+    def of(
+        cls, section: Section, material: Material, axis: Axis = "y", *, moment: float | None = None
+    ) -> ConstantLaw:
+        """Law of a section: the given moment [N m], else the section's plastic moment."""
+        rate = hinge_rate(material.flow_rate)
+        if moment is not None:
+            return replace(cls(moment), rate=rate)
+        validity = Validity(
+            math.inf,
+            "plastic moment of the section, held at every rotation",
+            ("walls that fold lose moment: a constant capacity then overstates the energy absorbed",),
+        )
+        return cls(
+            material.yield_stress * section.plastic_section_modulus(axis), PLASTIC_MOMENT, validity, rate
+        )
+
+    @property
+    def title(self) -> str:
+        """One line for people."""
+        return f"constant moment {self.moment:.4g} N m"
+
+    def kinks(self, sense: int = 1) -> tuple[float, ...]:
+        """No kinks."""
+        return ()
+
+    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
+        """Capacity [N m], the same at every rotation."""
+        return np.full_like(np.asarray(rotation, np.float64), self.moment)
+
+    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
+        """Factor on the capacity at a rotation rate [rad/s]."""
+        return rate_factor(self.rate, rotation_rate)

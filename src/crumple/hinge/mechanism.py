@@ -1,0 +1,142 @@
+"""Kecman-type folding mechanism of a rectangular tube in bending: geometry, plastic work, moment.
+
+Unknown: the moment that turns a folded section by theta = 2 rho.  Two rigid tube ends turn about the
+tension flange; every plate between them keeps its lengths, so all work is done in hinge lines and in two
+pairs of rolling lines.  With flange width a, depth b, half fold length h, s = sin rho, c = cos rho:
+
+    x_E = h - b s                  half distance of the flange's fold ends
+    d   = sqrt(b s (2h - b s))     drop of the fold below them: the flange plate keeps its length h
+    y_B = b c - d                  height of the fold above the tension flange
+    z_A = b s^2 - h s + d c        bulge of the web: the web plate keeps its height b
+    phi = asin(1 - (b/h) s)        angle of the flange plate to the vertical; tilt = pi/2 - phi
+
+Each line works length x turn x m_p, m_p = flow_stress t^2/4; each rolling line of radius r works 2 m_p/r on
+the area that it sweeps.  M = dW/dtheta is taken by a complex step (exact to rounding).
+Limits: theta -> 0: z_A -> sqrt(b h theta), so W ~ theta^(1/2) and M ~ theta^(-1/2), hence a law must cap it;
+flange halves touch (x_E = t/2) at theta_J = 2 asin((h - t/2)/b).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from crumple.hinge.law import Floats
+
+# Far below the rounding of any rotation, so that a complex step has no truncation error.
+COMPLEX_STEP = 1e-30
+# Relative step of the central difference of M: truncation and rounding both stay near 1e-10.
+DIFFERENCE_STEP = 1e-5
+# Below this rotation [rad] the singular moment stays at its value there; every law is capped long before.
+SMALLEST_ROTATION = 1e-12
+
+
+@dataclass(frozen=True)
+class FoldMechanism:
+    """Folded zone of a rectangular tube.
+
+    Attributes
+    ----------
+    width, depth, thickness
+        Flange width a, depth b and wall t [m], outer dimensions.
+    flow_stress
+        Stress in the hinge lines [Pa].
+    rolling_weight
+        Weight [-] of the second rolling line (web diagonal), 0 to 1: its curvature falls linearly along it.
+
+    References
+    ----------
+    Idea, h = min(a, b)/2, r(theta) and the line terms after D. Kecman, Int. J. Mech. Sci. 25 (1983) 623-636;
+    the geometry and its energies are derived here.  docs/theory/kecman.md.
+    Verified in tests/verification/test_kecman_mechanism.py.
+    """
+
+    width: float
+    depth: float
+    thickness: float
+    flow_stress: float
+    rolling_weight: float = 1.0
+
+    @property
+    def half_length(self) -> float:
+        """Half the length of the folded zone, h = min(a, b)/2 [m]."""
+        return min(self.width, self.depth) / 2.0
+
+    @property
+    def jamming_angle(self) -> float:
+        """Rotation at which the flange halves touch, 2 asin((h - t/2)/b) [rad]."""
+        return float(2.0 * np.arcsin((self.half_length - self.thickness / 2.0) / self.depth))
+
+    def rolling_radius(self, rotation: ArrayLike) -> NDArray[Any]:
+        """Radius of the rolling lines, (0.07 - theta/70) h [m], theta in rad."""
+        return np.asarray((0.07 - np.asarray(rotation) / 70.0) * self.half_length)
+
+    def corners(self, rotation: ArrayLike) -> dict[str, NDArray[Any]]:
+        """Lengths x_E, y_B, z_A [m] and the tilt of the flange plate [rad] at a rotation [rad]."""
+        b, h = self.depth, self.half_length
+        s, c = np.sin(np.asarray(rotation) / 2.0), np.cos(np.asarray(rotation) / 2.0)
+        drop = np.sqrt(b * s * (2.0 * h - b * s))
+        # 2 asin(sqrt(u/2)) = acos(1 - u) without its cancellation at small u
+        tilt = 2.0 * np.arcsin(np.sqrt(b * s / (2.0 * h)))
+        return {"x_E": h - b * s, "y_B": b * c - drop, "z_A": b * s**2 - h * s + drop * c, "tilt": tilt}
+
+    def energy_terms(self, rotation: ArrayLike) -> dict[str, NDArray[Any]]:
+        """Plastic work of each line over m_p [m] at a rotation [rad]; names as in docs/theory/kecman.md."""
+        a, b, h = self.width, self.depth, self.half_length
+        rotation = np.asarray(rotation)
+        corners = self.corners(rotation)
+        y_B, z_A, tilt = corners["y_B"], corners["z_A"], corners["tilt"]
+        at_web_end, at_diagonal = _web_angles(b, h, rotation, corners)
+        rolled = h * z_A / self.rolling_radius(rotation)
+        return {
+            "W1": 2.0 * a * (tilt - rotation / 2.0),
+            "W2": 2.0 * a * tilt,
+            "W3": a * rotation,
+            "W4": 4.0 * z_A * tilt,
+            "W5": 4.0 * b * at_web_end,
+            "W6": 4.0 * h * np.arctan(z_A / y_B),
+            "W7": 4.0 * np.sqrt(h**2 + (b - z_A) ** 2) * at_diagonal,
+            "W8": 4.0 * rolled,
+            "W8b": self.rolling_weight * (8.0 / 3.0) * rolled,
+        }
+
+    def energy(self, rotation: ArrayLike) -> NDArray[Any]:
+        """Plastic work of the mechanism from flat walls [J]."""
+        line_moment = self.flow_stress * self.thickness**2 / 4.0
+        return np.asarray(line_moment * sum(self.energy_terms(rotation).values()))
+
+    def moment(self, rotation: ArrayLike) -> Floats:
+        """Moment dW/dtheta [N m]; grows without bound as the rotation [rad] goes to zero."""
+        rotation = np.maximum(np.asarray(rotation, np.float64), SMALLEST_ROTATION)
+        return np.asarray(self.energy(rotation + 1j * COMPLEX_STEP).imag / COMPLEX_STEP, np.float64)
+
+    def slope(self, rotation: ArrayLike) -> Floats:
+        """dM/dtheta [N m/rad]."""
+        rotation = np.maximum(np.asarray(rotation, np.float64), SMALLEST_ROTATION)
+        step = DIFFERENCE_STEP * rotation
+        return np.asarray(
+            (self.moment(rotation + step) - self.moment(rotation - step)) / (2.0 * step), np.float64
+        )
+
+
+def _web_angles(
+    b: float, h: float, rotation: NDArray[Any], corners: dict[str, NDArray[Any]]
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Turns [rad] of the web plates at the rigid web (line KE) and at the diagonal (line AK).
+
+    Corners in the middle plane of the fold, x along the beam, y up, z out of the web:
+    K = (h, 0, 0), E = (x_E, b c, 0), A = (0, y_B, z_A).  Angles by their tangents, since an arc cosine
+    loses half the digits at small rotations (and has no complex step there).
+    """
+    y_B, z_A = corners["y_B"], corners["z_A"]
+    along, up = corners["x_E"] - h, b * np.cos(rotation / 2.0)
+    # normal of the plate K E A, (E - K) x (A - K)
+    n_x, n_y, n_z = up * z_A, -along * z_A, along * y_B + up * h
+    at_web_end = np.arctan(np.sqrt(n_x**2 + n_y**2) / n_z)
+    # normal of the lower plate, which holds the bottom corner and A: (0, -z_A, y_B)
+    cross_x, cross_y, cross_z = n_y * y_B + n_z * z_A, -n_x * y_B, -n_x * z_A
+    at_diagonal = np.arctan(np.sqrt(cross_x**2 + cross_y**2 + cross_z**2) / (n_z * y_B - n_y * z_A))
+    return at_web_end, at_diagonal
