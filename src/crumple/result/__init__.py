@@ -1,1 +1,29 @@
-"""The result room."""
+"""The result room: what a run answered, how to filter it, and how it is stored."""
+
+from crumple.result.filters import ChannelClass, Standard, cfc
+from crumple.result.result import (
+    Channel,
+    HingeSummary,
+    OutputSummary,
+    Provenance,
+    Result,
+    States,
+)
+from crumple.result.store import read, write
+from crumple.result.summary import summary, summary_json
+
+__all__ = [
+    "Channel",
+    "ChannelClass",
+    "HingeSummary",
+    "OutputSummary",
+    "Provenance",
+    "Result",
+    "Standard",
+    "States",
+    "cfc",
+    "read",
+    "summary",
+    "summary_json",
+    "write",
+]

@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, is_dataclass
+from functools import cached_property
+from math import isnan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from crumple.errors import Status
+from crumple.errors import InputError, Problem, Status
 
 if TYPE_CHECKING:
     import pandas as pd
+
+    from crumple.result.filters import ChannelClass, Standard
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Channel:
     """One history: name, SI unit, values at the result's times, shape (n_times,)."""
 
@@ -28,6 +32,28 @@ class Channel:
 
 
 @dataclass(frozen=True)
+class OutputSummary:
+    """What one requested output did.
+
+    Attributes
+    ----------
+    final
+        Last value.
+    max
+        Value of largest magnitude, with its sign.
+    time_of_max
+        When it was first reached [s].
+    unit
+        Of `final` and `max`.
+    """
+
+    final: float
+    max: float
+    time_of_max: float
+    unit: str
+
+
+@dataclass(frozen=True, eq=False)
 class HingeSummary:
     """What one hinge did.
 
@@ -70,7 +96,7 @@ class HingeSummary:
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class States:
     """Deformed shapes at chosen times: a surface mesh of quadrilaterals (member walls).
 
@@ -107,7 +133,7 @@ class States:
 
 @dataclass(frozen=True)
 class Provenance:
-    """Where a result comes from: Crumple's version, input hash (SHA-256 of the canonical input), ISA, threads, settings."""
+    """Where a result comes from: version of Crumple, SHA-256 of the canonical input, ISA and so on."""
 
     version: str
     input_hash: str
@@ -116,9 +142,9 @@ class Provenance:
     settings: Mapping[str, Any] = field(default_factory=dict)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Result:
-    """One run.
+    """One run.  Two results are compared with `equals`.
 
     Attributes
     ----------
@@ -165,12 +191,84 @@ class Result:
     """Names of the channels that the analysis asked for; they appear in `outputs` and summary.json."""
 
     def __getitem__(self, name: str) -> Floats:
-        """Values of one channel, shape (n_times,)."""
+        """Values of one channel, shape (n_times,); KeyError with the nearest names when there is none."""
+        if name not in self.channels:
+            from difflib import get_close_matches  # noqa: PLC0415  (only when something is wrong)
+
+            near = get_close_matches(name, self.channels, n=3, cutoff=0.4)
+            hint = f"; did you mean {' or '.join(near)}?" if near else ""
+            raise KeyError(f"no channel {name!r} among {len(self.channels)}{hint}")
         return self.channels[name].values
 
+    @cached_property
+    def outputs(self) -> dict[str, OutputSummary]:
+        """Final and largest value of every requested output; without the values that are not finite."""
+        summaries = {}
+        for name in self.output_names:
+            values = self[name]
+            finite = np.isfinite(values)
+            if not finite.any():
+                continue
+            at = int(np.argmax(np.where(finite, np.abs(values), -1.0)))
+            final = float(values[np.flatnonzero(finite)[-1]])
+            unit = self.channels[name].unit
+            summaries[name] = OutputSummary(final, float(values[at]), float(self.time[at]), unit)
+        return summaries
+
+    def filtered(self, name: str, channel_class: ChannelClass, *, standard: Standard = "SAE J211") -> Channel:
+        """One channel through a CFC filter.
+
+        Parameters
+        ----------
+        name
+            Of the channel.
+        channel_class
+            60, 180, 600 or 1000.
+        standard
+            Whose design frequency to use, see `crumple.result.cfc`.
+
+        Returns
+        -------
+        Channel
+            Named ``<name>.cfc<class>``, same unit and times.
+
+        Raises
+        ------
+        InputError
+            If there is no such channel, or the times are not equally spaced or too far apart for the class.
+        """
+        from crumple.result.filters import cfc, uniform_step  # noqa: PLC0415  (it needs nothing of this module)
+
+        try:
+            values = self[name]
+        except KeyError as error:
+            raise InputError(Problem(str(error.args[0]))) from None
+        smooth = cfc(values, uniform_step(self.time), channel_class, standard=standard)
+        return Channel(f"{name}.cfc{channel_class}", self.channels[name].unit, smooth)
+
+    def equals(self, other: Result) -> bool:
+        """Whether every number, text and array is the same, bit for bit; NaN equals NaN."""
+        return _same(self, other)
+
     def to_pandas(self) -> pd.DataFrame:
-        """Histories as a table indexed by time [s]; needs pandas.  Column names carry the unit: ``name [unit]``."""
+        """Histories as a table indexed by time [s], columns named ``name [unit]``; needs pandas."""
         import pandas as pd  # noqa: PLC0415  (optional, and slow to import)
 
         columns = {f"{c.name} [{c.unit}]": c.values for c in self.channels.values()}
         return pd.DataFrame(columns, index=pd.Index(self.time, name="time [s]"))
+
+
+def _same(a: Any, b: Any) -> bool:
+    """Deep equality of dataclasses, mappings, sequences, arrays and numbers; NaN equals NaN."""
+    if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
+        a, b = np.asarray(a), np.asarray(b)
+        return a.dtype == b.dtype and np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
+    if isinstance(a, Mapping):
+        return isinstance(b, Mapping) and list(a) == list(b) and all(_same(a[key], b[key]) for key in a)
+    if isinstance(a, (tuple, list)):
+        return isinstance(b, (tuple, list)) and len(a) == len(b) and all(map(_same, a, b))
+    if is_dataclass(a):
+        return type(a) is type(b) and all(_same(getattr(a, f.name), getattr(b, f.name)) for f in fields(a))
+    if isinstance(a, float) and isinstance(b, float) and isnan(a):
+        return isnan(b)
+    return bool(a == b)

@@ -1,0 +1,79 @@
+"""The answer in one small mapping: what summary.json holds and ``--json`` prints."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from crumple.result.result import Result
+
+_HINGE_KEYS = (
+    "rotation_max", "rotation_final", "time_of_rest", "energy", "moment_max", "rotation_error",
+    "law", "source", "form", "validity_rotation", "validity_basis", "position",
+)  # fmt: skip
+
+
+def summary(result: Result) -> dict[str, Any]:
+    """Status, energies, hinges and requested outputs in SI; strict JSON values alone.
+
+    Parameters
+    ----------
+    result
+        Of either fidelity.
+
+    Returns
+    -------
+    dict
+        As docs/output.md describes it.  A number that is not finite becomes None.
+    """
+    hinges = {
+        name: {key: getattr(hinge, key) for key in _HINGE_KEYS} for name, hinge in result.hinges.items()
+    }
+    outputs = {
+        name: {"final": o.final, "max": o.max, "time_of_max": o.time_of_max, "unit": o.unit}
+        for name, o in result.outputs.items()
+    }
+    content = {
+        "title": result.title,
+        "status": result.status.value,
+        "ok": result.status.ok,
+        "reason": result.reason,
+        "fidelity": result.fidelity,
+        "end_time": float(result.time[-1]) if result.time.size else None,
+        "solve_seconds": result.solve_seconds,
+        "energy_residual": result.energy_residual,
+        "hinges": hinges,
+        "outputs": outputs,
+        "warnings": result.warnings,
+        "assumptions": result.assumptions,
+        "provenance": {
+            "version": result.provenance.version,
+            "input_hash": result.provenance.input_hash,
+            "isa": result.provenance.isa,
+            "threads": result.provenance.threads,
+            "settings": result.provenance.settings,
+        },
+    }
+    return {key: _strict(value) for key, value in content.items()}
+
+
+def summary_json(result: Result) -> str:
+    """`summary` as indented JSON text with a final line end; no NaN, no Infinity, UTF-8."""
+    return json.dumps(summary(result), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _strict(value: Any) -> Any:
+    """Value in types that JSON has: arrays become lists, NumPy numbers Python's, what is not finite None."""
+    if isinstance(value, Mapping):
+        return {str(key): _strict(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_strict(item) for item in value]
+    if hasattr(value, "tolist"):
+        return _strict(value.tolist())
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if value is None or isinstance(value, (str, int)):
+        return value
+    return str(value)

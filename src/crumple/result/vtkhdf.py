@@ -1,0 +1,252 @@
+"""The result file: a temporal VTKHDF UnstructuredGrid that ParaView opens, with the whole result beside it.
+
+Two top-level groups.  `/VTKHDF` holds the deformed walls at every picture time, laid out by the VTKHDF
+specification (version 2.0: `Steps` with offsets into flattened arrays).  The specification leaves other
+top-level groups to the writer; `/crumple` holds what the grid cannot: channels, hinge summaries, provenance,
+undeformed points.  What both need is stored once, in `/VTKHDF`.
+
+Every array, the JSON text included, carries a Fletcher-32 checksum, and so does the file's own structure from
+HDF5 1.10 on: a damaged file is refused and never misread.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crumple.errors import Status
+from crumple.result.result import Channel, HingeSummary, Provenance, Result, States
+
+if TYPE_CHECKING:
+    import h5py
+
+FORMAT = 1
+"""Version of the `/crumple` group; a reader refuses a newer one."""
+
+FILE_NAME = "result.vtkhdf"
+VTK_QUAD = 9
+
+FieldNames: TypeAlias = dict[str, dict[str, str]]
+"""For PointData and CellData: the name in the grid of each field, which may not hold slashes and points."""
+
+_STILL_FIELDS = ("member", "station", "contour")
+"""Point fields of `States` that do not change with time."""
+
+_NOTHING = States(
+    points=np.zeros((0, 3)),
+    quads=np.zeros((0, 4), dtype=np.int64),
+    member=np.zeros(0, dtype=np.int64),
+    station=np.zeros(0),
+    contour=np.zeros(0, dtype=np.int64),
+    member_names=(),
+    times=np.zeros(0),
+    displacement=np.zeros((0, 0, 3)),
+)
+"""The grid of a result without states: a reader of VTKHDF still wants one."""
+
+
+def write_vtkhdf(result: Result, path: Path) -> None:
+    """Write the result file.
+
+    Parameters
+    ----------
+    result
+        Of either fidelity.  Without `states` the grid has no points and no steps.
+    path
+        Written in place; use `crumple.result.write` for a whole or absent file.
+    """
+    import h5py  # noqa: PLC0415  (0.1 s, and only needed here)
+
+    with h5py.File(path, "w", libver=("v110", "v110")) as file:
+        field_names = _write_grid(file.create_group("VTKHDF"), result.states or _NOTHING)
+        _write_rest(file.create_group("crumple"), result, field_names)
+
+
+def _write_grid(group: h5py.Group, states: States) -> FieldNames:
+    """The grid: in every step the same cells over moved points; without steps the undeformed shape alone."""
+    group.attrs["Version"] = np.array([2, 0], dtype=np.int64)
+    # the specification wants a fixed-length ASCII string
+    group.attrs["Type"] = np.bytes_(b"UnstructuredGrid")
+    n_points, n_quads, n_steps = len(states.points), len(states.quads), len(states.times)
+    moved = states.points + states.displacement if n_steps else states.points
+    _store(group, "NumberOfPoints", np.array([n_points]))
+    _store(group, "NumberOfCells", np.array([n_quads]))
+    _store(group, "NumberOfConnectivityIds", np.array([4 * n_quads]))
+    _store(group, "Points", moved.reshape(-1, 3))
+    _store(group, "Connectivity", states.quads.reshape(-1))
+    _store(group, "Offsets", 4 * np.arange(n_quads + 1))
+    _store(group, "Types", np.full(n_quads, VTK_QUAD, dtype=np.uint8))
+    points = group.create_group("PointData")
+    for name in _STILL_FIELDS:
+        _store(points, name, getattr(states, name))
+    if not n_steps:
+        return {}
+    steps = _write_steps(group, states)
+    point_offsets = steps.create_group("PointDataOffsets")
+    for name in _STILL_FIELDS:
+        _store(point_offsets, name, np.zeros(n_steps, dtype=np.int64))
+    moving = {"displacement": states.displacement, **states.point_data}
+    return {
+        "PointData": _write_fields(points, point_offsets, moving, n_points),
+        "CellData": _write_fields(
+            group.create_group("CellData"), steps.create_group("CellDataOffsets"), states.cell_data, n_quads
+        ),
+    }
+
+
+def _write_fields(
+    group: h5py.Group, offsets: h5py.Group, fields: Mapping[str, NDArray[np.float64]], n: int
+) -> dict[str, str]:
+    """Fields that change with time, one step after the other; gives the name in the grid for each."""
+    names = {}
+    for name, values in fields.items():
+        names[name] = plain = _field_name(name, group)
+        _store(group, plain, values.reshape(-1, *values.shape[2:]))
+        _store(offsets, plain, n * np.arange(len(values)))
+    return names
+
+
+def _write_steps(group: h5py.Group, states: States) -> h5py.Group:
+    """Times and offsets: one part, the same cells in every step, new points in each."""
+    n_steps = len(states.times)
+    still = np.zeros(n_steps, dtype=np.int64)
+    steps = group.create_group("Steps")
+    steps.attrs["NSteps"] = n_steps
+    _store(steps, "Values", states.times)
+    _store(steps, "PartOffsets", still)
+    _store(steps, "NumberOfParts", still + 1)
+    _store(steps, "PointOffsets", len(states.points) * np.arange(n_steps))
+    _store(steps, "CellOffsets", still[:, None])
+    _store(steps, "ConnectivityIdOffsets", still[:, None])
+    return steps
+
+
+def _write_rest(group: h5py.Group, result: Result, field_names: FieldNames) -> None:
+    group.attrs["format"] = FORMAT
+    hinges = {name: asdict(hinge) for name, hinge in result.hinges.items()}
+    envelopes = group.create_group("envelopes")
+    for index, hinge in enumerate(hinges.values()):
+        envelope = envelopes.create_group(str(index), track_order=True)
+        for key, values in hinge.pop("envelope").items():
+            _store(envelope, key, values)
+    channels = list(result.channels.items())
+    text = {
+        "status": result.status.name,
+        "reason": result.reason,
+        "fidelity": result.fidelity,
+        "title": result.title,
+        "energy_residual": result.energy_residual,
+        "solve_seconds": result.solve_seconds,
+        "warnings": result.warnings,
+        "assumptions": result.assumptions,
+        "output_names": result.output_names,
+        "provenance": asdict(result.provenance),
+        "channels": [[key, channel.name, channel.unit] for key, channel in channels],
+        "hinges": hinges,
+        "member_names": None if result.states is None else result.states.member_names,
+        "fields": field_names,
+    }
+    _store(group, "text", np.frombuffer(json.dumps(text, default=_plain).encode(), dtype=np.uint8))
+    _store(group, "time", result.time)
+    values = [channel.values for _, channel in channels]
+    _store(group, "channels", np.array(values).reshape(len(channels), result.time.size))
+    if result.states is not None:
+        _store(group, "points", result.states.points)
+
+
+def _store(group: h5py.Group, name: str, values: NDArray[Any]) -> h5py.Dataset:
+    """Store an array with a checksum, compressed when it is large enough to gain."""
+    if not values.size:
+        return group.create_dataset(name, data=values)
+    compress = (
+        {"compression": "gzip", "compression_opts": 1, "shuffle": True} if values.nbytes > 65536 else {}
+    )
+    return group.create_dataset(name, data=values, chunks=True, fletcher32=True, **compress)
+
+
+def _field_name(name: str, taken: h5py.Group) -> str:
+    """Name without the slashes and points that the format cannot hold, and not taken yet."""
+    plain = name.replace("/", "_").replace(".", "_") or "field"
+    while plain in taken:
+        plain += "_"
+    return plain
+
+
+def _plain(value: Any) -> Any:
+    """What JSON cannot hold: NumPy numbers and arrays as Python's, anything else as its text."""
+    return value.tolist() if hasattr(value, "tolist") else str(value)
+
+
+def read_vtkhdf(file: h5py.File) -> Result:
+    """Rebuild the result from an open file.
+
+    Raises
+    ------
+    KeyError, ValueError, TypeError, OSError, RuntimeError
+        When the file is not whole; `crumple.result.read` turns them into one clear message.
+    """
+    group = file["crumple"]
+    text = json.loads(group["text"][...].tobytes())
+    values = group["channels"][...]
+    time = group["time"][...]
+    if values.shape != (len(text["channels"]), len(time)):
+        raise ValueError("channels and times do not match")
+    channels = {
+        key: Channel(name, unit, row) for (key, name, unit), row in zip(text["channels"], values, strict=True)
+    }
+    hinges = {}
+    for index, (name, hinge) in enumerate(text["hinges"].items()):
+        envelope = {key: dataset[...] for key, dataset in group["envelopes"][str(index)].items()}
+        hinges[name] = HingeSummary(**{**hinge, "position": tuple(hinge["position"]), "envelope": envelope})
+    return Result(
+        status=Status[text["status"]],
+        channels=channels,
+        hinges=hinges,
+        time=time,
+        states=None if text["member_names"] is None else _read_states(file, text),
+        provenance=Provenance(**text["provenance"]),
+        reason=text["reason"],
+        fidelity=text["fidelity"],
+        title=text["title"],
+        energy_residual=text["energy_residual"],
+        solve_seconds=text["solve_seconds"],
+        warnings=tuple(text["warnings"]),
+        assumptions=tuple(text["assumptions"]),
+        output_names=tuple(text["output_names"]),
+    )
+
+
+def _read_states(file: h5py.File, text: Mapping[str, Any]) -> States:
+    grid = file["VTKHDF"]
+    reference = file["crumple/points"][...]
+    quads = grid["Connectivity"][...].reshape(-1, 4)
+    steps = grid.get("Steps")
+    times = steps["Values"][...] if steps is not None else np.zeros(0)
+    n_steps = len(times)
+    point_data, cell_data = (
+        {
+            name: grid[kind][plain][...].reshape(n_steps, n, *grid[kind][plain].shape[1:])
+            for name, plain in text["fields"].get(kind, {}).items()
+        }
+        for kind, n in (("PointData", len(reference)), ("CellData", len(quads)))
+    )
+    displacement = point_data.pop("displacement", np.zeros((n_steps, len(reference), 3)))
+    still = {name: grid["PointData"][name][...] for name in _STILL_FIELDS}
+    if any(len(values) != len(reference) for values in still.values()):
+        raise ValueError("points and their fields do not match")
+    return States(
+        points=reference,
+        quads=quads,
+        member_names=tuple(text["member_names"]),
+        times=times,
+        displacement=displacement,
+        point_data=point_data,
+        cell_data=cell_data,
+        **still,
+    )

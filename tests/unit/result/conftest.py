@@ -1,0 +1,9 @@
+"""Fixtures of the result room."""
+
+import pytest
+from synthetic_tube import tube_result
+
+
+@pytest.fixture(name="tube")
+def _tube():
+    return tube_result()
