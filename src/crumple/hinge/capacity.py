@@ -10,8 +10,8 @@ Unknown: Mmax.  The compression flange (width a, held by the webs of depth b) bu
     otherwise:                         Mmax = Mp = sigma_y Z_pl
 
 with Mel = sigma_y t b (a + b/3).  The bracket is exact for linear stress in thin walls; a_e = a makes it Mel,
-so the regimes join.  One convention: a and b are outer dimensions in all of it, Z_pl is the exact one, and Mel
-and the first regime are cut at Mp (thick walls would pass it, since their corners count twice).
+so the regimes join.  One convention: a and b are outer dimensions in all of it, Z_pl is the exact one, and
+Mel and the first regime are cut at Mp (thick walls would pass it, since their corners count twice).
 Limit: a_e never exceeds a, so first yield is always on the compressed side.
 """
 

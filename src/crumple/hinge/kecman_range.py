@@ -1,9 +1,9 @@
 """How far the Kecman-type law of a tube is backed by evidence.
 
 One comparison exists: solid finite elements of the 50x25x2.65 mm tube bent about its weak axis (flange 50
-mm, yield 488 MPa, perfectly plastic, sharp corners), to 42 deg.  With full rolling weight the law's moment lay
-2 to 20 % above them, its energy 6 to 11 % above; with weight 0 the energy lay 3 % above to 9 % below.  One mesh,
-no convergence study.
+mm, yield 488 MPa, perfectly plastic, sharp corners), to 42 deg.  With full rolling weight the law's moment
+lay 2 to 20 % above them, its energy 6 to 11 % above; with weight 0 the energy lay 3 % above to 9 % below.
+One mesh, no convergence study.
 """
 
 from __future__ import annotations

@@ -37,8 +37,7 @@ from crumple.material import Material
 from crumple.section import Axis, RectangularTube, Section
 
 SOURCE = Source(
-    "Kecman-type mechanism, after D. Kecman, Bending collapse of rectangular and square section tubes, "
-    "Int. J. Mech. Sci. 25 (1983) 623-636",
+    "Kecman-type mechanism, after D. Kecman, Int. J. Mech. Sci. 25 (1983) 623-636",
     Trust.DERIVED,
     "mechanism energy re-derived here and complete in itself; capacity rule, rolling radius and the weight "
     "of the second rolling line as quoted by others, original tables not seen",

@@ -1,0 +1,182 @@
+"""Capacity from a table: a bending test, another code, or a drawing.
+
+Straight lines between the points; the last capacity is held beyond the last point, where the law warns.
+The table runs on plastic rotation: a test that starts with an elastic rise has that part removed first
+(crumple.hinge.table.plastic_part), since the elasticity belongs to the member or to the elastic form.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crumple.errors import InputError, Problem
+from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
+from crumple.hinge.registry import law_type
+from crumple.hinge.stop import Stop
+from crumple.hinge.table import Curve, plastic_part
+from crumple.material import Material
+from crumple.section import Axis, Section
+
+MEASURED = Source("table", Trust.MEASURED, "as good as the curve that was supplied")
+
+
+@law_type("table")
+@dataclass(frozen=True)
+class TabulatedLaw:
+    """Piecewise linear capacity.
+
+    Attributes
+    ----------
+    rotation
+        Plastic rotation [rad], strictly increasing from 0.
+    moment
+        Capacity [N m], > 0, as many.
+    negative_rotation, negative_moment
+        The same for the negative sense, as positive numbers; left out: as in the positive sense.
+    elastic_stiffness
+        Of the elastic rise [N m/rad], where known.
+
+    References
+    ----------
+    docs/theory/constant_and_table.md.  Verified in tests/unit/hinge/test_tabulated.py.
+    """
+
+    name: ClassVar[str] = "table"
+
+    rotation: Curve
+    moment: Curve
+    negative_rotation: Curve | None = None
+    negative_moment: Curve | None = None
+    elastic_stiffness: float | None = None
+    rate: HingeRate | None = None
+    source: Source = MEASURED
+    softening_variable: SofteningVariable = SofteningVariable.PEAK
+    jamming_angle: float | None = None
+    stop: Stop | None = None
+    validity: Validity = field(init=False)
+
+    def __post_init__(self) -> None:
+        # tuples: a law must not change when the caller's list does, and must hash
+        for key in ("rotation", "moment", "negative_rotation", "negative_moment"):
+            values = getattr(self, key)
+            if values is not None:
+                object.__setattr__(self, key, tuple(float(value) for value in values))
+        problems = _curve_problems(self.rotation, self.moment, "")
+        if (self.negative_rotation is None) != (self.negative_moment is None):
+            todo = "give both, or neither to mirror the positive sense"
+            problems.append(
+                Problem("half of the negative curve is missing", todo=todo, where="negative_rotation")
+            )
+        elif self.negative_rotation is not None and self.negative_moment is not None:
+            problems += _curve_problems(self.negative_rotation, self.negative_moment, "negative_")
+        if problems:
+            raise InputError(problems)
+        last = min(self._curve(1)[0][-1], self._curve(-1)[0][-1])
+        basis = "the table ends there, and its last capacity is held beyond"
+        object.__setattr__(self, "validity", Validity(float(last), basis))
+
+    @classmethod
+    def of(
+        cls,
+        section: Section,
+        material: Material,
+        axis: Axis = "y",
+        *,
+        rotation: Curve,
+        moment: Curve,
+        negative_rotation: Curve | None = None,
+        negative_moment: Curve | None = None,
+        remove_elastic: bool = False,
+        elastic_stiffness: float | None = None,
+        static: bool = True,
+    ) -> TabulatedLaw:
+        """Law from measured points.
+
+        Parameters
+        ----------
+        section, axis
+            Not used: the curve is already that of the section.
+        material
+            Its flow rate gives the rate factor of a static curve.
+        rotation, moment
+            Curve [rad], [N m]; total rotation if the elastic part is to be removed.
+        negative_rotation, negative_moment
+            Curve of the negative sense, as positive numbers.
+        remove_elastic
+            Take the elastic rise out of both curves.
+        elastic_stiffness
+            Of the rise [N m/rad]; None: found from the curve where it is removed.
+        static
+            Whether the curve was measured slowly; a dynamic one already holds its rate effect.
+
+        Returns
+        -------
+        TabulatedLaw
+            Frozen law.
+
+        Raises
+        ------
+        InputError
+            If a curve cannot be used.
+        """
+        if remove_elastic:
+            given = elastic_stiffness
+            rotation, moment, elastic_stiffness = plastic_part(rotation, moment, given)
+            if negative_rotation is not None and negative_moment is not None:
+                negative_rotation, negative_moment, _ = plastic_part(
+                    negative_rotation, negative_moment, given
+                )
+        rate = hinge_rate(material.flow_rate) if static else None
+        return cls(rotation, moment, negative_rotation, negative_moment, elastic_stiffness, rate)
+
+    @property
+    def title(self) -> str:
+        """One line for people."""
+        return f"table of {len(self.rotation)} points"
+
+    def kinks(self, sense: int = 1) -> tuple[float, ...]:
+        """Every point of the table [rad]."""
+        return tuple(self._curve(sense)[0])
+
+    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
+        """Capacity [N m] at a plastic rotation [rad]; see `HingeLaw`."""
+        at = np.asarray(rotation, np.float64)
+        return np.asarray(np.interp(at, *self._curve(sense)), np.float64)
+
+    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
+        """Factor on the capacity at a rotation rate [rad/s]."""
+        return rate_factor(self.rate, rotation_rate)
+
+    def _curve(self, sense: int) -> tuple[Floats, Floats]:
+        rotation, moment = self.rotation, self.moment
+        if sense < 0 and self.negative_rotation is not None and self.negative_moment is not None:
+            rotation, moment = self.negative_rotation, self.negative_moment
+        return np.asarray(rotation, np.float64), np.asarray(moment, np.float64)
+
+
+def _curve_problems(rotation: Curve, moment: Curve, prefix: str) -> list[Problem]:
+    """Problems of one curve."""
+    where_rotation, where_moment = f"{prefix}rotation", f"{prefix}moment"
+    if len(rotation) != len(moment) or len(rotation) == 0:
+        came = f"{len(rotation)} rotations, {len(moment)} moments"
+        return [
+            Problem("the table needs as many moments as rotations", came, "at least one", "", where_rotation)
+        ]
+    problems = []
+    if not np.all(np.isfinite(rotation)) or rotation[0] != 0.0 or np.any(np.diff(rotation) <= 0.0):
+        what = "rotations must increase strictly from 0"
+        came = ", ".join(f"{value:g}" for value in rotation[:4])
+        todo = "begin at plastic rotation 0 and leave out repeated points"
+        problems.append(Problem(what, f"{came}, ... rad", "0 < 1st < 2nd < ...", todo, where_rotation))
+    if not np.all(np.isfinite(moment)) or min(moment) <= 0.0:
+        what, todo = (
+            "capacities must be positive",
+            "remove the elastic rise: the hinge turns plastically only",
+        )
+        problems.append(Problem(what, f"{min(moment):g} N m", "> 0 N m", todo, where_moment))
+    return problems

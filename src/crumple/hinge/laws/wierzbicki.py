@@ -1,0 +1,201 @@
+"""Closed-form collapse law of a square tube, after Wierzbicki et al. (1994, part II).
+
+Unknown: the capacity M(theta) of a square tube with mid-line side b, wall t and flow stress s_0:
+
+    M = min(Mmax, C (0.576 + 1/(2 sqrt(theta)))),        C = 4.65 s_0 b^(4/3) t^(5/3)
+
+Mmax is the largest moment of crumple.hinge.capacity.  Limits: theta -> 0 is singular, hence the cap, which
+ends at theta_T = (2 (Mmax/C - 0.576))^-2; for large theta M tends to 0.576 C, but the walls touch
+before that.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crumple.errors import InputError, Problem
+from crumple.hinge.capacity import peak_moment
+from crumple.hinge.jamming import AfterJamming, continued, continued_kinks
+from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.options import choice
+from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
+from crumple.hinge.registry import law_type
+from crumple.hinge.stop import Stop
+from crumple.material import Material
+from crumple.section import Axis, RectangularTube, Section, half_fold_length
+
+SOURCE = Source(
+    "after Wierzbicki, Recke, Abramowicz, Gholami & Huang, part II (bending), "
+    "Computers & Structures 51 (1994) 625-641",
+    Trust.QUOTED,
+    "the bracket is widely quoted; its coefficient 4.65 was not found in any text that could be read",
+)
+COEFFICIENT = 4.65
+"""[-]; quoted from memory of others' use, see `SOURCE`; the whole curve scales with it."""
+STEADY = 0.576
+"""[-]; what the bracket tends to at large rotation."""
+SAME_SIDE = 1e-3
+"""Relative difference of the sides up to which a tube counts as square."""
+
+
+@law_type("wierzbicki")
+@dataclass(frozen=True)
+class WierzbickiLaw:
+    """Closed-form law of a square tube; the same in both senses.
+
+    Attributes
+    ----------
+    peak
+        Mmax [N m].
+    scale
+        C [N m].
+    jamming_angle
+        Rotation at which the flange halves touch [rad], from half the fold length H_b and the depth.
+    validity
+        Range and warnings.
+    after_jamming, rate, stop
+        As in the Kecman-type law.
+
+    References
+    ----------
+    docs/theory/wierzbicki.md.  Verified in tests/verification/test_wierzbicki.py.
+    """
+
+    name: ClassVar[str] = "wierzbicki"
+
+    peak: float
+    scale: float
+    jamming_angle: float
+    validity: Validity
+    after_jamming: AfterJamming = AfterJamming.SECOND_FOLD
+    rate: HingeRate | None = None
+    stop: Stop | None = None
+    softening_variable: SofteningVariable = SofteningVariable.PEAK
+    source: Source = SOURCE
+    elastic_stiffness: float | None = None
+
+    @classmethod
+    def of(
+        cls,
+        section: Section,
+        material: Material,
+        axis: Axis = "y",
+        *,
+        equivalent_side: float | None = None,
+        after_jamming: AfterJamming | str = AfterJamming.SECOND_FOLD,
+    ) -> WierzbickiLaw:
+        """Law of a square tube.
+
+        Parameters
+        ----------
+        section
+            Square tube, or a rectangular one together with ``equivalent_side``.
+        material
+            Yield stress for the largest moment, flow stress for the fold, flow rate for the rate factor.
+        axis
+            Axis of bending.
+        equivalent_side
+            Mid-line side [m] of the square tube that stands for a rectangular one.
+        after_jamming
+            Choice, by enum or by its text.
+
+        Returns
+        -------
+        WierzbickiLaw
+            Frozen law.
+
+        Raises
+        ------
+        InputError
+            If the section is no rectangular tube, or not square and without ``equivalent_side``.
+        """
+        if not isinstance(section, RectangularTube):
+            allowed, todo = (
+                "rectangular_tube with equal sides",
+                "use a table or a constant law for this section",
+            )
+            raise InputError(Problem("this law is one of square tubes", section.kind, allowed, todo))
+        after = choice("after_jamming", after_jamming, AfterJamming)
+        side = _side(section, equivalent_side)
+        t, depth = section.thickness, section.bending_depth(axis)
+        half_fold = half_fold_length(section, axis)
+        jamming = 2.0 * math.asin(min((half_fold - t / 2.0) / depth, 1.0))
+        stiffness = material.youngs_modulus * section.second_moment(axis) / (2.0 * half_fold)
+        return cls(
+            peak_moment(section, material, axis).moment,
+            COEFFICIENT * material.flow_stress * side ** (4.0 / 3.0) * t ** (5.0 / 3.0),
+            jamming,
+            _validity(jamming, material, equivalent_side),
+            after,
+            hinge_rate(material.flow_rate),
+            Stop(jamming, stiffness) if after is AfterJamming.STOP else None,
+        )
+
+    @property
+    def title(self) -> str:
+        """One line for people."""
+        return "closed form of a square tube after Wierzbicki et al. (1994)"
+
+    @property
+    def folding_from(self) -> float:
+        """theta_T: rotation from which the fold governs [rad]; infinite if it never does."""
+        excess = self.peak / self.scale - STEADY
+        return math.inf if excess <= 0.0 else 1.0 / (2.0 * excess) ** 2
+
+    def kinks(self, sense: int = 1) -> tuple[float, ...]:
+        """Rotations where the slope jumps [rad]."""
+        within = (self.folding_from,) if self.folding_from < self.jamming_angle else ()
+        return continued_kinks(within, self.jamming_angle, self.after_jamming)
+
+    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
+        """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
+        return continued(self._single_fold, rotation, self.jamming_angle, self.after_jamming)
+
+    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
+        """Factor on the capacity at a rotation rate [rad/s]."""
+        return rate_factor(self.rate, rotation_rate)
+
+    def _single_fold(self, rotation: Floats) -> Floats:
+        """Capacity of one fold up to jamming [N m]."""
+        # the fold's moment meets the cap at theta_T: clipping there keeps it finite at zero
+        folded = np.maximum(rotation, min(self.folding_from, self.jamming_angle))
+        return np.minimum(self.peak, self.scale * (STEADY + 0.5 / np.sqrt(folded)))
+
+
+def _side(section: RectangularTube, equivalent_side: float | None) -> float:
+    """Mid-line side [m] of the square tube."""
+    if equivalent_side is not None:
+        if not (math.isfinite(equivalent_side) and equivalent_side > section.thickness):
+            what, came = "the equivalent side is not larger than the wall", f"{1e3 * equivalent_side:g} mm"
+            todo = "give the mid-line side of a square tube"
+            raise InputError(
+                Problem(what, came, f"> {1e3 * section.thickness:g} mm", todo, "equivalent_side")
+            )
+        return equivalent_side
+    if abs(section.width - section.depth) > SAME_SIDE * section.width:
+        what = (
+            "this law is one of square tubes, and no source says what replaces the side of a rectangular one"
+        )
+        todo = "use the law kecman, or choose equivalent_side yourself"
+        raise InputError(Problem(what, section.title, "equal sides", todo, "equivalent_side"))
+    return section.width - section.thickness
+
+
+def _validity(jamming_angle: float, material: Material, equivalent_side: float | None) -> Validity:
+    warnings = ["the coefficient of the curve is quoted without a text that confirms it"]
+    if equivalent_side is not None:
+        warnings.append("the side of the equivalent square tube is the user's choice")
+    if material.yield_rate is not None and material.flow_rate is None:
+        warnings.append(
+            "a rate law at yield alone overstates the effect in a fold and is not used: give one at flow"
+        )
+    basis = (
+        "not compared with tests or finite elements here; the walls touch at "
+        f"{math.degrees(jamming_angle):.1f} deg, and what follows that is a model without a source"
+    )
+    return Validity(jamming_angle, basis, tuple(warnings))

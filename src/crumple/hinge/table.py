@@ -1,0 +1,165 @@
+"""Measured curves: reading them, and taking their elastic part away."""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+from collections.abc import Sequence
+
+import numpy as np
+
+from crumple.errors import InputError, Problem
+from crumple.hinge.law import Floats
+from crumple.units import QuantityError, unit_factor
+
+ROTATION_WORDS = ("rotation", "angle", "theta")
+MOMENT_WORDS = ("moment", "capacity", "torque")
+Curve = Sequence[float] | Floats
+_HEAD = re.compile(r"(?P<name>[^\[\(]+?)\s*[\[\(](?P<unit>[^\]\)]+)[\]\)]")
+# The elastic line is fitted between these shares of the peak: above the slack of a test, below first yield.
+ELASTIC_SHARES = (0.2, 0.6)
+# Points within this share of the peak's elastic rotation count as lying on the elastic line.
+ON_THE_LINE = 1e-3
+
+
+def read_table(text: str, file: str = "") -> tuple[Floats, Floats]:
+    """Read a moment-rotation curve from CSV text.
+
+    Parameters
+    ----------
+    text
+        Lines of numbers under one header that names both columns with their units, for example
+        ``rotation [deg], moment [kN*m]``; separated by comma, semicolon or tab; lines that start with # are
+        left out; further columns are ignored.
+    file
+        Name for messages.
+
+    Returns
+    -------
+    tuple
+        Rotation [rad] and moment [N m], each of shape (n,).
+
+    Raises
+    ------
+    InputError
+        With the line, if a column, a unit or a number is missing or wrong.
+    """
+    lines = [
+        (number, line)
+        for number, line in enumerate(text.splitlines(), 1)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
+    if not lines:
+        todo = "write a header such as 'rotation [deg], moment [kN*m]' and the points under it"
+        raise InputError(Problem("the table is empty", todo=todo, file=file))
+    head_line, head = lines[0]
+    separator = max(",;\t", key=head.count)
+    columns = [
+        _column(head.split(separator), words, file, head_line) for words in (ROTATION_WORDS, MOMENT_WORDS)
+    ]
+    rows = csv.reader([line for _, line in lines[1:]], delimiter=separator)
+    numbers, problems = [], []
+    for (line, _), row in zip(lines[1:], rows, strict=True):
+        values = [_number(row[index]) if index < len(row) else math.nan for index, _ in columns]
+        numbers.append(values)
+        if not np.all(np.isfinite(values)):
+            came, todo = separator.join(row)[:60], "write plain numbers with a decimal point"
+            problems.append(Problem("this is not a number in every column", came, "", todo, "", file, line))
+    if problems or not numbers:
+        raise InputError(
+            problems or Problem("the table has a header but no points", file=file, line=head_line)
+        )
+    table = np.array(numbers) * np.array([factor for _, factor in columns])
+    return table[:, 0], table[:, 1]
+
+
+def plastic_part(
+    rotation: Curve,
+    moment: Curve,
+    elastic_stiffness: float | None = None,
+) -> tuple[Floats, Floats, float]:
+    """Capacity against plastic rotation, from a curve against total rotation.
+
+    Parameters
+    ----------
+    rotation, moment
+        Measured curve [rad], [N m] with its elastic rise.
+    elastic_stiffness
+        [N m/rad]; None: slope of a straight line fitted between 20 and 60 % of the peak, whose crossing with
+        zero moment also becomes the zero of rotation.
+
+    Returns
+    -------
+    tuple
+        Plastic rotation [rad] from 0, capacity [N m] and the stiffness [N m/rad].
+
+    Raises
+    ------
+    InputError
+        If the rise has fewer than two points between 20 and 60 % of the peak and no stiffness is given, or
+        nothing of the curve is plastic.
+
+    Notes
+    -----
+    Plastic rotation is rotation - moment/stiffness.  The curve begins with the last point on the elastic
+    line; points at which the plastic rotation does not grow (unloading, scatter) are left out.
+    """
+    total, moment = np.asarray(rotation, np.float64), np.asarray(moment, np.float64)
+    peak = int(np.argmax(moment))
+    zero = 0.0
+    if elastic_stiffness is None:
+        elastic_stiffness, zero = _elastic_line(total[: peak + 1], moment[: peak + 1])
+    plastic = total - zero - moment / elastic_stiffness
+    on_line = np.flatnonzero(plastic[: peak + 1] <= ON_THE_LINE * moment[peak] / elastic_stiffness)
+    first = int(on_line[-1]) if on_line.size else 0
+    if not moment[first] > 0.0:
+        todo = "give the slope of the elastic rise, or none to have it found"
+        came = f"{elastic_stiffness:g} N m/rad"
+        raise InputError(Problem("no point lies on the elastic line", came, "", todo, "elastic_stiffness"))
+    kept = [first]
+    start = plastic[first]
+    for index in range(first + 1, len(plastic)):
+        if plastic[index] > plastic[kept[-1]]:
+            kept.append(index)
+    return plastic[kept] - start, moment[kept], float(elastic_stiffness)
+
+
+def _elastic_line(rotation: Floats, moment: Floats) -> tuple[float, float]:
+    """Slope [N m/rad] of the elastic rise and its crossing with zero moment [rad]."""
+    low, high = (share * moment[-1] for share in ELASTIC_SHARES)
+    rise = (moment >= low) & (moment <= high)
+    if np.count_nonzero(rise) < 2 or np.ptp(rotation[rise]) <= 0.0:
+        what = "the elastic rise has fewer than two points between 20 and 60 % of the peak moment"
+        raise InputError(Problem(what, todo="give elastic_stiffness", where="elastic_stiffness"))
+    slope, intercept = np.polyfit(rotation[rise], moment[rise], 1)
+    return float(slope), float(-intercept / slope)
+
+
+def _column(head: Sequence[str], words: Sequence[str], file: str, line: int) -> tuple[int, float]:
+    """Index and factor to SI of the column that one of the words names."""
+    unit = "rad" if words is ROTATION_WORDS else "N*m"
+    for index, cell in enumerate(head):
+        match = _HEAD.fullmatch(cell.strip())
+        if match is None:
+            continue
+        said = match["name"].lower().replace("_", " ").split()
+        if "rate" not in said and any(word in said for word in words):
+            try:
+                return index, unit_factor(match["unit"], unit)
+            except QuantityError as error:
+                problem = error.problems[0]
+                raise InputError(
+                    Problem(problem.what, cell.strip(), problem.allowed, problem.todo, "", file, line)
+                ) from None
+    what = f"no column is named {words[0]} with a unit in brackets"
+    todo = "write a header such as 'rotation [deg], moment [kN*m]'"
+    raise InputError(Problem(what, ", ".join(head)[:80], " or ".join(words), todo, "", file, line))
+
+
+def _number(text: str) -> float:
+    """Plain number, NaN where it is none."""
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan
