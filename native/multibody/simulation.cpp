@@ -1,1 +1,189 @@
+#include "multibody/simulation.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+namespace crumple::multibody {
+
+namespace {
+
+// Share of the accuracy that one step may spend, measured by the difference between one step and two halves.
+// Chosen so that the true error of the verification problems stays below `accuracy`.
+constexpr double step_share = 1;
+constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
+constexpr long poll_interval = 256;  // steps between calls of `poll`
+
+double kinetic_norm(const Tree& tree, const std::vector<Twist>& a, const std::vector<Twist>* b) {
+    double e = 0;
+    for (int i = 0; i < tree.bodies(); i++) {
+        const auto k = static_cast<size_t>(i);
+        Twist v = a[k];
+        if (b) v = {v.w - (*b)[k].w, v.v - (*b)[k].v};
+        e += tree[i].mass * dot(v.v, v.v) + tree[i].inertia * v.w * v.w;
+    }
+    return std::sqrt(e);
+}
+
+}  // namespace
+
+Simulation::Simulation(Model model, const Settings& settings)
+    : model_(std::move(model)), settings_(settings), stepper_(model_) {
+    const std::vector<double> rest(static_cast<size_t>(model_.tree.dofs()), 0.0);
+    state_ = stepper_.start(model_.q0.data(), rest.data());
+    set_critical_damping();
+}
+
+// A stop without a damper of its own gets the critical one, c = 2 sqrt(k m), m the inertia felt at the start.
+void Simulation::set_critical_damping() {
+    for (Hinge& hinge : model_.hinges) {
+        for (Stop& stop : hinge.stop) {
+            if (!std::isnan(stop.damping)) continue;
+            stop.damping = 2 * std::sqrt(stop.stiffness * stepper_.effective_inertia(state_, hinge.dof));
+        }
+    }
+}
+
+double Simulation::set_motion(const Twist* velocity, const Twist* impulse) {
+    double given = 0;
+    std::vector<Twist> target(static_cast<size_t>(model_.tree.bodies()));
+    for (int i = 0; i < model_.tree.bodies(); i++) {
+        const Body& b = model_.tree[i];
+        const auto k = static_cast<size_t>(i);
+        target[k] = {velocity[i].w + impulse[i].w / b.inertia, velocity[i].v + (1 / b.mass) * impulse[i].v};
+        given += (b.mass * dot(target[k].v, target[k].v) + b.inertia * target[k].w * target[k].w) / 2;
+    }
+    const std::vector<Twist> none(target.size());
+    std::vector<double> w(static_cast<size_t>(model_.tree.dofs()));
+    stepper_.project(state_, target.data(), none.data(), w.data());
+    set_rates(w.data());
+    return given - energies(model_, state_).kinetic;
+}
+
+void Simulation::set_rates(const double* w) {
+    const std::vector<double> q = state_.q;
+    state_ = stepper_.start(q.data(), w);
+}
+
+double Simulation::error(const State& coarse, const State& fine) const {
+    double worst = 0;
+    for (int i = 0; i < model_.tree.bodies(); i++) {
+        const Body& b = model_.tree[i];
+        const int n = b.joint == Joint::revolute ? 1 : 3;
+        for (int k = 0; k < n; k++) {
+            const auto dof = static_cast<size_t>(b.dof + k);
+            const double e = std::fabs(fine.q[dof] - coarse.q[dof]);
+            worst = std::max(worst, k == 0 ? e : e / settings_.length);
+        }
+    }
+    double e = worst / scale_;
+    if (speed_ > 0) e = std::max(e, kinetic_norm(model_.tree, coarse.velocity, &fine.velocity) / speed_);
+    return e / (settings_.accuracy * step_share);
+}
+
+bool Simulation::advance(double target, Record& record, const std::function<bool(double)>& poll) {
+    while (state_.t < target) {
+        const double left = target - state_.t;
+        bool last = h_ >= left * (1 - 1e-9);
+        const double h = last ? left : (h_ > left / 2 ? left / 2 : h_);
+        coarse_ = state_;
+        fine_ = state_;
+        const bool solved = stepper_.step(coarse_, h) && stepper_.step(fine_, h / 2) && stepper_.step(fine_, h / 2);
+        const double e = solved ? error(coarse_, fine_) : INFINITY;
+        const bool smallest = h <= settings_.minimum_step * 1.001;
+        if (std::isnan(e)) {
+            record.outcome = Outcome::not_finite;
+            record.reason = "a joint coordinate is not a number";
+            return false;
+        }
+        if (!solved && smallest) {
+            record.outcome = Outcome::step_collapsed;
+            record.reason = "the equations of a step did not converge at the smallest step";
+            return false;
+        }
+        const double factor = e > 0 ? safety * std::pow(e, -1.0 / 3) : growth_limit;
+        const double next = std::clamp(h * std::clamp(factor, shrink_limit, growth_limit), settings_.minimum_step,
+                                       settings_.maximum_step);
+        if (e > 1 && !smallest) {
+            record.rejected++;
+            h_ = std::min(next, 0.7 * h);
+            if (h_ < settings_.minimum_step) h_ = settings_.minimum_step;
+            continue;
+        }
+        if (e > 1) record.forced++;
+        if (last) fine_.t = target;
+        std::swap(state_, fine_);
+        h_ = last && e <= 1 ? std::max(h_, next) : next;
+        record.steps++;
+        watch(record);
+        if (record.steps % poll_interval == 0 && poll && !poll(state_.t)) {
+            record.outcome = Outcome::cancelled;
+            return false;
+        }
+    }
+    return true;
+}
+
+void Simulation::watch(Record& record) {
+    for (int i = 0; i < model_.tree.bodies(); i++) {
+        const auto dof = static_cast<size_t>(model_.tree[i].dof);
+        scale_ = std::max(scale_, std::fabs(state_.q[dof] - model_.q0[dof]));
+    }
+    speed_ = std::max(speed_, kinetic_norm(model_.tree, state_.velocity, nullptr));
+    const Energies e = energies(model_, state_);
+    work_max_ = std::max(work_max_, std::fabs(e.external_work));
+    const double reference = start_energy_ + work_max_;
+    if (reference > 0) record.residual = std::max(record.residual, std::fabs(e.balance() - start_energy_) / reference);
+}
+
+void Simulation::store(Record& r) const {
+    r.time.push_back(state_.t);
+    r.q.insert(r.q.end(), state_.q.begin(), state_.q.end());
+    r.w.insert(r.w.end(), state_.w.begin(), state_.w.end());
+    for (size_t i = 0; i < state_.pose.size(); i++) {
+        const Pose& p = state_.pose[i];
+        const Twist& v = state_.velocity[i];
+        r.pose.insert(r.pose.end(), {p.phi, p.origin.x, p.origin.y});
+        r.velocity.insert(r.velocity.end(), {v.w, v.v.x, v.v.y});
+    }
+    for (size_t j = 0; j < state_.hinge.size(); j++) {
+        const Hinge& hinge = model_.hinges[j];
+        const HingeState& s = state_.hinge[j];
+        r.hinge.insert(r.hinge.end(), {s.plastic, s.total_moment, s.capacity, s.dissipated + s.damped + s.stop_dissipated,
+                                       elastic_energy(hinge, s), stop_energy(hinge, state_.q[static_cast<size_t>(hinge.dof)])});
+    }
+    const Energies e = energies(model_, state_);
+    r.energy.insert(r.energy.end(), {e.kinetic, e.elastic, e.dissipated, e.damped, e.stop, e.external_work});
+    r.drive.insert(r.drive.end(), state_.drive_impulse.begin(), state_.drive_impulse.end());
+}
+
+// A rigid hinge has no moment before the first step; what it will carry at once is seen by a step that is thrown away.
+void Simulation::show_first_moments() {
+    State probe = state_;
+    if (state_.t > 0 || !stepper_.step(probe, 100 * settings_.minimum_step)) return;
+    for (size_t j = 0; j < model_.hinges.size(); j++) {
+        if (model_.hinges[j].form != Form::elastic_plastic) state_.hinge[j].total_moment = probe.hinge[j].total_moment;
+    }
+}
+
+Record Simulation::run(const std::vector<double>& times, const std::function<bool(double)>& poll) {
+    Record record;
+    const long solves = stepper_.solves();
+    const double duration = times.back() - state_.t;
+    // the rotation that the strongest hinge would need for all energy: what counts as large before anything has turned
+    double strongest = 0;
+    for (const HingeState& h : state_.hinge) strongest = std::max(strongest, h.capacity);
+    const double expected = strongest > 0 ? energies(model_, state_).kinetic / strongest / 2 : 0;
+    scale_ = std::max(scale_, std::clamp(expected, settings_.scale_floor, 0.5));
+    speed_ = std::max(speed_, kinetic_norm(model_.tree, state_.velocity, nullptr));
+    start_energy_ = energies(model_, state_).balance();
+    if (h_ <= 0) h_ = std::clamp(duration / 100, settings_.minimum_step, settings_.maximum_step);
+    show_first_moments();
+    for (const double t : times) {
+        if (t > state_.t && !advance(t, record, poll)) break;
+        store(record);
+    }
+    record.solves = stepper_.solves() - solves;
+    return record;
+}
+
+}  // namespace crumple::multibody

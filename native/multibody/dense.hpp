@@ -1,0 +1,29 @@
+// Small dense solve for drive forces: symmetric positive definite up to redundancy.
+#pragma once
+
+namespace crumple::multibody {
+
+// Solves a x = b in place (b becomes x) by LDL^T.  A redundant row (pivot below 1e-12 of its diagonal) gets x = 0.
+inline void solve_symmetric(double* a, double* b, int n) {
+    for (int j = 0; j < n; j++) {
+        double pivot = a[j * n + j];
+        const double threshold = 1e-12 * pivot;
+        for (int k = 0; k < j; k++) pivot -= a[j * n + k] * a[j * n + k] * a[k * n + k];
+        if (!(pivot > threshold)) pivot = 0;
+        a[j * n + j] = pivot;
+        for (int i = j + 1; i < n; i++) {
+            double s = a[i * n + j];
+            for (int k = 0; k < j; k++) s -= a[i * n + k] * a[j * n + k] * a[k * n + k];
+            a[i * n + j] = pivot > 0 ? s / pivot : 0;
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        for (int k = 0; k < i; k++) b[i] -= a[i * n + k] * b[k];
+    }
+    for (int i = 0; i < n; i++) b[i] = a[i * n + i] > 0 ? b[i] / a[i * n + i] : 0;
+    for (int i = n - 1; i >= 0; i--) {
+        for (int k = i + 1; k < n; k++) b[i] -= a[k * n + i] * b[k];
+    }
+}
+
+}  // namespace crumple::multibody

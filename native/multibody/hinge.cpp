@@ -1,0 +1,233 @@
+#include "multibody/hinge.hpp"
+
+#include <algorithm>
+
+namespace crumple::multibody {
+
+namespace {
+
+constexpr double half_pi = 1.57079632679489661923;
+// Below this turn [rad] the mean capacity is the present one: differences of areas would cancel.
+constexpr double smallest_mean = 1e-7;
+
+// Capacity in one sense (0 positive, 1 negative) before it turns further.  `u` is the plastic rotation counted in
+// that sense.  A fold that is being straightened keeps the strength that it had lost: the larger of both peaks
+// counts until the hinge is straight again.
+double present_capacity(const Hinge& hinge, const HingeState& s, int sense, double u, int& hint) {
+    const Curve& curve = sense == 0 ? hinge.positive : hinge.negative;
+    switch (hinge.softening) {
+        case Softening::rotation: return curve.at(std::fabs(u), hint);
+        case Softening::accumulated: return curve.at(s.accumulated, hint);
+        case Softening::peak: break;
+    }
+    return curve.at(u < 0 ? std::max(s.peak[0], s.peak[1]) : std::max(s.peak[sense], u), hint);
+}
+
+// Mean capacity while the hinge turns by `turn` > 0 in one sense from u.
+double mean_capacity(const Hinge& hinge, const HingeState& s, int sense, double u, double turn, int& hint) {
+    const Curve& curve = sense == 0 ? hinge.positive : hinge.negative;
+    const double end = u + turn;
+    auto odd = [&](double v) { return v < 0 ? -curve.integral(-v, hint) : curve.integral(v, hint); };
+    switch (hinge.softening) {
+        case Softening::rotation: return (odd(end) - odd(u)) / turn;
+        case Softening::accumulated: return (curve.integral(s.accumulated + turn, hint) - curve.integral(s.accumulated, hint)) / turn;
+        case Softening::peak: break;
+    }
+    const double peak = s.peak[sense];
+    double work = 0;
+    if (u < 0) work += (std::min(end, 0.0) - u) * curve.at(std::max(s.peak[0], s.peak[1]), hint);
+    if (u < peak && end > 0) work += (std::min(end, peak) - std::max(u, 0.0)) * curve.at(peak, hint);
+    if (end > peak) work += curve.integral(end, hint) - curve.integral(std::max(u, peak), hint);
+    return work / turn;
+}
+
+double step_polynomial(double x) {
+    if (x <= 0) return 0;
+    if (x >= 1) return 1;
+    return x * x * (3 - 2 * x);
+}
+
+double elastic_moment(const Hinge& hinge, const FrozenHinge& f, double w) {
+    return f.m0 + hinge.stiffness * f.h * (f.w0 + w) / 2;
+}
+
+double clamped(const FrozenHinge& f, double m) { return std::min(std::max(m, -f.capacity[1]), f.capacity[0]); }
+
+}  // namespace
+
+double ramp_width(const Hinge& hinge) { return hinge.form == Form::regularised ? hinge.ramp_rate : stick_rate; }
+
+Curve::Curve(std::vector<double> x, std::vector<double> y) : x_(std::move(x)), y_(std::move(y)), area_(x_.size(), 0.0) {
+    for (size_t i = 1; i < x_.size(); i++) area_[i] = area_[i - 1] + (x_[i] - x_[i - 1]) * (y_[i] + y_[i - 1]) / 2;
+}
+
+size_t Curve::piece(double v, int& hint) const {
+    int i = std::min(hint, static_cast<int>(x_.size()) - 2);
+    while (v < x_[static_cast<size_t>(i)]) i--;
+    while (v >= x_[static_cast<size_t>(i + 1)]) i++;
+    hint = i;
+    return static_cast<size_t>(i);
+}
+
+double Curve::at(double v, int& hint) const {
+    if (v <= x_.front()) return y_.front();
+    if (v >= x_.back()) return y_.back();
+    const size_t k = piece(v, hint);
+    return y_[k] + (y_[k + 1] - y_[k]) * (v - x_[k]) / (x_[k + 1] - x_[k]);
+}
+
+double Curve::integral(double v, int& hint) const {
+    if (v <= x_.front()) return (v - x_.front()) * y_.front();
+    if (v >= x_.back()) return area_.back() + (v - x_.back()) * y_.back();
+    const size_t k = piece(v, hint);
+    const double d = v - x_[k];
+    return area_[k] + d * (y_[k] + (y_[k + 1] - y_[k]) * d / (x_[k + 1] - x_[k]) / 2);
+}
+
+FrozenHinge freeze(const Hinge& hinge, const HingeState& s, double h, double q0, double w0, double w1, int* hint) {
+    FrozenHinge f;
+    f.h = h;
+    f.w0 = w0;
+    f.m0 = s.moment;
+    f.width = ramp_width(hinge);
+    const double mean_rate = (w0 + w1) / 2, turn = h * mean_rate;
+    for (int k = 0; k < 2; k++) f.capacity[k] = present_capacity(hinge, s, k, k == 0 ? s.plastic : -s.plastic, hint[k]);
+    double flow = turn;
+    if (hinge.form == Form::elastic_plastic) {
+        flow -= (clamped(f, elastic_moment(hinge, f, w1)) - s.moment) / hinge.stiffness;
+    }
+    if (flow != 0) {
+        // the elastic form needs the capacity at the end of the step, where its moment M1 stands
+        const int k = flow > 0 ? 0 : 1;
+        const double u = k == 0 ? s.plastic : -s.plastic, ahead = std::fabs(flow);
+        if (hinge.form != Form::elastic_plastic) {
+            if (ahead > smallest_mean) f.capacity[k] = mean_capacity(hinge, s, k, u, ahead, hint[k]);
+        } else {
+            HingeState end = s;
+            end.plastic += flow;
+            end.accumulated += ahead;
+            f.capacity[k] = present_capacity(hinge, end, k, u + ahead, hint[k]);
+        }
+    }
+    const double rate = std::fabs(mean_rate) / hinge.rate_reference;
+    if (rate > 0) {
+        const double factor = 1 + std::pow(rate, 1 / hinge.rate_exponent);
+        f.capacity[0] *= factor;
+        f.capacity[1] *= factor;
+    }
+    for (int k = 0; k < 2; k++) {
+        const double sign = k == 0 ? 1 : -1;
+        const Stop& stop = hinge.stop[k];
+        f.gap[k] = sign * q0 - stop.rotation;
+        const double g = f.gap[k] + sign * turn / 2;
+        f.engaged[k] = g > 0;
+        if (!f.engaged[k]) continue;
+        f.stop_damping[k] = stop.damping * (stop.penetration > 0 ? step_polynomial(g / stop.penetration) : 1);
+    }
+    return f;
+}
+
+Response law_response(const Hinge& hinge, const FrozenHinge& f, double w) {
+    const double c = w >= 0 ? f.capacity[0] : f.capacity[1];
+    if (hinge.form == Form::elastic_plastic) {
+        const double trial = elastic_moment(hinge, f, w), m1 = clamped(f, trial);
+        return {f.h * (f.m0 + m1) / 2, m1 == trial ? f.h * f.h * hinge.stiffness / 4 : 0};
+    }
+    const double x = w / f.width;
+    if (std::fabs(x) >= 1) return {w > 0 ? f.h * c : -f.h * c, 0};
+    if (hinge.form == Form::set_valued) return {f.h * c * x, f.h * c / f.width};
+    return {f.h * c * std::sin(half_pi * x), f.h * c * half_pi / f.width * std::cos(half_pi * x)};
+}
+
+Response stop_response(const Hinge& hinge, const FrozenHinge& f, double w) {
+    Response r{0, 0};
+    for (int k = 0; k < 2; k++) {
+        if (!f.engaged[k]) continue;
+        const double sign = k == 0 ? 1 : -1, v = sign * w;
+        const double g = f.gap[k] + sign * f.h * (f.w0 + w) / 4;
+        const Stop& stop = hinge.stop[k];
+        const double spring = g > 0 ? stop.force(g) : 0;
+        const double force = spring + f.stop_damping[k] * v;
+        if (force <= 0) continue;
+        r.impulse += sign * f.h * force;
+        r.slope += f.h * f.stop_damping[k];
+        if (g > 0) r.slope += f.h * f.h / 4 * stop.exponent * spring / g;
+    }
+    return r;
+}
+
+Response respond(const Hinge& hinge, const FrozenHinge& f, double w) {
+    const Response law = law_response(hinge, f, w), stop = stop_response(hinge, f, w);
+    return {law.impulse + stop.impulse + f.h * hinge.damping * w, law.slope + stop.slope + f.h * hinge.damping};
+}
+
+int kinks(const Hinge& hinge, const FrozenHinge& f, double* rates) {
+    int n = 0;
+    if (hinge.form == Form::elastic_plastic) {
+        const double per_moment = 2 / (hinge.stiffness * f.h);
+        rates[n++] = (f.capacity[0] - f.m0) * per_moment - f.w0;
+        rates[n++] = (-f.capacity[1] - f.m0) * per_moment - f.w0;
+    } else {
+        rates[n++] = -f.width;
+        rates[n++] = 0;
+        rates[n++] = f.width;
+    }
+    for (int k = 0; k < 2; k++) {
+        if (!f.engaged[k]) continue;
+        // where the linear stop lets go: k (gap + h (w0 + v)/4) + c v = 0
+        const double sign = k == 0 ? 1 : -1, stiffness = hinge.stop[k].stiffness, quarter = f.h / 4;
+        const double v = -stiffness * (f.gap[k] + quarter * sign * f.w0) / (stiffness * quarter + f.stop_damping[k]);
+        rates[n++] = sign * v;
+    }
+    return n;
+}
+
+double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0, double q0, double w1) {
+    const double mean_rate = (f.w0 + w1) / 2;
+    double turn = f.h * mean_rate;
+    const double impulse = law_response(hinge, f, w1).impulse, stop = stop_response(hinge, f, w1).impulse;
+    const int sense = mean_rate >= 0 ? 0 : 1;
+    double flow = turn, arrest = t0 + f.h;
+    bool flowed = false;
+    s.capacity = f.capacity[sense];
+    if (hinge.form == Form::elastic_plastic) {
+        const double m1 = clamped(f, elastic_moment(hinge, f, w1));
+        flow = turn - (m1 - f.m0) / hinge.stiffness;
+        s.dissipated += (f.m0 + m1) / 2 * flow;
+        s.moment = m1;
+        s.sliding = flowed = m1 == f.capacity[0] || m1 == -f.capacity[1];
+    } else {
+        s.dissipated += impulse * mean_rate;
+        s.moment = impulse / f.h;
+        const bool slid = std::fabs(f.w0) > f.width;
+        s.sliding = std::fabs(w1) > f.width;
+        flowed = slid || s.sliding;
+        if (slid && !s.sliding && hinge.form == Form::set_valued && stop == 0) {
+            // it stopped within the step, after the time in which the capacity gives the impulse: C t = |P|
+            const double t = std::min(f.h, std::fabs(impulse) / s.capacity);
+            arrest = t0 + t;
+            turn = flow = f.w0 * t / 2;
+        }
+    }
+    if (flowed) s.rest_time = arrest;
+    s.plastic += flow;
+    s.accumulated += std::fabs(flow);
+    s.peak[0] = std::max(s.peak[0], s.plastic);
+    s.peak[1] = std::max(s.peak[1], -s.plastic);
+    s.damped += f.h * hinge.damping * w1 * mean_rate;
+    if (stop != 0) s.stop_dissipated += stop * mean_rate - (stop_energy(hinge, q0 + turn) - stop_energy(hinge, q0));
+    s.total_moment = s.moment + hinge.damping * w1 + stop / f.h;
+    s.rotation_max = std::max(s.rotation_max, std::fabs(q0 + turn));
+    s.moment_max = std::max(s.moment_max, std::fabs(s.total_moment));
+    return turn;
+}
+
+double elastic_energy(const Hinge& hinge, const HingeState& s) {
+    return hinge.form == Form::elastic_plastic ? s.moment * s.moment / (2 * hinge.stiffness) : 0;
+}
+
+double stop_energy(const Hinge& hinge, double q) {
+    return hinge.stop[0].energy(q - hinge.stop[0].rotation) + hinge.stop[1].energy(-q - hinge.stop[1].rotation);
+}
+
+}  // namespace crumple::multibody

@@ -1,0 +1,106 @@
+// One hinge kernel for all laws: the impulse that a hinge gives against its rate at the end of the step.
+//
+// Over a step of length h everything that is not convex in the end rate w (capacity along the softening
+// curve, rate factor, whether a stop is engaged) is frozen at its prediction.  The rigid forms take the mean
+// capacity over the predicted turn, so the energy under the curve is exact however sharp its kinks.  What remains is a
+// non-decreasing impulse P(w), the derivative of a convex potential:
+//   set-valued       P = h C sign(w), any value up to h C at w = 0 (ramp of half-width `stick_rate`)
+//   elastic-plastic  P = h (M0 + M1)/2,  M1 = M0 + k h (w0 + w)/2 clamped to the capacity
+//   regularised      P = h C HAVSIN(w, -w_reg, -1, w_reg, 1)
+//   damper           P = h c w
+//   stop             P = h max(0, k g^e + c w),  g the mean of start and end penetration
+// The elastic terms use the mean of start and end, so an elastic swing keeps its energy; dampers use the
+// end rate, so stiff ones decay.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace crumple::multibody {
+
+using std::size_t;
+
+// Locked hinges creep at less than this rate [rad/s]: 1e-9 rad over 0.1 s.  Larger values creep visibly,
+// values below 1e-11 cost digits of the locked moment.
+constexpr double stick_rate = 1e-8;
+
+enum class Form { set_valued, elastic_plastic, regularised };
+enum class Softening { peak, rotation, accumulated };
+
+// Piecewise linear curve, constant outside its ends.  The hint makes a lookup that moves slowly O(1).
+class Curve {
+public:
+    Curve() = default;
+    Curve(std::vector<double> x, std::vector<double> y);
+    double at(double v, int& hint) const;
+    // integral from the first point to v; negative before it
+    double integral(double v, int& hint) const;
+
+private:
+    size_t piece(double v, int& hint) const;
+    std::vector<double> x_, y_, area_;
+};
+
+struct Stop {
+    double rotation = std::numeric_limits<double>::infinity();  // infinite: no stop
+    double stiffness = 0, exponent = 1, damping = 0, penetration = 0;
+    double force(double g) const { return exponent == 1 ? stiffness * g : stiffness * std::pow(g, exponent); }
+    double energy(double g) const { return g > 0 ? force(g) * g / (exponent + 1) : 0; }
+};
+
+// Constants of one hinge.
+struct Hinge {
+    int dof = 0;
+    Form form = Form::set_valued;
+    Softening softening = Softening::peak;
+    Curve positive, negative;
+    double stiffness = 0;           // elastic-plastic form [N m/rad]
+    double ramp_rate = 0.05;        // regularised form [rad/s]
+    double rate_reference = std::numeric_limits<double>::infinity(), rate_exponent = 1;
+    double damping = 0;             // [N m s/rad]
+    Stop stop[2];                   // positive, negative sense
+};
+
+// What one hinge remembers.
+struct HingeState {
+    double plastic = 0, peak[2] = {0, 0}, accumulated = 0;
+    double moment = 0;              // elastic-plastic: at the end of the last step; else its mean over it
+    double capacity = 0, total_moment = 0;  // of the sense it turns in; with dampers and stops
+    double dissipated = 0, damped = 0, stop_dissipated = 0;
+    double rotation_max = 0, moment_max = 0, rest_time = 0;
+    bool sliding = false;
+    int hint[2] = {0, 0};
+};
+
+// A hinge over one step, all that is not convex frozen.
+struct FrozenHinge {
+    double h = 0, w0 = 0, m0 = 0;
+    double width = 0;               // half-width of the ramp around zero rate [rad/s]; widened while a step is solved
+    double capacity[2] = {0, 0};
+    double gap[2] = {0, 0};         // start penetration of each stop (negative: open)
+    double stop_damping[2] = {0, 0};
+    bool engaged[2] = {false, false};
+};
+
+struct Response {
+    double impulse, slope;
+};
+
+// half-width of the ramp of the rigid forms [rad/s]
+double ramp_width(const Hinge& hinge);
+FrozenHinge freeze(const Hinge& hinge, const HingeState& state, double h, double q0, double w0, double w1, int* hint);
+// impulse of the law alone, of the stops alone, and of everything
+Response law_response(const Hinge& hinge, const FrozenHinge& f, double w);
+Response stop_response(const Hinge& hinge, const FrozenHinge& f, double w);
+Response respond(const Hinge& hinge, const FrozenHinge& f, double w);
+// rates at which the slope of the response changes; returns how many (at most 8)
+int kinks(const Hinge& hinge, const FrozenHinge& f, double* rates);
+// advances the memory; returns the rotation over the step
+double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& state, double t0, double q0, double w1);
+// elastic energy in the law's spring and in both stops at rotation q
+double elastic_energy(const Hinge& hinge, const HingeState& state);
+double stop_energy(const Hinge& hinge, double q);
+
+}  // namespace crumple::multibody

@@ -1,0 +1,68 @@
+// A run: adaptive steps to the requested output times, and what they record.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "multibody/stepper.hpp"
+
+namespace crumple::multibody {
+
+enum class Outcome { complete, step_collapsed, not_finite, cancelled };
+
+struct Settings {
+    double accuracy = 1e-3;      // allowed error of the motion, relative to the largest rotation
+    double minimum_step = 1e-9;  // [s]
+    double maximum_step = 1e30;  // [s]
+    double length = 1;           // [m] turns translations of free bodies into angles for the error measure
+    double scale_floor = 2e-3;   // [rad] smallest rotation that counts as large
+};
+
+struct Record {
+    std::vector<double> time;
+    std::vector<double> q, w;               // (n, dofs)
+    std::vector<double> pose, velocity;     // (n, bodies, 3): angle, x, y of the origin; of the centre of mass
+    std::vector<double> hinge;              // (n, hinges, 6), see hinge_columns
+    std::vector<double> energy;             // (n, 6): kinetic, elastic, dissipated, damped, stop, external work
+    std::vector<double> drive;              // (n, drives) [N or N m]
+    Outcome outcome = Outcome::complete;
+    std::string reason;
+    double residual = 0;                    // largest |balance - start| over (start + largest external work)
+    long steps = 0, rejected = 0, forced = 0, solves = 0;
+};
+
+// plastic rotation, moment, capacity, dissipated energy, elastic energy, stop energy
+constexpr int hinge_columns = 6;
+
+class Simulation {
+public:
+    explicit Simulation(Model model, const Settings& settings);
+    Simulation(const Simulation&) = delete;
+    Simulation& operator=(const Simulation&) = delete;
+
+    const Model& model() const { return model_; }
+    Stepper& stepper() { return stepper_; }
+    State& state() { return state_; }
+    // joint rates at time 0 from velocities and impulses at the centres of mass; returns the energy lost in fitting
+    double set_motion(const Twist* velocity, const Twist* impulse);
+    void set_rates(const double* w);
+    // runs to the last of the times; `poll` gets the time reached and returns false to cancel
+    Record run(const std::vector<double>& times, const std::function<bool(double)>& poll);
+
+private:
+    void set_critical_damping();
+    bool advance(double target, Record& record, const std::function<bool(double)>& poll);
+    double error(const State& coarse, const State& fine) const;
+    void show_first_moments();
+    void store(Record& record) const;
+    void watch(Record& record);
+
+    Model model_;
+    Settings settings_;
+    Stepper stepper_;
+    State state_, coarse_, fine_;
+    double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, work_max_ = 0;
+};
+
+}  // namespace crumple::multibody

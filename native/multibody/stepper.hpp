@@ -1,0 +1,102 @@
+// One step of the multibody engine: a convex problem for the joint rates at the end of the step.
+//
+// With the motion over the step taken as trapezoidal (q1 = q0 + h (w0 + w1)/2) and everything that depends on
+// position taken at its middle, the end rates w1 minimise
+//     sum_bodies 1/2 |T w - V*|^2_M  +  sum_hinges Phi_j(w_j)      subject to  G w = g,
+// V* being the velocities that the bodies would have without joints' impulses.  Semismooth Newton with exact
+// line search on that potential; each Newton step is one O(N) articulated-body solve.
+#pragma once
+
+#include <vector>
+
+#include "multibody/hinge.hpp"
+#include "multibody/tree.hpp"
+
+namespace crumple::multibody {
+
+// Piecewise linear function of time with its derivative's table.
+struct TimeTable {
+    Curve value, rate;
+};
+
+// Force or moment on a body: direction (rotation, x, y) fixed in the world, at a point of the body.
+struct Load {
+    int body = 0;
+    Vec2 point;
+    Twist direction;
+    Curve value;
+};
+
+// Prescribed motion of a point of a body in one direction: displacement and rate as functions of time.
+struct Drive {
+    int body = 0;
+    Vec2 point;
+    Twist direction;
+    TimeTable motion;
+};
+
+struct Model {
+    Tree tree;
+    std::vector<Hinge> hinges;
+    std::vector<Load> loads;
+    std::vector<Drive> drives;
+    Vec2 gravity;
+    std::vector<double> q0;  // reference joint coordinates
+};
+
+struct State {
+    double t = 0;
+    std::vector<double> q, w;
+    std::vector<Pose> pose;       // at q
+    std::vector<Twist> velocity;  // of the centres of mass, at q and w
+    std::vector<HingeState> hinge;
+    std::vector<double> drive_impulse;  // mean force of every drive over the last step [N]
+    double external_work = 0;
+};
+
+struct Energies {
+    double kinetic = 0, elastic = 0, dissipated = 0, damped = 0, stop = 0, external_work = 0;
+    double balance() const { return kinetic + elastic + dissipated + damped + stop - external_work; }
+};
+
+Energies energies(const Model& model, const State& state);
+
+class Stepper {
+public:
+    explicit Stepper(const Model& model);
+
+    // a state at rest or in motion from joint coordinates and rates
+    State start(const double* q, const double* w) const;
+    // joint rates nearest, in kinetic energy, to given velocities of the centres of mass plus body impulses at them
+    void project(const State& at, const Twist* velocity, const Twist* impulse, double* w);
+    // one step of length h; false when the equations did not converge (the state is then unchanged)
+    bool step(State& state, double h);
+    // inertia that the joint coordinate feels with all other hinges free: 1 / (J M^-1 J^T)
+    double effective_inertia(const State& at, int dof);
+    long solves() const { return solves_; }
+
+private:
+    void predict(const State& s, double h);
+    void freeze(const State& s, double h);
+    bool newton();
+    bool descend(int limit, bool bold);
+    void take_whole_step();
+    void solve_once();
+    void constrain(double* w);
+    double search(double slope_end);
+    void commit(State& s, double h);
+    Vec2 arm(int body, Vec2 point, const Pose* pose) const { return pose[body].turned(point); }
+
+    const Model& model_;
+    ArticulatedSolver solver_;
+    std::vector<FrozenHinge> frozen_;
+    std::vector<double> w_, next_, direction_, rhs_, impedance_, dq_, column_, breakpoints_, overload_, overload_of_children_;
+    std::vector<Pose> middle_, end_;
+    std::vector<Twist> twist_, end_twist_, bias_, work_;
+    std::vector<double> drive_target_, drive_rows_, drive_matrix_, drive_force_;
+    std::vector<int> hint_;
+    bool all_set_valued_ = true;
+    long solves_ = 0;
+};
+
+}  // namespace crumple::multibody

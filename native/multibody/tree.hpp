@@ -1,0 +1,107 @@
+// Trees of rigid bodies in the plane: constants, placement, velocities, and the O(N) solve.
+//
+// Every body hangs on one inboard joint; parents come before children.  A body's frame is aligned with
+// the world in the reference configuration and has its origin at the inboard joint.  Velocities are
+// twists (rotation rate, velocity of the body's origin) in world axes.
+//
+// The solve minimises  sum_i 1/2 |V_i|^2_{I_i} - b_i.V_i + sum_j 1/2 Z_j w_j^2 - r_j w_j  over the joint
+// rates w, with V = T w: Gauss's principle for impulses b_i on bodies and r_j on joints, and impedances Z_j.
+// The articulated-body recursion does it in one sweep to the root and one back.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace crumple::multibody {
+
+using std::size_t;
+
+struct Vec2 {
+    double x = 0, y = 0;
+};
+
+inline Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
+inline Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
+inline Vec2 operator*(double s, Vec2 a) { return {s * a.x, s * a.y}; }
+inline double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
+inline double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
+inline Vec2 turn(double rate, Vec2 arm) { return {-rate * arm.y, rate * arm.x}; }  // rate times unit normal, crossed with arm
+
+// rotation rate and velocity; also angular and linear impulse
+struct Twist {
+    double w = 0;
+    Vec2 v;
+};
+
+// symmetric inertia about a point, rows and columns (rotation, x, y)
+struct Inertia {
+    double rr = 0, rx = 0, ry = 0, xx = 0, xy = 0, yy = 0;
+};
+
+struct Pose {
+    double phi = 0, c = 1, s = 0;  // angle to the reference configuration, its cosine and sine
+    Vec2 origin;
+    Vec2 turned(Vec2 a) const { return {c * a.x - s * a.y, s * a.x + c * a.y}; }
+    Vec2 at(Vec2 a) const { return origin + turned(a); }
+};
+
+enum class Joint { revolute, free };
+
+struct Body {
+    int parent = -1;  // -1: ground
+    Joint joint = Joint::revolute;
+    int dof = 0;      // first joint coordinate; revolute has one (rotation), free three (rotation, x, y)
+    Vec2 anchor;      // inboard joint in the parent's frame (world for ground)
+    Vec2 centre;      // centre of mass in the body's frame
+    double mass = 0, inertia = 0;  // inertia about the centre of mass
+};
+
+class Tree {
+public:
+    explicit Tree(std::vector<Body> bodies);
+
+    int bodies() const { return static_cast<int>(body_.size()); }
+    int dofs() const { return dofs_; }
+    const Body& operator[](int i) const { return body_[static_cast<size_t>(i)]; }
+
+    // poses from joint coordinates
+    void place(const double* q, Pose* pose) const;
+    // poses at q = q_from + dq, cheaper than `place` for small turns
+    void place_near(const Pose* from, const double* q, const double* dq, Pose* pose) const;
+    // twists of the body origins from joint rates
+    void twists(const Pose* pose, const double* w, Twist* twist) const;
+    // velocities of the centres of mass (w unchanged) from twists of the origins
+    void to_centres(const Pose* pose, Twist* twist) const;
+
+private:
+    std::vector<Body> body_;
+    int dofs_ = 0;
+};
+
+// Factorisation and workspace of the articulated-body recursion for one configuration.
+class ArticulatedSolver {
+public:
+    explicit ArticulatedSolver(const Tree& tree);
+    // impedance Z per joint coordinate, >= 0
+    void factor(const Pose* pose, const double* impedance);
+    // body impulses b about the body origins (overwritten), joint impulses r; gives the joint rates w
+    void solve(Twist* b, const double* r, double* w);
+
+private:
+    struct Row {
+        double rr, rx, ry;     // column of the articulated inertia that belongs to the joint's rotation
+        double inverse;        // 1 / (rr + Z)
+        double kept;           // Z / (rr + Z)
+        Vec2 arm;              // from the parent's origin to this body's
+    };
+    void absorb(int parent, const Inertia& reduced, Vec2 arm);
+
+    const Tree& tree_;
+    std::vector<Row> row_;
+    std::vector<Inertia> articulated_;
+    std::vector<double> rhs_;
+    std::vector<Twist> twist_;
+    std::vector<double> free_factor_;  // 3x3 inverse of every free joint
+};
+
+}  // namespace crumple::multibody
