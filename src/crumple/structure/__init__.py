@@ -1,1 +1,76 @@
-"""The structure room."""
+"""What the engineer describes, once, for every solver; plain frozen data in SI.
+
+`Structure` has named ``materials``, ``sections``, ``nodes`` (positions), ``members``, ``hinge_laws``,
+``supports``, ``masses``, and the lists ``initial_velocity``, ``impulses``, ``loads``, and ``gravity``.
+For a solver:
+
+- ``structure.frame_of(member)`` -> `Frame` (origin, axes as rows x y z, length, ``position(station)``);
+- ``structure.section_of(member)`` and ``structure.material_of(member)`` -> objects of those rooms;
+- ``placed_hinges(structure)`` -> `PlacedHinge` per hinge (name, member, station, position, direction, law, record);
+- ``support.held`` -> freedoms held at zero, ``support.motion`` -> functions of time or None per freedom;
+- `MultibodySettings` and `Outputs` -> what the solver is told beside the structure.
+"""
+
+from crumple.structure.checks import output_problems, problems_in
+from crumple.structure.geometry import Frame, frame_of
+from crumple.structure.hinges import HingePlace, PlacedHinge, hinge_places, placed_hinges
+from crumple.structure.law import (
+    LAW_SPECS,
+    ConstantLaw,
+    KecmanLaw,
+    LawKeys,
+    Regularisation,
+    Stops,
+    TableLaw,
+    WierzbickiLaw,
+)
+from crumple.structure.load import ForceComponents, Load, Mass, MomentComponents, NodalImpulse
+from crumple.structure.mapping import FrozenMapping
+from crumple.structure.material import MaterialSpec, RateSpec
+from crumple.structure.member import Bars, Hinge, Member
+from crumple.structure.motion import FREEDOMS, InitialVelocity, Motion, Support
+from crumple.structure.outputs import Filter, Outputs, SectionRotation
+from crumple.structure.section import CircularTubeSpec, RectangularTubeSpec
+from crumple.structure.settings import MultibodySettings
+from crumple.structure.structure import Structure
+
+__all__ = [
+    "FREEDOMS",
+    "LAW_SPECS",
+    "Bars",
+    "CircularTubeSpec",
+    "ConstantLaw",
+    "Filter",
+    "ForceComponents",
+    "Frame",
+    "FrozenMapping",
+    "Hinge",
+    "HingePlace",
+    "InitialVelocity",
+    "KecmanLaw",
+    "LawKeys",
+    "Load",
+    "Mass",
+    "MaterialSpec",
+    "Member",
+    "MomentComponents",
+    "Motion",
+    "MultibodySettings",
+    "NodalImpulse",
+    "Outputs",
+    "PlacedHinge",
+    "RateSpec",
+    "RectangularTubeSpec",
+    "Regularisation",
+    "SectionRotation",
+    "Stops",
+    "Structure",
+    "Support",
+    "TableLaw",
+    "WierzbickiLaw",
+    "frame_of",
+    "hinge_places",
+    "output_problems",
+    "placed_hinges",
+    "problems_in",
+]

@@ -1,0 +1,64 @@
+"""A structure and what is to be done with it."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field, ValidationInfo, model_validator
+
+from crumple.structure import MultibodySettings, Outputs, Structure, output_problems
+from crumple.structure.quantity import PositiveTime
+from crumple.structure.spec import Spec, raise_all
+
+LONGEST_TITLE = 200
+DEFAULT_INTERVALS = 200
+"""Intervals of the histories where the input gives none: enough for a smooth figure."""
+
+
+class Settings(Spec):
+    """What the key ``analysis`` of an input file holds."""
+
+    duration: PositiveTime
+    """Time to simulate."""
+    multibody: MultibodySettings = MultibodySettings()
+    """Settings of the multibody solver."""
+
+
+Title = Annotated[str, Field(max_length=LONGEST_TITLE)]
+
+
+class Analysis(Spec):
+    """One run: a structure, how long, with which settings, reporting what.
+
+    Frozen, picklable; everything a solver needs and nothing outside it (curves are embedded, not named).
+
+    Attributes
+    ----------
+    structure
+        What is simulated.
+    duration
+        [s].
+    title
+        One line for people.
+    multibody
+        Settings of the multibody solver.
+    outputs
+        What is reported.
+    """
+
+    structure: Structure
+    duration: PositiveTime
+    title: Title = ""
+    multibody: MultibodySettings = MultibodySettings()
+    outputs: Outputs = Outputs()
+
+    @model_validator(mode="after")
+    def _sound(self, info: ValidationInfo) -> Analysis:
+        if not (info.context and info.context.get("file")):
+            raise_all(output_problems(self.outputs, self.structure))
+        return self
+
+    @property
+    def output_interval(self) -> float:
+        """Interval of the histories [s]."""
+        return self.outputs.every or self.duration / DEFAULT_INTERVALS

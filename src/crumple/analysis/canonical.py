@@ -1,0 +1,51 @@
+"""One form of an analysis for everybody: what hashes, travels and tells two inputs apart."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from crumple.analysis.analysis import Analysis
+
+DIGITS = 12
+"""Significant digits that tell inputs apart: 50 mm and 1.968503937007874 in are one length."""
+
+
+def canonical(analysis: Analysis) -> dict[str, Any]:
+    """Plain data of an analysis in SI, independent of how it was written.
+
+    Parameters
+    ----------
+    analysis
+        From a file or from Python.
+
+    Returns
+    -------
+    dict
+        Keys sorted, defaults spelled out, numbers to 12 significant digits; what is absent or empty is left out.
+    """
+    plain = _plain(analysis.model_dump(mode="json"))
+    assert isinstance(plain, dict)
+    return plain
+
+
+def input_hash(analysis: Analysis) -> str:
+    """SHA-256 of the canonical form, 64 hexadecimal digits."""
+    text = json.dumps(
+        canonical(analysis), sort_keys=True, separators=(",", ":"), allow_nan=False, ensure_ascii=True
+    )
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        pairs = ((key, _plain(value[key])) for key in sorted(value))
+        return {key: plain for key, plain in pairs if plain is not None and plain not in ({}, [])}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, float | int) and not isinstance(value, bool):
+        # one zero: -0.0 and 0 are the same input
+        return float(f"{float(value):.{DIGITS}g}") + 0.0
+    return value

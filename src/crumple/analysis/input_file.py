@@ -1,0 +1,164 @@
+"""The input file, format 1: every mistake at once, with its line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import BaseModel, ValidationError
+
+from crumple.analysis.analysis import Analysis, Settings, Title
+from crumple.analysis.reading import Document, read_file, read_text
+from crumple.errors import InputError, Problem
+from crumple.structure import Outputs, Structure, output_problems, problems_in
+from crumple.structure.problems import Place, path_of, placed_problems, shown
+
+FORMAT = 1
+"""Version of the format; a file that needs another one says so."""
+MOST_PROBLEMS = 100
+"""Problems that one refusal lists; whoever has more mends these first."""
+
+
+class InputFile(Structure):
+    """Keys of an input file: those of the structure, and the run."""
+
+    crumple: Literal[1]
+    """Version of the format."""
+    title: Title = ""
+    """One line for people."""
+    analysis: Settings
+    """What to do."""
+    outputs: Outputs = Outputs()
+    """What to report."""
+
+
+def load(path: str | Path) -> Analysis:
+    """Analysis that an input file describes.
+
+    Parameters
+    ----------
+    path
+        YAML file; curve files that it names are read relative to it.
+
+    Returns
+    -------
+    Analysis
+        Complete: no file is needed any more.
+
+    Raises
+    ------
+    InputError
+        With every mistake, each with file and line.
+    """
+    path = Path(path)
+    return _analysis(read_file(path), str(path), path.parent)
+
+
+def loads(text: str, *, file: str = "", directory: str | Path = ".") -> Analysis:
+    """Analysis that a text describes; like `load` of a file with this content in ``directory``."""
+    return _analysis(read_text(text, file), file, Path(directory))
+
+
+def check(path: str | Path) -> list[Problem]:
+    """Every mistake of an input file; empty when it can be run."""
+    try:
+        load(path)
+    except InputError as error:
+        return error.problems
+    return []
+
+
+def _analysis(document: Document, file: str, directory: Path) -> Analysis:
+    data = document.data
+    if not isinstance(data, dict):
+        what, allowed = "the file holds no keys", "lines such as 'title: A tube'"
+        raise InputError(
+            Problem(what, shown(data), allowed, "start with the line 'crumple: 1'", file=file, line=1)
+        )
+    _check_format(document, file)
+    context = {"file": True, "directory": str(directory)}
+    found, problems = _validated(InputFile, data, context)
+    whole = found if isinstance(found, InputFile) else None
+    structure, defined = whole or _sound_part(data, context), _defined(data)
+    cross = problems_in(structure, defined)
+    outputs = whole.outputs if whole else _validated(Outputs, data.get("outputs") or {}, context)[0]
+    if isinstance(outputs, Outputs):
+        cross += output_problems(outputs, structure, defined)
+    problems += [(path_of(problem.where), problem) for problem in cross]
+    if problems or document.problems or whole is None:
+        raise InputError(_placed(problems, document, file))
+    return Analysis.model_validate(
+        {
+            "structure": Structure.model_construct(
+                **{key: getattr(whole, key) for key in Structure.model_fields}
+            ),
+            "duration": whole.analysis.duration,
+            "title": whole.title,
+            "multibody": whole.analysis.multibody,
+            "outputs": whole.outputs,
+        }
+    )
+
+
+def _check_format(document: Document, file: str) -> None:
+    """Refuse another format before its keys are held against this one."""
+    version = document.data.get("crumple")
+    if version != FORMAT or isinstance(version, bool):
+        what = "the format version is missing" if version is None else "this format version is not known"
+        todo = f"write 'crumple: {FORMAT}' as the first line"
+        line = document.line_of(("crumple",))
+        raise InputError(Problem(what, shown(version), str(FORMAT), todo, "crumple", file, line))
+
+
+def _validated(
+    model: type[BaseModel], data: Any, context: dict[str, Any]
+) -> tuple[BaseModel | None, list[tuple[Place, Problem]]]:
+    """Model or None, and every problem with its place."""
+    try:
+        return model.model_validate(data, context=context), []
+    except ValidationError as error:
+        return None, placed_problems(error, model)
+
+
+def _sound_part(data: dict[str, Any], context: dict[str, Any]) -> Structure:
+    """Structure of the parts that are valid by themselves, so that the others do not hide mistakes."""
+    parts = {key: data[key] for key in Structure.model_fields if key in data}
+    while True:
+        structure, problems = _validated(Structure, parts, context)
+        if isinstance(structure, Structure):
+            return structure
+        for place, _ in problems:
+            _remove(parts, place)
+
+
+def _remove(parts: dict[str, Any], place: Place) -> None:
+    """Drop the named part or the list entry that a problem lies in; the whole group where it has none."""
+    kind = parts.get(str(place[0])) if place else None
+    if len(place) > 1 and isinstance(kind, dict) and place[1] in kind:
+        parts[str(place[0])] = {name: part for name, part in kind.items() if name != place[1]}
+    elif place:
+        parts.pop(str(place[0]), None)
+    else:
+        parts.clear()
+
+
+def _defined(data: dict[str, Any]) -> dict[str, list[str]]:
+    """Names that the file defines, whether or not their parts are valid."""
+    return {kind: list(parts) for kind, parts in data.items() if isinstance(parts, dict)}
+
+
+def _placed(problems: Iterable[tuple[Place, Problem]], document: Document, file: str) -> list[Problem]:
+    """Problems with file and line, in the order of the file, each once."""
+    placed = [
+        problem if problem.line else replace(problem, file=problem.file or file, line=document.line_of(place))
+        for place, problem in problems
+    ]
+    every = sorted(
+        dict.fromkeys([*document.problems, *placed]), key=lambda problem: (problem.file != file, problem.line)
+    )
+    rest = len(every) - MOST_PROBLEMS
+    if rest > 0:
+        every = [*every[:MOST_PROBLEMS], Problem(f"and {rest} more problems", file=file)]
+    return every

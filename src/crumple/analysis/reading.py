@@ -1,0 +1,223 @@
+"""From the text of an input file to plain data, with the line of every key.
+
+YAML 1.2 without what an input file has no use for: anchors, aliases, tags, directives and several documents
+are refused, the size and the depth are bounded, and a repeated key is a mistake.  Numbers are those of the
+JSON schema of YAML; every other plain text stays a text.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from crumple.errors import InputError, Problem
+from crumple.structure.problems import Place, shown, spelled
+
+LARGEST_FILE = 1_000_000
+"""Bytes of an input file; a frame of ten thousand members stays below."""
+DEEPEST = 16
+"""Nested groups; the format itself needs eight."""
+
+_NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?")
+_NOT_FINITE = re.compile(r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)")
+_CONSTANTS = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
+_CONSTANTS |= {"true": True, "True": True, "TRUE": True, "false": False, "False": False, "FALSE": False}
+
+
+@dataclass
+class Document:
+    """Content of an input file.
+
+    Attributes
+    ----------
+    data
+        Mappings, lists, texts, numbers, booleans, None.
+    lines
+        1-based line of each place (path of keys and indices).
+    problems
+        Mistakes that did not stop the reading.
+    """
+
+    data: Any
+    lines: dict[Place, int] = field(default_factory=dict)
+    problems: list[Problem] = field(default_factory=list)
+
+    def line_of(self, place: Place) -> int:
+        """Line of a place, or of the nearest thing around it that the file has."""
+        while place and place not in self.lines:
+            place = place[:-1]
+        return self.lines.get(place, 1)
+
+
+def read_file(path: Path) -> Document:
+    """Content of a file.
+
+    Raises
+    ------
+    InputError
+        If it is missing, too large, binary, empty or not YAML.
+    """
+    name = str(path)
+    try:
+        if not path.is_file():
+            what = "this is a folder" if path.is_dir() else "there is no such file"
+            raise _refusal(what, name, allowed="an input file", todo="check the name")
+        with path.open("rb") as file:
+            content = file.read(LARGEST_FILE + 1)
+            size = path.stat().st_size
+    except OSError as error:
+        raise _refusal(f"the file cannot be read: {error.strerror}", name) from None
+    if len(content) > LARGEST_FILE:
+        came, allowed = f"{max(size, len(content)) / 1e6:.1f} MB", f"at most {LARGEST_FILE / 1e6:g} MB"
+        raise _refusal(
+            "the file is too large for an input file", name, came, allowed, "put curves into CSV files"
+        )
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise _refusal("the file is not a text in UTF-8", name, "", "a YAML text", "", line) from None
+    return read_text(text, name)
+
+
+def read_text(text: str, file: str = "") -> Document:
+    """Content of a text.
+
+    Raises
+    ------
+    InputError
+        If it is binary, empty or not YAML.
+    """
+    for position, character in enumerate(text):
+        if character < " " and character not in "\t\n\r":
+            line = text.count("\n", 0, position) + 1
+            raise _refusal("the file is binary", file, repr(character), "a YAML text", "", line)
+    reader = _Reader(text, file)
+    document = reader.read()
+    if document.data is None:
+        raise _refusal(
+            "the file is empty", file, allowed="a description", todo="start with the line 'crumple: 1'"
+        )
+    return document
+
+
+class _Reader:
+    """Builds data from the parser's events, so that nothing is made of an alias or a tag."""
+
+    def __init__(self, text: str, file: str) -> None:
+        from ruamel.yaml import YAML  # noqa: PLC0415  (an analysis built in Python needs none)
+
+        self._file = file
+        self._document = Document(None)
+        self._events: Iterator[Any] = iter(YAML(typ="safe", pure=True).parse(text))
+
+    def read(self) -> Document:
+        """Read the only document."""
+        documents = 0
+        while True:
+            event = self._next()
+            kind = type(event).__name__
+            if kind == "StreamEndEvent":
+                return self._document
+            if kind == "DocumentStartEvent":
+                documents += 1
+                if documents > 1:
+                    raise self._refusal(
+                        event, "a second document starts here", allowed="one description per file"
+                    )
+                if event.version or event.tags:
+                    raise self._refusal(
+                        event, "directives have no place here", todo="remove the line that starts with %"
+                    )
+            elif kind not in {"StreamStartEvent", "DocumentEndEvent"}:
+                self._document.data = self._value(event, ())
+
+    def _next(self) -> Any:
+        from ruamel.yaml.error import MarkedYAMLError, YAMLError  # noqa: PLC0415
+
+        try:
+            return next(self._events)
+        except MarkedYAMLError as error:
+            mark = error.problem_mark or error.context_mark
+            line = mark.line + 1 if mark is not None else 0
+            raise _refusal(f"this is not YAML: {_sentence(error)}", self._file, line=line) from None
+        except (YAMLError, ValueError, TypeError, AttributeError, IndexError, RecursionError) as error:
+            # the parser stumbles over some malformed texts instead of refusing them
+            raise _refusal(f"this is not YAML: {_sentence(error)}", self._file) from None
+
+    def _value(self, event: Any, place: Place) -> Any:
+        kind = type(event).__name__
+        if kind == "AliasEvent":
+            raise self._refusal(event, "aliases are refused", f"*{event.anchor}", "", "write the content out")
+        if event.anchor:
+            raise self._refusal(event, "anchors are refused", f"&{event.anchor}", "", "write the content out")
+        if event.tag is not None and str(event.tag) not in {"None", "!"}:
+            raise self._refusal(event, "tags are refused", shown(str(event.tag)), "", "remove the tag")
+        if len(place) > DEEPEST:
+            raise self._refusal(event, "the groups are nested too deeply", "", f"at most {DEEPEST} levels")
+        if kind == "ScalarEvent":
+            return self._scalar(event)
+        return self._mapping(place) if kind == "MappingStartEvent" else self._sequence(place)
+
+    def _mapping(self, place: Place) -> dict[str, Any]:
+        mapping: dict[str, Any] = {}
+        while type(event := self._next()).__name__ != "MappingEndEvent":
+            if type(event).__name__ != "ScalarEvent" or event.anchor or event.tag:
+                self._value(event, place)
+                raise self._refusal(event, "a group or a list cannot be a key", allowed="a name")
+            key, line = event.value, event.start_mark.line + 1
+            value = self._value(self._next(), (*place, key))
+            if key in mapping:
+                first = self._document.lines[(*place, key)]
+                what, todo = (
+                    f"the key '{shown(key)}' stands twice",
+                    f"remove one; the first is in line {first}",
+                )
+                self._document.problems.append(
+                    Problem(what, todo=todo, where=spelled((*place, key)), file=self._file, line=line)
+                )
+                continue
+            mapping[key] = value
+            self._document.lines[(*place, key)] = line
+        return mapping
+
+    def _sequence(self, place: Place) -> list[Any]:
+        values: list[Any] = []
+        while type(event := self._next()).__name__ != "SequenceEndEvent":
+            here = (*place, len(values))
+            self._document.lines[here] = event.start_mark.line + 1
+            values.append(self._value(event, here))
+        return values
+
+    def _scalar(self, event: Any) -> Any:
+        text = event.value
+        if event.style in {"'", '"', "|", ">"}:
+            return text
+        if text in _CONSTANTS:
+            return _CONSTANTS[text]
+        if _NOT_FINITE.fullmatch(text):
+            return math.nan if "n" in text.lower()[:2] else math.inf
+        # a number longer than any of use stays a text: it is refused where a number is needed
+        if len(text) <= 40 and _NUMBER.fullmatch(text):
+            return int(text) if text.lstrip("+-").isdigit() else float(text)
+        return text
+
+    def _refusal(
+        self, event: Any, what: str, came: str = "", allowed: str = "", todo: str = ""
+    ) -> InputError:
+        return _refusal(what, self._file, came, allowed, todo, event.start_mark.line + 1)
+
+
+def _refusal(
+    what: str, file: str, came: str = "", allowed: str = "", todo: str = "", line: int = 0
+) -> InputError:
+    return InputError(Problem(what, came, allowed, todo, file=file, line=line))
+
+
+def _sentence(error: Exception) -> str:
+    text = getattr(error, "problem", None) or str(error).split("\n")[0] or type(error).__name__
+    return shown(text)

@@ -1,0 +1,95 @@
+"""Curves that a description takes from a CSV file; read at once, so that a loaded structure travels alone."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from crumple.errors import InputError, Problem
+from crumple.hinge import read_table
+from crumple.structure.spec import refuse
+from crumple.units import QuantityError, unit_factor
+
+LARGEST_FILE = 2_000_000
+"""Bytes of one curve file; far more than any test needs, little enough to read at once."""
+MOST_POINTS = 20_000
+"""Points of one curve."""
+SHOWN_PROBLEMS = 10
+"""Bad rows of one file that are reported; the first ones tell what is wrong."""
+SI_UNIT = {"rotation": "rad", "moment": "N*m"}
+
+
+def with_curve_read(given: dict[str, Any], directory: Path, prefix: str = "") -> dict[str, Any]:
+    """Replace the file of a table by its points; without a file the table stays as it is.
+
+    Parameters
+    ----------
+    given
+        Table as the input says it; ``<prefix>file`` names the file.
+    directory
+        Where relative names start.
+    prefix
+        ``"negative_"`` for the curve of the other sense.
+    """
+    key = f"{prefix}file"
+    columns = (f"{prefix}rotation", f"{prefix}moment")
+    name = given.get(key)
+    if name is None:
+        return given
+    if not isinstance(name, str):
+        refuse("the name of a file is needed here", key=key, allowed="a text such as test.csv")
+    if any(column in given for column in columns):
+        refuse("the curve is given twice", key=key, todo="give the file or the lists")
+    rotation, moment = _read(name, directory, key)
+    return {**given, columns[0]: rotation, columns[1]: moment}
+
+
+def with_units(given: dict[str, Any]) -> dict[str, Any]:
+    """Give the plain numbers of a table's lists the units that its key ``units`` names."""
+    units = given.get("units")
+    if not isinstance(units, Mapping):
+        return given
+    unknown = [str(name) for name in units if name not in SI_UNIT]
+    if unknown:
+        refuse(f"unknown column '{unknown[0]}'", key="units", allowed=", ".join(SI_UNIT))
+    changed = dict(given)
+    for name, unit in units.items():
+        try:
+            unit_factor(str(unit), SI_UNIT[name])
+        except QuantityError as error:
+            refuse(error.problems[0].what, key="units", allowed=error.problems[0].allowed)
+        for column in (name, f"negative_{name}"):
+            values = given.get(column)
+            if isinstance(values, list | tuple):
+                changed[column] = [f"{v!r} {unit}" if _is_number(v) else v for v in values]
+    return changed
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _read(name: str, directory: Path, key: str) -> tuple[list[float], list[float]]:
+    if "\0" in name:
+        refuse("this is no file name", key=key)
+    path = directory / name
+    try:
+        if not path.is_file():
+            refuse("there is no such file", key=key, allowed="a file name, relative to the input file")
+        if path.stat().st_size > LARGEST_FILE:
+            refuse("the file is too large for a curve", key=key, allowed=f"at most {LARGEST_FILE} bytes")
+        text = path.read_text(encoding="utf-8-sig")
+        rotation, moment = read_table(text, name)
+    except InputError as error:
+        shown, rest = error.problems[:SHOWN_PROBLEMS], error.problems[SHOWN_PROBLEMS:]
+        more = [Problem(f"{len(rest)} more lines are wrong", file=name)] if rest else []
+        refuse("the curve cannot be read", problems=[*shown, *more])
+    except UnicodeDecodeError:
+        refuse("the file is not a text in UTF-8", key=key, allowed="a CSV file")
+    except (OSError, ValueError, csv.Error) as error:
+        refuse(f"the file cannot be read: {error}", key=key, allowed="a CSV file")
+    if len(rotation) > MOST_POINTS:
+        refuse("the curve has too many points", key=key, allowed=f"at most {MOST_POINTS}")
+    return rotation.tolist(), moment.tolist()

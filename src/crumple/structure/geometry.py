@@ -1,0 +1,99 @@
+"""Where a member is and how its section lies in space."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+NEARLY_PARALLEL = 1e-6
+"""Sine of the angle between member and `up` below which the direction across the member is noise."""
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """A member's local axes at the start.
+
+    Attributes
+    ----------
+    origin
+        First node [m], shape (3,).
+    axes
+        Rows are the unit vectors of local x, y, z in global axes, shape (3, 3).
+    length
+        Distance of the two nodes [m].
+    """
+
+    origin: Floats
+    axes: Floats
+    length: float
+
+    @property
+    def x(self) -> Floats:
+        """Unit vector from the first to the second node, shape (3,)."""
+        return self.axes[0]
+
+    @property
+    def y(self) -> Floats:
+        """Unit vector of the section's y, shape (3,)."""
+        return self.axes[1]
+
+    @property
+    def z(self) -> Floats:
+        """Unit vector of the section's z, shape (3,)."""
+        return self.axes[2]
+
+    def position(self, station: float) -> Floats:
+        """Point on the member's line at a distance [m] from its first node, shape (3,)."""
+        return self.origin + station * self.x
+
+    def axis(self, name: str) -> Floats:
+        """Unit vector of local "x", "y" or "z", shape (3,)."""
+        return self.axes["xyz".index(name)]
+
+
+def frame_of(
+    first: Sequence[float], second: Sequence[float], *, up: Sequence[float] | None = None, roll: float = 0.0
+) -> Frame:
+    """Local axes of a straight member.
+
+    Parameters
+    ----------
+    first, second
+        Positions of its nodes [m], apart.
+    up
+        Direction whose part across the member is local z; None: global z, or global x for a member along z.
+    roll
+        Right-handed turn of local y and z about local x [rad].
+
+    Returns
+    -------
+    Frame
+        Right-handed.
+
+    Raises
+    ------
+    ValueError
+        If the nodes coincide or ``up`` is along the member.
+    """
+    origin = np.asarray(first, float)
+    span = np.asarray(second, float) - origin
+    length = float(np.linalg.norm(span))
+    if length == 0.0:
+        raise ValueError("the nodes of the member coincide")
+    x = span / length
+    if up is None:
+        up = (0.0, 0.0, 1.0) if np.hypot(x[0], x[1]) > NEARLY_PARALLEL else (1.0, 0.0, 0.0)
+    direction = np.asarray(up, float) / np.linalg.norm(up)
+    across = direction - (direction @ x) * x
+    size = float(np.linalg.norm(across))
+    if size <= NEARLY_PARALLEL:
+        raise ValueError("'up' lies along the member")
+    z = across / size
+    y = np.cross(z, x)
+    cosine, sine = np.cos(roll), np.sin(roll)
+    return Frame(origin, np.array([x, cosine * y + sine * z, cosine * z - sine * y]), length)

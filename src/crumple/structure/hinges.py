@@ -1,0 +1,272 @@
+"""Where the hinges of a structure are and what each can carry.
+
+A hinge at a node that is held against its rotation lies half a fold length inside the member: a fold needs
+room, and a clamp gives none.  Between the equal bars of a member lies one hinge each.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple import hinge
+from crumple.errors import InputError, Problem
+from crumple.hinge import Form, HingeLaw, HingeRecord, SofteningVariable, Stop
+from crumple.section import Axis, half_fold_length
+from crumple.structure.geometry import Floats
+from crumple.structure.law import LAW_SPECS, LawKeys, LawReference, Stops
+from crumple.structure.member import Hinge
+from crumple.structure.motion import FREEDOMS
+from crumple.structure.structure import Structure
+
+DEFAULT_LAW = {"rectangular_tube": "kecman"}
+"""Law type of a hinge that names none, by kind of section."""
+SAME_DIRECTION = 1e-9
+"""Component of a unit vector below which it does not point along an axis."""
+
+
+@dataclass(frozen=True)
+class HingePlace:
+    """One hinge before its law is built.
+
+    Attributes
+    ----------
+    name
+        Unique in the structure.
+    member
+        Member that it belongs to; the first side of the hinge is that of the member's first node.
+    station
+        Distance from the member's first node [m].
+    axis
+        Section axis of its moment vector.
+    law
+        Reference as the input gives it.
+    where
+        Path in the input, for messages.
+    """
+
+    name: str
+    member: str
+    station: float
+    axis: Axis
+    law: LawReference | None
+    where: str
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedHinge:
+    """One hinge as the solvers take it.
+
+    Attributes
+    ----------
+    name, member, station, axis
+        As in `HingePlace`.
+    position
+        Where it lies at the start, global [m], shape (3,).
+    direction
+        Unit vector of its axis at the start, global, shape (3,); rotation is right-handed about it,
+        second side relative to first.
+    tributary_length
+        Length of member [m] whose elastic bending it stands for.
+    law
+        Formula with source and range.
+    record
+        The law as the stepper takes it.
+    """
+
+    name: str
+    member: str
+    station: float
+    axis: Axis
+    position: Floats
+    direction: Floats
+    tributary_length: float
+    law: HingeLaw
+    record: HingeRecord
+
+
+def hinge_places(structure: Structure) -> tuple[HingePlace, ...]:
+    """Every hinge of a sound structure, member by member, along each member.
+
+    The structure's members must have nodes that exist and are apart; everything else is not looked at.
+    """
+    return tuple(place for member in structure.members for place in member_hinge_places(structure, member))
+
+
+def member_hinge_places(structure: Structure, member: str) -> list[HingePlace]:
+    """Hinges of one member by increasing station."""
+    spec = structure.members[member]
+    length = structure.frame_of(member).length
+    bars, where = spec.bars, f"members.{member}"
+    places = [
+        HingePlace(f"{member}-{i}", member, length * i / bars.number, bars.axis, bars.law, f"{where}.bars")
+        for i in range(1, bars.number)
+    ]
+    for i, given in enumerate(spec.hinges):
+        station = hinge_station(structure, member, given)
+        places.append(HingePlace(given.name, member, station, given.axis, given.law, f"{where}.hinges[{i}]"))
+    return sorted(places, key=lambda place: place.station)
+
+
+def hinge_station(structure: Structure, member: str, given: Hinge) -> float:
+    """Distance of a hinge from the member's first node [m]; may lie outside the member."""
+    spec = structure.members[member]
+    if not isinstance(given.at, str):
+        return given.at + (given.offset or 0.0)
+    offset = given.offset
+    if offset is None:
+        held = holds_rotation(structure, given.at, structure.frame_of(member).axis(given.axis))
+        offset = half_fold_length(structure.section_of(member), given.axis) if held else 0.0
+    return offset if given.at == spec.nodes[0] else structure.frame_of(member).length - offset
+
+
+def holds_rotation(structure: Structure, node: str, direction: Floats) -> bool:
+    """Whether supports hold or drive the rotation of a node about a direction."""
+    supports = [support for support in structure.supports.values() if support.node == node]
+    held = {freedom for support in supports for freedom in (*support.held, *support.motion.model_fields_set)}
+    needed = (FREEDOMS[3 + i] for i in range(3) if abs(direction[i]) > SAME_DIRECTION)
+    return all(freedom in held for freedom in needed)
+
+
+def placed_hinges(structure: Structure) -> tuple[PlacedHinge, ...]:
+    """Every hinge with its law, ready for a solver.
+
+    Raises
+    ------
+    InputError
+        With every law that does not fit its section.
+    """
+    by_member: dict[str, list[HingePlace]] = defaultdict(list)
+    problems: list[Problem] = []
+    placed: list[PlacedHinge] = []
+    for place in hinge_places(structure):
+        by_member[place.member].append(place)
+    laws = _Laws(structure)
+    for member, places in by_member.items():
+        length = structure.frame_of(member).length
+        stations = [place.station for place in places]
+        for place, share in zip(places, tributary_lengths(stations, length), strict=True):
+            try:
+                placed.append(_placed(structure, place, share, laws))
+            except InputError as error:
+                problems += error.problems
+    if problems:
+        raise InputError(problems)
+    return tuple(placed)
+
+
+def tributary_lengths(stations: list[float], length: float) -> list[float]:
+    """Length of a member [m] whose elastic bending each hinge stands for.
+
+    Parameters
+    ----------
+    stations
+        Hinges' distances from the first node [m], increasing.
+    length
+        Of the member [m].
+
+    Notes
+    -----
+    A single hinge stands for a third of the member, since the moment falls off linearly from it (3 EI/L at
+    the clamp of a cantilever loaded at its tip).  Of several each stands for the stretch that is nearest to
+    it, which converges to the beam as they become many.
+    """
+    if len(stations) == 1:
+        return [length / 3.0]
+    middles = [(a + b) / 2.0 for a, b in zip(stations, stations[1:], strict=False)]
+    ends = [0.0, *middles, length]
+    return [b - a for a, b in zip(ends, ends[1:], strict=False)]
+
+
+def law_spec(structure: Structure, place: HingePlace) -> LawKeys:
+    """Law that a hinge refers to.
+
+    Raises
+    ------
+    InputError
+        If it names none and its section has no default.
+    """
+    reference = place.law
+    if reference is None:
+        kind = structure.section_of(place.member).kind
+        if kind not in DEFAULT_LAW:
+            what, todo = f"a hinge in a {kind} needs a law", "add 'law'"
+            raise InputError(
+                Problem(what, "", "a name in hinge_laws or " + ", ".join(LAW_SPECS), todo, place.where)
+            )
+        reference = DEFAULT_LAW[kind]
+    if not isinstance(reference, str):
+        return reference
+    return structure.hinge_laws[reference] if reference in structure.hinge_laws else LAW_SPECS[reference]()
+
+
+def law_of(structure: Structure, place: HingePlace) -> HingeLaw:
+    """Formula of a hinge.
+
+    Raises
+    ------
+    InputError
+        If the law does not fit the section.
+    """
+    spec = law_spec(structure, place)
+    given = spec.model_dump(exclude=set(LawKeys.model_fields) | {"type"}, exclude_none=True)
+    kind = str(getattr(spec, "type"))  # noqa: B009  (every law has it, each with its own literal type)
+    options = set(hinge.law_options(kind))
+    if "elastic_stiffness" in options and not isinstance(spec.elastic_stiffness, str):
+        given["elastic_stiffness"] = spec.elastic_stiffness
+    section, material = structure.section_of(place.member), structure.material_of(place.member)
+    return hinge.build_law(kind, section, material, place.axis, **given)
+
+
+class _Laws:
+    """Laws already built, so that the many hinges of a chain share one."""
+
+    def __init__(self, structure: Structure) -> None:
+        self._structure = structure
+        self._built: dict[tuple[str, str, Axis, LawKeys], HingeLaw] = {}
+
+    def of(self, place: HingePlace) -> HingeLaw:
+        member = self._structure.members[place.member]
+        key = (member.section, member.material, place.axis, law_spec(self._structure, place))
+        if key not in self._built:
+            self._built[key] = law_of(self._structure, place)
+        return self._built[key]
+
+
+def _placed(structure: Structure, place: HingePlace, share: float, laws: _Laws) -> PlacedHinge:
+    frame = structure.frame_of(place.member)
+    section, material = structure.section_of(place.member), structure.material_of(place.member)
+    spec, law = law_spec(structure, place), laws.of(place)
+    stiffness = spec.elastic_stiffness
+    record = hinge.record_of(
+        law,
+        form=Form(spec.form),
+        elastic_stiffness=None if isinstance(stiffness, str) else stiffness,
+        flexural_rigidity=material.youngs_modulus * section.second_moment(place.axis),
+        tributary_length=share,
+        softening=SofteningVariable(spec.softening),
+        stops=_stop(spec.stops),
+        regularisation_rate=spec.regularisation.rate,
+        rate=spec.rate == "on",
+        viscous_damping=spec.viscous_damping,
+    )
+    return PlacedHinge(
+        name=place.name,
+        member=place.member,
+        station=place.station,
+        axis=place.axis,
+        position=frame.position(place.station),
+        direction=frame.axis(place.axis),
+        tributary_length=share,
+        law=law,
+        record=record,
+    )
+
+
+def _stop(stops: Stops | str) -> Stop | str | None:
+    if isinstance(stops, str):
+        return "law" if stops == "law" else None
+    damping = np.nan if isinstance(stops.damping, str) else stops.damping
+    return Stop(stops.rotation, stops.stiffness, stops.exponent, damping, stops.penetration)

@@ -1,0 +1,206 @@
+"""Hinge laws as the description gives them: which law, in which form, with which stops.
+
+Each law type is one class here beside its formula in `crumple.hinge.laws`; its own keys are the options
+that the formula takes.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Discriminator, Field, Tag, ValidationInfo, model_validator
+
+from crumple.structure.curve import MOST_POINTS, with_curve_read, with_units
+from crumple.structure.quantity import (
+    Angle,
+    DampingOrCritical,
+    Moment,
+    NonNegativeAngle,
+    NonNegativeRotationalDamping,
+    PositiveAngle,
+    PositiveAngularVelocity,
+    PositiveLength,
+    PositiveMoment,
+    PositiveRotationalStiffness,
+    RollingWeight,
+    StiffnessOrAuto,
+    StopExponent,
+)
+from crumple.structure.spec import Name, Spec, type_tag
+
+
+class Regularisation(Spec):
+    """Ramp of the regularised form."""
+
+    rate: PositiveAngularVelocity = 0.05
+    """Half-width of the HAVSIN ramp."""
+
+
+class Stops(Spec):
+    """Stops of both senses: a one-sided spring and damper each, of IMPACT form."""
+
+    rotation: PositiveAngle
+    """Rotation at which a stop is touched."""
+    stiffness: PositiveRotationalStiffness
+    """Spring; with another exponent than 1 the moment at 1 rad of penetration."""
+    exponent: StopExponent = 1.0
+    """Exponent of the penetration."""
+    damping: DampingOrCritical = "critical"
+    """Damper at full penetration; critical: computed when the stop is first touched."""
+    penetration: NonNegativeAngle = 0.0
+    """Penetration at which the damper acts fully; 0: at once."""
+
+
+StopsOrWord = Annotated[
+    Annotated[Literal["law", "none"], Tag("(word)")] | Annotated[Stops, Tag("(stops)")],
+    Discriminator(lambda given: "(word)" if isinstance(given, str) else "(stops)"),
+]
+
+
+class LawKeys(Spec):
+    """Keys that every law has."""
+
+    form: Literal["set-valued", "elastic-plastic", "regularised"] = "set-valued"
+    """How the capacity becomes a moment: rigid until it is reached, a spring in series, or a ramp over the rate."""
+    elastic_stiffness: StiffnessOrAuto = "auto"
+    """Spring of the elastic-plastic form; auto: the law's own, else EI over the tributary length."""
+    regularisation: Regularisation = Regularisation()
+    """Ramp of the regularised form."""
+    softening: Literal["peak", "rotation", "accumulated"] = "peak"
+    """What the curve runs on: largest plastic rotation reached in each sense, the current one, or the sum of all."""
+    stops: StopsOrWord = "law"
+    """Stops of both senses; law: those that the law itself asks for."""
+    rate: Literal["on", "off"] = "on"
+    """Whether the material's strain-rate law raises the capacity."""
+    viscous_damping: NonNegativeRotationalDamping = 0.0
+    """Rotational damper beside the hinge."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _no_stops(cls, given: Any) -> Any:
+        """Let null and false mean what they say in words."""
+        if isinstance(given, dict) and ("stops" in given or "rate" in given):
+            words = {None: "none", False: "off", True: "on"}
+            swapped = {key: given[key] for key in ("stops", "rate") if key in given}
+            swapped = {
+                key: words[value] if value is None or isinstance(value, bool) else value
+                for key, value in swapped.items()
+            }
+            return {**given, **swapped}
+        return given
+
+
+class ConstantLaw(LawKeys):
+    """Constant moment: a perfectly plastic hinge."""
+
+    type: Literal["constant"] = "constant"
+    """Kind of law."""
+    moment: PositiveMoment | None = None
+    """Moment; without it the plastic moment of the section."""
+
+
+Angles = Annotated[tuple[Angle, ...], Field(max_length=MOST_POINTS)]
+Moments = Annotated[tuple[Moment, ...], Field(max_length=MOST_POINTS)]
+FileName = Annotated[str, Field(max_length=400)]
+
+
+class ColumnUnits(Spec):
+    """Units of plain numbers in a table's lists."""
+
+    rotation: str = "rad"
+    """Unit of the rotations, for example deg."""
+    moment: str = "N*m"
+    """Unit of the moments, for example kN*m."""
+
+
+class TableLaw(LawKeys):
+    """Measured or computed curve of moment against rotation, straight between its points."""
+
+    type: Literal["table"] = "table"
+    """Kind of law."""
+    file: Annotated[FileName | None, Field(exclude=True)] = None
+    """CSV file with one head such as `rotation [deg], moment [kN*m]`; relative to the input file."""
+    rotation: Angles = ()
+    """Rotations, increasing from 0, in place of a file."""
+    moment: Moments = ()
+    """Moment at each rotation."""
+    negative_file: Annotated[FileName | None, Field(exclude=True)] = None
+    """CSV file of the negative sense, as positive numbers; without it as in the positive sense."""
+    negative_rotation: Angles | None = None
+    """Rotations of the negative sense."""
+    negative_moment: Moments | None = None
+    """Moments of the negative sense."""
+    units: Annotated[ColumnUnits | None, Field(exclude=True)] = None
+    """Units of plain numbers in the lists."""
+    remove_elastic: bool = False
+    """Whether to take out the elastic rise with which a test starts."""
+    static: bool = True
+    """Whether the test was slow; a dynamic one already holds its rate effect."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _embedded(cls, given: Any, info: ValidationInfo) -> Any:
+        """Read the curve files, so that the law carries points and not paths."""
+        if not isinstance(given, dict):
+            return given
+        directory = Path((info.context or {}).get("directory", "."))
+        given = with_curve_read(given, directory)
+        return with_units(with_curve_read(given, directory, "negative_"))
+
+
+class KecmanLaw(LawKeys):
+    """Kecman-type mechanism of a rectangular tube."""
+
+    type: Literal["kecman"] = "kecman"
+    """Kind of law."""
+    rolling_weight: RollingWeight = 1.0
+    """Weight of the second rolling line of each web."""
+    start: Literal["cap", "parabola"] = "cap"
+    """Start of the curve: the largest moment until the mechanism falls below it, or a parabola tangent to it."""
+    after_jamming: Literal["second_fold", "stop", "hold"] = "second_fold"
+    """What follows when the walls touch: a further fold in series, an elastic stop, or the moment held."""
+
+
+class WierzbickiLaw(LawKeys):
+    """Closed form of a square tube after Wierzbicki and others (1994)."""
+
+    type: Literal["wierzbicki"] = "wierzbicki"
+    """Kind of law."""
+    equivalent_side: PositiveLength | None = None
+    """Mid-line side of the square tube that stands for a rectangular one."""
+    after_jamming: Literal["second_fold", "stop", "hold"] = "second_fold"
+    """What follows when the walls touch: a further fold in series, an elastic stop, or the moment held."""
+
+
+LawSpec = Annotated[
+    Annotated[ConstantLaw, Tag("(type=constant)")]
+    | Annotated[TableLaw, Tag("(type=table)")]
+    | Annotated[KecmanLaw, Tag("(type=kecman)")]
+    | Annotated[WierzbickiLaw, Tag("(type=wierzbicki)")],
+    Discriminator(type_tag),
+]
+"""Any law; ``type`` says which."""
+
+LAW_SPECS: dict[str, type[LawKeys]] = {
+    "constant": ConstantLaw,
+    "table": TableLaw,
+    "kecman": KecmanLaw,
+    "wierzbicki": WierzbickiLaw,
+}
+"""Laws by type; a reference to one of these names means the law with its defaults."""
+
+
+def _reference_tag(given: Any) -> str:
+    return "(name)" if isinstance(given, str | int) else type_tag(given)
+
+
+LawReference = Annotated[
+    Annotated[Name, Tag("(name)")]
+    | Annotated[ConstantLaw, Tag("(type=constant)")]
+    | Annotated[TableLaw, Tag("(type=table)")]
+    | Annotated[KecmanLaw, Tag("(type=kecman)")]
+    | Annotated[WierzbickiLaw, Tag("(type=wierzbicki)")],
+    Discriminator(_reference_tag),
+]
+"""A law, or the name of one in ``hinge_laws``, or the name of a law type."""

@@ -1,0 +1,107 @@
+"""Members: straight thin-walled bars between two nodes, and the hinges in them."""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema, field_validator
+
+from crumple.structure.law import LawReference
+from crumple.structure.quantity import LENGTH, Angle, Direction, Length
+from crumple.structure.spec import Name, Spec, refuse
+
+BendingAxis = Literal["y", "z"]
+"""Section axis that the moment vector of a hinge lies along."""
+MOST_BARS = 10_000
+"""Bars in one member; more is a slip of the pen and would fill the memory."""
+
+_DISTANCE = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)\s*([eE][+-]?\d+)?\s*\D")
+
+
+def _place(given: Any, info: ValidationInfo) -> str | float:
+    """A name stays a name; a number, or a text that starts like one with a unit, is a distance."""
+    in_file = bool(info.context and info.context.get("file"))
+    if isinstance(given, int) and not isinstance(given, bool) and in_file and given != 0:
+        return str(given)
+    if isinstance(given, str) and not _DISTANCE.match(given):
+        if not given or len(given) > 64:
+            refuse(
+                "this is neither a node nor a distance",
+                allowed="a node of the member, or a distance: '300 mm'",
+            )
+        return given
+    return LENGTH.value_of(given, info)  # type: ignore[return-value]
+
+
+Place = Annotated[
+    str | float,
+    BeforeValidator(_place),
+    WithJsonSchema(
+        {"type": ["string", "number"], "description": "a node of the member, or a distance: '300 mm'"}
+    ),
+]
+"""A node of the member (text), or a distance from its first node [m]."""
+
+
+class Hinge(Spec):
+    """Plastic hinge at a place of a member."""
+
+    name: Name
+    """Name, unique in the structure; its channels are `hinge.NAME.rotation` and so on."""
+    at: Place
+    """A node of the member, or the distance from its first node."""
+    offset: Length | None = None
+    """Shift from that place into the member (from a distance: towards the second node);
+    without it half a fold length at a clamp, else 0."""
+    axis: BendingAxis = "y"
+    """Section axis that the moment vector lies along."""
+    law: LawReference | None = None
+    """Name of a hinge law or of a law type, or a law itself; without it the section's default (kecman for
+    rectangular tubes)."""
+
+
+class Bars(Spec):
+    """Division of a member into equal rigid bars, with a hinge between neighbours."""
+
+    number: Annotated[int, Field(ge=1, le=MOST_BARS, strict=True)] = 1
+    """How many bars; the hinge after bar i is named MEMBER-i."""
+    axis: BendingAxis = "y"
+    """Section axis of these hinges' moment vector."""
+    law: LawReference | None = None
+    """Law of these hinges; without it the section's default."""
+
+
+class Member(Spec):
+    """Straight bar of one section and one material between two nodes.
+
+    Local x runs from the first node to the second.  Local z is the part of `up` across x, local y is
+    z cross x; then both are turned by `roll` about x.  Section coordinates are local (y, z).
+    """
+
+    nodes: tuple[Name, Name]
+    """First and second node."""
+    section: Name
+    """Name of its section."""
+    material: Name
+    """Name of its material."""
+    roll: Angle = 0.0
+    """Turns the section about local x; 90 deg sets it upright."""
+    up: Direction | None = None
+    """Direction whose part across the member is local z; without it global z, or global x for a member along z."""
+    bars: Bars = Bars()
+    """Equal rigid bars with hinges between them; a plain number stands for `{number: ...}`."""
+    hinges: tuple[Hinge, ...] = ()
+    """Further hinges."""
+
+    @field_validator("bars", mode="before")
+    @classmethod
+    def _number_of_bars(cls, given: Any) -> Any:
+        return {"number": given} if isinstance(given, int) and not isinstance(given, bool) else given
+
+    @field_validator("up", mode="after")
+    @classmethod
+    def _not_zero(cls, up: Direction | None) -> Direction | None:
+        if up is not None and not any(up):
+            refuse("the direction is zero", allowed="a direction such as [0, 0, 1]")
+        return up

@@ -1,0 +1,99 @@
+"""Where the structure is held, how it is driven, and how it moves at the start."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import field_validator, model_validator
+
+from crumple.structure.quantity import AngularVelocity, Direction, Position, Velocity
+from crumple.structure.spec import Name, Spec, refuse
+from crumple.structure.time_function import AngleFunction, LengthFunction
+
+Freedom = Literal["x", "y", "z", "rx", "ry", "rz"]
+"""Displacement along, or rotation about, a global axis."""
+FREEDOMS: tuple[Freedom, ...] = ("x", "y", "z", "rx", "ry", "rz")
+
+
+class Motion(Spec):
+    """Prescribed motion from the start position, each as a function of time that starts from 0."""
+
+    x: LengthFunction | None = None
+    """Displacement along x."""
+    y: LengthFunction | None = None
+    """Displacement along y."""
+    z: LengthFunction | None = None
+    """Displacement along z."""
+    rx: AngleFunction | None = None
+    """Rotation about x."""
+    ry: AngleFunction | None = None
+    """Rotation about y."""
+    rz: AngleFunction | None = None
+    """Rotation about z."""
+
+
+class Support(Spec):
+    """Holds or drives a node."""
+
+    node: Name
+    """Node that it holds."""
+    fix: Literal["all", "pin"] | tuple[Freedom, ...] = ()
+    """What is held: all (a clamp), pin (displacements, not rotations), or a list of x, y, z, rx, ry, rz."""
+    motion: Motion = Motion()
+    """What is driven in place of being held."""
+
+    @field_validator("fix", mode="before")
+    @classmethod
+    def _known(cls, given: object) -> object:
+        if isinstance(given, str) and given not in {"all", "pin"}:
+            given = [given]
+        if isinstance(given, list | tuple):
+            wrong = [part for part in given if part not in FREEDOMS]
+            if wrong:
+                refuse(f"'{wrong[0]}' cannot be held", allowed="all, pin, or a list of x, y, z, rx, ry, rz")
+            return tuple(given)
+        return given
+
+    @model_validator(mode="after")
+    def _holds_something(self) -> Support:
+        driven = self.motion.model_fields_set
+        if not self.held and not driven:
+            refuse("the support holds nothing", todo="add 'fix' or 'motion'")
+        if isinstance(self.fix, tuple) and driven & set(self.fix):
+            refuse(
+                "the same freedom is held and driven", key="motion", todo="name it in 'fix' or in 'motion'"
+            )
+        return self
+
+    @property
+    def held(self) -> tuple[Freedom, ...]:
+        """Freedoms that are held at zero: those of `fix` that are not driven."""
+        named = (
+            {"all": FREEDOMS, "pin": FREEDOMS[:3]}.get(self.fix) if isinstance(self.fix, str) else self.fix
+        )
+        return tuple(freedom for freedom in named or () if freedom not in self.motion.model_fields_set)
+
+
+class InitialVelocity(Spec):
+    """Rigid velocity field at the start: v = translation + rotation * axis x (position - about)."""
+
+    translation: tuple[Velocity, Velocity, Velocity] = (0.0, 0.0, 0.0)
+    """Velocity of translation."""
+    rotation: AngularVelocity = 0.0
+    """Angular velocity about `axis` through `about`."""
+    about: Position = (0.0, 0.0, 0.0)
+    """Point on the axis of rotation."""
+    axis: Direction | None = None
+    """Direction of the axis of rotation, right-handed; of any length."""
+    nodes: tuple[Name, ...] | None = None
+    """Only these nodes; without `nodes` and `members` the whole structure."""
+    members: tuple[Name, ...] | None = None
+    """Only these members."""
+
+    @model_validator(mode="after")
+    def _complete(self) -> InitialVelocity:
+        if self.axis is not None and not any(self.axis):
+            refuse("the axis is zero", key="axis", allowed="a direction such as [0, -1, 0]")
+        if self.rotation and self.axis is None:
+            refuse("a rotation needs an axis", key="rotation", todo="add 'axis', for example [0, -1, 0]")
+        return self

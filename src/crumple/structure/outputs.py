@@ -1,0 +1,49 @@
+"""What a run reports."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from crumple.structure.mapping import FrozenMapping
+from crumple.structure.quantity import NonNegativeLength, NonNegativeTime, PositiveTime
+from crumple.structure.spec import Name, Named, Spec
+
+MOST_PICTURES = 1000
+"""Stored shapes of one run."""
+
+
+class SectionRotation(Spec):
+    """Rotation of one section of a member relative to another."""
+
+    member: Name
+    """Member."""
+    start: Annotated[NonNegativeLength, Field(alias="from")] = 0.0
+    """Distance of the first section from the member's first node."""
+    end: Annotated[NonNegativeLength, Field(alias="to")]
+    """Distance of the second section from the member's first node."""
+
+
+class Filter(Spec):
+    """A channel passed through a channel frequency class of SAE J211 / ISO 6487."""
+
+    channel: Annotated[str, Field(min_length=1, max_length=200)]
+    """Name of the channel, for example node.tip.acceleration.z."""
+    cfc: Literal[60, 180, 600, 1000]
+    """Channel frequency class."""
+
+
+class Outputs(Spec):
+    """What a run reports; the hinges' quantities and the energies are always there."""
+
+    every: PositiveTime | None = None
+    """Interval of the histories; without it a 200th of the duration."""
+    nodes: tuple[Name, ...] = ()
+    """Nodes whose displacement, velocity, acceleration and rotation are reported."""
+    section_rotations: Named[SectionRotation] = FrozenMapping()
+    """Relative rotations between two sections of a member, by channel name."""
+    filters: Named[Filter] = FrozenMapping()
+    """Filtered channels, by the name of the new channel."""
+    pictures: Annotated[tuple[NonNegativeTime, ...], Field(max_length=MOST_PICTURES)] = ()
+    """Times at which the deformed shape is stored and drawn."""

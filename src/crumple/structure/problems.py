@@ -1,0 +1,203 @@
+"""pydantic's refusals in the words of `crumple.errors.Problem`: what came, what is allowed, what to do."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from types import UnionType
+from typing import Annotated, Any, Union, get_args, get_origin
+
+from pydantic import BaseModel, ValidationError
+
+from crumple.errors import Problem
+
+Place = tuple[str | int, ...]
+LONGEST_SHOWN = 60
+"""Characters of a refused value that a message repeats; a longer one is cut."""
+_MEANT = re.compile(r"did you mean '([^']*)'")
+_TAG = re.compile(r"\(type=([^)]*)\)")
+
+
+def problems_of(error: ValidationError, model: type[BaseModel] | None = None) -> list[Problem]:
+    """Problems of one pydantic error, without file and line.
+
+    Parameters
+    ----------
+    error
+        As raised by ``model``'s validation.
+    model
+        The validated model; names the keys that would have been allowed.
+    """
+    return [problem for _, problem in placed_problems(error, model)]
+
+
+def placed_problems(
+    error: ValidationError, model: type[BaseModel] | None = None
+) -> list[tuple[Place, Problem]]:
+    """Problems with their place as a path of keys and indices, tags of alternatives left out."""
+    placed: list[tuple[Place, Problem]] = []
+    for details in error.errors(include_url=False):
+        place = tuple(part for part in details["loc"] if not _is_internal(part))
+        context = details.get("ctx", {})
+        if context.get("key"):
+            place = (*place, context["key"])
+        if context.get("problems"):
+            inner = [(problem, (*place, *path_of(problem.where))) for problem in context["problems"]]
+            placed += [(path, replace(problem, where=spelled(path))) for problem, path in inner]
+            continue
+        keys = _keys(model, details["loc"][:-1]) if details["type"] == "extra_forbidden" else []
+        problem = _problem(str(details["type"]), details["msg"], details["input"], context, place, keys)
+        placed.append((place, problem))
+    # a misspelt key and the missing one that it stands for are one mistake
+    meant = {(*place[:-1], key) for place, problem in placed for key in _MEANT.findall(problem.todo)}
+    return [
+        (place, problem) for place, problem in placed if place not in meant or "missing" not in problem.what
+    ]
+
+
+def path_of(where: str) -> Place:
+    """Keys and indices of a path such as ``sum[0].step.x0``."""
+    parts = re.findall(r"[^.\[\]]+", where)
+    return tuple(int(part) if part.isdigit() else part for part in parts)
+
+
+def spelled(place: Iterable[str | int]) -> str:
+    """Path as people write it: ``members.tube.hinges[0].law``."""
+    text = ""
+    for part in place:
+        text += f"[{part}]" if isinstance(part, int) else f"{'.' if text else ''}{shown(part)}"
+    return text
+
+
+def shown(value: object) -> str:
+    """A refused value, short and on one line."""
+    if isinstance(value, float | int | str):
+        text = str(value)
+    elif isinstance(value, Mapping):
+        text = "{" + ", ".join(str(key)[:20] for key in list(value)[:8]) + "}"
+    elif isinstance(value, Sequence):
+        text = f"a list of {len(value)}"
+    else:
+        text = "nothing" if value is None else type(value).__name__
+    text = "".join(character if character.isprintable() else "?" for character in text[: LONGEST_SHOWN + 1])
+    return text if len(text) <= LONGEST_SHOWN else text[:LONGEST_SHOWN] + "..."
+
+
+def suggestion(name: object, known: Iterable[str]) -> str:
+    """Closest known name as ``did you mean 'x'?``; empty where none is close."""
+    names = list(known)
+    close = difflib.get_close_matches(str(name)[:64], names, n=1, cutoff=0.6)
+    return f"did you mean '{close[0]}'?" if close else ""
+
+
+def one_of(names: Iterable[str]) -> str:
+    """``one of a, b, c``, shortened to twelve."""
+    listed = list(names)
+    if not listed:
+        return "none is defined"
+    more = f" and {len(listed) - 12} more" if len(listed) > 12 else ""
+    return ("one of " if len(listed) > 1 else "") + ", ".join(listed[:12]) + more
+
+
+def _is_internal(part: str | int) -> bool:
+    """Whether a part of pydantic's path is a label of an alternative and not a key."""
+    return isinstance(part, str) and (part.startswith("(") or part == "[key]")
+
+
+def _problem(
+    kind: str, message: str, value: Any, context: Mapping[str, Any], place: Place, keys: Sequence[str]
+) -> Problem:
+    where = spelled(place)
+    came = shown(value)
+    key = str(place[-1]) if place else ""
+    if kind in {"refused", "quantity"}:
+        todo = context.get("todo", "")
+        return Problem(context["what"], context.get("came") or came, context.get("allowed", ""), todo, where)
+    if kind == "extra_forbidden":
+        todo = suggestion(key, keys) or "remove it or correct its spelling"
+        return Problem(f"unknown key '{shown(key)}'", came, one_of(keys) if keys else "", todo, where)
+    if kind == "missing":
+        return Problem(f"the key '{key}' is missing", todo=f"add '{key}'", where=where)
+    if kind in {"union_tag_invalid", "union_tag_not_found"}:
+        names = _TAG.findall(str(context.get("expected_tags", "")))
+        tag = (_TAG.findall(str(context.get("tag", ""))) or [""])[0]
+        if not isinstance(value, Mapping):
+            return Problem(
+                "a group of keys is needed here", came, "keys with values, 'type' among them", "", where
+            )
+        what = f"unknown type '{shown(tag)}'" if tag else "the key 'type' is missing"
+        return Problem(what, shown(tag), one_of(names), suggestion(tag, names), where)
+    if kind in {"literal_error", "enum"}:
+        names = re.findall(r"'([^']*)'", str(context.get("expected", "")))
+        return Problem(
+            "this is none of the known words", came, one_of(names), suggestion(value, names), where
+        )
+    what, allowed = _WORDS.get(kind, (message, ""))
+    return Problem(what, came, allowed.format_map(_Blank(context)), "", where)
+
+
+_WORDS: dict[str, tuple[str, str]] = {
+    "model_type": ("a group of keys is needed here", "keys with values"),
+    "model_attributes_type": ("a group of keys is needed here", "keys with values"),
+    "dict_type": ("a group of named entries is needed here", "names with values"),
+    "mapping_type": ("a group of named entries is needed here", "names with values"),
+    "tuple_type": ("a list is needed here", "a list in brackets"),
+    "list_type": ("a list is needed here", "a list in brackets"),
+    "string_type": ("a text is needed here", "a text"),
+    "string_too_long": ("the text is too long", "at most {max_length} characters"),
+    "string_too_short": ("the text is too short", "at least {min_length} characters"),
+    "int_type": ("a whole number is needed here", "a whole number"),
+    "int_from_float": ("a whole number is needed here", "a whole number"),
+    "int_parsing": ("a whole number is needed here", "a whole number"),
+    "greater_than_equal": ("the number is too small", "at least {ge}"),
+    "less_than_equal": ("the number is too large", "at most {le}"),
+    "too_long": ("the list is too long", "at most {max_length} entries"),
+    "too_short": ("the list is too short", "at least {min_length} entries"),
+    "recursion_loop": ("the description contains itself", ""),
+}
+
+
+class _Blank(dict[str, Any]):
+    """Context of a message in which an unknown key reads "?"."""
+
+    def __missing__(self, key: str) -> str:
+        return "?"
+
+
+def _keys(model: type[BaseModel] | None, place: Place) -> list[str]:
+    """Keys that the models reached by pydantic's path would accept."""
+    reached: list[Any] = [model]
+    for part in place:
+        reached = [deeper for kind in reached for deeper in _below(kind, part)]
+    names = [field.alias or name for kind in _models(reached) for name, field in kind.model_fields.items()]
+    return list(dict.fromkeys(names))
+
+
+def _below(kind: Any, part: str | int) -> list[Any]:
+    """Annotations that one step of a path leads to."""
+    if isinstance(kind, type) and issubclass(kind, BaseModel):
+        fields = kind.model_fields.items()
+        return [field.annotation for name, field in fields if part in {name, field.alias}]
+    if isinstance(part, str) and part.startswith("("):
+        return [model for model in _models([kind]) if _tag_of(model) == part]
+    if get_origin(kind) in {Annotated, Union, UnionType}:
+        return [deeper for argument in get_args(kind) for deeper in _below(argument, part)]
+    return list(get_args(kind))
+
+
+def _tag_of(model: type[BaseModel]) -> str:
+    field = model.model_fields.get("type")
+    return f"(type={field.default})" if field is not None else ""
+
+
+def _models(kinds: Iterable[Any]) -> list[type[BaseModel]]:
+    """Models named by annotations, looked for through Annotated and Union alone."""
+    found: list[type[BaseModel]] = []
+    for kind in kinds:
+        if isinstance(kind, type) and issubclass(kind, BaseModel):
+            found.append(kind)
+        elif get_origin(kind) in {Annotated, Union, UnionType}:
+            found += _models(get_args(kind))
+    return found

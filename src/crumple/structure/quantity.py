@@ -1,0 +1,215 @@
+"""Quantities of a description: plain SI floats inside, texts with units at the door.
+
+``Length``, ``Stress`` and the others are annotated floats.  In Python a plain float is taken as SI and a
+text is converted; in an input file a bare number is refused unless it is 0, because 50 may mean 50 mm.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, Literal
+
+from pydantic import GetJsonSchemaHandler, ValidationInfo
+from pydantic_core import CoreSchema, core_schema
+
+from crumple.structure.spec import refuse
+from crumple.units import QuantityError, parse_quantity
+
+LARGEST = 1e18
+"""Largest magnitude in SI; beyond it products overflow and no structure is that stiff, big or heavy."""
+SMALLEST = 1e-18
+"""Smallest magnitude in SI that is not zero; below it products underflow to a singular model."""
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """What a number measures and which values make sense.
+
+    Attributes
+    ----------
+    noun
+        With its article, for messages: "a length".
+    unit
+        SI unit, ``"1"`` for a plain number.
+    example
+        As an engineer would write it.
+    above, at_least, below, at_most
+        Bounds in SI; None where there is none.
+    words
+        Texts accepted in place of a number, such as "critical".
+    """
+
+    noun: str
+    unit: str
+    example: str
+    above: float | None = None
+    at_least: float | None = None
+    below: float | None = None
+    at_most: float | None = None
+    words: tuple[str, ...] = ()
+
+    def bounds(self) -> str:
+        """Bounds in words, such as ``more than 0``; empty without any."""
+        limits = (
+            ("more than", self.above),
+            ("at least", self.at_least),
+            ("less than", self.below),
+            ("at most", self.at_most),
+        )
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        texts = [f"{word} {limit:g}{unit if limit else ''}" for word, limit in limits if limit is not None]
+        return " and ".join(texts)
+
+    def allowed(self) -> str:
+        """What is accepted, in words."""
+        written = "a plain number" if self.unit == "1" else f"{self.noun} with its unit"
+        words = "".join(f", or {word}" for word in self.words)
+        return (
+            ", ".join(text for text in (f"{written}, for example {self.example}", self.bounds()) if text)
+            + words
+        )
+
+    def value_of(self, given: object, info: ValidationInfo) -> float | str:
+        """SI value of what was given, or one of the words; refuses what is not this quantity."""
+        if isinstance(given, str) and given in self.words:
+            return given
+        in_file = bool(info.context and info.context.get("file"))
+        value = self._number(given, in_file)
+        if not math.isfinite(value):
+            refuse("the number is not finite", allowed=self.allowed())
+        if value != 0.0 and not SMALLEST <= abs(value) <= LARGEST:
+            refuse("the number is beyond any structure", allowed=self.allowed(), todo="check its unit")
+        if not self._in_bounds(value):
+            refuse(f"the number is out of range: it must be {self.bounds()}", allowed=self.allowed())
+        return value
+
+    def _number(self, given: object, in_file: bool) -> float:
+        if isinstance(given, str):
+            if self.unit == "1":
+                refuse("a plain number is needed here, not a text", allowed=self.allowed())
+            try:
+                return parse_quantity(given, self.unit)
+            except QuantityError as error:
+                problem = error.problems[0]
+                refuse(problem.what, allowed=problem.allowed, todo=problem.todo)
+        if isinstance(given, bool) or not isinstance(given, int | float):
+            refuse(f"{self.noun} is needed here", allowed=self.allowed())
+        try:
+            value = float(given)
+        except OverflowError:
+            value = math.inf
+        if in_file and self.unit != "1" and value != 0.0 and math.isfinite(value):
+            refuse(
+                "the unit is missing",
+                allowed=self.allowed(),
+                todo=f"write the unit, for example {self.example}",
+            )
+        return value
+
+    def _in_bounds(self, value: float) -> bool:
+        return (
+            (self.above is None or value > self.above)
+            and (self.at_least is None or value >= self.at_least)
+            and (self.below is None or value < self.below)
+            and (self.at_most is None or value <= self.at_most)
+        )
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
+        return core_schema.with_info_plain_validator_function(self.value_of)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        if self.unit == "1":
+            bounds = {"exclusiveMinimum": self.above, "minimum": self.at_least}
+            bounds |= {"exclusiveMaximum": self.below, "maximum": self.at_most}
+            number = {"type": "number", **{key: limit for key, limit in bounds.items() if limit is not None}}
+            return {"anyOf": [number, {"enum": list(self.words)}]} if self.words else number
+        alternatives: list[dict[str, Any]] = [
+            {"type": "string", "pattern": r"^\s*[+-]?[0-9.]", "maxLength": 80}
+        ]
+        if self.words:
+            alternatives.append({"enum": list(self.words)})
+        if self._in_bounds(0.0):
+            alternatives.append({"const": 0})
+        bounds_text = f" ({self.bounds()})" if self.bounds() else ""
+        return {
+            "anyOf": alternatives,
+            "description": f"{self.noun} with its unit, for example '{self.example}'{bounds_text}",
+            "examples": [self.example],
+            "x-unit": self.unit,
+        }
+
+
+def _positive(dimension: Dimension) -> Dimension:
+    return replace(dimension, above=0.0)
+
+
+def _not_negative(dimension: Dimension) -> Dimension:
+    return replace(dimension, at_least=0.0)
+
+
+LENGTH = Dimension("a length", "m", "50 mm")
+MASS = Dimension("a mass", "kg", "6 kg")
+TIME = Dimension("a time", "s", "100 ms")
+ANGLE = Dimension("an angle", "rad", "90 deg")
+STRESS = Dimension("a stress", "Pa", "488 MPa")
+DENSITY = Dimension("a density", "kg/m^3", "7850 kg/m^3")
+VELOCITY = Dimension("a velocity", "m/s", "10 m/s")
+ACCELERATION = Dimension("an acceleration", "m/s^2", "-9.81 m/s^2")
+ANGULAR_VELOCITY = Dimension("an angular velocity", "rad/s", "15 rad/s")
+FORCE = Dimension("a force", "N", "5 kN")
+MOMENT = Dimension("a moment", "N*m", "1.2 kN*m")
+IMPULSE = Dimension("an impulse", "N*s", "5 N*s")
+ANGULAR_IMPULSE = Dimension("an angular impulse", "N*m*s", "5 N*m*s")
+ROTARY_INERTIA = Dimension("a rotary inertia", "kg*m^2", "0.1 kg*m^2")
+ROTATIONAL_STIFFNESS = Dimension("a rotational stiffness", "N*m/rad", "20 kN*m/rad")
+ROTATIONAL_DAMPING = Dimension("a rotational damping", "N*m*s/rad", "2 kN*m*s/rad")
+RATE = Dimension("a strain rate", "1/s", "40.4 1/s")
+NUMBER = Dimension("a number", "1", "0.5")
+
+Length = Annotated[float, LENGTH]
+PositiveLength = Annotated[float, _positive(LENGTH)]
+NonNegativeLength = Annotated[float, _not_negative(LENGTH)]
+NonNegativeMass = Annotated[float, _not_negative(MASS)]
+Time = Annotated[float, TIME]
+PositiveTime = Annotated[float, _positive(TIME)]
+NonNegativeTime = Annotated[float, _not_negative(TIME)]
+Angle = Annotated[float, ANGLE]
+PositiveAngle = Annotated[float, _positive(ANGLE)]
+NonNegativeAngle = Annotated[float, _not_negative(ANGLE)]
+Stress = Annotated[float, STRESS]
+PositiveStress = Annotated[float, _positive(STRESS)]
+PositiveDensity = Annotated[float, _positive(DENSITY)]
+Velocity = Annotated[float, VELOCITY]
+Acceleration = Annotated[float, ACCELERATION]
+AngularVelocity = Annotated[float, ANGULAR_VELOCITY]
+PositiveAngularVelocity = Annotated[float, _positive(ANGULAR_VELOCITY)]
+Force = Annotated[float, FORCE]
+Moment = Annotated[float, MOMENT]
+PositiveMoment = Annotated[float, _positive(MOMENT)]
+Impulse = Annotated[float, IMPULSE]
+AngularImpulse = Annotated[float, ANGULAR_IMPULSE]
+NonNegativeRotaryInertia = Annotated[float, _not_negative(ROTARY_INERTIA)]
+PositiveRotationalStiffness = Annotated[float, _positive(ROTATIONAL_STIFFNESS)]
+NonNegativeRotationalDamping = Annotated[float, _not_negative(ROTATIONAL_DAMPING)]
+StiffnessOrAuto = Annotated[
+    float | Literal["auto"], replace(_positive(ROTATIONAL_STIFFNESS), words=("auto",))
+]
+DampingOrCritical = Annotated[
+    float | Literal["critical"], replace(_not_negative(ROTATIONAL_DAMPING), words=("critical",))
+]
+PositiveRate = Annotated[float, _positive(RATE)]
+Number = Annotated[float, NUMBER]
+PositiveNumber = Annotated[float, _positive(NUMBER)]
+NonNegativeNumber = Annotated[float, _not_negative(NUMBER)]
+RateExponent = Annotated[float, replace(NUMBER, example="5", at_least=1.0)]
+StopExponent = RateExponent
+RollingWeight = Annotated[float, replace(NUMBER, example="0.5", at_least=0.0, at_most=1.0)]
+PoissonsRatio = Annotated[float, replace(NUMBER, example="0.3", at_least=0.0, below=0.5)]
+Accuracy = Annotated[float, replace(NUMBER, example="1e-3", at_least=1e-12, at_most=0.1)]
+Fraction = Annotated[float, replace(NUMBER, example="0.01", above=0.0, at_most=1.0)]
+
+Position = tuple[Length, Length, Length]
+Direction = tuple[Number, Number, Number]

@@ -1,0 +1,103 @@
+"""What every part of a description has in common: frozen, strict about names, clear when it refuses.
+
+A part is a pydantic model whose attribute names are the keys of the input file.  Built in Python it takes
+plain SI floats or texts with a unit; read from a file (validation context ``{"file": True}``) a bare number
+without a unit is refused.  Either way a refusal is one `InputError` that holds every problem found.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, NoReturn, TypeVar
+
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    StringConstraints,
+    ValidationError,
+)
+from pydantic_core import PydanticCustomError
+
+from crumple.errors import InputError, Problem
+from crumple.structure.mapping import frozen
+from crumple.structure.problems import problems_of
+
+
+class _Refusing(type(BaseModel)):  # type: ignore[misc]
+    """Turns pydantic's error into `InputError` where a part is built by hand.
+
+    pydantic validates nested parts without calling the class, so inside a larger part every problem
+    still reaches the outermost call.
+    """
+
+    def __call__(cls, *args: Any, **kwargs: Any) -> Any:
+        try:
+            return super().__call__(*args, **kwargs)
+        except ValidationError as error:
+            raise InputError(problems_of(error, cls)) from None
+
+
+class Spec(BaseModel, metaclass=_Refusing):
+    """Base of every part: frozen, unknown keys refused."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True, validate_default=False)
+
+
+def refuse(what: str, *, allowed: str = "", todo: str = "", key: str = "", problems: Any = None) -> NoReturn:
+    """Refuse a value from inside a validator.
+
+    Parameters
+    ----------
+    what
+        The mistake in one sentence.
+    allowed, todo
+        As in `crumple.errors.Problem`.
+    key
+        Name of the part's key that is to blame, where the validator sees the whole part.
+    problems
+        Ready problems that replace this one, such as the bad rows of a curve file.
+    """
+    context = {"what": what, "allowed": allowed, "todo": todo, "key": key, "problems": problems or []}
+    raise PydanticCustomError("refused", "{what}", context)
+
+
+def type_tag(given: Any) -> str:
+    """Label of the alternative that the key ``type`` of a part chooses, as pydantic's path shows it."""
+    kind = given.get("type", "") if isinstance(given, Mapping) else getattr(given, "type", "")
+    return f"(type={kind})"
+
+
+def _text_of_number(value: Any) -> Any:
+    """Names may be numbers in a file: node 12 is the node named "12"."""
+    return str(value) if isinstance(value, int) and not isinstance(value, bool) else value
+
+
+def _name(value: Any) -> Any:
+    value = _text_of_number(value)
+    if (
+        not isinstance(value, str)
+        or not value.replace("-", "_").replace("_", "a").isalnum()
+        or len(value) > 64
+    ):
+        refuse(
+            "this is not a name",
+            allowed="letters, digits, '_' and '-', at most 64",
+            todo="choose another name",
+        )
+    return value
+
+
+Name = Annotated[str, BeforeValidator(_name), StringConstraints(min_length=1, max_length=64)]
+"""Name of a part: letters, digits, ``_`` and ``-``; a dot separates the parts of a channel name."""
+
+Part = TypeVar("Part")
+Named = Annotated[Mapping[Name, Part], AfterValidator(frozen)]
+"""Named parts, frozen, in the order of the input."""
+
+
+def raise_all(problems: list[Problem]) -> None:
+    """Raise one `InputError` with every problem; nothing when there is none."""
+    if problems:
+        raise InputError(problems)

@@ -1,0 +1,81 @@
+"""What the engineer describes, once, for every solver."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from pydantic import ValidationInfo, model_validator
+
+from crumple.material import Material
+from crumple.section import Section
+from crumple.structure.geometry import Frame, frame_of
+from crumple.structure.law import LawSpec
+from crumple.structure.load import Load, Mass, NodalImpulse
+from crumple.structure.mapping import FrozenMapping
+from crumple.structure.material import MaterialSpec
+from crumple.structure.member import Member
+from crumple.structure.motion import InitialVelocity, Support
+from crumple.structure.quantity import Acceleration, Position
+from crumple.structure.section import SectionSpec
+from crumple.structure.spec import Named, Spec, raise_all
+
+
+class Structure(Spec):
+    """Nodes joined by members, held by supports, loaded by masses and motion.
+
+    Every part is plain data in SI; ``section``, ``material`` and ``frame`` give what follows from it.
+    """
+
+    materials: Named[MaterialSpec] = FrozenMapping()
+    """Materials by name."""
+    sections: Named[SectionSpec] = FrozenMapping()
+    """Cross-sections by name."""
+    nodes: Named[Position] = FrozenMapping()
+    """Positions by node name."""
+    members: Named[Member] = FrozenMapping()
+    """Members by name."""
+    hinge_laws: Named[LawSpec] = FrozenMapping()
+    """Hinge laws by name."""
+    supports: Named[Support] = FrozenMapping()
+    """Supports by name."""
+    masses: Named[Mass] = FrozenMapping()
+    """Lumped masses by name."""
+    initial_velocity: tuple[InitialVelocity, ...] = ()
+    """Velocity fields at the start; they add up."""
+    impulses: tuple[NodalImpulse, ...] = ()
+    """Impulses at the start."""
+    loads: tuple[Load, ...] = ()
+    """Forces and moments."""
+    gravity: tuple[Acceleration, Acceleration, Acceleration] = (0.0, 0.0, 0.0)
+    """Acceleration of free fall."""
+
+    @model_validator(mode="after")
+    def _sound(self, info: ValidationInfo) -> Structure:
+        """Refuse what cannot be solved, every problem at once; a file's reader does so itself, with lines."""
+        if not (info.context and info.context.get("file")):
+            from crumple.structure.checks import problems_in  # noqa: PLC0415  (checks import this class)
+
+            raise_all(problems_in(self))
+        return self
+
+    def section_of(self, member: str) -> Section:
+        """Cross-section of a member."""
+        return self._sections[self.members[member].section]
+
+    def material_of(self, member: str) -> Material:
+        """Material of a member."""
+        return self._materials[self.members[member].material]
+
+    def frame_of(self, member: str) -> Frame:
+        """Origin, axes and length of a member at the start."""
+        spec = self.members[member]
+        first, second = (self.nodes[name] for name in spec.nodes)
+        return frame_of(first, second, up=spec.up, roll=spec.roll)
+
+    @cached_property
+    def _sections(self) -> dict[str, Section]:
+        return {name: spec.section() for name, spec in self.sections.items()}
+
+    @cached_property
+    def _materials(self) -> dict[str, Material]:
+        return {name: spec.material(name) for name, spec in self.materials.items()}
