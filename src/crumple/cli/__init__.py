@@ -1,1 +1,1 @@
-"""The cli room."""
+"""The command line: one file per verb, `main` only wires."""

@@ -1,0 +1,5 @@
+"""`python -m crumple` is the command `crumple`."""
+
+from crumple.cli.main import main
+
+main()

@@ -1,0 +1,175 @@
+"""`crumple hinge SECTION --material ...`: collapse laws of a section, printed and drawn side by side."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from crumple.cli.named import MATERIAL_HELP, SECTION_HELP
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from crumple.function.transition import Floats
+    from crumple.hinge import HingeLaw
+    from crumple.material import Material
+    from crumple.section import Axis, Section
+
+ROTATIONS = (0, 1, 2, 5, 10, 15, 20, 25, 30, 40, 50, 60, 75, 90)
+"""Rotations of the table [deg]; those up to the largest asked for."""
+LARGEST_CURVE = 2_000_000
+"""Bytes of a measured curve."""
+LARGEST = 3.1416
+"""Largest rotation shown [rad]: half a turn, with room for rounding."""
+
+
+def hinge(
+    section: Annotated[str, typer.Argument(help=SECTION_HELP, show_default=False)],
+    material: Annotated[str, typer.Option(help=MATERIAL_HELP, show_default=False)],
+    axis: Annotated[
+        str, typer.Option(help="Bending axis y or z, along the moment vector; y compresses the width.")
+    ] = "y",
+    law: Annotated[
+        list[str] | None,
+        typer.Option(help="Law to show; repeat for several. Without it every law that fits."),
+    ] = None,
+    curve: Annotated[
+        list[Path] | None, typer.Option(help="CSV of a measured curve: rotation [deg], moment [N*m]; repeat.")
+    ] = None,
+    to: Annotated[str, typer.Option(help="Largest rotation.")] = "45 deg",
+    figure: Annotated[Path | None, typer.Option(help="Write the drawing to this SVG file too.")] = None,
+) -> None:
+    """Print and draw collapse laws of a section side by side: moment against rotation, source and range."""
+    import numpy as np
+    from rich.console import Console
+
+    from crumple.cli.named import material_of, section_of
+    from crumple.section.section import checked_axis
+
+    shape = section_of(section)
+    metal, assumed = material_of(material)
+    rotation = np.linspace(0.0, _largest(to), 500)
+    laws, left_out = _laws(shape, metal, checked_axis(axis), law)
+    laws |= _measured(shape, metal, checked_axis(axis), curve or [])
+    title = f"{shape.title}, bending about {axis}"
+    console = Console(highlight=False)
+    console.print(title, style="bold")
+    _show_table(console, laws, float(rotation[-1]))
+    _show_chart(console, laws, rotation)
+    _show_sources(console, laws)
+    for note in [*left_out, *(f"Assumed: {text}" for text in assumed)]:
+        console.print(note, style="dim", markup=False)
+    if figure is not None:
+        from crumple.cli.law_figure import law_figure
+
+        figure.write_text(law_figure(laws, rotation, title), encoding="utf-8")
+        console.print(f"Figure: {figure}", soft_wrap=True, markup=False)
+
+
+def _largest(text: str) -> float:
+    from crumple.errors import InputError, Problem
+    from crumple.units import parse_quantity
+
+    rotation = parse_quantity(text, "rad")
+    if not 0.0 < rotation <= LARGEST:
+        raise InputError(
+            Problem("the largest rotation is out of range", text, "above 0 deg, at most 180 deg")
+        )
+    return rotation
+
+
+def _laws(
+    shape: Section, metal: Material, axis: Axis, wanted: list[str] | None
+) -> tuple[dict[str, HingeLaw], list[str]]:
+    """Laws to show, and a sentence for each that does not fit; one asked for by name must fit."""
+    from crumple.errors import InputError
+    from crumple.hinge import build_law, law_types
+
+    if wanted:
+        return {name: build_law(name, shape, metal, axis) for name in wanted}, []
+    laws: dict[str, HingeLaw] = {}
+    left_out = []
+    for name in law_types():
+        if name == "table":
+            continue
+        try:
+            laws[name] = build_law(name, shape, metal, axis)
+        except InputError as error:
+            left_out.append(f"Not shown: {name}, {error.problems[0].what}")
+    return laws, left_out
+
+
+def _measured(shape: Section, metal: Material, axis: Axis, files: list[Path]) -> dict[str, HingeLaw]:
+    """Measured curves as laws, by the names of their files."""
+    from crumple.errors import InputError, Problem
+    from crumple.hinge import build_law, read_table
+
+    laws = {}
+    for file in files:
+        if file.stat().st_size > LARGEST_CURVE:
+            raise InputError(Problem("the curve file is too large", str(file), f"{LARGEST_CURVE / 1e6:g} MB"))
+        rotation, moment = read_table(file.read_text(encoding="utf-8", errors="replace"), str(file))
+        laws[file.name] = build_law("table", shape, metal, axis, rotation=rotation, moment=moment)
+    return laws
+
+
+def _show_table(console: Console, laws: dict[str, HingeLaw], largest: float) -> None:
+    import numpy as np
+    from rich.markup import escape
+    from rich.table import Table
+
+    from crumple.units import format_quantity, unit_factor
+
+    rows = [angle for angle in ROTATIONS if np.deg2rad(angle) < largest * (1.0 - 1e-9)]
+    angles = np.array([*rows, np.rad2deg(largest)])
+    moments = np.array([entry.moment_capacity(np.deg2rad(angles)) for entry in laws.values()])
+    # one unit for the whole table, that of its largest moment
+    unit = format_quantity(float(moments.max()), "N*m").partition(" ")[2]
+    table = Table()
+    table.add_column("Rotation, deg", justify="right")
+    for name in laws:
+        table.add_column(escape(f"{name}, {unit}"), justify="right")
+    for angle, row in zip(angles, moments.T / unit_factor(unit, "N*m"), strict=True):
+        table.add_row(f"{angle:g}", *(f"{moment:.4g}" for moment in row))
+    console.print(table)
+
+
+def _show_chart(console: Console, laws: dict[str, HingeLaw], rotation: Floats) -> None:
+    from rich.text import Text
+
+    from crumple.cli.chart import COLOURS, MARKS, chart
+    from crumple.units import format_quantity
+
+    curves = [entry.moment_capacity(rotation) for entry in laws.values()]
+    top = max(float(curve.max()) for curve in curves)
+    ends = ("0", format_quantity(float(rotation[-1]), "rad"))
+    console.print(chart(rotation, curves, ends, format_quantity(top, "N*m")))
+    legend = Text()
+    for mark, colour, name in zip(MARKS, COLOURS, laws, strict=False):
+        legend.append(f"  {mark} {name}", style=colour)
+    console.print(legend)
+
+
+def _show_sources(console: Console, laws: dict[str, HingeLaw]) -> None:
+    from rich.text import Text
+
+    for name, entry in laws.items():
+        validity = entry.validity
+        console.print(Text(f"\n{name}: {entry.title}", style="bold"))
+        console.print(Text(f"Source: {entry.source.citation} ({entry.source.trust.value})"))
+        if entry.source.note:
+            console.print(Text(f"Note: {entry.source.note}"))
+        reach = "" if validity.rotation_max > LARGEST else f"up to {_angle(validity.rotation_max)}; "
+        console.print(Text(f"Range: {reach}{validity.basis}"))
+        if entry.jamming_angle is not None:
+            console.print(Text(f"Walls touch at {_angle(entry.jamming_angle)}"))
+        for warning in validity.warnings:
+            console.print(Text(f"Warning: {warning}", style="yellow"))
+
+
+def _angle(rotation: float) -> str:
+    from crumple.units import format_quantity
+
+    return format_quantity(rotation, "rad", 3)

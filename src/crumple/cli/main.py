@@ -1,0 +1,62 @@
+"""The command `crumple`: verbs by name, and what becomes of a refusal.
+
+Nothing heavy is imported here or at the head of a verb's file: `crumple --help` must answer at once.
+"""
+
+from __future__ import annotations
+
+import sys
+from typing import Annotated
+
+import typer
+
+from crumple import __version__
+from crumple.cli.check import check
+from crumple.cli.hinge import hinge
+from crumple.cli.refusal import show_refusal
+from crumple.cli.run import run
+from crumple.cli.schema import schema
+from crumple.cli.section import section
+from crumple.errors import InputError
+
+app = typer.Typer(
+    name="crumple",
+    help="Crash analysis at the concept stage for thin-walled structures.",
+    epilog="Exit codes: 0 done; 1 a run ended without a result to trust; 2 the input cannot be accepted.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+for verb in (run, check, schema, hinge, section):
+    app.command()(verb)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"crumple {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    """Crash analysis at the concept stage for thin-walled structures."""
+
+
+def main() -> None:
+    """Run the command; a refusal is printed without a traceback and ends with exit code 2."""
+    try:
+        app()
+    except InputError as error:
+        show_refusal(error)
+        sys.exit(2)
+    except BrokenPipeError:
+        # the reader of a pipe went away, as `| head` does
+        sys.stderr.close()
+        sys.exit(1)
+    except OSError as error:
+        typer.echo(f"error: {error.filename or 'file'}: {error.strerror or error}", err=True)
+        sys.exit(2)

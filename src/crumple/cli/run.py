@@ -1,0 +1,112 @@
+"""`crumple run FILE`: solve an input file, store the result, say what came out."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table
+
+    from crumple.result import Result
+
+MOST_HINGES = 20
+"""Hinges that the table shows; the files hold all."""
+
+
+class Fidelity(StrEnum):
+    """Solvers by name."""
+
+    MULTIBODY = "multibody"
+
+
+def run(
+    file: Annotated[Path, typer.Argument(help="Input file (YAML).", show_default=False)],
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the results; by default out/ and the input file's name.")
+    ] = None,
+    fidelity: Annotated[Fidelity, typer.Option(help="Which solver.")] = Fidelity.MULTIBODY,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print summary.json in place of the table.")
+    ] = False,
+) -> None:
+    """Solve an input file; write summary, histories, states, figures and a report."""
+    from crumple.analysis import load, solve
+    from crumple.cli.progress import progress_bar, stop_on_interrupt
+    from crumple.report import write_report
+    from crumple.result import summary_json, write
+
+    analysis = load(file)
+    folder = out if out is not None else Path("out") / file.stem
+    folder.mkdir(parents=True, exist_ok=True)
+    with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
+        result = solve(analysis, fidelity=fidelity.value, progress=progress, cancel=cancel)
+    write(result, folder)
+    write_report(result, analysis, folder)
+    if as_json:
+        typer.echo(summary_json(result), nl=False)
+    else:
+        _show(result, folder)
+    if not result.status.ok:
+        raise typer.Exit(1)
+
+
+def _show(result: Result, folder: Path) -> None:
+    """Print the table of hinges, the figures of the whole run, the warnings, and where the files are."""
+    from rich.console import Console
+    from rich.text import Text
+
+    from crumple.units import format_quantity
+
+    console = Console(highlight=False)
+    console.print(Text(result.title, style="bold"))
+    status = result.status.value + (f": {result.reason}" if result.reason else "")
+    console.print(Text(f"Status: {status}", style="green" if result.status.ok else "bold red"))
+    if result.hinges:
+        console.print(_hinge_table(result, console))
+    if len(result.hinges) > MOST_HINGES:
+        console.print(f"{MOST_HINGES} of {len(result.hinges)} hinges, those that absorbed most")
+    console.print(
+        f"Energy residual {result.energy_residual:.2g} of the energy put in; "
+        f"solved in {format_quantity(result.solve_seconds, 's', 3)}"
+    )
+    for warning in result.warnings:
+        console.print(Text(f"Warning: {warning}", style="yellow"))
+    console.print(Text(f"Results: {folder}  (open {folder / 'report.html'})"), soft_wrap=True)
+
+
+def _hinge_table(result: Result, console: Console) -> Table:
+    """One row per hinge, the most absorbing first where there are too many."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    from crumple.units import format_quantity
+
+    table = Table()
+    for head in (
+        "Hinge",
+        "Largest rotation",
+        "Final rotation",
+        "At rest from",
+        "Peak moment",
+        "Energy absorbed",
+    ):
+        table.add_column(head, justify="left" if head == "Hinge" else "right")
+    hinges = list(result.hinges.items())
+    if len(hinges) > MOST_HINGES:
+        hinges = sorted(hinges, key=lambda item: -item[1].energy)[:MOST_HINGES]
+    for name, hinge in hinges:
+        rest = hinge.time_of_rest
+        table.add_row(
+            escape(name),
+            format_quantity(hinge.rotation_max, "rad"),
+            format_quantity(hinge.rotation_final, "rad"),
+            "still turning" if rest is None else format_quantity(rest, "s"),
+            format_quantity(hinge.moment_max, "N*m"),
+            format_quantity(hinge.energy, "J"),
+        )
+    return table

@@ -1,0 +1,14 @@
+"""`crumple schema`: the JSON Schema of the input file, for editors."""
+
+from __future__ import annotations
+
+import json
+
+import typer
+
+
+def schema() -> None:
+    """Print the JSON Schema of the input file; editors complete and check input with it."""
+    from crumple.analysis import json_schema
+
+    typer.echo(json.dumps(json_schema(), indent=2, ensure_ascii=False))
