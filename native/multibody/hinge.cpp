@@ -195,7 +195,13 @@ double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0
         flow = turn - (m1 - f.m0) / hinge.stiffness;
         s.dissipated += (f.m0 + m1) / 2 * flow;
         s.moment = m1;
-        s.sliding = flowed = m1 == f.capacity[0] || m1 == -f.capacity[1];
+        flowed = m1 == f.capacity[0] || m1 == -f.capacity[1];
+        if ((s.sliding || flowed) && f.w0 * w1 < 0) {
+            // plastic flow ends where the rate passes zero
+            flowed = true;
+            arrest = t0 + f.h * f.w0 / (f.w0 - w1);
+        }
+        s.sliding = flowed && f.w0 * w1 >= 0;
     } else {
         s.dissipated += impulse * mean_rate;
         s.moment = impulse / f.h;

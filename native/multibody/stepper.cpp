@@ -59,6 +59,8 @@ Stepper::Stepper(const Model& model) : model_(model), solver_(model.tree) {
     drive_force_.resize(d);
     drive_rows_.resize(d * m);
     drive_matrix_.resize(d * d);
+    model.tree.place(model.q0.data(), middle_.data());
+    for (const Drive& drive : model.drives) drive_origin_.push_back(middle_[static_cast<size_t>(drive.body)].at(drive.point));
 }
 
 State Stepper::start(const double* q, const double* w) const {
@@ -150,7 +152,7 @@ void Stepper::predict(const State& s, double h) {
     for (size_t d = 0; d < model_.drives.size(); d++) {
         const Drive& drive = model_.drives[d];
         const Pose& pose = s.pose[static_cast<size_t>(drive.body)];
-        const Vec2 moved = pose.at(drive.point) - drive.point;
+        const Vec2 moved = pose.at(drive.point) - drive_origin_[d];
         const double now = drive.direction.w * pose.phi + dot(drive.direction.v, moved);
         int hint = 0;
         const double error = drive.motion.value.at(s.t, hint) - now;

@@ -94,6 +94,7 @@ private:
     std::vector<Pose> middle_, end_;
     std::vector<Twist> twist_, end_twist_, bias_, work_;
     std::vector<double> drive_target_, drive_rows_, drive_matrix_, drive_force_;
+    std::vector<Vec2> drive_origin_;  // driven points at the start
     std::vector<int> hint_;
     bool all_set_valued_ = true;
     long solves_ = 0;

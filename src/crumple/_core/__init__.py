@@ -1,1 +1,1 @@
-"""The _core room."""
+"""The compiled kernels behind a typed Python face; used by the solvers alone."""

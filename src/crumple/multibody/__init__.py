@@ -1,1 +1,22 @@
-"""The multibody room."""
+"""Structure to rigid bodies and plastic hinges, and the implicit stepper that moves them.
+
+`solve_multibody(structure, run)` is the way in; `lower` shows the mechanism that a structure becomes.
+"""
+
+from crumple.multibody.mechanism import Link, Mechanism, Piece, lower
+from crumple.multibody.model import start_of, tree_hinge, tree_model
+from crumple.multibody.plane import Plane
+from crumple.multibody.solve import Run, solve_multibody
+
+__all__ = [
+    "Link",
+    "Mechanism",
+    "Piece",
+    "Plane",
+    "Run",
+    "lower",
+    "solve_multibody",
+    "start_of",
+    "tree_hinge",
+    "tree_model",
+]

@@ -1,0 +1,41 @@
+"""Types of the compiled module; see native/*/bind.cpp."""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+class _Multibody:
+    class Simulation:
+        def __init__(
+            self,
+            parent: NDArray[np.int64],
+            joint: NDArray[np.int64],
+            bodies: NDArray[np.float64],
+            q0: Sequence[float],
+            hinges: list[dict[str, Any]],
+            loads: list[tuple[Any, ...]],
+            drives: list[tuple[Any, ...]],
+            gravity: Sequence[float],
+            accuracy: float,
+            minimum_step: float,
+            maximum_step: float,
+            length: float,
+        ) -> None: ...
+        def set_motion(self, velocity: NDArray[np.float64], impulse: NDArray[np.float64]) -> float: ...
+        def set_rates(self, w: Sequence[float]) -> None: ...
+        def run(
+            self, times: Sequence[float], poll: Callable[[float], bool] | None = None
+        ) -> dict[str, Any]: ...
+        def step(self, h: float) -> bool: ...
+        def effective_inertia(self, dof: int) -> float: ...
+        def summary(self) -> NDArray[np.float64]: ...
+        @property
+        def time(self) -> float: ...
+        @property
+        def q(self) -> list[float]: ...
+        @property
+        def w(self) -> list[float]: ...
+
+multibody: _Multibody

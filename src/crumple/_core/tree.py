@@ -1,0 +1,266 @@
+"""Typed face of the multibody kernel: a tree of rigid bodies in the plane, as plain arrays.
+
+Every body hangs on one inboard joint; parents come before children.  Twists and directions are
+(rotation, x, y); a body's frame has its origin at the inboard joint and is aligned with the world at
+the start.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crumple._core import _kernels
+
+Floats = NDArray[np.float64]
+
+MINIMUM_STEP = 1e-9
+"""Smallest step [s]; rates that jump are passed in one such step."""
+
+
+class JointKind(IntEnum):
+    """Inboard joint of a body."""
+
+    REVOLUTE = 0
+    FREE = 1
+
+
+class Outcome(IntEnum):
+    """How the kernel's run ended."""
+
+    COMPLETE = 0
+    STEP_COLLAPSED = 1
+    NOT_FINITE = 2
+    CANCELLED = 3
+
+
+@dataclass(frozen=True)
+class TreeBody:
+    """One rigid body: parent (-1 ground), joint, anchor in the parent's frame, centre in its own."""
+
+    parent: int
+    joint: JointKind
+    anchor: tuple[float, float]
+    centre: tuple[float, float]
+    mass: float
+    inertia: float
+
+    @property
+    def dofs(self) -> int:
+        """Joint coordinates: 1 for a revolute joint, 3 (rotation, x, y) for a free one."""
+        return 1 if self.joint is JointKind.REVOLUTE else 3
+
+
+@dataclass(frozen=True)
+class TreeHinge:
+    """Hinge of one joint coordinate; codes of form and softening variable as in native/multibody/hinge.hpp.
+
+    A stop is (rotation, stiffness, exponent, damping, penetration): empty for none, damping NaN for critical.
+    """
+
+    dof: int
+    form: int
+    softening: int
+    positive: tuple[Floats, Floats]
+    negative: tuple[Floats, Floats]
+    elastic_stiffness: float = math.inf
+    regularisation_rate: float = 0.05
+    rate_reference: float = math.inf
+    rate_exponent: float = 1.0
+    viscous_damping: float = 0.0
+    stop_positive: tuple[float, ...] = ()
+    stop_negative: tuple[float, ...] = ()
+
+    def as_dict(self) -> dict[str, Any]:
+        """As the kernel takes it."""
+        (positive_rotation, positive_moment), (negative_rotation, negative_moment) = (
+            self.positive,
+            self.negative,
+        )
+        plain = {name: getattr(self, name) for name in _PLAIN}
+        return plain | {
+            "positive_rotation": positive_rotation.tolist(),
+            "positive_moment": positive_moment.tolist(),
+            "negative_rotation": negative_rotation.tolist(),
+            "negative_moment": negative_moment.tolist(),
+            "stop_positive": list(self.stop_positive),
+            "stop_negative": list(self.stop_negative),
+        }
+
+
+_PLAIN = (
+    "dof",
+    "form",
+    "softening",
+    "elastic_stiffness",
+    "regularisation_rate",
+    "rate_reference",
+    "rate_exponent",
+    "viscous_damping",
+)
+
+
+@dataclass(frozen=True)
+class TreeLoad:
+    """Force or moment on a point of a body, direction fixed in the world, piecewise linear in time."""
+
+    body: int
+    point: tuple[float, float]
+    direction: tuple[float, float, float]
+    times: Floats
+    values: Floats
+
+
+@dataclass(frozen=True)
+class TreeDrive(TreeLoad):
+    """Prescribed displacement of a point of a body in one direction; ``rates`` is its derivative."""
+
+    rates: Floats
+
+
+@dataclass(frozen=True)
+class TreeModel:
+    """Constants of a planar model; frozen."""
+
+    bodies: tuple[TreeBody, ...]
+    hinges: tuple[TreeHinge, ...]
+    loads: tuple[TreeLoad, ...] = ()
+    drives: tuple[TreeDrive, ...] = ()
+    gravity: tuple[float, float] = (0.0, 0.0)
+    length: float = 1.0
+    """Turns translations of free bodies into angles for the error measure [m]."""
+
+    @property
+    def dofs(self) -> int:
+        """Number of joint coordinates."""
+        return sum(body.dofs for body in self.bodies)
+
+
+@dataclass(frozen=True)
+class TreeRecord:
+    """Histories of a run; n output times.
+
+    Attributes
+    ----------
+    time
+        (n,) [s].
+    q, w
+        Joint coordinates and rates, (n, dofs).
+    pose
+        Angle and origin of every body, (n, bodies, 3); `velocity` has the same shape, at the centres of mass.
+    hinge
+        (n, hinges, 6): plastic rotation, moment, capacity, dissipated, elastic and stop energy.
+    energy
+        (n, 6): kinetic, elastic, dissipated, damped, stop, external work [J].
+    drive
+        Forces of the drives, (n, drives).
+    summary
+        (hinges, 5): largest rotation and moment, time of rest, 1 if still turning, dissipated energy.
+    """
+
+    time: Floats
+    q: Floats
+    w: Floats
+    pose: Floats
+    velocity: Floats
+    hinge: Floats
+    energy: Floats
+    drive: Floats
+    summary: Floats
+    outcome: Outcome
+    reason: str
+    residual: float
+    steps: int
+    rejected: int
+    forced: int
+    solves: int
+
+
+class Simulation:
+    """One run of a model: state and adaptive stepper.
+
+    Parameters
+    ----------
+    model
+        Constants.
+    accuracy
+        Allowed error of the motion, relative to the largest rotation.
+    minimum_step, maximum_step
+        Bounds of the step [s].
+    """
+
+    def __init__(
+        self,
+        model: TreeModel,
+        accuracy: float = 1e-3,
+        minimum_step: float = MINIMUM_STEP,
+        maximum_step: float = math.inf,
+    ) -> None:
+        rows = [(*b.anchor, *b.centre, b.mass, b.inertia) for b in model.bodies]
+        self.model = model
+        self._kernel = _kernels.multibody.Simulation(
+            np.array([b.parent for b in model.bodies], dtype=np.int64),
+            np.array([b.joint for b in model.bodies], dtype=np.int64),
+            np.array(rows, dtype=float),
+            [0.0] * model.dofs,
+            [hinge.as_dict() for hinge in model.hinges],
+            [_load(load) for load in model.loads],
+            [(*_load(drive), drive.rates.tolist()) for drive in model.drives],
+            list(model.gravity),
+            accuracy,
+            minimum_step,
+            maximum_step,
+            model.length,
+        )
+
+    def set_motion(self, velocity: Floats, impulse: Floats) -> float:
+        """Start from twists of the bodies and impulses on them, both at the centres of mass, (bodies, 3).
+
+        Returns
+        -------
+        float
+            Energy [J] that the joints took from the given motion because it did not fit them.
+        """
+        return self._kernel.set_motion(np.ascontiguousarray(velocity), np.ascontiguousarray(impulse))
+
+    def set_rates(self, w: Floats) -> None:
+        """Start from joint rates, (dofs,)."""
+        self._kernel.set_rates(w.tolist())
+
+    def run(self, times: Floats, poll: Callable[[float], bool] | None = None) -> TreeRecord:
+        """Step to the last of the increasing times [s]; ``poll(time)`` returns False to cancel."""
+        out = self._kernel.run(times.tolist(), poll)
+        return TreeRecord(**out | {"outcome": Outcome(out["outcome"]), "summary": self._kernel.summary()})
+
+    def step(self, time_step: float) -> bool:
+        """Take one step of fixed length [s]; False when it did not converge and nothing changed."""
+        return self._kernel.step(time_step)
+
+    def effective_inertia(self, dof: int) -> float:
+        """Inertia that a joint coordinate feels with all hinges free [kg m^2]."""
+        return self._kernel.effective_inertia(dof)
+
+    @property
+    def time(self) -> float:
+        """Time reached [s]."""
+        return self._kernel.time
+
+    @property
+    def q(self) -> Floats:
+        """Joint coordinates, (dofs,)."""
+        return np.array(self._kernel.q)
+
+    @property
+    def w(self) -> Floats:
+        """Joint rates, (dofs,)."""
+        return np.array(self._kernel.w)
+
+
+def _load(load: TreeLoad) -> tuple[Any, ...]:
+    return (load.body, list(load.point), list(load.direction), load.times.tolist(), load.values.tolist())

@@ -1,0 +1,267 @@
+"""From a structure to rigid bodies joined by hinges: a tree in space, as the engine sees it.
+
+Members are cut at their hinges.  Pieces that meet at a node are one rigid body; a body that holds a clamped
+node is the ground.  What is left is a graph of bodies and hinges, walked breadth first from the ground (a
+structure that floats from its heaviest body) so that parents come before children.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict, deque
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+
+from crumple.errors import InputError, Problem
+from crumple.multibody.plane import Plane, plane_of
+from crumple.multibody.rigid import Floats, RigidMass, combined, lump_mass, piece_mass
+from crumple.structure import PlacedHinge, Structure, placed_hinges
+
+GROUND = -1
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Part of a member between two cuts; ``body`` is its rigid body (-1: ground)."""
+
+    member: str
+    start: float
+    end: float
+    body: int
+
+
+@dataclass(frozen=True, eq=False)
+class Link:
+    """Inboard joint of a body.
+
+    Attributes
+    ----------
+    parent
+        Body that it hangs on; -1 ground.
+    position
+        Of the joint at the start [m], (3,).
+    hinge
+        The plastic hinge, or None: a pin of a support, or the free joint of a floating root.
+    free
+        Whether the body floats.
+    sign
+        +1 if the hinge's rotation (second side against first, about its axis) is the joint's (this body
+        against its parent, about the plane's normal), -1 if it is the opposite.
+    """
+
+    parent: int
+    position: Floats
+    hinge: PlacedHinge | None = None
+    free: bool = False
+    sign: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Mechanism:
+    """Rigid bodies in a tree, in space.
+
+    Attributes
+    ----------
+    plane
+        Plane in which it moves.
+    bodies
+        Mass properties per body.
+    links
+        Inboard joint per body; parents first.
+    pieces
+        Where every part of every member went, by member, along the member.
+    node_body
+        Body of every node.
+    """
+
+    plane: Plane
+    bodies: tuple[RigidMass, ...]
+    links: tuple[Link, ...]
+    pieces: dict[str, tuple[Piece, ...]]
+    node_body: dict[str, int]
+
+    def piece_at(self, member: str, station: float) -> Piece:
+        """Piece that holds a station [m] of a member; at a cut the one before it."""
+        pieces = self.pieces[member]
+        return next((piece for piece in pieces if station <= piece.end), pieces[-1])
+
+
+@dataclass
+class _Assembly:
+    """Pieces and nodes while they are joined; each gets the number of its cluster."""
+
+    structure: Structure
+    hinges: tuple[PlacedHinge, ...]
+    parent: list[int] = field(default_factory=list)
+    cuts: dict[str, list[tuple[float, float, int]]] = field(default_factory=dict)
+    node: dict[str, int] = field(default_factory=dict)
+
+    def new(self) -> int:
+        self.parent.append(len(self.parent))
+        return len(self.parent) - 1
+
+    def root(self, i: int) -> int:
+        while self.parent[i] != i:
+            self.parent[i] = self.parent[self.parent[i]]
+            i = self.parent[i]
+        return i
+
+    def join(self, a: int, b: int) -> None:
+        self.parent[self.root(b)] = self.root(a)
+
+
+def lower(structure: Structure) -> Mechanism:
+    """Cut a structure into rigid bodies and hinges.
+
+    Raises
+    ------
+    InputError
+        If hinges close a loop, their axes are not parallel, a body has no inertia, or nothing can move.
+    """
+    hinges = placed_hinges(structure)
+    plane = plane_of(structure, hinges)
+    assembly = _cut(structure, hinges)
+    ground = assembly.new()
+    pins: dict[int, str] = {}
+    for node, cluster in assembly.node.items():
+        held = plane.held(structure, node)
+        if held.clamped:
+            assembly.join(ground, cluster)
+        elif held.pinned:
+            pins[cluster] = node
+    return _walk(assembly, plane, ground, pins)
+
+
+def _cut(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> _Assembly:
+    """Cut members at hinges and join what meets at nodes."""
+    assembly = _Assembly(structure, hinges)
+    assembly.node = {node: assembly.new() for node in structure.nodes}
+    by_member: dict[str, list[PlacedHinge]] = defaultdict(list)
+    for hinge in hinges:
+        by_member[hinge.member].append(hinge)
+    for name, member in structure.members.items():
+        length = structure.frame_of(name).length
+        stations = [0.0, *(hinge.station for hinge in by_member[name]), length]
+        pieces = [(a, b, assembly.new()) for a, b in pairwise(stations)]
+        assembly.cuts[name] = pieces
+        assembly.join(assembly.node[member.nodes[0]], pieces[0][2])
+        assembly.join(assembly.node[member.nodes[1]], pieces[-1][2])
+    return assembly
+
+
+def _walk(assembly: _Assembly, plane: Plane, ground: int, pins: dict[int, str]) -> Mechanism:
+    """Number the bodies from the ground outwards."""
+    structure, root = assembly.structure, assembly.root
+    masses = _cluster_masses(assembly)
+    edges = _edges(assembly)
+    number: dict[int, int] = {root(ground): GROUND}
+    links: list[Link] = []
+    order: list[int] = []
+    used: set[str] = set()
+
+    def enter(cluster: int, link: Link) -> None:
+        number[cluster] = len(links)
+        links.append(link)
+        order.append(cluster)
+
+    def spread(start: list[int]) -> None:
+        queue = deque(start)
+        while queue:
+            here = queue.popleft()
+            for hinge, first, second in edges[here]:
+                if hinge.name in used:
+                    continue
+                used.add(hinge.name)
+                there = second if here == first else first
+                if there in number:
+                    raise _loop(hinge)
+                sign = float(np.sign(hinge.direction @ plane.normal)) * (1.0 if there == second else -1.0)
+                enter(there, Link(number[here], hinge.position, hinge, sign=sign))
+                queue.append(there)
+
+    spread([root(ground)])
+    for cluster, node in pins.items():
+        if root(cluster) in number:
+            raise _pin_loop(node)
+        enter(root(cluster), Link(GROUND, np.asarray(structure.nodes[node], float)))
+        spread([root(cluster)])
+    for cluster in sorted(masses, key=lambda c: -masses[c].mass):
+        if cluster not in number and masses[cluster].mass > 0.0:
+            enter(cluster, Link(GROUND, masses[cluster].centre, free=True))
+            spread([cluster])
+    bodies = tuple(masses[cluster] for cluster in order)
+    _check_inertia(bodies, links, plane)
+    pieces = {
+        name: tuple(Piece(name, a, b, number.get(root(i), GROUND)) for a, b, i in cuts)
+        for name, cuts in assembly.cuts.items()
+    }
+    node_body = {node: number.get(root(i), GROUND) for node, i in assembly.node.items()}
+    return Mechanism(plane, bodies, tuple(links), pieces, node_body)
+
+
+def _cluster_masses(assembly: _Assembly) -> dict[int, RigidMass]:
+    parts: dict[int, list[RigidMass]] = defaultdict(list)
+    for name, cuts in assembly.cuts.items():
+        for start, end, i in cuts:
+            parts[assembly.root(i)].append(piece_mass(assembly.structure, name, start, end))
+    for mass in assembly.structure.masses.values():
+        parts[assembly.root(assembly.node[mass.node])].append(lump_mass(assembly.structure, mass))
+    return {cluster: combined(of) for cluster, of in parts.items()}
+
+
+def _edges(assembly: _Assembly) -> dict[int, list[tuple[PlacedHinge, int, int]]]:
+    edges: dict[int, list[tuple[PlacedHinge, int, int]]] = defaultdict(list)
+    place: dict[str, int] = defaultdict(int)
+    for hinge in assembly.hinges:
+        cuts, k = assembly.cuts[hinge.member], place[hinge.member]
+        place[hinge.member] += 1
+        first, second = assembly.root(cuts[k][2]), assembly.root(cuts[k + 1][2])
+        if first == second:
+            raise _loop(hinge)
+        edges[first].append((hinge, first, second))
+        edges[second].append((hinge, first, second))
+    return edges
+
+
+def _check_inertia(bodies: tuple[RigidMass, ...], links: list[Link], plane: Plane) -> None:
+    problems = []
+    for body, link in zip(bodies, links, strict=True):
+        if body.mass > 0.0 and plane.normal @ body.inertia @ plane.normal > 0.0:
+            continue
+        name = link.hinge.name if link.hinge else "of a support"
+        problems.append(
+            Problem(
+                f"the body beyond hinge {name} has no inertia",
+                "mass 0 kg",
+                "a body with mass and rotary inertia",
+                "move the hinge into the member, or give the node a mass",
+                f"hinges.{name}",
+            )
+        )
+    if problems:
+        raise InputError(problems)
+
+
+def _loop(hinge: PlacedHinge) -> InputError:
+    return InputError(
+        Problem(
+            "this hinge closes a loop of members; the multibody engine solves chains and trees so far",
+            f"hinge {hinge.name} of member {hinge.member}",
+            "hinges that leave the structure a tree",
+            "take one support or hinge of the loop away",
+            f"members.{hinge.member}.hinges",
+        )
+    )
+
+
+def _pin_loop(node: str) -> InputError:
+    return InputError(
+        Problem(
+            "this pin closes a loop of members; the multibody engine solves chains and trees so far",
+            f"a support of node {node}",
+            "one clamp or pin per connected part",
+            "release one of the supports",
+            "supports",
+        )
+    )

@@ -1,0 +1,121 @@
+"""The plane in which a mechanism moves, and what its supports hold there.
+
+Hinges with parallel axes move every body parallel to one plane, wherever in space the bodies lie: forces
+and constraints across it are carried by the hinges.  So the mechanism is solved exactly in that plane.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple.errors import InputError, Problem
+from crumple.multibody.rigid import Floats
+from crumple.structure import PlacedHinge, Structure, Support
+from crumple.structure.motion import FREEDOMS
+
+PARALLEL = 1e-6
+"""Sine of the angle between two axes below which they count as parallel."""
+
+
+@dataclass(frozen=True)
+class Held:
+    """What supports hold of one node in the plane: rows are directions (rotation, x, y)."""
+
+    rows: tuple[tuple[float, float, float], ...]
+
+    @property
+    def clamped(self) -> bool:
+        """Both displacements and the rotation."""
+        return self._rank(slice(0, 3)) == 3
+
+    @property
+    def pinned(self) -> bool:
+        """Both displacements, not the rotation."""
+        return len(self.rows) > 0 and self._rank(slice(0, 3)) == 2 and not any(row[0] for row in self.rows)
+
+    def _rank(self, columns: slice) -> int:
+        return int(np.linalg.matrix_rank(np.array(self.rows)[:, columns])) if self.rows else 0
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """Plane through the world's origin with a right-handed basis (first, second, normal).
+
+    Attributes
+    ----------
+    normal
+        Unit vector about which rotations count, (3,).
+    first, second
+        Unit vectors in the plane, (3,).
+    """
+
+    normal: Floats
+    first: Floats
+    second: Floats
+
+    def flat(self, vector: Floats) -> Floats:
+        """Components in the plane, (..., 2)."""
+        return np.stack([vector @ self.first, vector @ self.second], axis=-1)
+
+    def raised(self, flat: Floats) -> Floats:
+        """Vectors in space from components in the plane, (..., 2) to (..., 3)."""
+        return flat[..., :1] * self.first + flat[..., 1:] * self.second
+
+    def row(self, freedom: str) -> tuple[float, float, float]:
+        """Direction (rotation, x, y) of a global freedom in the plane; zero where it lies across it."""
+        i = FREEDOMS.index(freedom)
+        axis = np.eye(3)[i % 3]
+        across = float(axis @ self.normal)
+        row = (across, 0.0, 0.0) if i >= 3 else (0.0, float(axis @ self.first), float(axis @ self.second))
+        return tuple(value if abs(value) > PARALLEL else 0.0 for value in row)  # type: ignore[return-value]
+
+    def held(self, structure: Structure, node: str) -> Held:
+        """What supports hold of a node, driven freedoms left out."""
+        rows = [self.row(freedom) for support in _of(structure, node) for freedom in support.held]
+        return Held(tuple(row for row in rows if any(row)))
+
+
+def _of(structure: Structure, node: str) -> list[Support]:
+    return [support for support in structure.supports.values() if support.node == node]
+
+
+def plane_of(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Plane:
+    """Plane of motion: across the hinges' axes, or without hinges across the initial rotation's axis.
+
+    Raises
+    ------
+    InputError
+        If hinges have axes that are not parallel.
+    """
+    if hinges:
+        normal = hinges[0].direction
+        for hinge in hinges[1:]:
+            if np.linalg.norm(np.cross(normal, hinge.direction)) > PARALLEL:
+                raise InputError(
+                    Problem(
+                        "hinges turn about different axes; the multibody engine solves planar motion so far",
+                        f"{hinges[0].name} about {_text(normal)}, {hinge.name} about {_text(hinge.direction)}",
+                        "hinges whose axes are all parallel",
+                        "set axis, up or roll of the members so that their hinges' axes are parallel",
+                        f"members.{hinge.member}.hinges",
+                    )
+                )
+    else:
+        axes = [
+            np.asarray(v.axis, float) for v in structure.initial_velocity if v.axis is not None and v.rotation
+        ]
+        normal = axes[0] if axes else np.array([0.0, 1.0, 0.0])
+    normal = normal / np.linalg.norm(normal)
+    # the sense of the normal is that of the global axis it is nearest to, so rotations read as one expects
+    if normal[np.argmax(np.abs(normal))] < 0.0:
+        normal = -normal
+    first = np.eye(3)[(int(np.argmax(np.abs(normal))) + 1) % 3]
+    first = first - (first @ normal) * normal
+    first /= np.linalg.norm(first)
+    return Plane(normal, first, np.cross(normal, first))
+
+
+def _text(vector: Floats) -> str:
+    return "[" + ", ".join(f"{value:.3g}" for value in vector + 0.0) + "]"

@@ -1,0 +1,68 @@
+"""Rigid pieces of members and lumps: mass, centre and inertia in space, and how they add up."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crumple.structure import Mass, Structure
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class RigidMass:
+    """Mass properties at the start, world axes.
+
+    Attributes
+    ----------
+    mass
+        [kg].
+    centre
+        Centre of mass [m], (3,); without meaning where the mass is zero.
+    inertia
+        Tensor about the centre [kg m^2], (3, 3).
+    """
+
+    mass: float
+    centre: Floats
+    inertia: Floats
+
+
+def combined(parts: list[RigidMass]) -> RigidMass:
+    """One rigid body of several (parallel axes)."""
+    mass = sum(part.mass for part in parts)
+    if mass == 0.0:
+        return (
+            RigidMass(0.0, np.zeros(3), np.sum([part.inertia for part in parts], axis=0))
+            if parts
+            else NOTHING
+        )
+    centre = np.sum([part.mass * part.centre for part in parts], axis=0) / mass
+    inertia = np.zeros((3, 3))
+    for part in parts:
+        arm = part.centre - centre
+        inertia += part.inertia + part.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    return RigidMass(mass, centre, inertia)
+
+
+def piece_mass(structure: Structure, member: str, start: float, end: float) -> RigidMass:
+    """Mass of a member between two stations [m]: a uniform bar with its section's own rotary inertia."""
+    frame, section, material = (
+        structure.frame_of(member),
+        structure.section_of(member),
+        structure.material_of(member),
+    )
+    length = end - start
+    mass = section.mass_per_length(material.density) * length
+    moments = material.density * length * np.array([section.second_moment("y"), section.second_moment("z")])
+    local = np.diag([moments.sum(), mass * length**2 / 12 + moments[0], mass * length**2 / 12 + moments[1]])
+    return RigidMass(mass, frame.position((start + end) / 2), frame.axes.T @ local @ frame.axes)
+
+
+def lump_mass(structure: Structure, mass: Mass) -> RigidMass:
+    """Mass of a lump at its centre."""
+    centre = np.asarray(structure.nodes[mass.node], float) + np.asarray(mass.offset)
+    return RigidMass(mass.mass, centre, np.diag(mass.rotary_inertia))

@@ -1,0 +1,85 @@
+"""Deformed shapes: the walls of every member as quadrilaterals, carried by the rigid bodies."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crumple._core.tree import TreeRecord
+from crumple.multibody.histories import motion_of, rotated
+from crumple.multibody.mechanism import GROUND, Mechanism, Piece
+from crumple.multibody.rigid import Floats
+from crumple.result import States
+from crumple.structure import Structure
+
+LONGEST_QUAD = 2.0
+"""Length of a quadrilateral over the section's largest side: smooth enough to draw, few enough to store."""
+
+
+def states_of(structure: Structure, mechanism: Mechanism, record: TreeRecord, times: Floats) -> States:
+    """Shapes at those of the given times [s] that the run reached; a time is taken at the nearest output."""
+    reached = times[times <= record.time[-1] * (1 + 1e-12)]
+    rows = np.array([int(np.argmin(np.abs(record.time - t))) for t in reached], dtype=np.int64)
+    points, moved, quads, member, station, contour = [], [], [], [], [], []
+    count = 0
+    for index, name in enumerate(structure.members):
+        frame, outline = structure.frame_of(name), structure.section_of(name).outline()
+        around = len(outline)
+        stations = _stations(mechanism.pieces[name], float(np.ptp(outline, axis=0).max()))
+        for x in stations:
+            ring = frame.position(x) + outline @ frame.axes[1:]
+            points.append(ring)
+            moved.append(_carried(mechanism, record, name, x, ring)[rows])
+        member += [index] * (around * len(stations))
+        station.append(np.repeat(stations, around))
+        contour.append(np.tile(np.arange(around), len(stations)))
+        quads.append(count + _tube_quads(len(stations), around))
+        count += around * len(stations)
+    reference = np.concatenate(points)
+    return States(
+        points=reference,
+        quads=np.concatenate(quads),
+        member=np.array(member, dtype=np.int64),
+        station=np.concatenate(station),
+        contour=np.concatenate(contour).astype(np.int64),
+        member_names=tuple(structure.members),
+        times=record.time[rows],
+        displacement=np.concatenate(moved, axis=1) - reference,
+    )
+
+
+def _stations(pieces: tuple[Piece, ...], side: float) -> Floats:
+    """Stations along a member: every cut, and pieces divided evenly."""
+    found = [0.0]
+    for piece in pieces:
+        number = max(1, int(np.ceil((piece.end - piece.start) / (LONGEST_QUAD * side))))
+        found += list(np.linspace(piece.start, piece.end, number + 1)[1:])
+    return np.unique(np.array(found))
+
+
+def _tube_quads(rings: int, around: int) -> NDArray[np.int64]:
+    i, j = np.divmod(np.arange((rings - 1) * around), around)
+    k = (j + 1) % around
+    return np.stack([i * around + j, (i + 1) * around + j, (i + 1) * around + k, i * around + k], axis=1)
+
+
+def _carried(mechanism: Mechanism, record: TreeRecord, member: str, station: float, ring: Floats) -> Floats:
+    """Positions of a ring of points over time, (n, around, 3).
+
+    At a hinge the ring turns by the mean of both bodies about the hinge, so that the walls meet.
+    """
+    pieces = mechanism.pieces[member]
+    meeting = [piece.body for piece in pieces if piece.start <= station <= piece.end]
+    if len(meeting) == 1 or meeting[0] == meeting[-1]:
+        return np.stack([motion_of(mechanism, record, meeting[0], point)[0] for point in ring], axis=1)
+    plane = mechanism.plane
+    middle = ring.mean(axis=0)
+    place = motion_of(mechanism, record, meeting[0], middle)[0]
+    turns = [record.pose[:, b, 0] if b != GROUND else np.zeros(record.time.size) for b in meeting]
+    angle = (turns[0] + turns[-1]) / 2
+    out = []
+    for point in ring:
+        arm = point - middle
+        across = float(arm @ plane.normal) * plane.normal
+        out.append(place + plane.raised(rotated(plane.flat(arm), angle)) + across)
+    return np.stack(out, axis=1)

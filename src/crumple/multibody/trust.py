@@ -1,0 +1,114 @@
+"""What an engineer must know before believing a multibody result: assumptions and warnings."""
+
+from __future__ import annotations
+
+import math
+
+from crumple._core.tree import TreeRecord
+from crumple.hinge import Form, SofteningVariable, tributary_stiffness
+from crumple.multibody.mechanism import Mechanism
+from crumple.multibody.model import Start
+from crumple.result import HingeSummary
+from crumple.structure import PlacedHinge, Structure
+
+LOST_SHARE = 1e-3
+"""Share of the given energy that may vanish at the start before a warning."""
+ELASTIC_SHARE = 0.05
+"""Share of elastic energy above which rigid bars are worth a warning: as large as the laws' own scatter."""
+SOFTENING = {
+    SofteningVariable.PEAK: "the largest plastic rotation in each sense (bent back, it does not regain strength)",
+    SofteningVariable.ROTATION: "the present plastic rotation (bent back, it regains its strength)",
+    SofteningVariable.ACCUMULATED: "the sum of all plastic rotation, both senses together",
+}
+
+
+def hinges_of(mechanism: Mechanism) -> list[PlacedHinge]:
+    """Hinges of the mechanism in the kernel's order."""
+    return [link.hinge for link in mechanism.links if link.hinge is not None]
+
+
+def assumptions(structure: Structure, mechanism: Mechanism) -> tuple[str, ...]:
+    """Sentences stating what the model takes for granted."""
+    found = [
+        "Members are rigid between their hinges; masses are rigid lumps.",
+        "The motion is planar: hinges turn about parallel axes and carry everything across them rigidly.",
+        "There is no contact but the hinges' own stops.",
+    ]
+    for hinge in hinges_of(mechanism):
+        record, member = hinge.record, structure.members[hinge.member]
+        place = f"{hinge.station * 1e3:.4g} mm from node {member.nodes[0]} of member {hinge.member}"
+        form = {
+            Form.SET_VALUED: "rigid until its capacity is reached",
+            Form.ELASTIC_PLASTIC: f"elastic, {record.elastic_stiffness / 1e3:.4g} kN m/rad, up to its capacity",
+            Form.REGULARISED: f"a HAVSIN ramp of {record.regularisation_rate:.3g} rad/s times its capacity (it creeps)",
+        }[record.form]
+        rate = ", raised with the strain rate" if math.isfinite(record.rate_reference) else ""
+        found.append(
+            f"Hinge {hinge.name} lies {place} and is {form}{rate}; "
+            f"its curve runs on {SOFTENING[record.softening_variable]}."
+        )
+    return tuple(found)
+
+
+def warnings(
+    structure: Structure,
+    mechanism: Mechanism,
+    hinges: dict[str, HingeSummary],
+    record: TreeRecord,
+    *,
+    lost: float,
+    start: Start,
+) -> tuple[str, ...]:
+    """Sentences that must be read before believing the result."""
+    found: list[str] = []
+    for hinge in hinges_of(mechanism):
+        found += _of_hinge(hinge, hinges[hinge.name])
+    kinetic = float(record.energy[0, 0])
+    vanished = max(start.given_energy - kinetic, lost) if not start.impulse.any() else lost
+    if vanished > LOST_SHARE * max(start.given_energy, kinetic):
+        found.append(
+            f"{vanished:.4g} J of the given {max(start.given_energy, kinetic + lost):.4g} J is lost "
+            "at the start: the given motion does not fit the supports and hinges."
+        )
+    stored = sum(_elastic_limit(structure, hinge, hinges[hinge.name]) for hinge in hinges_of(mechanism))
+    total = kinetic + float(abs(record.energy[:, 5]).max())
+    if total > 0.0 and stored > ELASTIC_SHARE * total:
+        found.append(
+            f"The bars are rigid, but the members could store up to {stored:.3g} J elastically "
+            f"({stored / total:.0%} of the energy): rotations lack the elastic part and the plastic ones are "
+            "too large; use form elastic-plastic."
+        )
+    if record.forced:
+        found.append(f"{record.forced} steps were taken at the smallest step without meeting the accuracy.")
+    return tuple(found)
+
+
+def _of_hinge(hinge: PlacedHinge, summary: HingeSummary) -> list[str]:
+    law, found = hinge.law, [f"Hinge {hinge.name}: {text}" for text in hinge.law.validity.warnings]
+    turned = f"Hinge {hinge.name} turned by {math.degrees(summary.rotation_max):.1f} deg"
+    if law.jamming_angle is not None and summary.rotation_max > law.jamming_angle:
+        found.append(
+            f"{turned}: its walls jam at {math.degrees(law.jamming_angle):.1f} deg, what follows is a guess."
+        )
+    elif summary.rotation_max > law.validity.rotation_max:
+        found.append(
+            f"{turned}; its law is backed up to {math.degrees(law.validity.rotation_max):.1f} deg only "
+            f"({law.validity.basis})."
+        )
+    if summary.rotation_error is not None and summary.rotation_error > 0.01 * max(summary.rotation_max, 1e-3):
+        found.append(
+            f"Hinge {hinge.name}: its rotation errs by about {math.degrees(summary.rotation_error):.2g} deg; "
+            "ask for a tighter accuracy."
+        )
+    return found
+
+
+def _elastic_limit(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -> float:
+    """Energy [J] that the elastic part left out by a rigid hinge could store."""
+    if hinge.record.form is Form.ELASTIC_PLASTIC:
+        return 0.0
+    section, material = structure.section_of(hinge.member), structure.material_of(hinge.member)
+    stiffness = tributary_stiffness(
+        material.youngs_modulus * section.second_moment(hinge.axis), hinge.tributary_length
+    )
+    return summary.moment_max**2 / (2.0 * stiffness)
