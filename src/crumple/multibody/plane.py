@@ -96,17 +96,15 @@ def plane_of(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Plane:
                 raise InputError(
                     Problem(
                         "hinges turn about different axes; the multibody engine solves planar motion so far",
-                        f"{hinges[0].name} about {_text(normal)}, {hinge.name} about {_text(hinge.direction)}",
+                        f"{hinges[0].name}: {_text(normal)}, {hinge.name}: {_text(hinge.direction)}",
                         "hinges whose axes are all parallel",
                         "set axis, up or roll of the members so that their hinges' axes are parallel",
                         f"members.{hinge.member}.hinges",
                     )
                 )
     else:
-        axes = [
-            np.asarray(v.axis, float) for v in structure.initial_velocity if v.axis is not None and v.rotation
-        ]
-        normal = axes[0] if axes else np.array([0.0, 1.0, 0.0])
+        axes = [field.axis for field in structure.initial_velocity if field.axis and field.rotation]
+        normal = np.asarray(axes[0] if axes else (0.0, 1.0, 0.0), float)
     normal = normal / np.linalg.norm(normal)
     # the sense of the normal is that of the global axis it is nearest to, so rotations read as one expects
     if normal[np.argmax(np.abs(normal))] < 0.0:

@@ -35,11 +35,7 @@ def combined(parts: list[RigidMass]) -> RigidMass:
     """One rigid body of several (parallel axes)."""
     mass = sum(part.mass for part in parts)
     if mass == 0.0:
-        return (
-            RigidMass(0.0, np.zeros(3), np.sum([part.inertia for part in parts], axis=0))
-            if parts
-            else NOTHING
-        )
+        return RigidMass(0.0, np.zeros(3), sum((part.inertia for part in parts), np.zeros((3, 3))))
     centre = np.sum([part.mass * part.centre for part in parts], axis=0) / mass
     inertia = np.zeros((3, 3))
     for part in parts:

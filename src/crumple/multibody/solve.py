@@ -157,9 +157,7 @@ def _result(
         time=record.time,
         channels={channel.name: channel for channel in channels},
         hinges=hinges,
-        states=states_of(
-            structure, mechanism, record, np.array(run.outputs.pictures or _default_pictures(run))
-        ),
+        states=states_of(structure, mechanism, record, _picture_times(run)),
         energy_residual=record.residual,
         solve_seconds=seconds,
         warnings=trust.warnings(structure, mechanism, hinges, record, lost=lost, start=start),

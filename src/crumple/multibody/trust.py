@@ -16,7 +16,7 @@ LOST_SHARE = 1e-3
 ELASTIC_SHARE = 0.05
 """Share of elastic energy above which rigid bars are worth a warning: as large as the laws' own scatter."""
 SOFTENING = {
-    SofteningVariable.PEAK: "the largest plastic rotation in each sense (bent back, it does not regain strength)",
+    SofteningVariable.PEAK: "the largest plastic rotation in each sense (bent back, it stays weak)",
     SofteningVariable.ROTATION: "the present plastic rotation (bent back, it regains its strength)",
     SofteningVariable.ACCUMULATED: "the sum of all plastic rotation, both senses together",
 }
@@ -39,8 +39,8 @@ def assumptions(structure: Structure, mechanism: Mechanism) -> tuple[str, ...]:
         place = f"{hinge.station * 1e3:.4g} mm from node {member.nodes[0]} of member {hinge.member}"
         form = {
             Form.SET_VALUED: "rigid until its capacity is reached",
-            Form.ELASTIC_PLASTIC: f"elastic, {record.elastic_stiffness / 1e3:.4g} kN m/rad, up to its capacity",
-            Form.REGULARISED: f"a HAVSIN ramp of {record.regularisation_rate:.3g} rad/s times its capacity (it creeps)",
+            Form.ELASTIC_PLASTIC: f"elastic, {record.elastic_stiffness / 1e3:.4g} kN m/rad, to its capacity",
+            Form.REGULARISED: f"its capacity times a HAVSIN ramp of {record.regularisation_rate:.3g} rad/s",
         }[record.form]
         rate = ", raised with the strain rate" if math.isfinite(record.rate_reference) else ""
         found.append(
