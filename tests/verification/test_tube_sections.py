@@ -2,8 +2,8 @@
 
 Sharp corners: textbook differences of two rectangles; the 50 x 25 x 2.65 mm tube has an area of 369.41 mm^2.
 Rounded corners: Gauss integration of the chord width over the depth, tolerance 1e-10 (rounding).
-Torsion: a finite-element solution of Prandtl's membrane over the tube's wall with a free constant in the hole,
-extrapolated from two meshes (converged to 1e-4).  Bredt's formula with the wall's own term is an approximation:
+Torsion: finite elements of Prandtl's membrane over the wall of the tube with a free constant in the hole,
+extrapolated from two meshes (converged to 1e-4).  Bredt's formula with the term of the wall is approximate:
 it lacks the stiffness of sharp corners, 2.8 % in the 50x25x2.65 tube, 0.4 % in a thin one.
 """
 

@@ -128,15 +128,19 @@ def _web_angles(
     """Turns [rad] of the web plates at the rigid web (line KE) and at the diagonal (line AK).
 
     Corners in the middle plane of the fold, x along the beam, y up, z out of the web:
-    K = (h, 0, 0), E = (x_E, b c, 0), A = (0, y_B, z_A).  Angles by their tangents, since an arc cosine
-    loses half the digits at small rotations (and has no complex step there).
+    K = (h, 0, 0), E = (x_E, b c, 0), A = (0, y_B, z_A).  Angles by the tangents of their halves: an arc
+    cosine loses half the digits at small rotations, and the diagonal of a square tube turns past a right
+    angle just before its flange closes.
     """
     y_B, z_A = corners["y_B"], corners["z_A"]
     along, up = corners["x_E"] - h, b * np.cos(rotation / 2.0)
     # normal of the plate K E A, (E - K) x (A - K)
     n_x, n_y, n_z = up * z_A, -along * z_A, along * y_B + up * h
-    at_web_end = np.arctan(np.sqrt(n_x**2 + n_y**2) / n_z)
+    length = np.sqrt(n_x**2 + n_y**2 + n_z**2)
+    at_web_end = 2.0 * np.arctan(np.sqrt(n_x**2 + n_y**2) / (length + n_z))
     # normal of the lower plate, which holds the bottom corner and A: (0, -z_A, y_B)
     cross_x, cross_y, cross_z = n_y * y_B + n_z * z_A, -n_x * y_B, -n_x * z_A
-    at_diagonal = np.arctan(np.sqrt(cross_x**2 + cross_y**2 + cross_z**2) / (n_z * y_B - n_y * z_A))
+    across = np.sqrt(cross_x**2 + cross_y**2 + cross_z**2)
+    lengths = length * np.sqrt(y_B**2 + z_A**2)
+    at_diagonal = 2.0 * np.arctan(across / (lengths + n_z * y_B - n_y * z_A))
     return at_web_end, at_diagonal
