@@ -27,6 +27,7 @@ LARGEST = 3.1416
 
 def hinge(
     section: Annotated[str, typer.Argument(help=SECTION_HELP, show_default=False)],
+    *,
     material: Annotated[str, typer.Option(help=MATERIAL_HELP, show_default=False)],
     axis: Annotated[
         str, typer.Option(help="Bending axis y or z, along the moment vector; y compresses the width.")

@@ -26,6 +26,7 @@ class Fidelity(StrEnum):
 
 def run(
     file: Annotated[Path, typer.Argument(help="Input file (YAML).", show_default=False)],
+    *,
     out: Annotated[
         Path | None, typer.Option(help="Folder for the results; by default out/ and the input file's name.")
     ] = None,
@@ -35,9 +36,9 @@ def run(
     ] = False,
 ) -> None:
     """Solve an input file; write summary, histories, states, figures and a report."""
-    from crumple.analysis import load, solve
+    from crumple.analysis import canonical, load, solve
     from crumple.cli.progress import progress_bar, stop_on_interrupt
-    from crumple.report import write_report
+    from crumple.report import ReportInput, write_report
     from crumple.result import summary_json, write
 
     analysis = load(file)
@@ -46,7 +47,15 @@ def run(
     with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
         result = solve(analysis, fidelity=fidelity.value, progress=progress, cancel=cancel)
     write(result, folder)
-    write_report(result, analysis, folder)
+    source = ReportInput(
+        title=analysis.title,
+        text=file.read_text(encoding="utf-8-sig"),
+        name=file.name,
+        canonical=canonical(analysis),
+        residual_bound=analysis.multibody.energy_residual_bound,
+        accuracy=analysis.multibody.accuracy,
+    )
+    write_report(result, source, folder)
     if as_json:
         typer.echo(summary_json(result), nl=False)
     else:
