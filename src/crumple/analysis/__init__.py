@@ -1,11 +1,26 @@
 """The input file and the one way from it to an answer.
 
-`Analysis` has ``structure``, ``duration`` [s], ``title``, ``multibody`` (settings) and ``outputs``.
-`load` reads one from a file, `canonical` and `input_hash` give its form and SHA-256.
+`load` reads an `Analysis` from a file, `solve` takes it to a `Result`, `canonical` and `input_hash` give its
+form and SHA-256.  An `Analysis` has ``structure``, ``duration`` [s], ``title``, ``multibody`` (settings) and
+``outputs``.
 """
 
 from crumple.analysis.analysis import Analysis
 from crumple.analysis.canonical import canonical, input_hash
 from crumple.analysis.input_file import FORMAT, InputFile, check, load, loads
+from crumple.analysis.schema import json_schema
+from crumple.analysis.solve import FIDELITIES, solve
 
-__all__ = ["FORMAT", "Analysis", "InputFile", "canonical", "check", "input_hash", "load", "loads"]
+__all__ = [
+    "FIDELITIES",
+    "FORMAT",
+    "Analysis",
+    "InputFile",
+    "canonical",
+    "check",
+    "input_hash",
+    "json_schema",
+    "load",
+    "loads",
+    "solve",
+]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import Field, ValidationInfo, model_validator
+from pydantic import Field, model_validator
 
 from crumple.structure import MultibodySettings, Outputs, Structure, output_problems
 from crumple.structure.quantity import PositiveTime
@@ -53,9 +53,12 @@ class Analysis(Spec):
     outputs: Outputs = Outputs()
 
     @model_validator(mode="after")
-    def _sound(self, info: ValidationInfo) -> Analysis:
-        if not (info.context and info.context.get("file")):
-            raise_all(output_problems(self.outputs, self.structure))
+    def _sound(self) -> Analysis:
+        from crumple.analysis.filters import filter_problems  # noqa: PLC0415  (filters know this class)
+
+        problems = output_problems(self.outputs, self.structure)
+        interval = self.output_interval
+        raise_all(problems or filter_problems(self.structure, self.outputs, self.duration, interval))
         return self
 
     @property

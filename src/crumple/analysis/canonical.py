@@ -24,7 +24,7 @@ def canonical(analysis: Analysis) -> dict[str, Any]:
     Returns
     -------
     dict
-        Keys sorted, defaults spelled out, numbers to 12 significant digits; what is absent or empty is left out.
+        Keys sorted, defaults spelled out, numbers to 12 significant digits; without what is absent or empty.
     """
     plain = _plain(analysis.model_dump(mode="json"))
     assert isinstance(plain, dict)

@@ -9,7 +9,8 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ValidationError
 
-from crumple.analysis.analysis import Analysis, Settings, Title
+from crumple.analysis.analysis import DEFAULT_INTERVALS, Analysis, Settings, Title
+from crumple.analysis.filters import filter_problems
 from crumple.analysis.reading import Document, read_file, read_text
 from crumple.errors import InputError, Problem
 from crumple.structure import Outputs, Structure, output_problems, problems_in
@@ -86,6 +87,9 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
     outputs = whole.outputs if whole else _validated(Outputs, data.get("outputs") or {}, context)[0]
     if isinstance(outputs, Outputs):
         cross += output_problems(outputs, structure, defined)
+    if whole and not cross:
+        interval = whole.outputs.every or whole.analysis.duration / DEFAULT_INTERVALS
+        cross += filter_problems(structure, whole.outputs, whole.analysis.duration, interval)
     problems += [(path_of(problem.where), problem) for problem in cross]
     if problems or document.problems or whole is None:
         raise InputError(_placed(problems, document, file))

@@ -6,8 +6,8 @@ For a solver:
 
 - ``structure.frame_of(member)`` -> `Frame` (origin, axes as rows x y z, length, ``position(station)``);
 - ``structure.section_of(member)`` and ``structure.material_of(member)`` -> objects of those rooms;
-- ``placed_hinges(structure)`` -> `PlacedHinge` per hinge (name, member, station, position, direction, law, record);
-- ``support.held`` -> freedoms held at zero, ``support.motion`` -> functions of time or None per freedom;
+- ``placed_hinges(structure)`` -> `PlacedHinge` per hinge: member, station, position, direction, law, record;
+- ``support.held`` -> freedoms held at zero, ``support.driven`` -> functions of time by driven freedom;
 - `MultibodySettings` and `Outputs` -> what the solver is told beside the structure.
 """
 

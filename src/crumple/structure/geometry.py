@@ -35,17 +35,17 @@ class Frame:
     @property
     def x(self) -> Floats:
         """Unit vector from the first to the second node, shape (3,)."""
-        return self.axes[0]
+        return np.asarray(self.axes[0])
 
     @property
     def y(self) -> Floats:
         """Unit vector of the section's y, shape (3,)."""
-        return self.axes[1]
+        return np.asarray(self.axes[1])
 
     @property
     def z(self) -> Floats:
         """Unit vector of the section's z, shape (3,)."""
-        return self.axes[2]
+        return np.asarray(self.axes[2])
 
     def position(self, station: float) -> Floats:
         """Point on the member's line at a distance [m] from its first node, shape (3,)."""
@@ -53,7 +53,7 @@ class Frame:
 
     def axis(self, name: str) -> Floats:
         """Unit vector of local "x", "y" or "z", shape (3,)."""
-        return self.axes["xyz".index(name)]
+        return np.asarray(self.axes["xyz".index(name)])
 
 
 def frame_of(

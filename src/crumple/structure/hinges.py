@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal
 
 import numpy as np
 
@@ -125,7 +127,7 @@ def hinge_station(structure: Structure, member: str, given: Hinge) -> float:
 def holds_rotation(structure: Structure, node: str, direction: Floats) -> bool:
     """Whether supports hold or drive the rotation of a node about a direction."""
     supports = [support for support in structure.supports.values() if support.node == node]
-    held = {freedom for support in supports for freedom in (*support.held, *support.motion.model_fields_set)}
+    held = {freedom for support in supports for freedom in (*support.held, *support.driven)}
     needed = (FREEDOMS[3 + i] for i in range(3) if abs(direction[i]) > SAME_DIRECTION)
     return all(freedom in held for freedom in needed)
 
@@ -175,9 +177,9 @@ def tributary_lengths(stations: list[float], length: float) -> list[float]:
     """
     if len(stations) == 1:
         return [length / 3.0]
-    middles = [(a + b) / 2.0 for a, b in zip(stations, stations[1:], strict=False)]
+    middles = [(a + b) / 2.0 for a, b in pairwise(stations)]
     ends = [0.0, *middles, length]
-    return [b - a for a, b in zip(ends, ends[1:], strict=False)]
+    return [b - a for a, b in pairwise(ends)]
 
 
 def law_spec(structure: Structure, place: HingePlace) -> LawKeys:
@@ -193,9 +195,8 @@ def law_spec(structure: Structure, place: HingePlace) -> LawKeys:
         kind = structure.section_of(place.member).kind
         if kind not in DEFAULT_LAW:
             what, todo = f"a hinge in a {kind} needs a law", "add 'law'"
-            raise InputError(
-                Problem(what, "", "a name in hinge_laws or " + ", ".join(LAW_SPECS), todo, place.where)
-            )
+            allowed = "a name in hinge_laws, or " + ", ".join(LAW_SPECS)
+            raise InputError(Problem(what, "", allowed, todo))
         reference = DEFAULT_LAW[kind]
     if not isinstance(reference, str):
         return reference
@@ -265,8 +266,8 @@ def _placed(structure: Structure, place: HingePlace, share: float, laws: _Laws) 
     )
 
 
-def _stop(stops: Stops | str) -> Stop | str | None:
-    if isinstance(stops, str):
+def _stop(stops: Stops | Literal["law", "none"]) -> Stop | Literal["law"] | None:
+    if not isinstance(stops, Stops):
         return "law" if stops == "law" else None
     damping = np.nan if isinstance(stops.damping, str) else stops.damping
     return Stop(stops.rotation, stops.stiffness, stops.exponent, damping, stops.penetration)

@@ -62,13 +62,13 @@ class LawKeys(Spec):
     """Keys that every law has."""
 
     form: Literal["set-valued", "elastic-plastic", "regularised"] = "set-valued"
-    """How the capacity becomes a moment: rigid until it is reached, a spring in series, or a ramp over the rate."""
+    """How the capacity becomes a moment: rigid until reached, a spring in series, or a ramp over the rate."""
     elastic_stiffness: StiffnessOrAuto = "auto"
     """Spring of the elastic-plastic form; auto: the law's own, else EI over the tributary length."""
     regularisation: Regularisation = Regularisation()
     """Ramp of the regularised form."""
     softening: Literal["peak", "rotation", "accumulated"] = "peak"
-    """What the curve runs on: largest plastic rotation reached in each sense, the current one, or the sum of all."""
+    """What the curve runs on: largest plastic rotation in each sense, the current one, or the sum of all."""
     stops: StopsOrWord = "law"
     """Stops of both senses; law: those that the law itself asks for."""
     rate: Literal["on", "off"] = "on"
@@ -157,7 +157,7 @@ class KecmanLaw(LawKeys):
     rolling_weight: RollingWeight = 1.0
     """Weight of the second rolling line of each web."""
     start: Literal["cap", "parabola"] = "cap"
-    """Start of the curve: the largest moment until the mechanism falls below it, or a parabola tangent to it."""
+    """Start: the largest moment until the mechanism falls below it, or a parabola tangent to it."""
     after_jamming: Literal["second_fold", "stop", "hold"] = "second_fold"
     """What follows when the walls touch: a further fold in series, an elastic stop, or the moment held."""
 

@@ -31,7 +31,7 @@ def _place(given: Any, info: ValidationInfo) -> str | float:
                 allowed="a node of the member, or a distance: '300 mm'",
             )
         return given
-    return LENGTH.value_of(given, info)  # type: ignore[return-value]
+    return LENGTH.value_of(given, info)
 
 
 Place = Annotated[
@@ -72,6 +72,10 @@ class Bars(Spec):
     """Law of these hinges; without it the section's default."""
 
 
+def _number_of_bars(given: Any) -> Any:
+    return {"number": given} if isinstance(given, int) and not isinstance(given, bool) else given
+
+
 class Member(Spec):
     """Straight bar of one section and one material between two nodes.
 
@@ -88,16 +92,11 @@ class Member(Spec):
     roll: Angle = 0.0
     """Turns the section about local x; 90 deg sets it upright."""
     up: Direction | None = None
-    """Direction whose part across the member is local z; without it global z, or global x for a member along z."""
-    bars: Bars = Bars()
+    """Direction whose part across the member is local z; without it global z, or x for a member along z."""
+    bars: Annotated[Bars, BeforeValidator(_number_of_bars, json_schema_input_type=int | Bars)] = Bars()
     """Equal rigid bars with hinges between them; a plain number stands for `{number: ...}`."""
     hinges: tuple[Hinge, ...] = ()
     """Further hinges."""
-
-    @field_validator("bars", mode="before")
-    @classmethod
-    def _number_of_bars(cls, given: Any) -> Any:
-        return {"number": given} if isinstance(given, int) and not isinstance(given, bool) else given
 
     @field_validator("up", mode="after")
     @classmethod

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import field_validator, model_validator
+from pydantic import BeforeValidator, model_validator
 
+from crumple.function import TimeFunction
+from crumple.structure.problems import shown
 from crumple.structure.quantity import AngularVelocity, Direction, Position, Velocity
 from crumple.structure.spec import Name, Spec, refuse
 from crumple.structure.time_function import AngleFunction, LengthFunction
@@ -32,46 +34,50 @@ class Motion(Spec):
     """Rotation about z."""
 
 
+def _known_freedoms(given: object) -> object:
+    if given in ("all", "pin"):
+        return given
+    listed = given if isinstance(given, list | tuple) else [given]
+    wrong = [freedom for freedom in listed if freedom not in FREEDOMS]
+    if wrong:
+        refuse(f"'{shown(wrong[0])}' cannot be held", allowed="all, pin, or a list of x, y, z, rx, ry, rz")
+    return tuple(listed)
+
+
+Fixed = Literal["all", "pin"] | tuple[Freedom, ...]
+
+
 class Support(Spec):
     """Holds or drives a node."""
 
     node: Name
     """Node that it holds."""
-    fix: Literal["all", "pin"] | tuple[Freedom, ...] = ()
+    fix: Annotated[Fixed, BeforeValidator(_known_freedoms, json_schema_input_type=Fixed)] = ()
     """What is held: all (a clamp), pin (displacements, not rotations), or a list of x, y, z, rx, ry, rz."""
     motion: Motion = Motion()
     """What is driven in place of being held."""
 
-    @field_validator("fix", mode="before")
-    @classmethod
-    def _known(cls, given: object) -> object:
-        if isinstance(given, str) and given not in {"all", "pin"}:
-            given = [given]
-        if isinstance(given, list | tuple):
-            wrong = [part for part in given if part not in FREEDOMS]
-            if wrong:
-                refuse(f"'{wrong[0]}' cannot be held", allowed="all, pin, or a list of x, y, z, rx, ry, rz")
-            return tuple(given)
-        return given
-
     @model_validator(mode="after")
     def _holds_something(self) -> Support:
-        driven = self.motion.model_fields_set
-        if not self.held and not driven:
+        if not self.held and not self.driven:
             refuse("the support holds nothing", todo="add 'fix' or 'motion'")
-        if isinstance(self.fix, tuple) and driven & set(self.fix):
-            refuse(
-                "the same freedom is held and driven", key="motion", todo="name it in 'fix' or in 'motion'"
-            )
+        if isinstance(self.fix, tuple) and set(self.driven) & set(self.fix):
+            todo = "name it in 'fix' or in 'motion'"
+            refuse("the same freedom is held and driven", key="motion", todo=todo)
         return self
 
     @property
     def held(self) -> tuple[Freedom, ...]:
         """Freedoms that are held at zero: those of `fix` that are not driven."""
-        named = (
-            {"all": FREEDOMS, "pin": FREEDOMS[:3]}.get(self.fix) if isinstance(self.fix, str) else self.fix
-        )
-        return tuple(freedom for freedom in named or () if freedom not in self.motion.model_fields_set)
+        words: dict[object, tuple[Freedom, ...]] = {"all": FREEDOMS, "pin": FREEDOMS[:3]}
+        named = words[self.fix] if isinstance(self.fix, str) else self.fix
+        return tuple(freedom for freedom in named if freedom not in self.driven)
+
+    @property
+    def driven(self) -> dict[Freedom, TimeFunction]:
+        """Prescribed motion from the start position by freedom: [m] or [rad] against time [s]."""
+        functions = {freedom: getattr(self.motion, freedom) for freedom in FREEDOMS}
+        return {freedom: function for freedom, function in functions.items() if function is not None}
 
 
 class InitialVelocity(Spec):

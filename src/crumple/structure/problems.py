@@ -92,6 +92,12 @@ def suggestion(name: object, known: Iterable[str]) -> str:
     return f"did you mean '{close[0]}'?" if close else ""
 
 
+def outside(where: str, station: float, length: float) -> Problem:
+    """A place [m] that is not on a member of a length [m]."""
+    came, allowed = f"{1e3 * station:.6g} mm", f"0 mm to {1e3 * length:.6g} mm"
+    return Problem("this place is outside the member", came, allowed, "choose a place on the member", where)
+
+
 def one_of(names: Iterable[str]) -> str:
     """``one of a, b, c``, shortened to twelve."""
     listed = list(names)
@@ -109,33 +115,35 @@ def _is_internal(part: str | int) -> bool:
 def _problem(
     kind: str, message: str, value: Any, context: Mapping[str, Any], place: Place, keys: Sequence[str]
 ) -> Problem:
-    where = spelled(place)
-    came = shown(value)
-    key = str(place[-1]) if place else ""
-    if kind in {"refused", "quantity"}:
-        todo = context.get("todo", "")
-        return Problem(context["what"], context.get("came") or came, context.get("allowed", ""), todo, where)
+    where, came = spelled(place), shown(value)
+    key = shown(place[-1]) if place else ""
+    if kind == "refused":
+        return Problem(context["what"], came, context["allowed"], context["todo"], where)
     if kind == "extra_forbidden":
         todo = suggestion(key, keys) or "remove it or correct its spelling"
-        return Problem(f"unknown key '{shown(key)}'", came, one_of(keys) if keys else "", todo, where)
+        return Problem(f"unknown key '{key}'", came, one_of(keys) if keys else "", todo, where)
     if kind == "missing":
         return Problem(f"the key '{key}' is missing", todo=f"add '{key}'", where=where)
     if kind in {"union_tag_invalid", "union_tag_not_found"}:
-        names = _TAG.findall(str(context.get("expected_tags", "")))
-        tag = (_TAG.findall(str(context.get("tag", ""))) or [""])[0]
-        if not isinstance(value, Mapping):
-            return Problem(
-                "a group of keys is needed here", came, "keys with values, 'type' among them", "", where
-            )
-        what = f"unknown type '{shown(tag)}'" if tag else "the key 'type' is missing"
-        return Problem(what, shown(tag), one_of(names), suggestion(tag, names), where)
+        return _unknown_type(value, context, where)
     if kind in {"literal_error", "enum"}:
-        names = re.findall(r"'([^']*)'", str(context.get("expected", "")))
-        return Problem(
-            "this is none of the known words", came, one_of(names), suggestion(value, names), where
-        )
+        expected = str(context.get("expected", ""))
+        words = re.findall(r"'([^']*)'", expected)
+        allowed = one_of(words) if words else expected
+        return Problem("this is none of the known choices", came, allowed, suggestion(value, words), where)
     what, allowed = _WORDS.get(kind, (message, ""))
     return Problem(what, came, allowed.format_map(_Blank(context)), "", where)
+
+
+def _unknown_type(value: Any, context: Mapping[str, Any], where: str) -> Problem:
+    """A part whose key ``type`` names no known one, or is missing."""
+    if not isinstance(value, Mapping):
+        allowed = "keys with values, 'type' among them"
+        return Problem("a group of keys is needed here", shown(value), allowed, "", where)
+    types = _TAG.findall(str(context.get("expected_tags", "")))
+    tag = (_TAG.findall(str(context.get("tag", ""))) or [""])[0]
+    what = f"unknown type '{shown(tag)}'" if tag else "the key 'type' is missing"
+    return Problem(what, shown(tag), one_of(types), suggestion(tag, types), where)
 
 
 _WORDS: dict[str, tuple[str, str]] = {

@@ -8,14 +8,13 @@ without a unit is refused.  Either way a refusal is one `InputError` that holds 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any, NoReturn, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn, TypeVar, cast
 
 from pydantic import (
     AfterValidator,
     BaseModel,
     BeforeValidator,
     ConfigDict,
-    StringConstraints,
     ValidationError,
 )
 from pydantic_core import PydanticCustomError
@@ -24,19 +23,24 @@ from crumple.errors import InputError, Problem
 from crumple.structure.mapping import frozen
 from crumple.structure.problems import problems_of
 
+if TYPE_CHECKING:
+    from pydantic._internal._model_construction import ModelMetaclass
+else:
+    ModelMetaclass = type(BaseModel)
 
-class _Refusing(type(BaseModel)):  # type: ignore[misc]
+
+class _Refusing(ModelMetaclass):
     """Turns pydantic's error into `InputError` where a part is built by hand.
 
     pydantic validates nested parts without calling the class, so inside a larger part every problem
     still reaches the outermost call.
     """
 
-    def __call__(cls, *args: Any, **kwargs: Any) -> Any:
+    def __call__(cls, *args: Any, **kwargs: Any) -> Any:  # noqa: N805  (a metaclass)
         try:
             return super().__call__(*args, **kwargs)
         except ValidationError as error:
-            raise InputError(problems_of(error, cls)) from None
+            raise InputError(problems_of(error, cast(type[BaseModel], cls))) from None
 
 
 class Spec(BaseModel, metaclass=_Refusing):
@@ -89,7 +93,7 @@ def _name(value: Any) -> Any:
     return value
 
 
-Name = Annotated[str, BeforeValidator(_name), StringConstraints(min_length=1, max_length=64)]
+Name = Annotated[str, BeforeValidator(_name, json_schema_input_type=str | int)]
 """Name of a part: letters, digits, ``_`` and ``-``; a dot separates the parts of a channel name."""
 
 Part = TypeVar("Part")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 from pydantic import ValidationInfo, model_validator
 
 from crumple.material import Material
@@ -60,22 +58,25 @@ class Structure(Spec):
 
     def section_of(self, member: str) -> Section:
         """Cross-section of a member."""
-        return self._sections[self.members[member].section]
+        return self.sections[self.members[member].section].section()
 
     def material_of(self, member: str) -> Material:
         """Material of a member."""
-        return self._materials[self.members[member].material]
+        name = self.members[member].material
+        return self.materials[name].material(name)
+
+    def has_line(self, member: str) -> bool:
+        """Whether a member's nodes exist and its axes are defined; always so in a sound structure."""
+        if member not in self.members or not all(node in self.nodes for node in self.members[member].nodes):
+            return False
+        try:
+            self.frame_of(member)
+        except ValueError:
+            return False
+        return True
 
     def frame_of(self, member: str) -> Frame:
         """Origin, axes and length of a member at the start."""
         spec = self.members[member]
         first, second = (self.nodes[name] for name in spec.nodes)
         return frame_of(first, second, up=spec.up, roll=spec.roll)
-
-    @cached_property
-    def _sections(self) -> dict[str, Section]:
-        return {name: spec.section() for name, spec in self.sections.items()}
-
-    @cached_property
-    def _materials(self) -> dict[str, Material]:
-        return {name: spec.material(name) for name, spec in self.materials.items()}

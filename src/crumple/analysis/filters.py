@@ -1,0 +1,88 @@
+"""Filtered channels that an analysis asks for: are they possible, and what are they."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from crumple.analysis.analysis import Analysis
+from crumple.errors import Problem
+from crumple.result import Channel, Result, cfc
+from crumple.result.filters import CUT_OFF, SAMPLES_PER_CUT_OFF
+from crumple.structure import Filter, Outputs, Structure, hinge_places
+from crumple.structure.problems import one_of, suggestion
+
+HINGE_QUANTITIES = ("rotation", "rotation_rate", "plastic_rotation", "moment", "capacity", "energy")
+NODE_QUANTITIES = ("displacement", "velocity", "acceleration", "rotation")
+LEAST_SAMPLES = 4
+"""Samples that a filter needs."""
+
+
+def filter_problems(
+    structure: Structure, outputs: Outputs, duration: float, interval: float
+) -> list[Problem]:
+    """Filters of channels that the run will not have, or that are sampled too coarsely.
+
+    Parameters
+    ----------
+    structure
+        Sound, so that its hinges have names.
+    outputs
+        What is reported.
+    duration, interval
+        Of the histories [s].
+    """
+    if not outputs.filters:
+        return []
+    known = sorted(_channels(structure, outputs))
+    return [
+        problem
+        for name, wanted in outputs.filters.items()
+        for problem in _problems(f"outputs.filters.{name}", wanted, known, duration, interval)
+    ]
+
+
+def with_filters(result: Result, analysis: Analysis) -> Result:
+    """Result with the filtered channels added; those too short to filter are left out with a warning."""
+    channels, warnings = dict(result.channels), list(result.warnings)
+    interval = analysis.output_interval
+    # pictures may have added times between: filter the regular samples alone
+    regular = np.arange(math.floor(result.time[-1] / interval + 1e-9) + 1) * interval
+    for name, wanted in analysis.outputs.filters.items():
+        if regular.size < LEAST_SAMPLES or wanted.channel not in channels:
+            warnings.append(f"{name} could not be filtered: the run ended too early")
+            continue
+        raw = channels[wanted.channel]
+        smooth = cfc(np.interp(regular, result.time, raw.values), interval, wanted.cfc)
+        channels[name] = Channel(name, raw.unit, np.interp(result.time, regular, smooth))
+    names = (*result.output_names, *(name for name in analysis.outputs.filters if name in channels))
+    return replace(result, channels=channels, warnings=tuple(warnings), output_names=names)
+
+
+def _channels(structure: Structure, outputs: Outputs) -> Iterator[str]:
+    """Names of the channels that a run will have and that can be filtered."""
+    for place in hinge_places(structure):
+        yield from (f"hinge.{place.name}.{quantity}" for quantity in HINGE_QUANTITIES)
+    for node in outputs.nodes:
+        yield from (f"node.{node}.{quantity}.{axis}" for quantity in NODE_QUANTITIES for axis in "xyz")
+    yield from outputs.section_rotations
+
+
+def _problems(
+    where: str, wanted: Filter, known: list[str], duration: float, interval: float
+) -> Iterator[Problem]:
+    if wanted.channel not in known:
+        todo = suggestion(wanted.channel, known) or "name a channel of a hinge, or of a node in outputs.nodes"
+        what = f"the run has no channel '{wanted.channel[:80]}'"
+        yield Problem(what, wanted.channel[:80], one_of(known), todo, f"{where}.channel")
+    longest = 1.0 / (SAMPLES_PER_CUT_OFF * CUT_OFF[wanted.cfc])
+    if interval > longest:
+        allowed = f"an interval of at most {1e3 * longest:.3g} ms for CFC {wanted.cfc}"
+        what, todo = "the histories are too coarse for this filter", "give a shorter 'every' in outputs"
+        yield Problem(what, f"{1e3 * interval:.3g} ms", allowed, todo, f"{where}.cfc")
+    elif duration / interval < LEAST_SAMPLES:
+        todo = "give a shorter 'every' in outputs"
+        yield Problem("the histories are too short to filter", todo=todo, where=f"{where}.cfc")

@@ -1,0 +1,123 @@
+"""JSON Schema of the input file, for editors that complete and check while one writes."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import textwrap
+from collections.abc import Iterator
+from functools import lru_cache
+from typing import Any, get_args
+
+from pydantic import BaseModel
+from pydantic.json_schema import GenerateJsonSchema
+
+from crumple.analysis.input_file import FORMAT, InputFile
+
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+
+def json_schema() -> dict[str, Any]:
+    """Schema of an input file.
+
+    Returns
+    -------
+    dict
+        JSON Schema 2020-12.  Quantities are texts with a unit; ``x-unit`` names their SI unit.
+    """
+    schema = InputFile.model_json_schema(schema_generator=_Generator)
+    parts = {InputFile.__name__: schema, **schema.get("$defs", {})}
+    for model in models_of(InputFile):
+        _describe(parts[model.__name__], model)
+    return {"$schema": DIALECT, **_tidy(schema), "title": f"Crumple input file, format {FORMAT}"}
+
+
+def models_of(model: type[BaseModel]) -> list[type[BaseModel]]:
+    """A model and every model inside it, each once, outermost first."""
+    found = [model]
+    for one in found:
+        for field in one.model_fields.values():
+            found += [inner for inner in dict.fromkeys(_models_in(field.annotation)) if inner not in found]
+    return found
+
+
+@lru_cache(maxsize=256)
+def field_descriptions(model: type[BaseModel]) -> dict[str, str]:
+    """What the text below each field of a model says, inherited fields included, on one line each."""
+    texts: dict[str, str] = {}
+    for owner in reversed(model.__mro__):
+        if not (isinstance(owner, type) and issubclass(owner, BaseModel)) or owner is BaseModel:
+            continue
+        body = ast.parse(textwrap.dedent(inspect.getsource(owner))).body[0]
+        assert isinstance(body, ast.ClassDef)
+        for statement, below in zip(body.body, body.body[1:], strict=False):
+            if isinstance(statement, ast.AnnAssign) and isinstance(statement.target, ast.Name):
+                text = _text(below)
+                if text is not None:
+                    texts[statement.target.id] = " ".join(text.split())
+    return texts
+
+
+def first_sentence(model: type[BaseModel]) -> str:
+    """What a model is: the first paragraph of its docstring on one line."""
+    return " ".join((model.__doc__ or "").strip().split("\n\n")[0].split())
+
+
+class _Generator(GenerateJsonSchema):
+    """Lets defaults that are parts themselves be left out: an absent part already says so."""
+
+    def encode_default(self, dft: Any) -> Any:
+        return None if isinstance(dft, BaseModel | dict | tuple) else super().encode_default(dft)
+
+
+def _models_in(annotation: Any) -> Iterator[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for argument in get_args(annotation):
+        yield from _models_in(argument)
+
+
+def _text(statement: ast.stmt) -> str | None:
+    if isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant):
+        return statement.value.value if isinstance(statement.value.value, str) else None
+    return None
+
+
+def _describe(part: dict[str, Any], model: type[BaseModel]) -> None:
+    """Put what the source says about a part and its keys into its schema."""
+    part["description"] = first_sentence(model)
+    texts = field_descriptions(model)
+    for name, field in model.model_fields.items():
+        entry = part["properties"][field.alias or name]
+        quantity = entry.get("description", "")
+        entry["description"] = " ".join(
+            text for text in (texts.get(name, ""), f"({quantity})" if quantity else "") if text
+        )
+        default = entry.get("default")
+        if "x-unit" in entry and isinstance(default, float) and default:
+            entry["default"] = f"{default:g} {entry['x-unit']}"
+        if name == "type":
+            # the alternatives are told apart by it
+            part["required"] = ["type", *part.get("required", [])]
+            entry.pop("default", None)
+
+
+def _tidy(schema: Any) -> Any:
+    """Schema without titles that repeat the key, without null defaults, and with nested choices flattened."""
+    if isinstance(schema, list):
+        return [_tidy(item) for item in schema]
+    if not isinstance(schema, dict):
+        return schema
+    tidy = {
+        key: _tidy(value) for key, value in schema.items() if not (key == "title" and isinstance(value, str))
+    }
+    if "default" in tidy and tidy["default"] is None:
+        del tidy["default"]
+    choices = tidy.get("anyOf")
+    if isinstance(choices, list):
+        tidy["anyOf"] = [
+            inner
+            for choice in choices
+            for inner in (choice["anyOf"] if set(choice) == {"anyOf"} else [choice])
+        ]
+    return tidy

@@ -1,0 +1,78 @@
+"""The one way from an input to an answer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from importlib.metadata import version
+from typing import TYPE_CHECKING
+
+from crumple.analysis.analysis import Analysis
+from crumple.analysis.canonical import canonical, input_hash
+from crumple.analysis.filters import with_filters
+from crumple.errors import InputError, Problem
+
+if TYPE_CHECKING:
+    from crumple.result import Result
+
+FIDELITIES = ("multibody",)
+"""Solvers by name."""
+
+
+def solve(
+    analysis: Analysis,
+    fidelity: str = "multibody",
+    threads: int = 1,
+    progress: Callable[[float], None] | None = None,
+    cancel: Callable[[], bool] | None = None,
+) -> Result:
+    """Answer of one solver to an analysis.
+
+    Parameters
+    ----------
+    analysis
+        What to solve; not changed.
+    fidelity
+        Which solver: ``multibody``.
+    threads
+        Threads to use, at least 1; the answer's bits do not depend on it.
+    progress
+        Called with the simulated share of the duration, 0 to 1.
+    cancel
+        Asked now and then; True ends the run with a status and what it has.
+
+    Returns
+    -------
+    Result
+        With its status; a run that fails is a result too.
+
+    Raises
+    ------
+    InputError
+        If the fidelity is unknown or the solver cannot take the structure.
+    """
+    if fidelity not in FIDELITIES:
+        allowed = ", ".join(FIDELITIES)
+        raise InputError(Problem("unknown fidelity", fidelity, allowed, "choose one of these", "fidelity"))
+    if threads < 1:
+        raise InputError(Problem("no thread to run on", str(threads), "at least 1", "", "threads"))
+    # the solver needs the compiled kernels; reading and checking input does not
+    from crumple.multibody import Run, solve_multibody  # noqa: PLC0415
+
+    run = Run(
+        duration=analysis.duration,
+        every=analysis.output_interval,
+        settings=analysis.multibody,
+        outputs=analysis.outputs,
+        title=analysis.title,
+    )
+    result = with_filters(solve_multibody(analysis.structure, run, progress, cancel), analysis)
+    settings = {**canonical(analysis)["multibody"], **result.provenance.settings}
+    provenance = replace(
+        result.provenance,
+        version=version("crumple"),
+        input_hash=input_hash(analysis),
+        threads=threads,
+        settings=settings,
+    )
+    return replace(result, provenance=provenance)
