@@ -1,0 +1,250 @@
+"""Histories: rotation and angular velocity, energy against rotation, the energy ledger, requested outputs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from crumple.report.style import (
+    HALF,
+    MUTED,
+    RULE,
+    WARNING,
+    WIDTH,
+    Floats,
+    Line,
+    add_axes,
+    display_unit,
+    draw_lines,
+    largest,
+    name_axes,
+    new_figure,
+    short,
+    spread,
+    time_unit,
+    to_svg,
+)
+from crumple.result import Channel, Result
+
+NAMED = 6
+"""Hinges drawn in colour and named; the others are drawn faintly behind them."""
+MAX_OUTPUTS = 12
+"""Panels of requested outputs."""
+
+_DEGREES = math.degrees(1.0)
+_PANEL = 1.75  # height of the axes of a panel [in]
+_HEAD, _FOOT = 0.26, 0.34  # above the axes for their name, below them for the time axis [in]
+_LEFT, _RIGHT = 0.42, 0.62  # for numbers and for names at the ends of lines [in]
+_EDGE = 0.12  # for half of the last number of the time axis [in]
+
+_LEDGER = (
+    ("kinetic", "energy.kinetic", 0),
+    ("elastic", "energy.elastic", 4),
+    ("dissipated", "energy.dissipated", 1),
+    ("external work", "energy.external_work", 2),
+)
+
+
+def hinge_channel(result: Result, hinge: str, quantity: str) -> Floats | None:
+    """Values of ``hinge.<name>.<quantity>``, or None."""
+    channel = result.channels.get(f"hinge.{hinge}.{quantity}")
+    return channel.values if channel is not None else None
+
+
+def sense(result: Result, hinge: str) -> float:
+    """+1 or -1: the sense in which a hinge turned farthest."""
+    rotation = hinge_channel(result, hinge, "rotation")
+    if rotation is None or not np.isfinite(rotation).any():
+        return 1.0
+    return -1.0 if -np.nanmin(rotation) > np.nanmax(rotation) else 1.0
+
+
+def ranked_hinges(result: Result) -> list[str]:
+    """Hinges that absorbed most first; in order of the input where they are equal."""
+    return sorted(result.hinges, key=lambda name: -result.hinges[name].energy)
+
+
+def rotations(result: Result) -> str | None:
+    """Rotation and angular velocity of the hinges against time, side by side, as SVG."""
+    turned = _hinge_lines(result, "rotation", _DEGREES)
+    turning = _hinge_lines(result, "rotation_rate", 1.0)
+    if not turned or not len(result.time):
+        return None
+    figure = new_figure(WIDTH, _HEAD + _PANEL + _FOOT)
+    # one hinge: radians stand right of its rotation; several: their names stand right of both
+    right = (_LEFT, _EDGE) if len(turned) == 1 else (_RIGHT, _RIGHT)
+    width = (WIDTH - 2 * _LEFT - sum(right)) / 2
+    axes = add_axes(figure, _LEFT, _FOOT, width, _PANEL)
+    _over_time(axes, result.time, turned, "Rotation, deg")
+    if len(turned) == 1:
+        _radians_on_the_right(axes)
+    if turning:
+        axes = add_axes(figure, WIDTH - width - right[1], _FOOT, width, _PANEL)
+        _over_time(axes, result.time, turning, "Angular velocity, rad/s")
+    return to_svg(figure, "rotation", "Rotation and angular velocity of the hinges against time.")
+
+
+def energy_over_rotation(result: Result) -> str | None:
+    """Energy dissipated in each hinge against its rotation, as SVG."""
+    lines = []
+    peak = largest([e for h in result.hinges if (e := hinge_channel(result, h, "energy")) is not None])
+    unit, factor = display_unit("J", peak)
+    for index, name in enumerate(ranked_hinges(result)):
+        rotation, energy = (hinge_channel(result, name, quantity) for quantity in ("rotation", "energy"))
+        if rotation is not None and energy is not None:
+            x = sense(result, name) * rotation * _DEGREES
+            lines.append(Line(name, x, energy / factor, index, faint=index >= NAMED))
+    if not lines or not len(result.time):
+        return None
+    figure = new_figure(HALF, _HEAD + _PANEL + _FOOT)
+    right = _RIGHT if len(lines) > 1 else _EDGE
+    axes = add_axes(figure, _LEFT, _FOOT, HALF - _LEFT - right, _PANEL)
+    axes.set_xlim(*spread([line.x for line in lines], margin=0.04))
+    axes.set_ylim(*spread([line.y for line in lines]))
+    name_axes(axes, "rotation, deg", f"Dissipated energy, {unit}")
+    draw_lines(axes, lines, labels=len(lines) > 1)
+    return to_svg(figure, "energy-rotation", "Energy dissipated in each hinge against its rotation.")
+
+
+def ledger(result: Result, bound: float | None = None) -> str | None:
+    """Energies over time and, beside them, what is left of their balance against its bound, as SVG.
+
+    Parameters
+    ----------
+    result
+        Its channels ``energy.*`` are drawn.
+    bound
+        Largest residual allowed, over the energy put in [-]; None where it is not known.
+    """
+    shown = [(name, result.channels[key], index) for name, key, index in _LEDGER if key in result.channels]
+    if not shown or not len(result.time):
+        return None
+    peak = largest([channel.values for _, channel, _ in shown])
+    unit, factor = display_unit("J", peak)
+    lines = [Line(name, _times(result), channel.values / factor, i) for name, channel, i in shown]
+    # what never held a thousandth of the energy would only lie on the axis
+    lines = [line for line in lines if largest([line.y]) > 1e-3 * peak / factor] or lines[:1]
+    share = residual_share(result)
+    figure = new_figure(WIDTH, _HEAD + _PANEL + 0.15 + _FOOT)
+    names = 0.9
+    beside = 1.5 if share is not None else 0.0
+    width = WIDTH - _LEFT - names - (0.5 + beside + _EDGE if beside else 0.0)
+    axes = add_axes(figure, _LEFT, _FOOT, width, _PANEL + 0.15)
+    _over_time(axes, result.time, lines, f"Energy, {unit}", labels=True)
+    if share is not None:
+        axes = add_axes(figure, WIDTH - beside - _EDGE, _FOOT, beside, _PANEL + 0.15)
+        _draw_residual(axes, result.time, 100 * share, None if bound is None else 100 * bound)
+    description = "Kinetic, elastic and dissipated energy and external work against time, and their residual."
+    return to_svg(figure, "energy", description)
+
+
+def residual_share(result: Result) -> Floats | None:
+    """Residual of the energy balance over the energy put in [-], shape (n_times,); None when not known."""
+    residual = result.channels.get("energy.residual")
+    if residual is None:
+        return None
+    start = sum(result[key][0] for key in ("energy.kinetic", "energy.elastic") if key in result.channels)
+    work = result.channels.get("energy.external_work")
+    put_in = float(start) + (largest([work.values]) if work is not None else 0.0)
+    return residual.values / put_in if put_in > 0 else None
+
+
+def _draw_residual(axes: Axes, time: Floats, percent: Floats, bound: float | None) -> None:
+    """On the scale of its bound, so that a small residual looks small."""
+    line = Line("residual", time / time_unit(float(time[-1]))[1], percent, 0)
+    _over_time(axes, time, [line], "Residual, % of energy put in", labels=False)
+    reach = largest([percent])
+    if bound is not None:
+        size = 1.3 * max(bound, reach)
+        axes.set_ylim(-size, size)
+        for side in (-bound, bound):
+            axes.axhline(side, color=WARNING, linewidth=0.6, linestyle=(0, (2, 2)))
+        axes.annotate(
+            "bound", (1, bound), (0, 2), xycoords=axes.get_yaxis_transform(), textcoords="offset points",
+            ha="right", va="bottom", color=WARNING, fontsize=7.0,
+        )  # fmt: skip
+        axes.spines["bottom"].set_visible(False)
+        axes.axhline(0.0, color=RULE, linewidth=0.6, zorder=1)
+    elif reach < 1e-6:
+        axes.set_ylim(-1e-6, 1e-6)
+        axes.set_yticks([0.0])
+
+
+def outputs(result: Result) -> str | None:
+    """Requested channels against time, two in a row, as SVG."""
+    channels = [result.channels[name] for name in result.output_names if name in result.channels]
+    channels = channels[:MAX_OUTPUTS]
+    if not channels or not len(result.time):
+        return None
+    columns = 2
+    rows = math.ceil(len(channels) / columns)
+    height = 1.35
+    figure = new_figure(WIDTH, rows * (_HEAD + height + _FOOT))
+    width = WIDTH / columns - _LEFT - _EDGE
+    for i, channel in enumerate(channels):
+        row, column = divmod(i, columns)
+        bottom = (rows - row - 1) * (_HEAD + height + _FOOT) + _FOOT
+        axes = add_axes(figure, _LEFT + column * WIDTH / columns, bottom, width, height)
+        unit, values = _display(channel)
+        line = Line(channel.name, _times(result), values, 0)
+        name = f"{short(channel.name, 44)}, {unit}" if unit else short(channel.name, 44)
+        _over_time(axes, result.time, [line], name, labels=False)
+    return to_svg(figure, "outputs", "Requested outputs against time.")
+
+
+def _display(channel: Channel) -> tuple[str, Floats]:
+    unit, factor = display_unit(channel.unit, largest([channel.values]))
+    return unit, channel.values / factor
+
+
+def _times(result: Result) -> Floats:
+    """Times in the unit of the time axis."""
+    return result.time / time_unit(float(result.time[-1]))[1] if len(result.time) else result.time
+
+
+def _hinge_lines(result: Result, quantity: str, factor: float) -> list[Line]:
+    lines = []
+    for index, name in enumerate(ranked_hinges(result)):
+        values = hinge_channel(result, name, quantity)
+        if values is not None:
+            lines.append(Line(name, _times(result), values * factor, index, faint=index >= NAMED))
+    return lines
+
+
+def _over_time(
+    axes: Axes, time: Floats, lines: Sequence[Line], name: str, *, labels: bool | None = None
+) -> None:
+    """Lines over the whole time, with the zero line marked where it is inside."""
+    unit, factor = time_unit(float(time[-1]))
+    start, end = float(time[0]) / factor, float(time[-1]) / factor
+    axes.set_xlim(start, end if end > start else start + 1.0)
+    axes.set_ylim(*spread([line.y for line in lines]))
+    low, high = axes.get_ylim()
+    if low < 0 < high:
+        axes.axhline(0.0, color=RULE, linewidth=0.6, zorder=1)
+        axes.spines["bottom"].set_visible(False)
+    name_axes(axes, f"time, {unit}", name)
+    draw_lines(axes, lines, labels=len(lines) > 1 if labels is None else labels)
+
+
+def _radians_on_the_right(axes: Axes) -> None:
+    """The same rotation in radians, at round values right of the axes."""
+    low, high = (limit / _DEGREES for limit in axes.get_ylim())
+    ticks = [tick for tick in axes.yaxis.get_major_locator().tick_values(low, high) if low <= tick <= high]
+    places = [("rad", 1.0, 11.5), *((f"{tick:.3g}".replace("-", "\u2212"), tick, 0.0) for tick in ticks)]
+    for text, tick, rise in places:
+        at = (1, 1) if rise else (1, tick * _DEGREES)
+        axes.annotate(
+            text,
+            at,
+            (4, rise),
+            xycoords="axes fraction" if rise else axes.get_yaxis_transform(),
+            textcoords="offset points",
+            va="center",
+            color=MUTED,
+            fontsize=7.5,
+            annotation_clip=False,
+        )

@@ -1,0 +1,223 @@
+"""One self-contained HTML page with every figure, table and number that an engineer needs to judge a run."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from crumple.result.files import write_text
+
+if TYPE_CHECKING:
+    from crumple.report.wording import Table
+    from crumple.result import Result
+
+MAX_MOMENT_FIGURES = 12
+"""Hinges drawn with their laws; each figure adds some 8 kB to the page."""
+MAX_INPUT = 60_000
+"""Characters of input printed; a longer one is cut, and the page says so."""
+
+
+@dataclass(frozen=True)
+class ReportInput:
+    """What the page shows of the analysis; every field may be left out.
+
+    Attributes
+    ----------
+    title
+        Of the page; the result's own when empty.
+    text
+        The input file as its author wrote it.
+    name
+        Of that file.
+    canonical
+        The input as it was understood, printed where there is no text.
+    residual_bound
+        Largest energy residual allowed, over the energy put in [-].
+    accuracy
+        Asked of the stepper [-].
+    """
+
+    title: str = ""
+    text: str = ""
+    name: str = ""
+    canonical: Mapping[str, Any] | None = None
+    residual_bound: float | None = None
+    accuracy: float | None = None
+
+
+@dataclass(frozen=True)
+class _Figure:
+    number: int
+    svg: Any
+    caption: str
+
+
+def write_report(result: Result, source: ReportInput, directory: Path | str) -> Path:
+    """Draw the figures, write them to ``figures/`` and write ``report.html`` around them.
+
+    Parameters
+    ----------
+    result
+        Of either fidelity, complete or not.
+    source
+        What to show of the analysis.  Its bound and accuracy default to the result's settings of that name.
+    directory
+        Made when absent.
+
+    Returns
+    -------
+    Path
+        The page.
+
+    Raises
+    ------
+    OSError
+        If the folder cannot be written.
+    """
+    folder = Path(directory)
+    settings = result.provenance.settings
+    bound = source.residual_bound if source.residual_bound is not None else settings.get("residual_bound")
+    accuracy = source.accuracy if source.accuracy is not None else settings.get("accuracy")
+    drawn = _draw(result, bound)
+    for name, svg, _ in drawn:
+        write_text(folder / "figures" / f"{name}.svg", '<?xml version="1.0" encoding="utf-8"?>\n' + svg)
+    page = folder / "report.html"
+    write_text(page, _render(result, source, drawn, bound, accuracy))
+    return page
+
+
+def _draw(result: Result, bound: float | None) -> list[tuple[str, str, str]]:
+    """Every figure that the result has something for: file name, SVG, caption."""
+    from crumple.report import curves, moment, shape  # noqa: PLC0415  (matplotlib takes a third of a second)
+    from crumple.report.style import drawing  # noqa: PLC0415
+
+    with drawing():
+        figures = [
+            (
+                "deformation",
+                shape.deformation(result),
+                "Deformed member walls at the picture times over the undeformed shape in grey, "
+                "all at one scale. Circles mark hinges.",
+            ),
+            (
+                "rotation",
+                curves.rotations(result),
+                "Rotation and angular velocity of the hinges against time." + _named(result, curves.NAMED),
+            ),
+            (
+                "energy_rotation",
+                curves.energy_over_rotation(result),
+                "Energy dissipated in each hinge against its rotation, "
+                "positive in the sense in which it turned farthest." + _named(result, curves.NAMED),
+            ),
+            *_moment_figures(result, moment.moment_over_rotation),
+            ("energy", curves.ledger(result, bound), _ledger_caption(result)),
+            ("outputs", curves.outputs(result), "Requested outputs against time."),
+        ]
+    return [(name, svg, caption) for name, svg, caption in figures if svg is not None]
+
+
+def _named(result: Result, named: int) -> str:
+    return f" Named are the {named} that absorbed most." if len(result.hinges) > named else ""
+
+
+def _moment_figures(result: Result, draw: Any) -> list[tuple[str, str | None, str]]:
+    from crumple.report.curves import ranked_hinges  # noqa: PLC0415
+    from crumple.report.wording import angle, sentence_case  # noqa: PLC0415
+
+    figures = []
+    for i, hinge in enumerate(ranked_hinges(result)[:MAX_MOMENT_FIGURES]):
+        summary = result.hinges[hinge]
+        parts = [f"Moment in hinge {hinge}: the path it took, and its law."]
+        parts += [sentence_case(text) for text in (summary.law, summary.source) if text]
+        if summary.validity_rotation is not None and isfinite(summary.validity_rotation):
+            parts.append(f"Backed up to {angle(summary.validity_rotation)}.")
+        figures.append((f"moment_{i + 1}", draw(result, hinge, f"moment-{i + 1}"), " ".join(parts)))
+    return figures
+
+
+def _ledger_caption(result: Result) -> str:
+    shown = "Energies against time"
+    if "energy.residual" not in result.channels:
+        return f"{shown}."
+    return (
+        f"{shown} and, on the right, the residual of their balance: kinetic + elastic + dissipated "
+        "− external work − energy at the start. Dissipation is integrated by itself, so it is a check."
+    )
+
+
+def _render(
+    result: Result,
+    source: ReportInput,
+    drawn: list[tuple[str, str, str]],
+    bound: float | None,
+    accuracy: float | None,
+) -> str:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined  # noqa: PLC0415
+    from markupsafe import Markup  # noqa: PLC0415
+
+    from crumple.report import wording  # noqa: PLC0415
+
+    # the figures and the style are our own; everything else is escaped
+    figures = {name: _Figure(i + 1, Markup(svg), caption) for i, (name, svg, caption) in enumerate(drawn)}
+    moments = [figure for name, figure in figures.items() if name.startswith("moment_")]
+    here = Path(__file__).parent
+    environment = Environment(
+        loader=FileSystemLoader(here),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+    )
+    style = (here / "page.css").read_text(encoding="utf-8")
+    text = _input_text(source)
+    named = ("deformation", "rotation", "energy_rotation", "energy", "outputs")
+    return environment.get_template("page.html.jinja").render(
+        version=result.provenance.version,
+        title=source.title or result.title or "Crash analysis",
+        meta=_meta(result, source),
+        style=Markup(style),
+        verdict=wording.verdict(result, bound, accuracy),
+        key_figures=wording.key_figures(result),
+        figures={**{name: figures.get(name) for name in named}, "moments": moments},
+        omitted_hinges=max(len(result.hinges) - MAX_MOMENT_FIGURES, 0),
+        hinge_table=wording.hinge_table(result),
+        output_table=wording.output_table(result),
+        law_table=wording.law_table(result),
+        assumptions=result.assumptions,
+        provenance_table=_provenance(result, wording.Table),
+        input_text=text[:MAX_INPUT],
+        input_cut=MAX_INPUT if len(text) > MAX_INPUT else 0,
+        input_name=source.name,
+    )
+
+
+def _meta(result: Result, source: ReportInput) -> list[str]:
+    provenance = result.provenance
+    parts = [source.name, f"{result.fidelity} model", f"Crumple {provenance.version}"]
+    return [part for part in (*parts, f"input {provenance.input_hash[:12]}") if part]
+
+
+def _input_text(source: ReportInput) -> str:
+    if source.text or source.canonical is None:
+        return source.text
+    return json.dumps(source.canonical, indent=2, ensure_ascii=False, default=str)
+
+
+def _provenance(result: Result, table: type[Table]) -> Table:
+    from crumple.units import format_quantity  # noqa: PLC0415
+
+    provenance = result.provenance
+    rows = [
+        ("Crumple", provenance.version),
+        ("Fidelity", result.fidelity),
+        ("Input hash (SHA-256)", provenance.input_hash),
+        ("Instruction set", provenance.isa),
+        ("Threads", str(provenance.threads)),
+        ("Solve time", format_quantity(result.solve_seconds, "s", 3)),
+        ("Settings", ", ".join(f"{name} {value}" for name, value in provenance.settings.items())),
+    ]
+    return table("", ("Item", "Value"), [row for row in rows if row[1]], frozenset({1}))

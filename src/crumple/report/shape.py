@@ -1,0 +1,253 @@
+"""Deformation patterns: the member walls at the picture times, side by side at one scale."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import to_rgb
+from numpy.typing import NDArray
+
+from crumple.report.style import INK, MUTED, RULE, SERIES, WIDTH, add_axes, new_figure, short, to_svg
+from crumple.report.view import View, choose_view, ring_centres
+from crumple.result import Result, States
+from crumple.units import format_quantity
+
+Floats = NDArray[np.float64]
+
+_WALL = to_rgb("#9db3c8")
+_GHOST = "#e9ecef"
+_CREASE = math.cos(math.radians(30.0))  # walls that meet at more than this get an edge between them
+_RASTER_FROM = 4000  # walls in all pictures together, from which they become an image to keep the page small
+_NAMED_HINGES = 8
+
+
+@dataclass(frozen=True)
+class _Surface:
+    """What every picture needs and no time changes.
+
+    Attributes
+    ----------
+    rings, ring
+        Section centres, (n_states + 1, n_rings, 3), and the ring of each point, (n_points,).
+    edges
+        Point pairs of all wall edges, (n_edges, 2).
+    sides
+        The two walls at each edge, (n_edges, 2); the same wall twice at a free edge.
+    sharp
+        Whether the walls meet at an angle or end there, (n_edges,).
+    """
+
+    rings: Floats
+    ring: NDArray[np.int64]
+    edges: NDArray[np.int64]
+    sides: NDArray[np.int64]
+    sharp: NDArray[np.bool_]
+
+
+def deformation(result: Result) -> str | None:
+    """The figure as SVG, or None when the result has no states."""
+    states = _finite_states(result.states)
+    if states is None:
+        return None
+    view = choose_view(states)
+    surface = _surface(states)
+    drawn = view.flat(np.concatenate([states.points[None], states.points + states.displacement]))
+    low, high = drawn.reshape(-1, 2).min(axis=0), drawn.reshape(-1, 2).max(axis=0)
+    size = np.maximum(high - low, 1e-3 * np.max(high - low))
+    low, high = low - 0.06 * size.max(), high + 0.06 * size.max()
+    width, height = high - low
+    columns = _columns(width / height, len(states.times))
+    rows = math.ceil(len(states.times) / columns)
+    gap, label, foot = 0.12, 0.2, 0.34
+    panel_width = (WIDTH - gap * (columns - 1)) / columns
+    panel_height = min(panel_width * height / width, 3.2)
+    total = rows * (panel_height + label) + foot
+    figure = new_figure(WIDTH, total)
+    hinges = _hinge_places(result, states)
+    raster = len(states.quads) * len(states.times) > _RASTER_FROM
+    for i, time in enumerate(states.times):
+        row, column = divmod(i, columns)
+        bottom = total - (row + 1) * (panel_height + label)
+        axes = add_axes(figure, column * (panel_width + gap), bottom, panel_width, panel_height)
+        axes.set_axis_off()
+        axes.set_xlim(low[0], high[0])
+        axes.set_ylim(low[1], high[1])
+        axes.set_aspect("equal", anchor="W")
+        _draw_walls(axes, states, surface, view, None, raster)
+        _draw_walls(axes, states, surface, view, i, raster)
+        last = i == len(states.times) - 1
+        _draw_hinges(axes, {name: view.flat(places[i]) for name, places in hinges.items()}, named=last)
+        axes.text(
+            0,
+            1,
+            _time(float(time)),
+            transform=axes.transAxes,
+            va="bottom",
+            fontsize=8.5,
+            color=INK,
+        )
+    scale = add_axes(figure, 0, 0, WIDTH, foot)
+    inches_per_metre = min(panel_width / width, panel_height / height)
+    _draw_scale(scale, view, inches_per_metre, panel_width, foot)
+    return to_svg(figure, "deformation", _description(states))
+
+
+def _finite_states(states: States | None) -> States | None:
+    """The states that can be drawn: those in which every point has a place; None without any."""
+    if states is None or not len(states.quads) or np.ptp(states.points, axis=0).max() == 0.0:
+        return None
+    keep = np.isfinite(states.displacement).all(axis=(1, 2))
+    if not keep.any():
+        return None
+    return replace(states, times=states.times[keep], displacement=states.displacement[keep])
+
+
+def _description(states: States) -> str:
+    times = ", ".join(_time(float(time)) for time in states.times)
+    return (
+        f"Deformed shape of the member walls at {times}, over the undeformed shape in grey, all at one scale."
+    )
+
+
+def _time(time: float) -> str:
+    return f"{time * 1e3:.4g} ms"
+
+
+def _columns(aspect: float, n: int) -> int:
+    """Panels in a row: few when they are flat, many when they are tall."""
+    wish = 2 if aspect > 3.5 else 3 if aspect > 0.8 else 4 if aspect > 0.45 else 6
+    return max(1, min(wish, n))
+
+
+def _surface(states: States) -> _Surface:
+    rings, ring = ring_centres(states)
+    pairs = np.stack([states.quads, np.roll(states.quads, -1, axis=1)], axis=2).reshape(-1, 2)
+    owner = np.repeat(np.arange(len(states.quads)), 4)
+    edges, first, inverse = np.unique(np.sort(pairs, axis=1), axis=0, return_index=True, return_inverse=True)
+    sides = np.stack([owner[first], owner[first]], axis=1)
+    sides[inverse.reshape(-1), 1] = owner
+    normals = _normals(states.points, states.quads)
+    meeting = np.einsum("ij,ij->i", normals[sides[:, 0]], normals[sides[:, 1]])
+    return _Surface(rings, ring, edges, sides, (np.abs(meeting) < _CREASE) | (sides[:, 0] == sides[:, 1]))
+
+
+def _normals(points: Floats, quads: NDArray[np.int64]) -> Floats:
+    corners = points[quads]
+    normals: Floats = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
+    return normals
+
+
+def _draw_walls(
+    axes: Axes, states: States, surface: _Surface, view: View, state: int | None, raster: bool
+) -> None:
+    """Walls of one state, farthest first, edged where they meet or turn away; None: undeformed, grey."""
+    points = states.points if state is None else states.points + states.displacement[state]
+    quads = states.quads
+    normals = _normals(points, quads)
+    centres = points[quads].mean(axis=1)
+    # outwards is away from the centre line, whatever order the corners came in
+    middle = surface.rings[0 if state is None else state + 1][surface.ring[quads]].mean(axis=1)
+    normals *= np.where(np.einsum("ij,ij->i", normals, centres - middle) < 0, -1.0, 1.0)[:, None]
+    facing = view.depth(normals)
+    flat = view.flat(points)
+    # walls seen edge-on have nothing to fill
+    seen = np.flatnonzero(np.abs(facing) > 1e-6)
+    order = seen[np.argsort(view.depth(centres[seen]), kind="stable")]
+    if state is None:
+        axes.add_collection(
+            PolyCollection(
+                list(flat[quads[seen]]),
+                facecolors=_GHOST,
+                edgecolors=_GHOST,
+                linewidths=0.4,
+                rasterized=raster,
+                zorder=1,
+            ),
+            autolim=False,
+        )
+        return
+    light = np.abs(normals @ (0.75 * view.towards + 0.6 * view.up))
+    shade = np.clip(0.62 + 0.5 * light, 0.0, 1.15)[:, None]
+    colours = np.clip(1.0 - (1.0 - np.array(_WALL)) * (1.9 - shade), 0.0, 1.0)
+    walls = PolyCollection(
+        list(flat[quads[order]]),
+        facecolors=colours[order],
+        edgecolors=colours[order],
+        linewidths=0.3,
+        rasterized=raster,
+        zorder=2,
+    )
+    axes.add_collection(walls, autolim=False)
+    front = facing > 1e-9
+    a, b = surface.sides[:, 0], surface.sides[:, 1]
+    shown = (front[a] | front[b]) & (surface.sharp | (front[a] != front[b]))
+    outline = LineCollection(
+        list(flat[surface.edges[shown]]), colors="#3c5268", linewidths=0.5, rasterized=raster, zorder=3
+    )
+    axes.add_collection(outline, autolim=False)
+
+
+def _hinge_places(result: Result, states: States) -> dict[str, Floats]:
+    """Place of every hinge in every state, (n_states, 3): it moves with the walls around it."""
+    places = {}
+    for name, hinge in result.hinges.items():
+        start = np.array(hinge.position)
+        distance = np.linalg.norm(states.points - start, axis=1)
+        near = np.argsort(distance, kind="stable")[:8]
+        weight = 1.0 / (distance[near] + 1e-6) ** 2
+        moved = np.einsum("j,ijk->ik", weight / weight.sum(), states.displacement[:, near])
+        places[name] = start + moved
+    return places
+
+
+def _draw_hinges(axes: Axes, places: dict[str, Floats], *, named: bool) -> None:
+    if not places:
+        return
+    spots = np.array(list(places.values()))
+    axes.plot(
+        spots[:, 0],
+        spots[:, 1],
+        "o",
+        markersize=4.0 if len(places) <= _NAMED_HINGES else 2.2,
+        markerfacecolor="white",
+        markeredgecolor=SERIES[1],
+        markeredgewidth=1.1,
+        zorder=4,
+        clip_on=False,
+    )
+    if named and len(places) <= _NAMED_HINGES:
+        for name, (x, y) in places.items():
+            axes.annotate(
+                short(name, 20), (x, y), (0, -6), textcoords="offset points", ha="center", va="top",
+                color=SERIES[1], fontsize=7.0, zorder=5, annotation_clip=False,
+            )  # fmt: skip
+
+
+def _draw_scale(axes: Axes, view: View, inches_per_metre: float, panel: float, height: float) -> None:
+    """Scale bar on the left, directions of the world axes beside it."""
+    axes.set_axis_off()
+    axes.set_xlim(0, WIDTH)
+    axes.set_ylim(0, height)
+    wish = 0.3 * panel / inches_per_metre
+    power = 10.0 ** math.floor(math.log10(wish))
+    length = next(step * power for step in (5.0, 2.0, 1.0) if step * power <= wish)
+    inches = length * inches_per_metre
+    y = 0.1
+    axes.plot(
+        [0.02, 0.02, 0.02 + inches, 0.02 + inches], [y + 0.04, y, y, y + 0.04], color=MUTED, linewidth=0.8
+    )
+    axes.text(0.02, y + 0.06, format_quantity(length, "m"), va="bottom", color=MUTED, fontsize=7.5)
+    x = 0.02 + max(inches, 0.5) + 0.45
+    for name, (right, up) in view.axis_arrows():
+        axes.annotate(
+            "",
+            (x + 0.2 * right, y + 0.2 * up),
+            (x, y),
+            arrowprops={"arrowstyle": "-|>", "color": RULE, "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0},
+        )
+        axes.text(x + 0.27 * right, y + 0.27 * up, name, color=MUTED, fontsize=7.0, ha="center", va="center")

@@ -1,0 +1,281 @@
+"""How figures look: sizes, colours, axes, labels at the ends of lines, and the SVG that comes out.
+
+Every figure is drawn once, with matplotlib's objects and no pyplot.  Text stays text in the SVG, so it takes
+the font of the page and can be searched and copied.  Axes are placed in inches, so that figures line up.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import threading
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from crumple.errors import InputError
+from crumple.units import format_quantity, unit_factor
+
+Floats = NDArray[np.float64]
+
+WIDTH = 7.0  # of the text column of an A4 page [in]
+HALF = 3.42  # of two figures side by side [in]
+
+INK = "#1c2733"
+MUTED = "#5a6672"
+RULE = "#aab4be"
+GRID = "#e6eaee"
+OUTSIDE = "#f1ede6"
+WARNING = "#9a4a12"
+
+SERIES = ("#1f5f9e", "#c1561b", "#2a7d61", "#77509c", "#96741a", "#2f8fa8", "#9b3150", "#566a2c")
+"""Colours of lines, told apart by people with any colour vision when their order and labels help."""
+DASHES: tuple[tuple[float, tuple[float, ...]] | str, ...] = (
+    "-",
+    (0, (5, 1.5)),
+    (0, (1.5, 1.2)),
+    (0, (6, 1.5, 1.5, 1.5)),
+)
+"""A second sign beside the colour, for print without it."""
+
+FONTS = "Inter, 'Segoe UI', 'Helvetica Neue', 'Liberation Sans', Arial, sans-serif"
+
+MAX_POINTS = 1200
+"""Points of one line; more cannot be seen at the size of the page."""
+
+_SETTINGS: dict[Any, Any] = {
+    "svg.fonttype": "none",
+    "svg.hashsalt": "crumple",
+    "text.parse_math": False,  # a dollar sign in a name is a dollar sign
+    "font.family": "DejaVu Sans",  # comes with matplotlib; only its widths are used
+    "font.size": 8.0,
+    "text.color": INK,
+    "axes.edgecolor": RULE,
+    "axes.labelcolor": MUTED,
+    "axes.linewidth": 0.6,
+    "xtick.color": RULE,
+    "ytick.color": RULE,
+    "xtick.labelcolor": MUTED,
+    "ytick.labelcolor": MUTED,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "xtick.major.size": 3.0,
+    "ytick.major.size": 0.0,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
+    "lines.linewidth": 1.4,
+    "lines.solid_capstyle": "round",
+    "grid.color": GRID,
+    "grid.linewidth": 0.6,
+}
+_LOCK = threading.Lock()  # matplotlib keeps its settings in one global table
+_TAG = re.compile(r"<[^>]+>")
+_FONT = re.compile(r"(font-family:|font: [^;\"]*?[\d.]+px) [^;\"]+")
+_PATH = re.compile(r'(?<= )d="[^"]+"')
+_LONG_NUMBER = re.compile(r"\d+\.\d{3,}")
+_IDENTITY = re.compile(r"""( id="|url\(#|href="#)""")
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff￾￿]")
+
+
+@dataclass(frozen=True)
+class Line:
+    """A curve to draw: name, x and y in display units, shape (n,), colour and dash by index; faint: grey."""
+
+    name: str
+    x: Floats
+    y: Floats
+    index: int = 0
+    faint: bool = False
+
+
+@contextmanager
+def drawing() -> Iterator[None]:
+    """Set matplotlib's defaults and ours for the block, whatever the user's own settings are."""
+    with _LOCK, mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(_SETTINGS)
+        yield
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """An empty figure of a size in inches."""
+    figure = Figure(figsize=(width, height))
+    FigureCanvasSVG(figure)
+    figure.patch.set_alpha(0)
+    return figure
+
+
+def add_axes(figure: Figure, left: float, bottom: float, width: float, height: float) -> Axes:
+    """Quiet axes at a place in inches: a base line, horizontal grid, no box."""
+    w, h = figure.get_size_inches()
+    axes: Axes = figure.add_axes((left / w, bottom / h, width / w, height / h))
+    axes.patch.set_alpha(0)
+    for side in ("top", "right", "left"):
+        axes.spines[side].set_visible(False)
+    axes.grid(visible=True, axis="y")
+    axes.set_axisbelow(True)
+    axes.xaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 2.5, 5, 10]))
+    axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]))
+    return axes
+
+
+def name_axes(axes: Axes, x: str, y: str) -> None:
+    """Name both axes in words that are read level: y above its axis, x below at its right end."""
+    offset: dict[str, Any] = {"textcoords": "offset points", "annotation_clip": False, "fontsize": 8.0}
+    axes.annotate(y, (0, 1), (0, 7), xycoords="axes fraction", ha="left", va="bottom", color=INK, **offset)
+    axes.annotate(x, (1, 0), (0, -16), xycoords="axes fraction", ha="right", va="top", color=MUTED, **offset)
+
+
+def draw_lines(axes: Axes, lines: Sequence[Line], *, labels: bool = True) -> None:
+    """Draw curves and write each name at the end of its curve, moved apart where they would touch."""
+    for line in lines:
+        x, y = thinned(line.x, line.y)
+        if line.faint:
+            axes.plot(x, y, color=RULE, linewidth=0.7, zorder=1.5)
+        else:
+            dash = DASHES[line.index % len(DASHES)]
+            axes.plot(x, y, color=SERIES[line.index % len(SERIES)], linestyle=dash, dash_capstyle="butt")
+    if labels:
+        _label_ends(axes, [line for line in lines if not line.faint])
+
+
+def _label_ends(axes: Axes, lines: Sequence[Line]) -> None:
+    low, high = axes.get_ylim()
+    height = axes.get_window_extent().height / axes.figure.dpi * 72
+    gap = 9.0 / height  # of one line of text, as a fraction of the axes
+    ends = []
+    for line in lines:
+        finite = np.flatnonzero(np.isfinite(line.x) & np.isfinite(line.y))
+        if finite.size:
+            ends.append(((line.y[finite[-1]] - low) / (high - low), line.x[finite[-1]], line))
+    ends.sort(key=lambda end: end[0])
+    places = [end[0] for end in ends]
+    # from below push up, then from the top push back down
+    for i in range(1, len(places)):
+        places[i] = max(places[i], places[i - 1] + gap)
+    for i in range(len(places) - 1, -1, -1):
+        limit = 1.0 if i == len(places) - 1 else places[i + 1] - gap
+        places[i] = min(places[i], limit)
+    edge = axes.get_xlim()[1]
+    for place, (height, x, line) in zip(places, ends, strict=True):
+        colour = SERIES[line.index % len(SERIES)]
+        # a hairline leads from a curve that ends inside to its name at the edge
+        transform = axes.get_xaxis_transform()
+        axes.plot([x, edge], [height, place], color=colour, linewidth=0.4, transform=transform, clip_on=False)
+        axes.annotate(
+            short(line.name, 20),
+            (edge, place),
+            (4, 0),
+            xycoords=transform,
+            textcoords="offset points",
+            va="center",
+            color=colour,
+            fontsize=7.5,
+            annotation_clip=False,
+        )
+
+
+def thinned(x: Floats, y: Floats, limit: int = MAX_POINTS) -> tuple[Floats, Floats]:
+    """At most about `limit` points of a curve that keep the lowest and highest of every stretch."""
+    n = len(x)
+    if n <= limit:
+        return x, y
+    edges = np.linspace(0, n, limit // 2 + 1).astype(int)
+    filled = np.where(np.isfinite(y), y, -np.inf)
+    keep = {0, n - 1}
+    for a, b in pairwise(edges.tolist()):
+        keep.add(a + int(np.argmax(filled[a:b])))
+        keep.add(a + int(np.argmin(np.where(np.isfinite(y[a:b]), y[a:b], np.inf))))
+    chosen = np.array(sorted(keep))
+    return x[chosen], y[chosen]
+
+
+def spread(values: Sequence[Floats], *, zero: bool = True, margin: float = 0.05) -> tuple[float, float]:
+    """Limits of an axis that shows all finite values, with zero when wanted; never an empty range."""
+    finite = [v[np.isfinite(v)] for v in values]
+    parts = [v for v in finite if v.size]
+    low = min((float(v.min()) for v in parts), default=0.0)
+    high = max((float(v.max()) for v in parts), default=0.0)
+    if zero:
+        low, high = min(low, 0.0), max(high, 0.0)
+    size = high - low
+    if size <= 1e-12 * max(abs(low), abs(high), 1e-300):
+        return low - 1.0, high + 1.0
+    return low - margin * size if low < 0 or not zero else low, high + margin * size
+
+
+def display_unit(unit: str, largest: float) -> tuple[str, float]:
+    """Unit in which people read a quantity of this size, and its value in SI; an unknown unit stays."""
+    try:
+        name = format_quantity(abs(largest) if np.isfinite(largest) else 0.0, unit).partition(" ")[2]
+        return (name, unit_factor(name, unit)) if name else ("", 1.0)
+    except InputError:
+        return unit, 1.0
+
+
+def time_unit(end: float) -> tuple[str, float]:
+    """Unit of a time axis that ends there [s], and its value in SI: ms for a crash."""
+    return next((unit for unit in (("µs", 1e-6), ("ms", 1e-3)) if end <= 2e3 * unit[1]), ("s", 1.0))
+
+
+def largest(values: Sequence[Floats]) -> float:
+    """Largest finite magnitude among several arrays; 0 without any."""
+    return max((float(np.abs(v[np.isfinite(v)]).max()) for v in values if np.isfinite(v).any()), default=0.0)
+
+
+def short(text: str, limit: int = 32) -> str:
+    """Text without control characters, cut to a length that a figure can hold."""
+    clean = _CONTROL.sub("", text)
+    return clean if len(clean) <= limit else clean[: limit - 1] + "…"
+
+
+def to_svg(figure: Figure, name: str, description: str) -> str:
+    """The figure as a self-contained SVG element, ready for a file and for the page alike.
+
+    Parameters
+    ----------
+    figure
+        Drawn here, and only here.
+    name
+        Prefix of every id, so that several figures live on one page.
+    description
+        What a person who cannot see the figure should hear.
+    """
+    text = io.StringIO()
+    figure.canvas.print_svg(text, metadata={"Date": None})  # type: ignore[attr-defined]
+    svg = text.getvalue()
+    svg = re.sub(r"<metadata>.*?</metadata>", "", svg[svg.index("<svg") :], flags=re.DOTALL)
+    svg = re.sub(r"<style[^>]*>.*?</style>", "", svg, flags=re.DOTALL)
+    svg = re.sub(r"<!--.*?-->", "", svg, flags=re.DOTALL)
+
+    def adapt(tag: re.Match[str]) -> str:
+        text = _IDENTITY.sub(rf"\g<1>{name}-", tag[0])
+        text = _FONT.sub(rf"\g<1> {FONTS}", text)
+        # a hundredth of a point cannot be seen
+        return _PATH.sub(
+            lambda path: _LONG_NUMBER.sub(lambda n: f"{float(n[0]):.2f}", " ".join(path[0].split())), text
+        )
+
+    svg = _TAG.sub(adapt, svg)
+    width, height = (72 * size for size in figure.get_size_inches())
+    head = (
+        f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
+        f'viewBox="0 0 {width:g} {height:g}" role="img" aria-labelledby="{name}-title" '
+        f'style="stroke-linejoin: round">\n<title id="{name}-title">{_escaped(description)}</title>'
+    )
+    return head + re.sub(r"\n\s*\n+", "\n", svg[svg.index(">") + 1 :]).strip() + "\n"
+
+
+def _escaped(text: str) -> str:
+    clean = _CONTROL.sub("", text)
+    return clean.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

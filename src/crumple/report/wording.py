@@ -1,0 +1,272 @@
+"""What the report says in words and tables, made from the numbers of the result alone."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from crumple.report.style import display_unit
+from crumple.result import HingeSummary, Result
+from crumple.units import format_quantity
+
+_DEGREES = math.degrees(1.0)
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table: caption, column heads with units, rows of cells; the first column names the row."""
+
+    caption: str
+    heads: tuple[str, ...]
+    rows: Sequence[tuple[str, ...]]
+    text_columns: frozenset[int] = field(default_factory=frozenset)
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Whether to believe the result: level ``good``, ``caution`` or ``bad``, a headline, and the reasons."""
+
+    level: str
+    headline: str
+    reasons: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+
+def verdict(result: Result, bound: float | None, accuracy: float | None) -> Verdict:
+    """Trust statement.
+
+    Parameters
+    ----------
+    result
+        Status, reason, residual, hinges and warnings are used.
+    bound
+        Largest relative energy residual allowed [-], or None.
+    accuracy
+        Accuracy asked of the stepper [-], or None.
+    """
+    outside = {name: sentence for name in result.hinges if (sentence := outside_range(result, name))}
+    # the solver may have said it already, and with more detail
+    unsaid = [
+        sentence
+        for name, sentence in outside.items()
+        if not any(warning.startswith(f"Hinge {name} turned") for warning in result.warnings)
+    ]
+    warnings = (*result.warnings, *unsaid)
+    reasons = [_balance(result, bound)]
+    if accuracy is not None:
+        reasons.append(f"Accuracy asked for: {percent(accuracy)}.{_error(result)}")
+    backed = [h for h in result.hinges.values() if h.validity_rotation is not None]
+    if backed and not outside:
+        which = "The hinge" if len(backed) == 1 else f"All {len(backed)} hinges"
+        reasons.append(f"{which} stayed inside the range in which the law is backed.")
+    if not result.status.ok:
+        headline = sentence_case(result.status.value)
+        if result.reason:
+            reasons.insert(0, sentence_case(result.reason))
+        return Verdict("bad", headline, tuple(reasons), warnings)
+    if warnings:
+        return Verdict("caution", "Complete, with reservations.", tuple(reasons), warnings)
+    return Verdict("good", "Complete.", tuple(reasons), ())
+
+
+def outside_range(result: Result, name: str) -> str:
+    """One sentence when a hinge turned farther than its law is backed; else empty."""
+    hinge = result.hinges[name]
+    limit = hinge.validity_rotation
+    if limit is None or not hinge.rotation_max > limit:
+        return ""
+    turned, backed = angle(hinge.rotation_max), angle(limit)
+    return f"Hinge {name} turned {turned}, beyond the {backed} up to which its law is backed."
+
+
+def _balance(result: Result, bound: float | None) -> str:
+    residual = result.energy_residual
+    if not math.isfinite(residual):
+        return "The energy balance could not be closed."
+    allowed = f", within its bound of {percent(bound)}" if bound is not None and residual <= bound else ""
+    if bound is not None and residual > bound:
+        allowed = f", beyond its bound of {percent(bound)}"
+    return f"Energy balance: residual {percent(residual)} of the energy put in{allowed}."
+
+
+def _error(result: Result) -> str:
+    errors = [(h.rotation_error, h) for h in result.hinges.values() if h.rotation_error is not None]
+    if not errors:
+        return ""
+    error, hinge = max(errors, key=lambda pair: pair[0])
+    share = f", {percent(error / hinge.rotation_max)}" if hinge.rotation_max > 0 else ""
+    return f" Estimated error of the largest rotation: {degrees(error, 2)}°{share}."
+
+
+def key_figures(result: Result) -> list[tuple[str, str, str]]:
+    """What everybody asks first: name, value, note."""
+    figures: list[tuple[str, str, str]] = []
+    several = len(result.hinges) > 1
+    if result.hinges:
+        name, most = max(result.hinges.items(), key=lambda item: item[1].rotation_max)
+        figures.append(
+            (
+                "Largest rotation",
+                f"{degrees(most.rotation_max)}°",
+                _note(f"{most.rotation_max:.4g} rad", name, several),
+            )
+        )
+        figures.append(_rest(result, several))
+        total = sum(hinge.energy for hinge in result.hinges.values())
+        figures.append(("Energy absorbed", format_quantity(total, "J"), "all hinges" if several else ""))
+        name, most = max(result.hinges.items(), key=lambda item: item[1].moment_max)
+        figures.append(("Peak moment", format_quantity(most.moment_max, "N*m"), _note("", name, several)))
+    figures.append(("Energy residual", percent(result.energy_residual), "of the energy put in"))
+    figures.append(("Solve time", format_quantity(result.solve_seconds, "s", 2), ""))
+    return figures
+
+
+def _note(text: str, hinge: str, several: bool) -> str:
+    return " · ".join(part for part in (text, hinge if several else "") if part)
+
+
+def _rest(result: Result, several: bool) -> tuple[str, str, str]:
+    times = {name: hinge.time_of_rest for name, hinge in result.hinges.items()}
+    moving = [name for name, time in times.items() if time is None]
+    if moving:
+        return (
+            "At rest after",
+            "—",
+            f"{len(moving)} of {len(times)} still turning" if several else "still turning",
+        )
+    name, time = max(((n, t) for n, t in times.items() if t is not None), key=lambda item: item[1])
+    return ("At rest after", format_quantity(time, "s"), name if several else "")
+
+
+def hinge_table(result: Result) -> Table:
+    """Rotation, rest, energy and moment per hinge, each column in one unit."""
+    names, hinges = list(result.hinges), list(result.hinges.values())
+    energy_unit, energies = column([h.energy for h in hinges], "J")
+    moment_unit, moments = column([h.moment_max for h in hinges], "N*m")
+    total = sum(h.energy for h in hinges)
+    _, largest_degrees = column([h.rotation_max * _DEGREES for h in hinges], "1")
+    _, largest = column([h.rotation_max for h in hinges], "1")
+    _, final_degrees = column([h.rotation_final * _DEGREES for h in hinges], "1")
+    _, final = column([h.rotation_final for h in hinges], "1")
+    time_unit, rests = column([math.nan if h.time_of_rest is None else h.time_of_rest for h in hinges], "s")
+    shares = [f"{100 * h.energy / total:.1f} %" if total > 0 else "—" for h in hinges]
+    heads = (
+        "Hinge", "Largest rotation, deg", "rad", "Final rotation, deg", "rad", f"At rest after, {time_unit}",
+        f"Energy absorbed, {energy_unit}", "Share", f"Peak moment, {moment_unit}",
+    )  # fmt: skip
+    rows = list(
+        zip(
+            names,
+            largest_degrees,
+            largest,
+            final_degrees,
+            final,
+            rests,
+            energies,
+            shares,
+            moments,
+            strict=True,
+        )
+    )
+    dash = " A dash: still turning at the end." if any(h.time_of_rest is None for h in hinges) else ""
+    return Table(f"What each hinge did.{dash}", heads, rows)
+
+
+def output_table(result: Result) -> Table:
+    """Requested outputs: last value, value of largest magnitude, and when."""
+    time_unit, times = column([output.time_of_max for output in result.outputs.values()], "s")
+    rows = []
+    for (name, output), time in zip(result.outputs.items(), times, strict=True):
+        unit, numbers = column([output.final, output.max], output.unit)
+        rows.append((name, *(f"{text} {unit}".strip() for text in numbers), time))
+    heads = ("Output", "Final", "Largest magnitude", f"reached at, {time_unit}")
+    return Table("Last value of each requested output, and its value of largest magnitude.", heads, rows)
+
+
+def law_table(result: Result) -> Table:
+    """Law, source and range of every hinge, and whether the run stayed inside; equal rows are one."""
+    groups: dict[tuple[str, ...], list[str]] = {}
+    for name, hinge in result.hinges.items():
+        law = f"{hinge.law} ({hinge.form})" if hinge.form else hinge.law
+        groups.setdefault((law, hinge.source, hinge.validity_basis, _range(hinge)), []).append(name)
+    rows = []
+    for (law, source, basis, limit), names in groups.items():
+        reached = f"{degrees(max(result.hinges[name].rotation_max for name in names))}°"
+        inside = "no" if any(outside_range(result, name) for name in names) else "yes"
+        rows.append((", ".join(names), law, source, basis, limit or "—", reached, inside if limit else "—"))
+    heads = ("Hinge", "Law and form", "Source", "Range backed by", "up to", "Reached", "Inside")
+    return Table("Hinge laws, their sources and ranges of validity.", heads, rows, frozenset({1, 2, 3}))
+
+
+def _range(hinge: HingeSummary) -> str:
+    limit = hinge.validity_rotation
+    if limit is None:
+        return ""
+    return f"{degrees(limit)}°" if math.isfinite(limit) else "any rotation"
+
+
+def column(values: Sequence[float], unit: str) -> tuple[str, tuple[str, ...]]:
+    """A column in one unit and with equally many decimals: four digits for its largest number.
+
+    Parameters
+    ----------
+    values
+        In SI; NaN becomes a dash.
+    unit
+        SI unit; ``"1"`` where the values are in their display unit already.
+
+    Returns
+    -------
+    unit, cells
+        Unit to write in the head, and the numbers as text.
+    """
+    finite = [abs(value) for value in values if math.isfinite(value)]
+    most = max(finite, default=0.0)
+    name, factor = display_unit(unit, most) if unit != "1" else ("", 1.0)
+    decimals = _decimals(most / factor)
+    return name, tuple(_fixed(value / factor, decimals) for value in values)
+
+
+def _decimals(largest: float, digits: int = 4) -> int:
+    if largest <= 0:
+        return 0
+    return min(max(digits - 1 - math.floor(math.log10(largest)), 0), 9)
+
+
+def _fixed(value: float, decimals: int) -> str:
+    if not math.isfinite(value):
+        return "—"
+    text = f"{value:.{decimals}f}"
+    # neither a negative zero nor a hyphen for a minus
+    return text.lstrip("-") if float(text) == 0 else text.replace("-", "−")
+
+
+def number(value: float, digits: int = 4) -> str:
+    """A number with significant digits, written out, minus as a minus."""
+    return _fixed(value, _decimals(abs(value), digits)) if math.isfinite(value) else "—"
+
+
+def degrees(value: float, digits: int = 4) -> str:
+    """An angle [rad] as a number of degrees."""
+    return number(value * _DEGREES, digits)
+
+
+def angle(value: float, digits: int = 4) -> str:
+    """An angle [rad] in degrees and radians."""
+    return f"{degrees(value, digits)}° ({number(value, digits)} rad)"
+
+
+def percent(share: float, digits: int = 2) -> str:
+    """A share [-] in per cent; tiny ones as a bound, since their digits mean nothing."""
+    if not math.isfinite(share):
+        return "not known"
+    if abs(share) < 1e-6:
+        return "0 %" if share == 0 else "< 0.0001 %"
+    text = f"{100 * share:.{digits}g}"
+    return f"{float(text):.0f} %" if "e+" in text else f"{text} %".replace("-", "−")
+
+
+def sentence_case(text: str) -> str:
+    """First letter capital, full stop at the end."""
+    return text[:1].upper() + text[1:] + ("" if text.endswith((".", "!", "?")) else ".")
