@@ -121,19 +121,18 @@ def _show_table(console: Console, laws: dict[str, HingeLaw], largest: float) -> 
     from rich.markup import escape
     from rich.table import Table
 
-    from crumple.units import format_quantity, unit_factor
+    from crumple.cli.columns import in_one_unit
 
     rows = [angle for angle in ROTATIONS if np.deg2rad(angle) < largest * (1.0 - 1e-9)]
     angles = np.array([*rows, np.rad2deg(largest)])
     moments = np.array([entry.moment_capacity(np.deg2rad(angles)) for entry in laws.values()])
-    # one unit for the whole table, that of its largest moment
-    unit = format_quantity(float(moments.max()), "N*m").partition(" ")[2]
+    unit, texts = in_one_unit(moments.ravel().tolist(), "N*m")
     table = Table()
     table.add_column("Rotation, deg", justify="right")
     for name in laws:
         table.add_column(escape(f"{name}, {unit}"), justify="right")
-    for angle, row in zip(angles, moments.T / unit_factor(unit, "N*m"), strict=True):
-        table.add_row(f"{angle:g}", *(f"{moment:.4g}" for moment in row))
+    for index, angle in enumerate(angles):
+        table.add_row(f"{angle:g}", *texts[index :: angles.size])
     console.print(table)
 
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from rich.console import Console
     from rich.table import Table
 
     from crumple.result import Result
@@ -76,7 +75,7 @@ def _show(result: Result, folder: Path) -> None:
     status = result.status.value + (f": {result.reason}" if result.reason else "")
     console.print(Text(f"Status: {status}", style="green" if result.status.ok else "bold red"))
     if result.hinges:
-        console.print(_hinge_table(result, console))
+        console.print(_hinge_table(result))
     if len(result.hinges) > MOST_HINGES:
         console.print(f"{MOST_HINGES} of {len(result.hinges)} hinges, those that absorbed most")
     console.print(
@@ -88,34 +87,30 @@ def _show(result: Result, folder: Path) -> None:
     console.print(Text(f"Results: {folder}  (open {folder / 'report.html'})"), soft_wrap=True)
 
 
-def _hinge_table(result: Result, console: Console) -> Table:
+def _hinge_table(result: Result) -> Table:
     """One row per hinge, the most absorbing first where there are too many."""
     from rich.markup import escape
     from rich.table import Table
 
-    from crumple.units import format_quantity
+    from crumple.cli.columns import in_one_unit
 
-    table = Table()
-    for head in (
-        "Hinge",
-        "Largest rotation",
-        "Final rotation",
-        "At rest from",
-        "Peak moment",
-        "Energy absorbed",
-    ):
-        table.add_column(head, justify="left" if head == "Hinge" else "right")
     hinges = list(result.hinges.items())
     if len(hinges) > MOST_HINGES:
         hinges = sorted(hinges, key=lambda item: -item[1].energy)[:MOST_HINGES]
-    for name, hinge in hinges:
-        rest = hinge.time_of_rest
-        table.add_row(
-            escape(name),
-            format_quantity(hinge.rotation_max, "rad"),
-            format_quantity(hinge.rotation_final, "rad"),
-            "still turning" if rest is None else format_quantity(rest, "s"),
-            format_quantity(hinge.moment_max, "N*m"),
-            format_quantity(hinge.energy, "J"),
-        )
+    columns = (
+        ("Largest rotation", [hinge.rotation_max for _, hinge in hinges], "rad"),
+        ("Final rotation", [hinge.rotation_final for _, hinge in hinges], "rad"),
+        ("At rest from", [hinge.time_of_rest for _, hinge in hinges], "s"),
+        ("Peak moment", [hinge.moment_max for _, hinge in hinges], "N*m"),
+        ("Energy absorbed", [hinge.energy for _, hinge in hinges], "J"),
+    )
+    table = Table()
+    table.add_column("Hinge")
+    cells = [[escape(name) for name, _ in hinges]]
+    for head, values, si in columns:
+        unit, texts = in_one_unit(values, si, absent="turning")
+        table.add_column(f"{head}, {unit}", justify="right")
+        cells.append(texts)
+    for row in zip(*cells, strict=True):
+        table.add_row(*row)
     return table

@@ -34,12 +34,13 @@ def section(
         rows.append(("Mass per length", shape.mass_per_length(metal.density), "kg/m"))
         moments = [(axis, metal.yield_stress * shape.plastic_section_modulus(axis)) for axis in ("y", "z")]
         rows += [(f"Plastic moment about {axis}", moment, "N*m") for axis, moment in moments]
-    table = Table(title=shape.title, title_justify="left", title_style="bold", show_header=False)
+    console = Console(highlight=False)
+    console.print(shape.title, style="bold")
+    table = Table(show_header=False)
     table.add_column()
     table.add_column(justify="right")
     for name, value, unit in rows:
         table.add_row(name, format_quantity(value, unit, digits=5))
-    console = Console()
     console.print(table)
     for text in assumed:
         console.print(f"Assumed: {text}")

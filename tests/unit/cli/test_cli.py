@@ -1,0 +1,222 @@
+"""The command line: verbs, exit codes, refusals on standard error without a traceback."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import crumple
+from crumple.cli import main as command
+from crumple.cli.progress import stop_on_interrupt
+from crumple.errors import Status
+
+EXAMPLE = Path(__file__).parents[3] / "examples" / "01_tube_bending.yaml"
+STEEL = "yield 488 MPa, E 210 GPa"
+TUBE = "rectangular_tube 50x25x2.65 mm"
+
+
+@pytest.fixture
+def run_command(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
+    """Call the command with arguments; gives exit code, standard output, standard error."""
+
+    def call(*arguments: object) -> tuple[int, str, str]:
+        monkeypatch.setattr(sys, "argv", ["crumple", *map(str, arguments)])
+        monkeypatch.setenv("COLUMNS", "120")
+        code = 0
+        try:
+            command.main()
+        except SystemExit as stop:
+            code = int(stop.code or 0)
+        out, err = capsys.readouterr()
+        assert "Traceback" not in out + err
+        return code, out, err
+
+    return call
+
+
+def test_help_names_every_verb(run_command) -> None:
+    code, out, _ = run_command("--help")
+    assert code == 0
+    for verb in ("run", "check", "schema", "hinge", "section"):
+        assert f" {verb} " in out
+
+
+@pytest.mark.parametrize("verb", ["run", "check", "schema", "hinge", "section"])
+def test_every_verb_has_help(run_command, verb: str) -> None:
+    assert run_command(verb, "--help")[0] == 0
+
+
+def test_version(run_command) -> None:
+    assert run_command("--version") == (0, f"crumple {crumple.__version__}\n", "")
+
+
+def test_installed_command_and_module() -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "crumple", "--version"], check=True, capture_output=True, text=True
+    )
+    assert done.stdout == f"crumple {crumple.__version__}\n"
+
+
+def test_run_writes_the_contract_and_prints_the_table(run_command, tmp_path: Path) -> None:
+    code, out, err = run_command("run", EXAMPLE, "--out", tmp_path / "results")
+    assert (code, err) == (0, "")
+    for word in ("Status: complete", "root", "Energy residual", "solved in", "report.html"):
+        assert word in out
+    for name in ("summary.json", "histories.csv", "result.vtkhdf", "report.html", "figures"):
+        assert (tmp_path / "results" / name).exists()
+    summary = json.loads((tmp_path / "results" / "summary.json").read_text())
+    assert f"{summary['hinges']['root']['energy']:.1f}" in out
+
+
+def test_run_json_is_the_summary_alone(run_command, tmp_path: Path) -> None:
+    code, out, err = run_command("run", EXAMPLE, "--out", tmp_path, "--json")
+    assert (code, err) == (0, "")
+    assert json.loads(out) == json.loads((tmp_path / "summary.json").read_text())
+
+
+def test_run_that_ends_badly_keeps_its_results(run_command, tmp_path: Path, monkeypatch) -> None:
+    import crumple.analysis
+
+    def cancelled(analysis, **options):
+        return solve(analysis, **options | {"cancel": lambda: True})
+
+    solve = crumple.analysis.solve
+    monkeypatch.setattr(crumple.analysis, "solve", cancelled)
+    text = EXAMPLE.read_text().replace("accuracy: 1e-3", "accuracy: 1e-9")
+    file = tmp_path / "long.yaml"
+    file.write_text(text)
+    code, out, _ = run_command("run", file, "--out", tmp_path / "results")
+    assert code == 1
+    assert Status.CANCELLED.value in out
+    assert (tmp_path / "results" / "report.html").exists()
+
+
+def test_interrupt_is_a_wish_to_stop() -> None:
+    before = signal.getsignal(signal.SIGINT)
+    with stop_on_interrupt() as pressed:
+        assert not pressed()
+        os.kill(os.getpid(), signal.SIGINT)
+        assert pressed()
+        # a second one is Python's own
+        assert signal.getsignal(signal.SIGINT) is before
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_check(run_command, tmp_path: Path) -> None:
+    code, out, _ = run_command("check", EXAMPLE)
+    assert code == 0
+    assert "no mistakes found" in out
+    bad = tmp_path / "bad.yaml"
+    bad.write_text(
+        EXAMPLE.read_text()
+        .replace("yield_stress: 488 MPa", "yield_stress: 488 mm")
+        .replace("depth:", "dept:")
+    )
+    code, out, err = run_command("check", bad)
+    assert (code, out) == (2, "")
+    assert "mm is the unit of a length, but a stress is needed" in err
+    assert "dept" in err
+    assert "problems" in err
+
+
+@pytest.mark.parametrize("verb", ["run", "check"])
+@pytest.mark.parametrize(
+    "content",
+    [None, b"", b"\x00\xff\xfe\x80", b"crumple: 1\n", b"a: &x 1\nb: *x\n", b"!!python/object:os.system\n"],
+)
+def test_bad_files_are_refused(run_command, tmp_path: Path, verb: str, content: bytes | None) -> None:
+    file = tmp_path / "file.yaml"
+    if content is not None:
+        file.write_bytes(content)
+    code, out, err = run_command(verb, file)
+    assert (code, out) == (2, "")
+    assert "file.yaml" in err
+
+
+def test_run_into_a_file_is_refused(run_command, tmp_path: Path) -> None:
+    (tmp_path / "taken").write_text("")
+    code, _, err = run_command("run", EXAMPLE, "--out", tmp_path / "taken")
+    assert code == 2
+    assert "taken" in err
+
+
+def test_schema_is_json(run_command) -> None:
+    code, out, _ = run_command("schema")
+    assert code == 0
+    assert "members" in json.loads(out)["properties"]
+
+
+def test_section(run_command) -> None:
+    code, out, _ = run_command("section", TUBE, "--material", f"{STEEL}, density 7850 kg/m^3")
+    assert code == 0
+    # area of the tube from its outer and inner rectangle, and its mass
+    assert "369.41 mm^2" in out
+    assert "2.8999 kg/m" in out
+    assert "Assumed: nu 0.3" in out
+    assert "density" not in out
+
+
+def test_section_of_a_file(run_command) -> None:
+    assert "369.41 mm^2" in run_command("section", f"{EXAMPLE}:tube")[1]
+    code, _, err = run_command("section", f"{EXAMPLE}:tubes")
+    assert code == 2
+    assert "no section 'tubes'" in err
+
+
+def test_corner_radius_and_circular_tube(run_command) -> None:
+    assert "corner radius 5 mm" in run_command("section", f"{TUBE}, corner radius 5 mm")[1]
+    assert "circular tube 60 x 2 mm" in run_command("section", "circular tube 60x2 mm")[1]
+
+
+def test_hinge_prints_laws_side_by_side(run_command, tmp_path: Path) -> None:
+    curve = tmp_path / "test.csv"
+    with curve.open("w", newline="") as file:
+        csv.writer(file).writerows([("rotation [deg]", "moment [kN*m]"), (0, 1.5), (30, 0.5)])
+    figure = tmp_path / "laws.svg"
+    code, out, _ = run_command(
+        "hinge", TUBE, "--material", STEEL, "--curve", curve, "--to", "30 deg", "--figure", figure
+    )
+    assert code == 0
+    for word in ("constant", "kecman", "test.csv", "Source:", "Range:", "Not shown: wierzbicki"):
+        assert word in out
+    # the last row holds the measured point in the table's unit
+    assert any(
+        line.split()[1] == "30" and line.split()[-2] == "0.500" for line in out.splitlines() if " 30 " in line
+    )
+    assert figure.read_text().startswith("<svg")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("section", "box 50x25 mm"), "not a section"),
+        (("section", "rectangular_tube 50x25 mm"), "3 dimensions, not 2"),
+        (("section", "rectangular_tube 50x25x20 mm"), "half the smaller side"),
+        (("section", "rectangular_tube 50x25x2 kg"), "but a length is needed"),
+        (("section", "rectangular_tube 9**9**9 mm"), "not a section"),
+        (("section", "circular_tube 60x2 mm, corner radius 5 mm"), "does not belong"),
+        (("section", TUBE, "--material", "E 210 GPa"), "missing: yield"),
+        (("section", TUBE, "--material", "yield 488 MPa, yield 1 MPa, E 1 GPa"), "given twice"),
+        (("section", TUBE, "--material", "strength 488 MPa"), "not a property"),
+        (("hinge", TUBE, "--material", "yield 488 mm, E 210 GPa"), "but a stress is needed"),
+        (("hinge", TUBE, "--material", STEEL, "--axis", "x"), "bending axis"),
+        (("hinge", TUBE, "--material", STEEL, "--law", "nothing"), "unknown hinge law"),
+        (("hinge", "circular_tube 60x2 mm", "--material", STEEL, "--law", "kecman"), "rectangular tubes"),
+        (("hinge", TUBE, "--material", STEEL, "--to", "0 deg"), "out of range"),
+        (("hinge", TUBE, "--material", STEEL, "--to", "30 m"), "but an angle is needed"),
+        (("hinge", TUBE, "--material", STEEL, "--curve", "nowhere.csv"), "nowhere.csv"),
+        (("run", EXAMPLE, "--fidelity", "magic"), "multibody"),
+        (("walk",), "walk"),
+    ],
+)
+def test_wrong_arguments(run_command, arguments: tuple[str, ...], message: str) -> None:
+    code, out, err = run_command(*arguments)
+    assert (code, out) == (2, "")
+    assert message in " ".join(err.split())
