@@ -33,6 +33,11 @@ struct Twist {
     Vec2 v;
 };
 
+// rate of a body's point, at `arm` from where `body` is given, along a direction (rotation, x, y)
+inline double point_rate(const Twist& direction, const Twist& body, Vec2 arm) {
+    return direction.w * body.w + dot(direction.v, body.v + turn(body.w, arm));
+}
+
 // symmetric inertia about a point, rows and columns (rotation, x, y)
 struct Inertia {
     double rr = 0, rx = 0, ry = 0, xx = 0, xy = 0, yy = 0;

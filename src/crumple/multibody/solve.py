@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from crumple._core.tree import Outcome, Simulation, TreeModel, TreeRecord
+from crumple._core.tree import Outcome, Simulation, TreeRecord
 from crumple.errors import InputError, Problem, Status
 from crumple.multibody import trust
 from crumple.multibody.histories import (
@@ -49,6 +49,18 @@ class Run:
     settings: MultibodySettings = field(default_factory=MultibodySettings)
     outputs: Outputs = field(default_factory=Outputs)
     title: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class _Solved:
+    """What came out, before it is told."""
+
+    mechanism: Mechanism
+    start: Start
+    record: TreeRecord
+    errors: Floats
+    lost: float
+    seconds: float
 
 
 def solve_multibody(
@@ -102,7 +114,7 @@ def solve_multibody(
         record, lost = stepped(settings.accuracy / CHECK_FACTOR, longest, (0.4, 1.0))
     errors = np.abs(rough.summary[:, 0] - record.summary[:, 0])
     seconds = time.perf_counter() - begin
-    return _result(structure, run, mechanism, model, start, record, errors, lost, seconds)
+    return _result(structure, run, _Solved(mechanism, start, record, errors, lost, seconds))
 
 
 def output_times(run: Run) -> Floats:
@@ -129,17 +141,8 @@ def _poll(
     return poll
 
 
-def _result(
-    structure: Structure,
-    run: Run,
-    mechanism: Mechanism,
-    model: TreeModel,
-    start: Start,
-    record: TreeRecord,
-    errors: Floats,
-    lost: float,
-    seconds: float,
-) -> Result:
+def _result(structure: Structure, run: Run, solved: _Solved) -> Result:
+    mechanism, record = solved.mechanism, solved.record
     status, reason = STATUS[record.outcome], record.reason
     bound = run.settings.energy_residual_bound
     if status.ok and record.residual > bound:
@@ -148,7 +151,7 @@ def _result(
     wanted = list(node_channels(structure, mechanism, record, run.outputs.nodes))
     wanted += list(section_channels(structure, mechanism, record, run.outputs))
     channels = [*hinge_channels(mechanism, record), *energy_channels(record), *wanted]
-    hinges = summaries(mechanism, record, errors)
+    hinges = summaries(mechanism, record, solved.errors)
     result = Result(
         status=status,
         reason=reason,
@@ -159,8 +162,8 @@ def _result(
         hinges=hinges,
         states=states_of(structure, mechanism, record, _picture_times(run)),
         energy_residual=record.residual,
-        solve_seconds=seconds,
-        warnings=trust.warnings(structure, mechanism, hinges, record, lost=lost, start=start),
+        solve_seconds=solved.seconds,
+        warnings=trust.warnings(structure, mechanism, hinges, record, lost=solved.lost, start=solved.start),
         assumptions=trust.assumptions(structure, mechanism),
         provenance=Provenance(version="", input_hash="", isa="scalar", settings=_settings(run, record)),
         output_names=tuple(channel.name for channel in wanted),

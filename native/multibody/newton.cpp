@@ -1,0 +1,213 @@
+// The end rates of a step: semismooth Newton on the convex potential that the frozen hinges and bodies make.
+#include <algorithm>
+#include <cmath>
+
+#include "multibody/dense.hpp"
+#include "multibody/stepper.hpp"
+
+namespace crumple::multibody {
+
+namespace {
+
+// Whole Newton steps before the guaranteed path is taken; they fail only by cycling, which is rare.
+constexpr int bold_limit = 16;
+// Newton steps per width of the ramps before the step is given up and halved.
+constexpr int newton_limit = 60;
+// Widening: from the largest rate down by this factor a time.
+constexpr double narrowing = 1e-2;
+// Relative accuracy of a hinge's impulse; piecewise linear laws reach round-off, HAVSIN ramps converge to this.
+constexpr double impulse_tolerance = 1e-9;
+
+}  // namespace
+
+// A locked hinge is nearly infinitely stiff, so a line search at the true ramps unlocks hinges one at a time.  So
+// whole steps are tried first; where they cycle, the ramps are widened and narrowed in steps, each a good start
+// for the next, with line search.
+bool Stepper::newton() {
+    std::fill(impedance_.begin(), impedance_.end(), 0.0);
+    std::fill(rhs_.begin(), rhs_.end(), 0.0);
+    if (all_set_valued_ ? descend(bold_limit, true) : descend(newton_limit, false)) return true;
+    double width = 1;
+    for (const double w : w_) width = std::max(width, std::fabs(w));
+    if (!std::isfinite(width)) return false;
+    for (bool narrowest = false; !narrowest; width *= narrowing) {
+        narrowest = true;
+        for (size_t j = 0; j < frozen_.size(); j++) {
+            const Hinge& hinge = model_.hinges[j];
+            const double wanted = std::max(width, ramp_width(hinge));
+            double& w = w_[static_cast<size_t>(hinge.dof)];
+            // inside the ramp the moment is kept, so the rate shrinks with the width
+            if (wanted < frozen_[j].width && std::fabs(w) < frozen_[j].width) w *= wanted / frozen_[j].width;
+            frozen_[j].width = wanted;
+            if (wanted > ramp_width(hinge)) narrowest = false;
+        }
+        if (!descend(newton_limit, false)) return false;
+    }
+    return true;
+}
+
+// Takes the whole Newton step, except that a hinge which would reverse is first put to rest, and that of
+// neighbouring locked hinges loaded beyond their capacity only the one loaded most is released: the moment
+// falls beside it, and releasing all of them would only send most back.
+void Stepper::take_whole_step() {
+    std::fill(overload_.begin(), overload_.end(), 0.0);
+    std::fill(overload_of_children_.begin(), overload_of_children_.end(), 0.0);
+    for (size_t j = 0; j < frozen_.size(); j++) {
+        const auto dof = static_cast<size_t>(model_.hinges[j].dof);
+        const double width = frozen_[j].width;
+        const bool locked = std::fabs(w_[dof]) < width;
+        if (!locked && next_[dof] * w_[dof] < 0) next_[dof] = 0;
+        if (locked && std::fabs(next_[dof]) > width) overload_[dof] = std::fabs(next_[dof]) / width;
+    }
+    const Tree& tree = model_.tree;
+    for (int i = 0; i < tree.bodies(); i++) {
+        if (tree[i].parent < 0) continue;
+        double& most = overload_of_children_[static_cast<size_t>(tree[tree[i].parent].dof)];
+        most = std::max(most, overload_[static_cast<size_t>(tree[i].dof)]);
+    }
+    for (int i = 0; i < tree.bodies(); i++) {
+        const auto dof = static_cast<size_t>(tree[i].dof);
+        const double own = overload_[dof];
+        if (own == 0) continue;
+        const double above = tree[i].parent < 0 ? 0 : overload_[static_cast<size_t>(tree[tree[i].parent].dof)];
+        if (own < above || own < overload_of_children_[dof]) next_[dof] *= 0.999 / own;
+    }
+    w_.swap(next_);
+}
+
+// Newton steps, bold (whole steps, no guarantee) or with exact line search on the potential (always downhill).
+bool Stepper::descend(int limit, bool bold) {
+    for (int iteration = 0; iteration < limit; iteration++) {
+        // tangent of every hinge at the present rates
+        for (size_t j = 0; j < frozen_.size(); j++) {
+            const auto dof = static_cast<size_t>(model_.hinges[j].dof);
+            const Response r = respond(model_.hinges[j], frozen_[j], w_[dof]);
+            impedance_[dof] = r.slope;
+            rhs_[dof] = r.slope * w_[dof] - r.impulse;
+        }
+        solve_once();
+        // what the true responses leave unbalanced there, and the slope of the potential along the step
+        double slope = 0;
+        bool balanced = true;
+        for (size_t j = 0; j < frozen_.size(); j++) {
+            const auto dof = static_cast<size_t>(model_.hinges[j].dof);
+            const double w = next_[dof], tangent = impedance_[dof] * w - rhs_[dof];
+            const double impulse = respond(model_.hinges[j], frozen_[j], w).impulse, left = impulse - tangent;
+            const double scale = frozen_[j].h * (frozen_[j].capacity[0] + frozen_[j].capacity[1]) + std::fabs(impulse);
+            if (!(std::fabs(left) <= impulse_tolerance * scale)) balanced = false;
+            slope += left * (w - w_[dof]);
+        }
+        if (!std::isfinite(slope)) return false;
+        if (balanced) {
+            w_.swap(next_);
+            return true;
+        }
+        if (bold) {
+            take_whole_step();
+        } else if (slope <= 0) {
+            w_.swap(next_);
+        } else {
+            const double a = search(slope);
+            for (size_t k = 0; k < w_.size(); k++) w_[k] += a * (next_[k] - w_[k]);
+        }
+    }
+    return false;
+}
+
+void Stepper::solve_once() {
+    work_ = bias_;
+    solver_.factor(middle_.data(), impedance_.data());
+    solver_.solve(work_.data(), rhs_.data(), next_.data());
+    solves_++;
+    if (!model_.drives.empty()) constrain(next_.data());
+}
+
+// Adds to w the response to the drive forces that bring every driven point to its target rate.
+void Stepper::constrain(double* w) {
+    const size_t d = model_.drives.size(), m = w_.size();
+    const std::vector<double> zero(m, 0.0);
+    auto rates = [&](const double* rate, double* out) {
+        model_.tree.twists(middle_.data(), rate, twist_.data());
+        for (size_t k = 0; k < d; k++) {
+            const Drive& drive = model_.drives[k];
+            out[k] = point_rate(drive.direction, twist_[static_cast<size_t>(drive.body)],
+                                arm(drive.body, drive.point, middle_.data()));
+        }
+    };
+    for (size_t k = 0; k < d; k++) {
+        const Drive& drive = model_.drives[k];
+        std::fill(work_.begin(), work_.end(), Twist{});
+        const Vec2 a = arm(drive.body, drive.point, middle_.data());
+        work_[static_cast<size_t>(drive.body)] = {drive.direction.w + cross(a, drive.direction.v), drive.direction.v};
+        solver_.solve(work_.data(), zero.data(), &drive_rows_[k * m]);
+        rates(&drive_rows_[k * m], &drive_matrix_[k * d]);
+    }
+    rates(w, drive_force_.data());
+    for (size_t k = 0; k < d; k++) drive_force_[k] = drive_target_[k] - drive_force_[k];
+    solve_symmetric(drive_matrix_.data(), drive_force_.data(), static_cast<int>(d));
+    for (size_t k = 0; k < d; k++) {
+        for (size_t i = 0; i < m; i++) w[i] += drive_force_[k] * drive_rows_[k * m + i];
+    }
+}
+
+// Root of the potential's slope along next - w, in (0, 1): exact for piecewise linear responses, because the
+// bracket shrinks to one piece before it is interpolated.
+double Stepper::search(double slope_end) {
+    double curvature = 0, linear_end = 0;
+    for (size_t k = 0; k < w_.size(); k++) direction_[k] = next_[k] - w_[k];
+    model_.tree.twists(middle_.data(), direction_.data(), twist_.data());
+    model_.tree.to_centres(middle_.data(), twist_.data());
+    for (int i = 0; i < model_.tree.bodies(); i++) {
+        const Twist& v = twist_[static_cast<size_t>(i)];
+        curvature += model_.tree[i].mass * dot(v.v, v.v) + model_.tree[i].inertia * v.w * v.w;
+    }
+    breakpoints_.clear();
+    for (size_t j = 0; j < frozen_.size(); j++) {
+        const auto dof = static_cast<size_t>(model_.hinges[j].dof);
+        const double d = direction_[dof];
+        linear_end += (rhs_[dof] - impedance_[dof] * next_[dof]) * d;
+        double rates[8];
+        const int n = kinks(model_.hinges[j], frozen_[j], rates);
+        for (int k = 0; k < n; k++) {
+            const double a = (rates[k] - w_[dof]) / d;
+            if (a > 0 && a < 1) breakpoints_.push_back(a);
+        }
+    }
+    auto slope = [&](double a) {
+        double f = linear_end - (1 - a) * curvature;
+        for (size_t j = 0; j < frozen_.size(); j++) {
+            const auto dof = static_cast<size_t>(model_.hinges[j].dof);
+            const double w = w_[dof] + a * direction_[dof];
+            f += respond(model_.hinges[j], frozen_[j], w).impulse * direction_[dof];
+        }
+        return f;
+    };
+    std::sort(breakpoints_.begin(), breakpoints_.end());
+    double lo = 0, hi = 1, f_lo = slope(0), f_hi = slope_end;
+    size_t first = 0, last = breakpoints_.size();
+    while (first < last) {
+        const size_t middle = (first + last) / 2;
+        const double a = breakpoints_[middle], f = slope(a);
+        if (f > 0) {
+            hi = a;
+            f_hi = f;
+            last = middle;
+        } else {
+            lo = a;
+            f_lo = f;
+            first = middle + 1;
+        }
+    }
+    // within one piece: secant, safeguarded by bisection where the piece is curved
+    for (int k = 0; k < 40 && hi - lo > 1e-15 * hi; k++) {
+        const double a = k % 3 == 2 ? (lo + hi) / 2 : lo - f_lo * (hi - lo) / (f_hi - f_lo);
+        if (!(a > lo && a < hi)) break;
+        const double f = slope(a);
+        if (std::fabs(f) <= 1e-12 * std::fabs(slope_end)) return a;
+        (f > 0 ? hi : lo) = a;
+        (f > 0 ? f_hi : f_lo) = f;
+    }
+    return f_lo < -f_hi && f_hi < -f_lo ? hi : (-f_lo < f_hi && lo > 0 ? lo : hi);
+}
+
+}  // namespace crumple::multibody
