@@ -19,9 +19,12 @@ from crumple.structure.problems import Place, shown, spelled
 
 LARGEST_FILE = 1_000_000
 """Bytes of an input file; a frame of ten thousand members stays below."""
+MOST_REPEATED = 20
+"""Repeated keys that are listed; a file with more is not worth reading on."""
 DEEPEST = 16
 """Nested groups; the format itself needs eight."""
 
+_CONTROL = re.compile(r"[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?")
 _NOT_FINITE = re.compile(r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)")
 _CONSTANTS: dict[str, bool | None] = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
@@ -80,7 +83,8 @@ def read_file(path: Path) -> Document:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
-        raise _refusal("the file is not a text in UTF-8", name, "", "a YAML text", "", line) from None
+        todo = "write it with a text editor, in UTF-8"
+        raise _refusal("the file is binary", name, "", "a YAML text in UTF-8", todo, line) from None
     return read_text(text, name)
 
 
@@ -92,16 +96,14 @@ def read_text(text: str, file: str = "") -> Document:
     InputError
         If it is binary, empty or not YAML.
     """
-    for position, character in enumerate(text):
-        if character < " " and character not in "\t\n\r":
-            line = text.count("\n", 0, position) + 1
-            raise _refusal("the file is binary", file, repr(character), "a YAML text", "", line)
+    control = _CONTROL.search(text)
+    if control is not None:
+        line, came = text.count("\n", 0, control.start()) + 1, f"the control character {ord(control[0])}"
+        raise _refusal("the file is binary", file, came, "a YAML text", "write it with a text editor", line)
     reader = _Reader(text, file)
     document = reader.read()
     if document.data is None:
-        raise _refusal(
-            "the file is empty", file, allowed="a description", todo="start with the line 'crumple: 1'"
-        )
+        raise _refusal("the file is empty", file, "", "a description", "start with the line 'crumple: 1'", 1)
     return document
 
 
@@ -145,7 +147,9 @@ class _Reader:
             mark = error.problem_mark or error.context_mark
             line = mark.line + 1 if mark is not None else 0
             raise _refusal(f"this is not YAML: {_sentence(error)}", self._file, line=line) from None
-        except (YAMLError, ValueError, TypeError, AttributeError, IndexError, RecursionError) as error:
+        except RecursionError:
+            raise _refusal("the groups are nested too deeply", self._file, line=1) from None
+        except (YAMLError, ValueError, TypeError, AttributeError, IndexError) as error:
             # the parser stumbles over some malformed texts instead of refusing them
             raise _refusal(f"this is not YAML: {_sentence(error)}", self._file) from None
 
@@ -156,7 +160,8 @@ class _Reader:
         if event.anchor:
             raise self._refusal(event, "anchors are refused", f"&{event.anchor}", "", "write the content out")
         if event.tag is not None and str(event.tag) not in {"None", "!"}:
-            raise self._refusal(event, "tags are refused", shown(str(event.tag)), "", "remove the tag")
+            tag = shown(str(event.tag).replace("tag:yaml.org,2002:", "!!"))
+            raise self._refusal(event, "tags are refused", tag, "", "remove the tag")
         if len(place) > DEEPEST:
             raise self._refusal(event, "the groups are nested too deeply", "", f"at most {DEEPEST} levels")
         if kind == "ScalarEvent":
@@ -180,6 +185,8 @@ class _Reader:
                 self._document.problems.append(
                     Problem(what, todo=todo, where=spelled((*place, key)), file=self._file, line=line)
                 )
+                if len(self._document.problems) == MOST_REPEATED:
+                    raise InputError(self._document.problems)
                 continue
             mapping[key] = value
             self._document.lines[(*place, key)] = line

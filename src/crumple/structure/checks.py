@@ -7,7 +7,7 @@ passed that exist in the input but whose parts were refused, so that one mistake
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from itertools import combinations, product
 
 import numpy as np
@@ -191,12 +191,13 @@ def _carriers(structure: Structure) -> Iterator[tuple[str, str, str]]:
         yield f"impulses[{i}].node", struck.node, "the impulse"
 
 
-def _unknown(kind: str, name: str, known: Iterable[str], where: str) -> Iterator[Problem]:
-    if name not in (names := sorted(known)):
+def _unknown(kind: str, name: str, known: Collection[str], where: str) -> Iterator[Problem]:
+    if name not in known:
+        names = sorted(known)
         todo = suggestion(name, names) or f"define the {kind} '{shown(name)}' or correct the name"
         yield Problem(f"there is no {kind} '{shown(name)}'", shown(name), one_of(names), todo, where)
 
 
-def _unknown_law(law: LawReference | None, known: Iterable[str], where: str) -> Iterator[Problem]:
+def _unknown_law(law: LawReference | None, known: Collection[str], where: str) -> Iterator[Problem]:
     if isinstance(law, str):
         yield from _unknown("hinge law", law, known, where)

@@ -76,20 +76,25 @@ def _read(name: str, directory: Path, key: str) -> tuple[list[float], list[float
         refuse("this is no file name", key=key)
     path = directory / name
     try:
-        if not path.is_file():
-            refuse("there is no such file", key=key, allowed="a file name, relative to the input file")
-        if path.stat().st_size > LARGEST_FILE:
-            refuse("the file is too large for a curve", key=key, allowed=f"at most {LARGEST_FILE} bytes")
-        text = path.read_text(encoding="utf-8-sig")
+        found, size = path.is_file(), path.stat().st_size if path.is_file() else 0
+        text = path.read_text(encoding="utf-8-sig") if found and size <= LARGEST_FILE else ""
+    except UnicodeDecodeError:
+        refuse("the file is not a text in UTF-8", key=key, allowed="a CSV file")
+    except OSError as error:
+        refuse(f"the file cannot be read: {error.strerror}", key=key, allowed="a CSV file")
+    if not found:
+        todo = "correct the name or put the file there"
+        refuse("there is no such file", key=key, allowed="a file name, relative to the input file", todo=todo)
+    if size > LARGEST_FILE:
+        refuse("the file is too large for a curve", key=key, allowed=f"at most {LARGEST_FILE / 1e6:g} MB")
+    try:
         rotation, moment = read_table(text, name)
     except InputError as error:
         shown, rest = error.problems[:SHOWN_PROBLEMS], error.problems[SHOWN_PROBLEMS:]
         more = [Problem(f"{len(rest)} more lines are wrong", file=name)] if rest else []
         refuse("the curve cannot be read", problems=[*shown, *more])
-    except UnicodeDecodeError:
-        refuse("the file is not a text in UTF-8", key=key, allowed="a CSV file")
-    except (OSError, ValueError, csv.Error) as error:
-        refuse(f"the file cannot be read: {error}", key=key, allowed="a CSV file")
+    except (ValueError, csv.Error) as error:
+        refuse(f"the file is no table: {error}", key=key, allowed="a CSV file")
     if len(rotation) > MOST_POINTS:
         refuse("the curve has too many points", key=key, allowed=f"at most {MOST_POINTS}")
     return rotation.tolist(), moment.tolist()

@@ -7,7 +7,7 @@ room, and a clamp gives none.  Between the equal bars of a member lies one hinge
 from __future__ import annotations
 
 from collections import defaultdict
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Literal
 
@@ -99,8 +99,7 @@ def hinge_places(structure: Structure) -> tuple[HingePlace, ...]:
 
 def member_hinge_places(structure: Structure, member: str) -> list[HingePlace]:
     """Hinges of one member by increasing station."""
-    spec = structure.members[member]
-    length = structure.frame_of(member).length
+    spec, length = structure.members[member], structure.frame_of(member).length
     bars, where = spec.bars, f"members.{member}"
     places = [
         HingePlace(f"{member}-{i}", member, length * i / bars.number, bars.axis, bars.law, f"{where}.bars")
@@ -222,37 +221,34 @@ def law_of(structure: Structure, place: HingePlace) -> HingeLaw:
 
 
 class _Laws:
-    """Laws already built, so that the many hinges of a chain share one."""
+    """Laws and records already made, so that the many hinges of a chain share them."""
 
     def __init__(self, structure: Structure) -> None:
         self._structure = structure
-        self._built: dict[tuple[str, str, Axis, LawKeys], HingeLaw] = {}
+        self._made: dict[tuple[str, str, Axis, LawKeys], tuple[HingeLaw, HingeRecord]] = {}
 
-    def of(self, place: HingePlace) -> HingeLaw:
-        member = self._structure.members[place.member]
-        key = (member.section, member.material, place.axis, law_spec(self._structure, place))
-        if key not in self._built:
-            self._built[key] = law_of(self._structure, place)
-        return self._built[key]
+    def of(self, place: HingePlace, tributary_length: float) -> tuple[HingeLaw, HingeRecord]:
+        """Law and record of a hinge that stands for a length of its member [m]."""
+        member, spec = self._structure.members[place.member], law_spec(self._structure, place)
+        section = self._structure.section_of(place.member)
+        modulus = self._structure.material_of(place.member).youngs_modulus
+        rigidity = modulus * section.second_moment(place.axis)
+        key = (member.section, member.material, place.axis, spec)
+        if key not in self._made:
+            law = law_of(self._structure, place)
+            self._made[key] = (law, _record(law, spec, rigidity, tributary_length))
+        law, record = self._made[key]
+        # the length alone differs along a chain, and only the elastic form looks at it
+        by_length = spec.elastic_stiffness == "auto" and law.elastic_stiffness is None
+        if record.form is Form.ELASTIC_PLASTIC and by_length:
+            stiffness = hinge.tributary_stiffness(rigidity, tributary_length)
+            record = replace(record, elastic_stiffness=stiffness)
+        return law, record
 
 
 def _placed(structure: Structure, place: HingePlace, share: float, laws: _Laws) -> PlacedHinge:
+    law, record = laws.of(place, share)
     frame = structure.frame_of(place.member)
-    section, material = structure.section_of(place.member), structure.material_of(place.member)
-    spec, law = law_spec(structure, place), laws.of(place)
-    stiffness = spec.elastic_stiffness
-    record = hinge.record_of(
-        law,
-        form=Form(spec.form),
-        elastic_stiffness=None if isinstance(stiffness, str) else stiffness,
-        flexural_rigidity=material.youngs_modulus * section.second_moment(place.axis),
-        tributary_length=share,
-        softening=SofteningVariable(spec.softening),
-        stops=_stop(spec.stops),
-        regularisation_rate=spec.regularisation.rate,
-        rate=spec.rate == "on",
-        viscous_damping=spec.viscous_damping,
-    )
     return PlacedHinge(
         name=place.name,
         member=place.member,
@@ -263,6 +259,22 @@ def _placed(structure: Structure, place: HingePlace, share: float, laws: _Laws) 
         tributary_length=share,
         law=law,
         record=record,
+    )
+
+
+def _record(law: HingeLaw, spec: LawKeys, rigidity: float, tributary_length: float) -> HingeRecord:
+    stiffness = spec.elastic_stiffness
+    return hinge.record_of(
+        law,
+        form=Form(spec.form),
+        elastic_stiffness=None if isinstance(stiffness, str) else stiffness,
+        flexural_rigidity=rigidity,
+        tributary_length=tributary_length,
+        softening=SofteningVariable(spec.softening),
+        stops=_stop(spec.stops),
+        regularisation_rate=spec.regularisation.rate,
+        rate=spec.rate == "on",
+        viscous_damping=spec.viscous_damping,
     )
 
 

@@ -48,7 +48,10 @@ def placed_problems(
             placed += [(path, replace(problem, where=spelled(path))) for problem, path in inner]
             continue
         keys = _keys(model, details["loc"][:-1]) if details["type"] == "extra_forbidden" else []
-        problem = _problem(str(details["type"]), details["msg"], details["input"], context, place, keys)
+        value = details["input"]
+        if context.get("key") and isinstance(value, Mapping):
+            value = value.get(context["key"])
+        problem = _problem(str(details["type"]), details["msg"], value, context, place, keys)
         placed.append((place, problem))
     # a misspelt key and the missing one that it stands for are one mistake
     meant = {(*place[:-1], key) for place, problem in placed for key in _MEANT.findall(problem.todo)}
@@ -73,7 +76,9 @@ def spelled(place: Iterable[str | int]) -> str:
 
 def shown(value: object) -> str:
     """A refused value, short and on one line."""
-    if isinstance(value, float | int | str):
+    if isinstance(value, bool):
+        text = str(value).lower()
+    elif isinstance(value, float | int | str):
         text = str(value)
     elif isinstance(value, Mapping):
         text = "{" + ", ".join(str(key)[:20] for key in list(value)[:8]) + "}"

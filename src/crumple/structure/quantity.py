@@ -77,11 +77,12 @@ class Dimension:
         in_file = bool(info.context and info.context.get("file"))
         value = self._number(given, in_file)
         if not math.isfinite(value):
-            refuse("the number is not finite", allowed=self.allowed())
+            refuse("the number is not finite", allowed=self.allowed(), todo="write a finite number")
         if value != 0.0 and not SMALLEST <= abs(value) <= LARGEST:
             refuse("the number is beyond any structure", allowed=self.allowed(), todo="check its unit")
         if not self._in_bounds(value):
-            refuse(f"the number is out of range: it must be {self.bounds()}", allowed=self.allowed())
+            what, todo = f"the number is out of range: it must be {self.bounds()}", "correct the number"
+            refuse(what, allowed=self.allowed(), todo=todo)
         return value
 
     def _number(self, given: object, in_file: bool) -> float:
@@ -92,7 +93,8 @@ class Dimension:
                 return parse_quantity(given, self.unit)
             except QuantityError as error:
                 problem = error.problems[0]
-                refuse(problem.what, allowed=problem.allowed, todo=problem.todo)
+                todo = f"write {self.noun} with its unit, for example {self.example}"
+                refuse(problem.what, allowed=problem.allowed, todo=todo)
         if isinstance(given, bool) or not isinstance(given, int | float):
             refuse(f"{self.noun} is needed here", allowed=self.allowed())
         try:
