@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from typing import Literal
 
+import numpy as np
+
 from crumple.errors import InputError, Problem
 from crumple.hinge.law import HingeLaw, SofteningVariable
-from crumple.hinge.record import Form, HingeRecord
+from crumple.hinge.record import Envelope, Form, HingeRecord
 from crumple.hinge.sampling import sampled_envelope
 from crumple.hinge.stop import Stop
 
@@ -79,11 +81,12 @@ def record_of(
         stiffness = _stiffness(law, elastic_stiffness, flexural_rigidity, tributary_length)
     positive_stop, negative_stop = _both_senses(law.stop if stops == "law" else stops)
     rate_law = law.rate if rate else None
+    positive = sampled_envelope(law, 1, error)
     return HingeRecord(
         form=form,
         softening_variable=softening or law.softening_variable,
-        positive=sampled_envelope(law, 1, error),
-        negative=sampled_envelope(law, -1, error),
+        positive=positive,
+        negative=positive if _mirrors(law, positive) else sampled_envelope(law, -1, error),
         elastic_stiffness=stiffness,
         regularisation_rate=regularisation_rate,
         rate_reference=math.inf if rate_law is None else rate_law.reference,
@@ -104,6 +107,14 @@ def tributary_stiffness(flexural_rigidity: float, tributary_length: float) -> fl
     the beam.
     """
     return flexural_rigidity / tributary_length
+
+
+def _mirrors(law: HingeLaw, positive: Envelope) -> bool:
+    """Whether the negative sense has the very same kinks and capacities, so that it need not be sampled."""
+    ends = positive.rotation
+    seen = np.concatenate([ends, (ends[1:] + ends[:-1]) / 2.0])
+    same = np.array_equal(law.moment_capacity(seen, 1), law.moment_capacity(seen, -1))
+    return same and law.kinks(1) == law.kinks(-1)
 
 
 def _stiffness(

@@ -56,31 +56,34 @@ def sampled_envelope(
     inner = sorted({kink for kink in law.kinks(sense) if 0.0 < kink < rotation_max})
     ends = [0.0, *inner, rotation_max]
     pieces = [_piece(capacity, low, high, error) for low, high in pairwise(ends)]
-    rotation = np.concatenate([np.array([0.0]), *(piece[1:] for piece in pieces)])
-    return Envelope(rotation, capacity(rotation))
+    # a piece begins where the one before it ended
+    rotation, moment = (
+        np.concatenate([part[0][:1], *(piece[1:] for piece in part)]) for part in zip(*pieces, strict=True)
+    )
+    return Envelope(rotation, moment)
 
 
-def _piece(capacity: Callable[[Floats], Floats], low: float, high: float, error: float) -> Floats:
-    """Points of one smooth piece, ends included."""
+def _piece(
+    capacity: Callable[[Floats], Floats], low: float, high: float, error: float
+) -> tuple[Floats, Floats]:
+    """Rotations and capacities of one smooth piece, ends included."""
     dense = np.linspace(low, high, DENSE)
     exact = capacity(dense)
     # a pure choice of places: the bound itself is checked below
     bend = np.abs(np.gradient(np.gradient(exact, dense), dense)) / exact
     density = np.sqrt(bend / (8.0 * error)) + 1e-3 / (high - low)
     grown = np.concatenate([[0.0], np.cumsum((density[1:] + density[:-1]) / 2.0 * np.diff(dense))])
-    count = 1
+    count = max(1, math.floor(grown[-1]))
     while count <= MOST_PIECES:
-        points = np.interp(np.linspace(0.0, grown[-1], count + 1), grown, dense)
+        points: Floats = np.interp(np.linspace(0.0, grown[-1], count + 1), grown, dense)
         points[0], points[-1] = low, high
+        moment = capacity(points)
         middles = (points[1:] + points[:-1]) / 2.0
-        if _error(capacity, points, np.concatenate([dense, middles])) < error:
-            return np.asarray(points, np.float64)
-        count = max(count + 1, math.ceil(1.1 * count), math.floor(grown[-1]) if count == 1 else 0)
+        seen = np.concatenate([dense, middles])
+        chords = np.interp(seen, points, moment)
+        if np.max(np.abs(chords / np.concatenate([exact, capacity(middles)]) - 1.0)) < error:
+            return points, moment
+        count = max(count + 1, math.ceil(1.05 * count))
     raise CrumpleError(
         f"the capacity is not smooth between {low:.6g} and {high:.6g} rad: its law hides a kink"
     )
-
-
-def _error(capacity: Callable[[Floats], Floats], points: Floats, at: Floats) -> float:
-    """Largest relative error of the chords through the points, seen at some rotations."""
-    return float(np.max(np.abs(np.interp(at, points, capacity(points)) / capacity(at) - 1.0)))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import astuple, dataclass
 
 
 @dataclass(frozen=True)
@@ -28,5 +29,13 @@ class Stop:
     rotation: float
     stiffness: float
     exponent: float = 1.0
-    damping: float = float("nan")
+    damping: float = math.nan
     full_damping_penetration: float = 0.0
+
+    def __post_init__(self) -> None:
+        # one NaN object for all stops: NaN equals and hashes as itself by identity alone
+        if math.isnan(self.damping):
+            object.__setattr__(self, "damping", math.nan)
+
+    def __reduce__(self) -> tuple[type[Stop], tuple[float, ...]]:
+        return (type(self), astuple(self))

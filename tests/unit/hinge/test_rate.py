@@ -1,0 +1,44 @@
+import numpy as np
+import pytest
+
+from crumple.errors import InputError
+from crumple.hinge import HingeRate, KecmanLaw
+from crumple.hinge.rate import hinge_rate, rate_factor
+from crumple.material import CowperSymonds, Material
+from crumple.section import RectangularTube
+
+TUBE = RectangularTube(0.050, 0.025, 0.00265)
+
+
+def steel(**rates):
+    return Material("steel", 210e9, 0.3, 7850.0, 488e6, **rates)
+
+
+def test_fifteen_radians_a_second_strain_the_folds_at_one_per_second():
+    # (15/3)/(2 x 2.5) = 1 /s: factor 1.48 with the pair at yield, 1.10 with the pair at large strain
+    for D, q, expected in ((40.4, 5.0, 1.48), (6844.0, 3.91, 1.10)):
+        law = CowperSymonds(D, q)
+        factor = rate_factor(hinge_rate(law), 15.0)
+        assert factor == pytest.approx(float(law.factor(1.0)), rel=1e-14)
+        assert factor == pytest.approx(expected, abs=0.005)
+
+
+def test_no_rate_law_is_no_effect():
+    assert hinge_rate(None) is None
+    np.testing.assert_array_equal(rate_factor(None, [0.0, 1.0, -5.0]), 1.0)
+
+
+def test_a_fold_takes_the_flow_pair_and_says_so_when_it_is_missing():
+    yielding, flowing = CowperSymonds(40.4, 5.0), CowperSymonds(6844.0, 3.91)
+    assert KecmanLaw.of(TUBE, steel(yield_rate=yielding, flow_rate=flowing)).rate == hinge_rate(flowing)
+    without = KecmanLaw.of(TUBE, steel(yield_rate=yielding))
+    assert without.rate is None
+    assert any("rate law at yield" in warning for warning in without.validity.warnings)
+
+
+@pytest.mark.parametrize(
+    ("reference", "exponent"), [(0.0, 1.0), (1.0, 0.5), (float("nan"), 1.0), (1.0, float("nan"))]
+)
+def test_impossible_rates_are_refused(reference, exponent):
+    with pytest.raises(InputError):
+        HingeRate(reference, exponent)

@@ -1,0 +1,109 @@
+import math
+
+import numpy as np
+import pytest
+
+from crumple.errors import CrumpleError, InputError
+from crumple.hinge import (
+    ConstantLaw,
+    Form,
+    KecmanLaw,
+    SofteningVariable,
+    Stop,
+    TabulatedLaw,
+    record_of,
+    tributary_stiffness,
+)
+from crumple.material import CowperSymonds, Material
+from crumple.section import RectangularTube
+
+STEEL = Material("steel", 210e9, 0.3, 7850.0, 488e6, flow_rate=CowperSymonds(6844.0, 3.91))
+TUBE = RectangularTube(0.050, 0.025, 0.00265)
+
+
+def test_default_record_is_set_valued_and_rigid():
+    record = record_of(ConstantLaw(1000.0))
+    assert record.form is Form.SET_VALUED
+    assert record.softening_variable is SofteningVariable.PEAK
+    assert record.elastic_stiffness == math.inf
+    assert record.rate_reference == math.inf
+    assert record.stop_positive is record.stop_negative is None
+    np.testing.assert_array_equal(record.positive.moment, 1000.0)
+
+
+def test_table_is_kept_point_by_point():
+    law = TabulatedLaw([0.0, 0.1, 0.4], [900.0, 1000.0, 500.0], [0.0], [300.0])
+    record = record_of(law)
+    np.testing.assert_array_equal(record.positive.rotation[:3], [0.0, 0.1, 0.4])
+    np.testing.assert_array_equal(record.positive.moment, [900.0, 1000.0, 500.0, 500.0])
+    np.testing.assert_array_equal(record.negative.moment, 300.0)
+
+
+def test_points_grow_with_the_root_of_the_accuracy():
+    law = KecmanLaw.of(TUBE, STEEL, after_jamming="hold")
+    coarse, fine = (record_of(law, error=error).positive.rotation.size for error in (1e-3, 1e-5))
+    assert 6.0 < fine / coarse < 14.0
+    assert record_of(law).positive.rotation.size <= 100
+
+
+def test_elastic_stiffness_is_given_or_the_laws_or_the_tributary_lengths():
+    rigidity = STEEL.youngs_modulus * TUBE.second_moment_y
+    own = TabulatedLaw([0.0], [500.0], elastic_stiffness=7e3)
+
+    def stiffness(law, **options):
+        return record_of(law, form=Form.ELASTIC_PLASTIC, **options).elastic_stiffness
+
+    assert stiffness(own, elastic_stiffness=9e3) == 9e3
+    assert stiffness(own, flexural_rigidity=rigidity, tributary_length=0.5) == 7e3
+    # one hinge for a cantilever of 1 m loaded at its tip: 3 E I/L
+    constant = ConstantLaw(1000.0)
+    assert stiffness(constant, flexural_rigidity=rigidity, tributary_length=1 / 3) == pytest.approx(
+        3 * rigidity
+    )
+    assert tributary_stiffness(rigidity, 0.5) == pytest.approx(2 * rigidity)
+    # the other forms are rigid whatever is known
+    assert record_of(own, form=Form.REGULARISED, elastic_stiffness=9e3).elastic_stiffness == math.inf
+    for options in ({}, {"elastic_stiffness": 0.0}, {"elastic_stiffness": float("nan")}):
+        with pytest.raises(InputError, match="elastic stiffness"):
+            stiffness(constant, **options)
+
+
+def test_stops_come_from_the_law_or_from_the_caller():
+    law = KecmanLaw.of(TUBE, STEEL, after_jamming="stop")
+    record = record_of(law)
+    assert record.stop_positive == record.stop_negative == law.stop
+    assert law.stop.rotation == law.jamming_angle
+    # the tube over the length of the fold, 2 h = 25 mm
+    assert law.stop.stiffness == pytest.approx(210e9 * TUBE.second_moment_y / 0.025)
+    assert math.isnan(law.stop.damping)
+    mine = Stop(1.0, 1e4, damping=5.0)
+    assert record_of(law, stops=None).stop_positive is None
+    assert record_of(law, stops=mine).stop_negative is mine
+    assert record_of(law, stops=(None, mine)).stop_positive is None
+    with pytest.raises(InputError, match="stops"):
+        record_of(law, stops="none")
+
+
+def test_softening_rate_and_ramp_are_passed_on():
+    law = KecmanLaw.of(TUBE, STEEL)
+    record = record_of(
+        law, softening=SofteningVariable.ROTATION, viscous_damping=2.0, regularisation_rate=0.1
+    )
+    assert record.softening_variable is SofteningVariable.ROTATION
+    assert record.viscous_damping == 2.0
+    assert record.regularisation_rate == 0.1
+    assert record.rate_reference == pytest.approx(15 * 6844.0)
+    assert record.rate_exponent == 3.91
+    assert record_of(law, rate=False).rate_reference == math.inf
+    with pytest.raises(InputError, match="regularisation"):
+        record_of(law, regularisation_rate=0.0)
+
+
+class _HiddenJump(ConstantLaw):
+    def moment_capacity(self, rotation, sense=1):
+        return np.where(np.asarray(rotation) < 1.0, 1000.0, 500.0)
+
+
+def test_a_jump_that_a_law_hides_is_not_smoothed_over():
+    with pytest.raises(CrumpleError, match="hides a kink"):
+        record_of(_HiddenJump(1000.0))
