@@ -9,6 +9,7 @@ from typing import Any
 
 from crumple.errors import InputError, Problem
 from crumple.hinge import read_table
+from crumple.structure.quantity import Converted
 from crumple.structure.spec import refuse
 from crumple.units import QuantityError, unit_factor
 
@@ -97,4 +98,4 @@ def _read(name: str, directory: Path, key: str) -> tuple[list[float], list[float
         refuse(f"the file is no table: {error}", key=key, allowed="a CSV file")
     if len(rotation) > MOST_POINTS:
         refuse("the curve has too many points", key=key, allowed=f"at most {MOST_POINTS}")
-    return rotation.tolist(), moment.tolist()
+    return [Converted(value) for value in rotation], [Converted(value) for value in moment]

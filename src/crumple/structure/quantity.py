@@ -22,6 +22,10 @@ SMALLEST = 1e-18
 """Smallest magnitude in SI that is not zero; below it products underflow to a singular model."""
 
 
+class Converted(float):
+    """A number that a reader of curves has already turned into SI: it needs no unit even in a file."""
+
+
 @dataclass(frozen=True)
 class Dimension:
     """What a number measures and which values make sense.
@@ -101,7 +105,8 @@ class Dimension:
             value = float(given)
         except OverflowError:
             value = math.inf
-        if in_file and self.unit != "1" and value != 0.0 and math.isfinite(value):
+        converted = not in_file or isinstance(given, Converted)
+        if not converted and self.unit != "1" and value != 0.0 and math.isfinite(value):
             refuse(
                 "the unit is missing",
                 allowed=self.allowed(),
