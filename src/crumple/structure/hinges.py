@@ -17,6 +17,7 @@ from crumple import hinge
 from crumple.errors import InputError, Problem
 from crumple.hinge import Form, HingeLaw, HingeRecord, SofteningVariable, Stop
 from crumple.section import Axis, half_fold_length
+from crumple.structure.bending import bending_axis
 from crumple.structure.geometry import Floats
 from crumple.structure.law import LAW_SPECS, LawKeys, LawReference, Stops
 from crumple.structure.member import Hinge
@@ -100,14 +101,18 @@ def hinge_places(structure: Structure) -> tuple[HingePlace, ...]:
 def member_hinge_places(structure: Structure, member: str) -> list[HingePlace]:
     """Hinges of one member by increasing station."""
     spec, length = structure.members[member], structure.frame_of(member).length
-    bars, where = spec.bars, f"members.{member}"
+    bars, where, axis = spec.bars, f"members.{member}", bending_axis(structure, member)
     places = [
-        HingePlace(f"{member}-{i}", member, length * i / bars.number, bars.axis, bars.law, f"{where}.bars")
+        HingePlace(
+            f"{member}-{i}", member, length * i / bars.number, bars.axis or axis, bars.law, f"{where}.bars"
+        )
         for i in range(1, bars.number)
     ]
     for i, given in enumerate(spec.hinges):
         station = hinge_station(structure, member, given)
-        places.append(HingePlace(given.name, member, station, given.axis, given.law, f"{where}.hinges[{i}]"))
+        places.append(
+            HingePlace(given.name, member, station, given.axis or axis, given.law, f"{where}.hinges[{i}]")
+        )
     return sorted(places, key=lambda place: place.station)
 
 
@@ -118,8 +123,9 @@ def hinge_station(structure: Structure, member: str, given: Hinge) -> float:
         return given.at + (given.offset or 0.0)
     offset = given.offset
     if offset is None:
-        held = holds_rotation(structure, given.at, structure.frame_of(member).axis(given.axis))
-        offset = half_fold_length(structure.section_of(member), given.axis) if held else 0.0
+        axis = given.axis or bending_axis(structure, member)
+        held = holds_rotation(structure, given.at, structure.frame_of(member).axis(axis))
+        offset = half_fold_length(structure.section_of(member), axis) if held else 0.0
     return offset if given.at == spec.nodes[0] else structure.frame_of(member).length - offset
 
 

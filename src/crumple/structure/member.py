@@ -54,8 +54,8 @@ class Hinge(Spec):
     offset: Length | None = None
     """Shift from that place into the member (from a distance: towards the second node);
     without it half a fold length at a clamp, else 0."""
-    axis: BendingAxis = "y"
-    """Section axis that the moment vector lies along."""
+    axis: BendingAxis | None = None
+    """Section axis that the moment vector lies along; without it the one across the plane of bending."""
     law: LawReference | None = None
     """Name of a hinge law or of a law type, or a law itself; without it the section's default (kecman for
     rectangular tubes)."""
@@ -66,8 +66,8 @@ class Bars(Spec):
 
     number: Annotated[int, Field(ge=1, le=MOST_BARS, strict=True)] = 1
     """How many bars; the hinge after bar i is named MEMBER-i."""
-    axis: BendingAxis = "y"
-    """Section axis of these hinges' moment vector."""
+    axis: BendingAxis | None = None
+    """Section axis of these hinges' moment vector; without it the one across the plane of bending."""
     law: LawReference | None = None
     """Law of these hinges; without it the section's default."""
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 from pydantic import ValidationInfo, model_validator
 
 from crumple.material import Material
 from crumple.section import Section
-from crumple.structure.geometry import Frame, frame_of
+from crumple.structure.bending import bending_normal
+from crumple.structure.geometry import Floats, Frame, frame_of
 from crumple.structure.law import LawSpec
 from crumple.structure.load import Load, Mass, NodalImpulse
 from crumple.structure.mapping import FrozenMapping
@@ -80,3 +83,8 @@ class Structure(Spec):
         spec = self.members[member]
         first, second = (self.nodes[name] for name in spec.nodes)
         return frame_of(first, second, up=spec.up, roll=spec.roll)
+
+    @cached_property
+    def bending_normal(self) -> Floats | None:
+        """Normal of the plane in which it bends, (3,); None where nothing says so."""
+        return bending_normal(self)
