@@ -8,31 +8,27 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
+from crumple.report.scales import Floats, display_unit, largest, output_groups, spread, time_unit
 from crumple.report.style import (
     HALF,
     MUTED,
     RULE,
     WARNING,
     WIDTH,
-    Floats,
     Line,
     add_axes,
-    display_unit,
     draw_lines,
-    largest,
     name_axes,
     new_figure,
     short,
-    spread,
-    time_unit,
     to_svg,
 )
-from crumple.result import Channel, Result
+from crumple.result import Result
 
 NAMED = 6
 """Hinges drawn in colour and named; the others are drawn faintly behind them."""
 MAX_OUTPUTS = 12
-"""Panels of requested outputs."""
+"""Panels of requested outputs; the table and histories.csv hold the others."""
 
 _DEGREES = math.degrees(1.0)
 _PANEL = 1.75  # height of the axes of a panel [in]
@@ -174,30 +170,28 @@ def _draw_residual(axes: Axes, time: Floats, percent: Floats, bound: float | Non
 
 
 def outputs(result: Result) -> str | None:
-    """Requested channels against time, two in a row, as SVG."""
-    channels = [result.channels[name] for name in result.output_names if name in result.channels]
-    channels = channels[:MAX_OUTPUTS]
-    if not channels or not len(result.time):
+    """Requested channels against time, the directions of a vector together, two panels in a row, as SVG."""
+    groups = output_groups(result)[0][:MAX_OUTPUTS]
+    if not groups or not len(result.time):
         return None
     columns = 2
-    rows = math.ceil(len(channels) / columns)
-    height = 1.35
-    figure = new_figure(WIDTH, rows * (_HEAD + height + _FOOT))
-    width = WIDTH / columns - _LEFT - _EDGE
-    for i, channel in enumerate(channels):
+    rows = math.ceil(len(groups) / columns)
+    height, head = 1.3, 0.36
+    figure = new_figure(WIDTH, rows * (head + height + _FOOT))
+    for i, group in enumerate(groups):
         row, column = divmod(i, columns)
-        bottom = (rows - row - 1) * (_HEAD + height + _FOOT) + _FOOT
+        bottom = (rows - row - 1) * (head + height + _FOOT) + _FOOT
+        labelled = any(label for label, _ in group.channels)
+        width = WIDTH / columns - _LEFT - (0.24 if labelled else _EDGE)
         axes = add_axes(figure, _LEFT + column * WIDTH / columns, bottom, width, height)
-        unit, values = _display(channel)
-        line = Line(channel.name, _times(result), values, 0)
-        name = f"{short(channel.name, 44)}, {unit}" if unit else short(channel.name, 44)
-        _over_time(axes, result.time, [line], name, labels=False)
+        unit, factor = display_unit(group.unit, largest([channel.values for _, channel in group.channels]))
+        lines = [
+            Line(label, _times(result), channel.values / factor, max("xyz".find(label), 0) if label else 0)
+            for label, channel in group.channels
+        ]
+        name = f"{short(group.name, 44)}, {unit}" if unit else short(group.name, 44)
+        _over_time(axes, result.time, lines, name, labels=labelled)
     return to_svg(figure, "outputs", "Requested outputs against time.")
-
-
-def _display(channel: Channel) -> tuple[str, Floats]:
-    unit, factor = display_unit(channel.unit, largest([channel.values]))
-    return unit, channel.values / factor
 
 
 def _times(result: Result) -> Floats:

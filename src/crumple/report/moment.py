@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from crumple.report.curves import hinge_channel, sense
+from crumple.report.scales import Floats, display_unit, largest, spread, thinned
 from crumple.report.style import (
     HALF,
     INK,
@@ -15,21 +16,17 @@ from crumple.report.style import (
     RULE,
     SERIES,
     WARNING,
-    Floats,
     add_axes,
-    display_unit,
-    largest,
     name_axes,
     new_figure,
     short,
-    spread,
-    thinned,
     to_svg,
 )
 from crumple.result import HingeSummary, Result
 
 _DEGREES = math.degrees(1.0)
-_BEYOND = 1.35  # how far the rotation axis goes past the largest rotation, where the law goes on
+_BEYOND = 1.25  # how far the rotation axis goes past the largest rotation, where the law goes on
+_RANGE_WITHIN = 2.2  # the end of the range is shown when it is within this many times the largest rotation
 
 
 def moment_over_rotation(result: Result, hinge: str, name: str) -> str | None:
@@ -51,7 +48,7 @@ def moment_over_rotation(result: Result, hinge: str, name: str) -> str | None:
         return None
     side = sense(result, hinge)
     reached = max(largest([path[0]]) if path else 0.0, 1e-3)
-    limits = _rotation_limits(path[0] * side if path else None, reached)
+    limits = _rotation_limits(path[0] * side if path else None, reached, summary.validity_rotation)
     curves = _envelopes(summary, side, limits)
     unit, factor = display_unit("N*m", largest([*(y for _, y in curves), *([path[1]] if path else [])]))
     figure = new_figure(HALF, 2.35)
@@ -72,11 +69,15 @@ def moment_over_rotation(result: Result, hinge: str, name: str) -> str | None:
     return to_svg(figure, name, f"Moment against rotation of hinge {short(hinge)}: law and path travelled.")
 
 
-def _rotation_limits(turned: Floats | None, reached: float) -> tuple[float, float]:
+def _rotation_limits(turned: Floats | None, reached: float, validity: float | None) -> tuple[float, float]:
+    """Limits of the rotation axis [rad]: the path, some more of the law, the end of its range if near."""
     low = 0.0
     if turned is not None and np.isfinite(turned).any():
         low = min(0.0, float(np.nanmin(turned)))
-    return (1.1 * low if low < -0.02 * reached else -0.02 * reached), _BEYOND * reached
+    high = _BEYOND * reached
+    if validity is not None and validity < _RANGE_WITHIN * reached:
+        high = max(high, _BEYOND * validity)
+    return (1.1 * low if low < -0.02 * reached else -0.02 * high), high
 
 
 def _envelopes(
@@ -106,12 +107,13 @@ def _shade_outside(axes: Axes, validity: float | None, limits: tuple[float, floa
     axes.axvline(edge, color=WARNING, linewidth=0.6, linestyle=(0, (2, 2)), zorder=1.5)
     axes.annotate(
         "outside the range",
-        (limits[1] * _DEGREES, 1.0),
-        (-3, -3),
+        (edge, 0.0),
+        (4, 4),
         xycoords=axes.get_xaxis_transform(),
         textcoords="offset points",
-        ha="right",
-        va="top",
+        rotation=90,
+        ha="left",
+        va="bottom",
         color=WARNING,
         fontsize=7.0,
     )

@@ -80,7 +80,9 @@ def write_report(result: Result, source: ReportInput, directory: Path | str) -> 
     """
     folder = Path(directory)
     settings = result.provenance.settings
-    bound = source.residual_bound if source.residual_bound is not None else settings.get("residual_bound")
+    bound = (
+        source.residual_bound if source.residual_bound is not None else settings.get("energy_residual_bound")
+    )
     accuracy = source.accuracy if source.accuracy is not None else settings.get("accuracy")
     drawn = _draw(result, bound)
     for name, svg, _ in drawn:
@@ -133,7 +135,8 @@ def _moment_figures(result: Result, draw: Any) -> list[tuple[str, str | None, st
     for i, hinge in enumerate(ranked_hinges(result)[:MAX_MOMENT_FIGURES]):
         summary = result.hinges[hinge]
         parts = [f"Moment in hinge {hinge}: the path it took, and its law."]
-        parts += [sentence_case(text) for text in (summary.law, summary.source) if text]
+        named = (("Law", summary.law), ("Source", summary.source))
+        parts += [sentence_case(f"{name}: {text}") for name, text in named if text]
         if summary.validity_rotation is not None and isfinite(summary.validity_rotation):
             parts.append(f"Backed up to {angle(summary.validity_rotation)}.")
         figures.append((f"moment_{i + 1}", draw(result, hinge, f"moment-{i + 1}"), " ".join(parts)))
@@ -145,8 +148,8 @@ def _ledger_caption(result: Result) -> str:
     if "energy.residual" not in result.channels:
         return f"{shown}."
     return (
-        f"{shown} and, on the right, the residual of their balance: kinetic + elastic + dissipated "
-        "− external work − energy at the start. Dissipation is integrated by itself, so it is a check."
+        f"{shown} and, on the right, the residual of their balance: kinetic, elastic and dissipated energy "
+        "less external work and the energy at the start. Dissipation is integrated by itself."
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -155,13 +156,14 @@ def _draw_walls(
     normals *= np.where(np.einsum("ij,ij->i", normals, centres - middle) < 0, -1.0, 1.0)[:, None]
     facing = view.depth(normals)
     flat = view.flat(points)
+    corners: Any = flat[quads]  # an array is taken whole, which is quick; the annotations ask for a list
     # walls seen edge-on have nothing to fill
     seen = np.flatnonzero(np.abs(facing) > 1e-6)
     order = seen[np.argsort(view.depth(centres[seen]), kind="stable")]
     if state is None:
         axes.add_collection(
             PolyCollection(
-                list(flat[quads[seen]]),
+                corners[seen],
                 facecolors=_GHOST,
                 edgecolors=_GHOST,
                 linewidths=0.4,
@@ -175,7 +177,7 @@ def _draw_walls(
     shade = np.clip(0.62 + 0.5 * light, 0.0, 1.15)[:, None]
     colours = np.clip(1.0 - (1.0 - np.array(_WALL)) * (1.9 - shade), 0.0, 1.0)
     walls = PolyCollection(
-        list(flat[quads[order]]),
+        corners[order],
         facecolors=colours[order],
         edgecolors=colours[order],
         linewidths=0.3,

@@ -9,10 +9,10 @@ from __future__ import annotations
 import io
 import re
 import threading
+import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any
 
 import matplotlib as mpl
@@ -21,12 +21,8 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 
-from crumple.errors import InputError
-from crumple.units import format_quantity, unit_factor
-
-Floats = NDArray[np.float64]
+from crumple.report.scales import Floats, thinned
 
 WIDTH = 7.0  # of the text column of an A4 page [in]
 HALF = 3.42  # of two figures side by side [in]
@@ -49,9 +45,6 @@ DASHES: tuple[tuple[float, tuple[float, ...]] | str, ...] = (
 """A second sign beside the colour, for print without it."""
 
 FONTS = "Inter, 'Segoe UI', 'Helvetica Neue', 'Liberation Sans', Arial, sans-serif"
-
-MAX_POINTS = 1200
-"""Points of one line; more cannot be seen at the size of the page."""
 
 _SETTINGS: dict[Any, Any] = {
     "svg.fonttype": "none",
@@ -101,9 +94,12 @@ class Line:
 @contextmanager
 def drawing() -> Iterator[None]:
     """Set matplotlib's defaults and ours for the block, whatever the user's own settings are."""
-    with _LOCK, mpl.rc_context():
+    with _LOCK, mpl.rc_context(), warnings.catch_warnings():
         mpl.rcdefaults()
         mpl.rcParams.update(_SETTINGS)
+        # the reader's fonts draw the text; ours only measure it, and may lack a script
+        warnings.filterwarnings("ignore", message="Glyph .* missing from")
+        warnings.filterwarnings("ignore", message="Matplotlib currently does not support")
         yield
 
 
@@ -131,6 +127,7 @@ def add_axes(figure: Figure, left: float, bottom: float, width: float, height: f
 
 def name_axes(axes: Axes, x: str, y: str) -> None:
     """Name both axes in words that are read level: y above its axis, x below at its right end."""
+    x, y = short(x, 60), short(y, 60)
     offset: dict[str, Any] = {"textcoords": "offset points", "annotation_clip": False, "fontsize": 8.0}
     axes.annotate(y, (0, 1), (0, 7), xycoords="axes fraction", ha="left", va="bottom", color=INK, **offset)
     axes.annotate(x, (1, 0), (0, -16), xycoords="axes fraction", ha="right", va="top", color=MUTED, **offset)
@@ -138,12 +135,13 @@ def name_axes(axes: Axes, x: str, y: str) -> None:
 
 def draw_lines(axes: Axes, lines: Sequence[Line], *, labels: bool = True) -> None:
     """Draw curves and write each name at the end of its curve, moved apart where they would touch."""
+    several = sum(not line.faint for line in lines) > 1
     for line in lines:
         x, y = thinned(line.x, line.y)
         if line.faint:
             axes.plot(x, y, color=RULE, linewidth=0.7, zorder=1.5)
         else:
-            dash = DASHES[line.index % len(DASHES)]
+            dash = DASHES[line.index % len(DASHES)] if several else "-"
             axes.plot(x, y, color=SERIES[line.index % len(SERIES)], linestyle=dash, dash_capstyle="butt")
     if labels:
         _label_ends(axes, [line for line in lines if not line.faint])
@@ -171,7 +169,8 @@ def _label_ends(axes: Axes, lines: Sequence[Line]) -> None:
         colour = SERIES[line.index % len(SERIES)]
         # a hairline leads from a curve that ends inside to its name at the edge
         transform = axes.get_xaxis_transform()
-        axes.plot([x, edge], [height, place], color=colour, linewidth=0.4, transform=transform, clip_on=False)
+        if x < 0.98 * edge:
+            axes.plot([x, edge], [height, place], color=colour, linewidth=0.4, transform=transform)
         axes.annotate(
             short(line.name, 20),
             (edge, place),
@@ -183,54 +182,6 @@ def _label_ends(axes: Axes, lines: Sequence[Line]) -> None:
             fontsize=7.5,
             annotation_clip=False,
         )
-
-
-def thinned(x: Floats, y: Floats, limit: int = MAX_POINTS) -> tuple[Floats, Floats]:
-    """At most about `limit` points of a curve that keep the lowest and highest of every stretch."""
-    n = len(x)
-    if n <= limit:
-        return x, y
-    edges = np.linspace(0, n, limit // 2 + 1).astype(int)
-    filled = np.where(np.isfinite(y), y, -np.inf)
-    keep = {0, n - 1}
-    for a, b in pairwise(edges.tolist()):
-        keep.add(a + int(np.argmax(filled[a:b])))
-        keep.add(a + int(np.argmin(np.where(np.isfinite(y[a:b]), y[a:b], np.inf))))
-    chosen = np.array(sorted(keep))
-    return x[chosen], y[chosen]
-
-
-def spread(values: Sequence[Floats], *, zero: bool = True, margin: float = 0.05) -> tuple[float, float]:
-    """Limits of an axis that shows all finite values, with zero when wanted; never an empty range."""
-    finite = [v[np.isfinite(v)] for v in values]
-    parts = [v for v in finite if v.size]
-    low = min((float(v.min()) for v in parts), default=0.0)
-    high = max((float(v.max()) for v in parts), default=0.0)
-    if zero:
-        low, high = min(low, 0.0), max(high, 0.0)
-    size = high - low
-    if size <= 1e-12 * max(abs(low), abs(high), 1e-300):
-        return low - 1.0, high + 1.0
-    return low - margin * size if low < 0 or not zero else low, high + margin * size
-
-
-def display_unit(unit: str, largest: float) -> tuple[str, float]:
-    """Unit in which people read a quantity of this size, and its value in SI; an unknown unit stays."""
-    try:
-        name = format_quantity(abs(largest) if np.isfinite(largest) else 0.0, unit).partition(" ")[2]
-        return (name, unit_factor(name, unit)) if name else ("", 1.0)
-    except InputError:
-        return unit, 1.0
-
-
-def time_unit(end: float) -> tuple[str, float]:
-    """Unit of a time axis that ends there [s], and its value in SI: ms for a crash."""
-    return next((unit for unit in (("µs", 1e-6), ("ms", 1e-3)) if end <= 2e3 * unit[1]), ("s", 1.0))
-
-
-def largest(values: Sequence[Floats]) -> float:
-    """Largest finite magnitude among several arrays; 0 without any."""
-    return max((float(np.abs(v[np.isfinite(v)]).max()) for v in values if np.isfinite(v).any()), default=0.0)
 
 
 def short(text: str, limit: int = 32) -> str:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from crumple.report.style import display_unit
+from crumple.report.scales import display_unit, output_groups
 from crumple.result import HingeSummary, Result
 from crumple.units import format_quantity
 
@@ -95,7 +95,7 @@ def _error(result: Result) -> str:
     if not errors:
         return ""
     error, hinge = max(errors, key=lambda pair: pair[0])
-    share = f", {percent(error / hinge.rotation_max)}" if hinge.rotation_max > 0 else ""
+    share = f" ({percent(error / hinge.rotation_max)})" if hinge.rotation_max > 0 else ""
     return f" Estimated error of the largest rotation: {degrees(error, 2)}°{share}."
 
 
@@ -175,13 +175,19 @@ def hinge_table(result: Result) -> Table:
 
 def output_table(result: Result) -> Table:
     """Requested outputs: last value, value of largest magnitude, and when."""
-    time_unit, times = column([output.time_of_max for output in result.outputs.values()], "s")
+    groups, still = output_groups(result)
+    names = [channel.name for group in groups for _, channel in group.channels]
+    shown = [(name, result.outputs[name]) for name in names if name in result.outputs]
+    time_unit, times = column([output.time_of_max for _, output in shown], "s")
     rows = []
-    for (name, output), time in zip(result.outputs.items(), times, strict=True):
+    for (name, output), time in zip(shown, times, strict=True):
         unit, numbers = column([output.final, output.max], output.unit)
         rows.append((name, *(f"{text} {unit}".strip() for text in numbers), time))
     heads = ("Output", "Final", "Largest magnitude", f"reached at, {time_unit}")
-    return Table("Last value of each requested output, and its value of largest magnitude.", heads, rows)
+    caption = "Last value of each requested output, and its value of largest magnitude."
+    if still:
+        caption += f" Zero throughout: {', '.join(still)}."
+    return Table(caption, heads, rows)
 
 
 def law_table(result: Result) -> Table:

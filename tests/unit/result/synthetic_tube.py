@@ -129,7 +129,7 @@ def tube_result(**changes) -> Result:
             input_hash="9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",
             isa="x86-64-v3",
             threads=1,
-            settings={"accuracy": 1e-3, "residual_bound": 1e-3},
+            settings={"accuracy": 1e-3, "energy_residual_bound": 1e-3},
         ),
         "output_names": ("node.tip.displacement.z", "node.tip.velocity.z"),
     }

@@ -1,0 +1,105 @@
+"""The page in a real browser: it renders, fetches nothing, complains of nothing, fits screen and paper."""
+
+import base64
+import os
+import re
+
+import pytest
+from tests.unit.report.browser import Browser, find_browser
+from tests.unit.result.synthetic_frame import CUBE, frame_result
+from tests.unit.result.synthetic_tube import tube_result
+
+from crumple.report import ReportInput, write_report
+
+INPUT = "crumple: 1\ntitle: a tube\n" + "".join(f"# line {i} of the input\n" for i in range(60))
+
+FIGURES = """[...document.querySelectorAll('figure svg')].map(svg => {
+  const box = svg.getBoundingClientRect(), drawn = svg.getBBox();
+  const texts = [...svg.querySelectorAll('text')].map(text => text.getBoundingClientRect());
+  const outside = texts.filter(t => t.left < box.left - 4 || t.right > box.right + 4 ||
+                                    t.top < box.top - 4 || t.bottom > box.bottom + 4).length;
+  return {width: box.width, height: box.height, drawn: drawn.width * drawn.height, outside: outside,
+          title: svg.querySelector('title').textContent, labelled: svg.getAttribute('aria-labelledby')};
+})"""
+
+
+@pytest.fixture(scope="module", name="browser")
+def _browser():
+    path = find_browser()
+    if path is None:
+        # on a developer's machine a browser may be missing; where the project is checked it may not
+        assert not os.environ.get("CI"), "no Chromium found, and CI is set"
+        pytest.skip("no Chromium found")
+    browser = Browser(path)
+    yield browser
+    browser.close()
+
+
+@pytest.fixture(scope="module", name="pages")
+def _pages(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("report")
+    source = ReportInput(text=INPUT, name="tube.yaml", residual_bound=1e-3, accuracy=1e-3)
+    return {
+        "tube": write_report(tube_result(), source, folder / "tube"),
+        "frame": write_report(frame_result(CUBE, 12), source, folder / "frame"),
+    }
+
+
+@pytest.mark.parametrize(("name", "figures"), [("tube", 6), ("frame", 16)])
+def test_every_figure_is_visible_and_nothing_is_fetched(browser, pages, name, figures):
+    browser.open(pages[name].as_uri(), 1200, 1600)
+    shown = browser.evaluate(FIGURES)
+    assert len(shown) == figures
+    for figure in shown:
+        assert figure["width"] > 300
+        assert figure["height"] > 100
+        assert figure["drawn"] > 1e4
+        assert figure["outside"] == 0, figure["title"]
+        assert figure["labelled"].endswith("-title")
+    requests = [
+        e["params"]["request"]["url"] for e in browser.events if e["method"] == "Network.requestWillBeSent"
+    ]
+    assert requests == [pages[name].as_uri()]
+    complaints = [
+        event
+        for event in browser.events
+        if event["method"] in ("Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded")
+    ]
+    assert complaints == []
+
+
+def test_ids_are_unique_and_every_reference_is_met(browser, pages):
+    browser.open(pages["frame"].as_uri(), 1200, 1600)
+    assert browser.evaluate(
+        "(() => { const ids = [...document.querySelectorAll('[id]')].map(e => e.id);"
+        " return ids.length - new Set(ids).size; })()"
+    ) == 0  # fmt: skip
+    text = pages["frame"].read_text()
+    references = set(re.findall(r'(?:url\(#|href="#)([^")]+)', text))
+    assert references <= set(re.findall(r' id="([^"]+)"', text))
+
+
+@pytest.mark.parametrize("width", [390, 768, 1600])
+def test_nothing_is_wider_than_the_window(browser, pages, width):
+    for page in pages.values():
+        browser.open(page.as_uri(), width, 900)
+        assert browser.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def test_prints_on_a_few_pages_of_a4(browser, pages):
+    browser.open(pages["tube"].as_uri(), 1200, 1600)
+    paper = base64.b64decode(browser.call("Page.printToPDF", preferCSSPageSize=True)["data"])
+    assert len(re.findall(rb"/Type\s*/Page\b", paper)) in (4, 5)
+    box = re.search(rb"/MediaBox\s*\[\s*0 0 ([\d.]+) ([\d.]+)\s*\]", paper)
+    assert [float(size) for size in box.groups()] == pytest.approx([595.3, 841.9], abs=1.0)
+
+
+def test_a_page_that_breaks_the_rules_is_noticed(browser, tmp_path):
+    """The checks above can fail: a script, a picture from outside and a console message are all reported."""
+    page = tmp_path / "bad.html"
+    page.write_text("<img src='https://example.invalid/x.png'><script>console.error('x')</script>")
+    browser.open(page.as_uri(), 400, 300)
+    methods = {event["method"] for event in browser.events}
+    assert "Runtime.consoleAPICalled" in methods
+    requests = [e for e in browser.events if e["method"] == "Network.requestWillBeSent"]
+    assert len(requests) == 2

@@ -1,0 +1,163 @@
+"""Numbers are written for people, and the verdict says what it must."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.unit.result.synthetic_frame import frame_result
+from tests.unit.result.synthetic_tube import tube_result
+
+from crumple.errors import Status
+from crumple.report.scales import display_unit, output_groups, pretty_unit, spread, thinned, time_unit
+from crumple.report.wording import (
+    angle,
+    column,
+    hinge_table,
+    key_figures,
+    law_table,
+    number,
+    output_table,
+    percent,
+    verdict,
+)
+from crumple.result import Channel
+
+
+@pytest.mark.parametrize(
+    ("share", "text"),
+    [(0.001, "0.1 %"), (0.0123, "1.2 %"), (1.0, "100 %"), (12.0, "1200 %"), (-0.5, "−50 %"), (0.0, "0 %"),
+     (1e-12, "< 0.0001 %"), (math.nan, "not known"), (math.inf, "not known")],
+)  # fmt: skip
+def test_percent(share, text):
+    assert percent(share) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.544867, "0.5449"),
+        (31.2187, "31.22"),
+        (1696.09, "1696"),
+        (123456.0, "123456"),
+        (0.0, "0"),
+        (-2.5, "−2.500"),
+        (1.5e-5, "0.00001500"),
+        (math.nan, "—"),
+        (-1e-14, "0.000000000"),
+    ],
+)
+def test_number(value, text):
+    assert number(value) == text
+
+
+def test_angle_has_both_units():
+    assert angle(math.pi / 6) == "30.00° (0.5236 rad)"
+
+
+def test_column_shares_unit_and_decimals():
+    assert column([1696.09, 12.0, math.nan, -0.0], "N*m") == ("kN m", ("1.696", "0.012", "—", "0.000"))
+    assert column([], "J")[1] == ()
+
+
+def test_verdict_good():
+    said = verdict(tube_result(), 1e-3, 1e-3)
+    assert (said.level, said.headline) == ("good", "Complete.")
+    assert said.warnings == ()
+    assert "within its bound of 0.1 %" in said.reasons[0]
+    assert "stayed inside the range" in said.reasons[-1]
+
+
+def test_verdict_cautions_outside_the_range_once():
+    said = verdict(frame_result(), 1e-3, None)
+    assert said.level == "caution"
+    assert said.warnings == (
+        "Hinge h0 turned 28.65° (0.5000 rad), beyond the 11.46° (0.2000 rad) up to which its law is backed.",
+        "Hinge h1 turned 24.35° (0.4250 rad), beyond the 20.05° (0.3500 rad) up to which its law is backed.",
+    )
+    told = frame_result(warnings=("Hinge h0 turned by 28.6 deg; its law is backed up to 11.5 deg only.",))
+    assert len(verdict(told, 1e-3, None).warnings) == 2
+
+
+def test_verdict_bad_gives_status_and_reason():
+    result = tube_result(status=Status.RESIDUAL_EXCEEDED, reason="it grew from 3 ms on", energy_residual=2e-3)
+    said = verdict(result, 1e-3, None)
+    assert said.level == "bad"
+    assert said.headline == "Ended, but the energy residual passed its bound: do not trust this result."
+    assert said.reasons[:2] == (
+        "It grew from 3 ms on.",
+        "Energy balance: residual 0.2 % of the energy put in, beyond its bound of 0.1 %.",
+    )
+
+
+def test_key_figures_name_the_hinge_where_there_are_several():
+    single = {name: (value, note) for name, value, note in key_figures(tube_result())}
+    assert single["At rest after"] == ("69.67 ms", "")
+    several = {name: (value, note) for name, value, note in key_figures(frame_result())}
+    assert several["Largest rotation"] == ("28.65°", "0.5 rad · h0")
+    assert several["At rest after"] == ("—", "1 of 4 still turning")
+
+
+def test_hinge_table_shares_add_up():
+    table = hinge_table(frame_result())
+    assert [row[0] for row in table.rows] == ["h0", "h1", "h2", "h3"]
+    assert sum(float(row[7].rstrip(" %")) for row in table.rows) == pytest.approx(100, abs=0.3)
+    assert all(len(row) == len(table.heads) for row in table.rows)
+    assert table.rows[0][5] == "—"
+    assert "still turning" in table.caption
+
+
+def test_law_table_joins_hinges_with_one_law():
+    result = frame_result()
+    hinges = {name: replace(hinge, validity_rotation=0.3) for name, hinge in result.hinges.items()}
+    (row,) = law_table(replace(result, hinges=hinges)).rows
+    assert row[0] == "h0, h1, h2, h3"
+    assert row[4:] == ("17.19°", "28.65°", "no")
+
+
+def vector_result():
+    time = tube_result().time
+    values = {"a.displacement.x": time, "a.displacement.y": 0 * time, "a.displacement.z": 1e-15 * time,
+              "a.speed.x.cfc60": time, "a.speed.z.cfc60": -time, "b": 0 * time}  # fmt: skip
+    channels = {name: Channel(name, "m", value) for name, value in values.items()}
+    return tube_result(channels=channels, hinges={}, output_names=tuple(channels))
+
+
+def test_outputs_are_grouped_by_vector_and_zeros_only_named():
+    groups, still = output_groups(vector_result())
+    assert [(g.name, [label for label, _ in g.channels]) for g in groups] == [
+        ("a.displacement", ["x"]),
+        ("a.speed.cfc60", ["x", "z"]),
+    ]
+    assert still == ["a.displacement.y", "a.displacement.z", "b"]
+    table = output_table(vector_result())
+    assert [row[0] for row in table.rows] == ["a.displacement.x", "a.speed.x.cfc60", "a.speed.z.cfc60"]
+    assert "Zero throughout: a.displacement.y, a.displacement.z, b." in table.caption
+
+
+def test_thinned_keeps_ends_and_extremes():
+    x = np.linspace(0.0, 1.0, 50_000)
+    y = np.sin(40 * x)
+    y[12_345], y[33_333] = 7.0, -9.0
+    thin_x, thin_y = thinned(x, y)
+    assert len(thin_x) <= 1202
+    assert (thin_y.max(), thin_y.min()) == (7.0, -9.0)
+    assert (thin_x[0], thin_x[-1]) == (0.0, 1.0)
+    assert np.all(np.diff(thin_x) > 0)
+
+
+def test_spread_is_never_empty():
+    assert spread([np.array([2.0, 4.0])], margin=0.1) == pytest.approx((0.0, 4.4))
+    assert spread([np.array([-2.0, np.nan])], margin=0.1) == pytest.approx((-2.2, 0.2))
+    assert spread([np.zeros(3)]) == (-1.0, 1.0)
+    assert spread([]) == (-1.0, 1.0)
+
+
+def test_units_for_people():
+    assert display_unit("N*m", 1696.0) == ("kN m", 1000.0)
+    assert display_unit("m/s^2", 3.0) == ("m/s²", 1.0)
+    assert display_unit("parsecs per fortnight", 3.0) == ("parsecs per fortnight", 1.0)
+    assert display_unit("1", 3.0) == ("", 1.0)
+    assert display_unit("rad", 1.0) == ("deg", pytest.approx(math.pi / 180))
+    assert pretty_unit("kg*m^2/s^3") == "kg m²/s³"
+    assert [time_unit(end)[0] for end in (1e-4, 0.1, 2.0, 10.0)] == ["µs", "ms", "ms", "s"]
