@@ -9,7 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag, ValidationInfo, model_validator
+from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationInfo, model_validator
 
 from crumple.structure.curve import MOST_POINTS, with_curve_read, with_units
 from crumple.structure.quantity import (
@@ -58,6 +58,14 @@ StopsOrWord = Annotated[
 ]
 
 
+def _no_stops(given: Any) -> Any:
+    return "none" if given is None or given is False else given
+
+
+def _on_or_off(given: Any) -> Any:
+    return {True: "on", False: "off"}[given] if isinstance(given, bool) else given
+
+
 class LawKeys(Spec):
     """Keys that every law has."""
 
@@ -69,26 +77,12 @@ class LawKeys(Spec):
     """Ramp of the regularised form."""
     softening: Literal["peak", "rotation", "accumulated"] = "peak"
     """What the curve runs on: largest plastic rotation in each sense, the current one, or the sum of all."""
-    stops: StopsOrWord = "law"
+    stops: Annotated[StopsOrWord, BeforeValidator(_no_stops)] = "law"
     """Stops of both senses; law: those that the law itself asks for."""
-    rate: Literal["on", "off"] = "on"
+    rate: Annotated[Literal["on", "off"], BeforeValidator(_on_or_off)] = "on"
     """Whether the material's strain-rate law raises the capacity."""
     viscous_damping: NonNegativeRotationalDamping = 0.0
     """Rotational damper beside the hinge."""
-
-    @model_validator(mode="before")
-    @classmethod
-    def _no_stops(cls, given: Any) -> Any:
-        """Let null and false mean what they say in words."""
-        if isinstance(given, dict) and ("stops" in given or "rate" in given):
-            words = {None: "none", False: "off", True: "on"}
-            swapped = {key: given[key] for key in ("stops", "rate") if key in given}
-            swapped = {
-                key: words[value] if value is None or isinstance(value, bool) else value
-                for key, value in swapped.items()
-            }
-            return {**given, **swapped}
-        return given
 
 
 class ConstantLaw(LawKeys):
