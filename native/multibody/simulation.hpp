@@ -62,6 +62,7 @@ private:
     Settings settings_;
     Stepper stepper_;
     State state_, coarse_, fine_;
+    double step_tolerance_;  // of the error measure
     double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, work_max_ = 0;
 };
 
