@@ -55,8 +55,7 @@ def continued(
     rotation = np.asarray(rotation, np.float64)
     if after is not AfterJamming.SECOND_FOLD:
         return single_fold(np.minimum(rotation, jamming_angle))
-    # the closed ends of the folds: a rotation of exactly n jamming angles belongs to the fold that ends there
-    folds = np.maximum(np.ceil(rotation / jamming_angle) - 1.0, 0.0)
+    folds = np.floor(rotation / jamming_angle)
     within = np.clip(rotation - folds * jamming_angle, 0.0, jamming_angle)
     fresh = single_fold(within)
     jammed = float(single_fold(np.array([jamming_angle]))[0])
