@@ -35,6 +35,10 @@ class InputFile(Structure):
     """What to report."""
 
 
+_OF_THE_RUN = set(InputFile.model_fields) - set(Structure.model_fields)
+"""Keys whose mistakes leave the structure whole."""
+
+
 def load(path: str | Path) -> Analysis:
     """Analysis that an input file describes.
 
@@ -83,7 +87,8 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
     found, problems = _validated(InputFile, data, context)
     whole = found if isinstance(found, InputFile) else None
     structure, defined = whole or _sound_part(data, context), _defined(data)
-    cross = problems_in(structure, defined)
+    complete = all(place and place[0] in _OF_THE_RUN for place, _ in problems)
+    cross = problems_in(structure, defined, complete=complete)
     outputs = whole.outputs if whole else _validated(Outputs, data.get("outputs") or {}, context)[0]
     if isinstance(outputs, Outputs):
         cross += output_problems(outputs, structure, defined)

@@ -24,6 +24,7 @@ MOST_REPEATED = 20
 DEEPEST = 16
 """Nested groups; the format itself needs eight."""
 
+_NEAR = "look at this line and the one before; indent with spaces, quote texts that hold ': ' or '#'"
 _CONTROL = re.compile(r"[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?")
 _NOT_FINITE = re.compile(r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)")
@@ -146,12 +147,14 @@ class _Reader:
         except MarkedYAMLError as error:
             mark = error.problem_mark or error.context_mark
             line = mark.line + 1 if mark is not None else 0
-            raise _refusal(f"this is not YAML: {_sentence(error)}", self._file, line=line) from None
+            what = f"this is not YAML: {_sentence(error)}"
+            raise _refusal(what, self._file, todo=_NEAR, line=line) from None
         except RecursionError:
-            raise _refusal("the groups are nested too deeply", self._file, line=1) from None
+            allowed = f"at most {DEEPEST} levels"
+            raise _refusal("the groups are nested too deeply", self._file, "", allowed, line=1) from None
         except (YAMLError, ValueError, TypeError, AttributeError, IndexError) as error:
             # the parser stumbles over some malformed texts instead of refusing them
-            raise _refusal(f"this is not YAML: {_sentence(error)}", self._file) from None
+            raise _refusal(f"this is not YAML: {_sentence(error)}", self._file, todo=_NEAR, line=1) from None
 
     def _value(self, event: Any, place: Place) -> Any:
         kind = type(event).__name__

@@ -43,7 +43,7 @@ def bending_normal(structure: Structure) -> Floats | None:
     points = np.array([structure.nodes[node] for node in ends if node in structure.nodes], float)
     if len(points) < 2:
         return None
-    _, sizes, axes = np.linalg.svd(points - points.mean(axis=0))
+    _, sizes, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
     if sizes[1] > FLAT * sizes[0]:
         in_plane = len(sizes) < 3 or sizes[2] <= FLAT * sizes[0]
         return axes[2] if in_plane else None

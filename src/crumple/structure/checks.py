@@ -30,7 +30,9 @@ Names = Mapping[str, Iterable[str]]
 Known = Mapping[str, set[str]]
 
 
-def problems_in(structure: Structure, defined: Names | None = None) -> list[Problem]:
+def problems_in(
+    structure: Structure, defined: Names | None = None, *, complete: bool = True
+) -> list[Problem]:
     """Every mistake of a structure.
 
     Parameters
@@ -40,10 +42,13 @@ def problems_in(structure: Structure, defined: Names | None = None) -> list[Prob
     defined
         Names per kind (``nodes``, ``members``, ...) that exist even if their parts are missing here; None:
         those of the structure.
+    complete
+        False where parts were refused: what is missing then proves nothing.
     """
     given = defined or {}
     known = {kind: {*getattr(structure, kind), *given.get(kind, ())} for kind in KINDS}
-    return list(dict.fromkeys(problem for check in _CHECKS for problem in check(structure, known)))
+    checks = (*_CHECKS, *(_CHECKS_OF_WHAT_IS_MISSING if complete else ()))
+    return list(dict.fromkeys(problem for check in checks for problem in check(structure, known)))
 
 
 def output_problems(outputs: Outputs, structure: Structure, defined: Names | None = None) -> list[Problem]:
@@ -123,7 +128,10 @@ def _coincident(structure: Structure, known: Known) -> Iterator[Problem]:
         around = ((int(x // COINCIDENT), int(x // COINCIDENT) + 1) for x in position)
         for cell in product(*around):
             cells[cell].append(name)
+    # a member without length is its own message
+    joined = {frozenset(member.nodes) for member in structure.members.values()}
     pairs = {pair for names in cells.values() for pair in combinations(names[:8], 2)}
+    pairs = {pair for pair in pairs if frozenset(pair) not in joined}
     order = {name: i for i, name in enumerate(structure.nodes)}
     for first, second in sorted(pairs, key=lambda pair: (order[pair[1]], order[pair[0]])):
         gap = np.subtract(structure.nodes[first], structure.nodes[second])
@@ -135,8 +143,8 @@ def _coincident(structure: Structure, known: Known) -> Iterator[Problem]:
 def _connections(structure: Structure, known: Known) -> Iterator[Problem]:
     """Masses, supports, loads and nodes that no member joins to the structure."""
     joined = {node for member in structure.members.values() for node in member.nodes}
-    if len(structure.members) < len(known["members"]) or not joined <= known["nodes"]:
-        return  # a refused or misspelt part may be what joins a node
+    if not joined <= known["nodes"]:
+        return  # a misspelt name may be what joins a node
     carriers = list(_carriers(structure))
     for where, node, noun in carriers:
         if node in structure.nodes and node not in joined:
@@ -172,11 +180,10 @@ _CHECKS: tuple[Callable[[Structure, Known], Iterator[Problem]], ...] = (
     _carried_names,
     _members,
     _coincident,
-    _connections,
     place_problems,
-    inertia_problems,
     _supports,
 )
+_CHECKS_OF_WHAT_IS_MISSING = (_connections, inertia_problems)
 
 
 def _carriers(structure: Structure) -> Iterator[tuple[str, str, str]]:

@@ -41,10 +41,11 @@ def with_curve_read(given: dict[str, Any], directory: Path, prefix: str = "") ->
         return given
     if not isinstance(name, str):
         refuse("the name of a file is needed here", key=key, allowed="a text such as test.csv")
-    if any(column in given for column in columns):
+    if any(given.get(column) for column in columns):
         refuse("the curve is given twice", key=key, todo="give the file or the lists")
     rotation, moment = _read(name, directory, key)
-    return {**given, columns[0]: rotation, columns[1]: moment}
+    rest = {name: value for name, value in given.items() if name != key}
+    return {**rest, columns[0]: rotation, columns[1]: moment}
 
 
 def with_units(given: dict[str, Any]) -> dict[str, Any]:
@@ -55,7 +56,7 @@ def with_units(given: dict[str, Any]) -> dict[str, Any]:
     unknown = [str(name) for name in units if name not in SI_UNIT]
     if unknown:
         refuse(f"unknown column '{unknown[0]}'", key="units", allowed=", ".join(SI_UNIT))
-    changed = dict(given)
+    changed = {name: value for name, value in given.items() if name != "units"}
     for name, unit in units.items():
         try:
             unit_factor(str(unit), SI_UNIT[name])

@@ -113,19 +113,19 @@ class TableLaw(LawKeys):
 
     type: Literal["table"] = "table"
     """Kind of law."""
-    file: Annotated[FileName | None, Field(exclude=True)] = None
+    file: FileName | None = None
     """CSV file with one head such as `rotation [deg], moment [kN*m]`; relative to the input file."""
     rotation: Angles = ()
     """Rotations, increasing from 0, in place of a file."""
     moment: Moments = ()
     """Moment at each rotation."""
-    negative_file: Annotated[FileName | None, Field(exclude=True)] = None
+    negative_file: FileName | None = None
     """CSV file of the negative sense, as positive numbers; without it as in the positive sense."""
     negative_rotation: Angles | None = None
     """Rotations of the negative sense."""
     negative_moment: Moments | None = None
     """Moments of the negative sense."""
-    units: Annotated[ColumnUnits | None, Field(exclude=True)] = None
+    units: ColumnUnits | None = None
     """Units of plain numbers in the lists."""
     remove_elastic: bool = False
     """Whether to take out the elastic rise with which a test starts."""

@@ -9,7 +9,7 @@ from pydantic import ValidationInfo, model_validator
 from crumple.material import Material
 from crumple.section import Section
 from crumple.structure.bending import bending_normal
-from crumple.structure.geometry import Floats, Frame, frame_of
+from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.law import LawSpec
 from crumple.structure.load import Load, Mass, NodalImpulse
 from crumple.structure.mapping import FrozenMapping
@@ -85,6 +85,8 @@ class Structure(Spec):
         return frame_of(first, second, up=spec.up, roll=spec.roll)
 
     @cached_property
-    def bending_normal(self) -> Floats | None:
-        """Normal of the plane in which it bends, (3,); None where nothing says so."""
-        return bending_normal(self)
+    def bending_normal(self) -> tuple[float, float, float] | None:
+        """Normal of the plane in which it bends; None where nothing says so."""
+        normal = bending_normal(self)
+        # a tuple: kept beside the fields, where an array would spoil the comparison of two structures
+        return None if normal is None else (float(normal[0]), float(normal[1]), float(normal[2]))

@@ -1,0 +1,137 @@
+"""Reading an input file: what it gives, and every mistake with its line."""
+
+import pickle
+from pathlib import Path
+
+import pytest
+
+from crumple.analysis import Analysis, check, input_hash, load, loads
+from crumple.errors import InputError
+
+EXAMPLE = Path("examples/01_tube_bending.yaml")
+
+
+@pytest.fixture(scope="module")
+def text():
+    return EXAMPLE.read_text(encoding="utf-8")
+
+
+def refused(text, **how):
+    with pytest.raises(InputError) as refusal:
+        loads(text, file="a.yaml", **how)
+    return refusal.value.problems
+
+
+def test_the_example_loads_complete():
+    analysis = load(EXAMPLE)
+    assert isinstance(analysis, Analysis)
+    assert analysis.duration == 0.1
+    assert analysis.structure.section_of("tube").title == "rectangular tube 50 x 25 x 2.65 mm"
+    assert analysis.structure.masses["payload"].mass == 6.0
+    assert analysis.outputs.section_rotations["tip_rotation"].end == 1.0
+    assert analysis.outputs.pictures == (0.0, 0.02, 0.04, 0.06, 0.08, 0.1)
+    assert analysis.output_interval == 0.5e-3
+    assert check(EXAMPLE) == []
+
+
+def test_an_analysis_travels(text):
+    analysis = loads(text)
+    again = pickle.loads(pickle.dumps(analysis))
+    assert again == analysis
+    assert input_hash(again) == input_hash(analysis)
+
+
+def test_every_mistake_comes_with_its_line_in_the_order_of_the_file(text):
+    changes = {
+        "yield_stress: 488 MPa": "yield_stress: 488 mm",
+        "width: 50 mm": "widht: 50 mm",
+        "nodes: [root, tip]\n": "nodes: [root, tipp]\n",
+        "fix: all": "fix: some",
+        "duration: 100 ms": "duration: -1 s",
+        "{accuracy: 1e-3}": "{acuracy: 1e-3}",
+        "nodes: [tip]": "nodes: [tup]",
+        "roll: 0 deg": "roll: 0 deg\n    roll: 1 deg",
+    }
+    for old, new in changes.items():
+        assert old in text
+        text = text.replace(old, new, 1)
+    lines = text.splitlines()
+    problems = refused(text)
+    assert len(problems) == len(changes)
+    said = [new.splitlines()[-1].strip() for new in changes.values()]
+    assert all(problem.file == "a.yaml" for problem in problems)
+    assert [problem.line for problem in problems] == sorted(problem.line for problem in problems)
+    for part in said:
+        assert any(part in lines[problem.line - 1] for problem in problems), part
+
+
+def test_lines_of_entries_in_lists_are_their_own(text):
+    problems = refused(text.replace("- {name: root, at: root, law: kecman}", "- name: root\n        at: 5 m"))
+    (problem,) = problems
+    assert (
+        "at: 5 m"
+        in text.replace(
+            "- {name: root, at: root, law: kecman}", "- name: root\n        at: 5 m"
+        ).splitlines()[problem.line - 1]
+    )
+    assert problem.where == "members.tube.hinges[0].at"
+
+
+def test_a_refused_part_does_not_hide_nor_invent_other_mistakes(text):
+    problems = refused(text.replace("thickness: 2.65 mm", "thickness: -1 mm").replace("at: root", "at: rot"))
+    assert [problem.where for problem in problems] == ["sections.tube.thickness", "members.tube.hinges[0].at"]
+
+
+def test_curve_files_are_relative_to_the_input_file(tmp_path):
+    folder = tmp_path / "case"
+    folder.mkdir()
+    text = Path("examples/03_measured_hinge.yaml").read_text(encoding="utf-8")
+    (folder / "a.yaml").write_text(text, encoding="utf-8")
+    (problem,) = check(folder / "a.yaml")
+    assert problem.what == "there is no such file"
+    curve = Path("examples/03_measured_hinge.csv").read_text(encoding="utf-8")
+    (folder / "03_measured_hinge.csv").write_text(curve, encoding="utf-8")
+    analysis = load(folder / "a.yaml")
+    assert analysis == load("examples/03_measured_hinge.yaml")
+    (folder / "03_measured_hinge.csv").write_text(curve.replace("1456", "x"), encoding="utf-8")
+    (problem,) = check(folder / "a.yaml")
+    assert (problem.file, problem.line) == ("03_measured_hinge.csv", 8)
+    assert problem.where == "hinge_laws.measured"
+
+
+def test_numbers_are_those_of_yaml_1_2(text):
+    assert loads(text.replace("accuracy: 1e-3", "accuracy: 1.0E-4")).multibody.accuracy == 1e-4
+    assert "12:30" in refused(text.replace("accuracy: 1e-3", "accuracy: 12:30"))[0].came
+    assert loads(text.replace("title: Steel", "title: on")).title.startswith("on tube")
+
+
+def test_quoted_texts_and_block_styles_are_the_same(text):
+    quoted = text.replace("yield_stress: 488 MPa", 'yield_stress: "488 MPa"').replace(
+        ": [root, tip]", ":\n      - root\n      - 'tip'"
+    )
+    assert loads(quoted) == loads(text)
+
+
+def test_windows_line_ends_and_byte_order_marks_are_read(tmp_path, text):
+    (tmp_path / "a.yaml").write_bytes(b"\xef\xbb\xbf" + text.replace("\n", "\r\n").encode())
+    assert load(tmp_path / "a.yaml") == loads(text)
+
+
+def test_filters_need_a_channel_and_enough_samples(text):
+    for line, what in (
+        ("{channel: node.tip.accel.z, cfc: 60}", "no channel"),
+        ("{channel: node.root.acceleration.z, cfc: 60}", "no channel"),
+        ("{channel: node.tip.acceleration.z, cfc: 1000}", "too coarse"),
+        ("{channel: node.tip.acceleration.z, cfc: 61}", "known choices"),
+    ):
+        (problem,) = refused(f"{text}  filters: {{f: {line}}}\n")
+        assert what in problem.what
+        assert problem.line == len(text.splitlines()) + 1
+    assert loads(f"{text}  filters: {{f: {{channel: node.tip.acceleration.z, cfc: 60}}}}\n")
+
+
+def test_more_problems_than_anyone_mends_at_once_are_counted(text):
+    nodes = "".join(f"  n{i}: [{i} kg, 0 m, 0 m]\n" for i in range(200))
+    problems = refused(text.replace("nodes:\n", "nodes:\n" + nodes, 1))
+    assert len(problems) == 101
+    assert problems[-1].what == "and 100 more problems"

@@ -1,0 +1,82 @@
+"""From an analysis to a result: provenance, filters, and the same answer from file and Python."""
+
+import runpy
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from crumple.analysis import input_hash, load, loads, solve
+from crumple.analysis.filters import with_filters
+from crumple.errors import InputError, Status
+
+TEXT = Path("examples/01_tube_bending.yaml").read_text(encoding="utf-8")
+
+
+def test_the_python_example_is_the_file_and_gives_the_same_bits():
+    built = runpy.run_path("examples/01_tube_bending.py")["analysis"]
+    read = load("examples/01_tube_bending.yaml")
+    assert input_hash(built) == input_hash(read)
+    one, two = solve(built), solve(read)
+    assert one.title == two.title
+    for name, channel in one.channels.items():
+        np.testing.assert_array_equal(channel.values, two[name], err_msg=name)
+
+
+@pytest.mark.parametrize("path", sorted(Path("examples").glob("*.yaml")), ids=lambda path: path.stem)
+def test_every_example_runs_and_keeps_its_energy(path):
+    result = solve(load(path))
+    assert result.status is Status.COMPLETE
+    assert result.energy_residual < 1e-3
+
+
+def test_the_result_says_where_it_comes_from():
+    analysis = loads(TEXT)
+    result = solve(analysis)
+    assert result.provenance.input_hash == input_hash(analysis)
+    assert result.provenance.version
+    assert result.provenance.settings["accuracy"] == 1e-3
+    assert result.title == analysis.title
+
+
+def test_unknown_solvers_and_no_threads_are_refused():
+    analysis = loads(TEXT)
+    with pytest.raises(InputError, match="unknown fidelity"):
+        solve(analysis, fidelity="shells")
+    with pytest.raises(InputError, match="no thread"):
+        solve(analysis, threads=0)
+
+
+def test_progress_is_told_and_a_cancelled_run_keeps_what_it_has():
+    told = []
+    result = solve(loads(TEXT), progress=told.append)
+    assert result.status is Status.COMPLETE
+    assert told == sorted(told)
+    assert 0.0 <= told[0] <= told[-1] <= 1.0
+    assert solve(loads(TEXT), cancel=lambda: True).status is Status.CANCELLED
+
+
+def test_a_filtered_channel_is_added_under_its_name():
+    line = "  filters: {smooth: {channel: node.tip.velocity.z, cfc: 60}}\n"
+    # pictures at odd times make the recorded times unequal
+    text = TEXT.replace("pictures: [0 ms,", "pictures: [0.123 ms, 0.777 ms,") + line
+    result = solve(loads(text))
+    assert "smooth" in result.output_names
+    assert result.channels["smooth"].unit == "m/s"
+    assert result["smooth"].shape == result.time.shape
+    # the filter passes slow motion and takes the kink at rest away
+    raw = result["node.tip.velocity.z"]
+    middle = (result.time > 0.02) & (result.time < 0.06)
+    np.testing.assert_allclose(result["smooth"][middle], raw[middle], atol=0.02 * raw.max())
+    assert not np.array_equal(result["smooth"], raw)
+
+
+def test_a_run_that_ended_early_says_which_filters_it_lacks():
+    analysis = loads(TEXT + "  filters: {smooth: {channel: node.tip.velocity.z, cfc: 60}}\n")
+    whole = solve(analysis)
+    channels = {name: replace(channel, values=channel.values[:3]) for name, channel in whole.channels.items()}
+    channels.pop("smooth")
+    short = with_filters(replace(whole, time=whole.time[:3], channels=channels), analysis)
+    assert "smooth" not in short.channels
+    assert any("smooth" in warning for warning in short.warnings)

@@ -1,0 +1,156 @@
+"""Where hinges lie, what they stand for, and which law they get."""
+
+import numpy as np
+import pytest
+
+from crumple.errors import InputError
+from crumple.hinge import Form, SofteningVariable
+from crumple.section import half_fold_length
+from crumple.structure import Structure, hinge_places, placed_hinges
+
+
+def placed(keys):
+    return placed_hinges(Structure(**keys))
+
+
+def test_a_hinge_at_a_clamp_lies_half_a_fold_length_inside(keys):
+    (hinge,) = placed(keys)
+    structure = Structure(**keys)
+    inside = half_fold_length(structure.section_of("arm"), "y")
+    assert hinge.station == inside > 0.02
+    np.testing.assert_allclose(hinge.position, [inside, 0, 0])
+    np.testing.assert_allclose(hinge.direction, [0, 1, 0])
+
+
+def test_the_offset_overrides_it(keys):
+    keys["members"]["arm"]["hinges"][0]["offset"] = "0 mm"
+    assert placed(keys)[0].station == 0.0
+    keys["members"]["arm"]["hinges"][0] |= {"at": "400 mm", "offset": "100 mm"}
+    assert placed(keys)[0].station == 0.5
+
+
+def test_offsets_point_into_the_member_from_either_end(keys):
+    keys["members"]["arm"]["nodes"] = ("tip", "root")
+    (hinge,) = placed(keys)
+    assert hinge.station == pytest.approx(1.0 - half_fold_length(Structure(**keys).section_of("arm"), "y"))
+
+
+@pytest.mark.parametrize(
+    ("fix", "clamped"), [("all", True), (["x", "z", "ry"], True), (["x", "y", "z", "rx"], False)]
+)
+def test_only_a_held_rotation_about_the_hinge_is_a_clamp(keys, fix, clamped):
+    keys["supports"]["clamp"]["fix"] = fix
+    # a second member at the root, so that the hinge has something to turn against
+    keys["nodes"]["side"] = (-1, 0, 0)
+    keys["members"]["other"] = {"nodes": ("side", "root"), "section": "tube", "material": "steel"}
+    assert (placed(keys)[0].station > 0.0) is clamped
+
+
+def test_a_driven_rotation_is_a_clamp(keys):
+    ramp = {"havsin": {"x0": 0, "h0": 0, "x1": 1, "h1": 1}}
+    keys["supports"]["clamp"] = {"node": "root", "fix": "pin", "motion": {"rx": 0, "ry": ramp, "rz": 0}}
+    assert placed(keys)[0].station > 0.0
+
+
+def test_the_roll_turns_a_named_hinge_axis(keys):
+    keys["members"]["arm"]["roll"] = "90 deg"
+    keys["members"]["arm"]["hinges"][0]["axis"] = "y"
+    np.testing.assert_allclose(placed(keys)[0].direction, [0, 0, 1], atol=1e-15)
+    keys["members"]["arm"]["hinges"][0]["axis"] = "z"
+    np.testing.assert_allclose(placed(keys)[0].direction, [0, -1, 0], atol=1e-15)
+
+
+def test_bars_put_a_hinge_between_neighbours(keys):
+    keys["members"]["arm"]["bars"] = {"number": 4, "law": "constant"}
+    hinges = placed(keys)
+    assert [hinge.name for hinge in hinges] == ["fold", "arm-1", "arm-2", "arm-3"]
+    assert [hinge.station for hinge in hinges[1:]] == [0.25, 0.5, 0.75]
+    assert len({id(hinge.law) for hinge in hinges[1:]}) == 1
+
+
+def test_tributary_lengths_are_a_third_alone_and_shares_together(keys):
+    assert placed(keys)[0].tributary_length == pytest.approx(1.0 / 3.0)
+    keys["members"]["arm"] |= {"bars": 4, "hinges": []}
+    assert [hinge.tributary_length for hinge in placed(keys)] == pytest.approx([0.375, 0.25, 0.375])
+
+
+def test_elastic_stiffness_follows_the_share_of_each_hinge(keys):
+    keys["members"]["arm"] |= {
+        "bars": {"number": 4, "law": {"type": "constant", "form": "elastic-plastic"}},
+        "hinges": [],
+    }
+    structure = Structure(**keys)
+    rigidity = 210e9 * structure.section_of("arm").second_moment("y")
+    stiffness = [hinge.record.elastic_stiffness for hinge in placed_hinges(structure)]
+    assert stiffness == pytest.approx([rigidity / length for length in (0.375, 0.25, 0.375)])
+    keys["members"]["arm"]["bars"]["law"]["elastic_stiffness"] = "12 kN*m/rad"
+    assert {hinge.record.elastic_stiffness for hinge in placed(keys)} == {12e3}
+
+
+def test_a_law_by_name_by_type_and_in_place_are_one(keys):
+    keys["hinge_laws"] = {"mine": {"type": "kecman", "rolling_weight": 1.0}}
+    moments = []
+    for law in ("mine", "kecman", {"type": "kecman"}, None):
+        keys["members"]["arm"]["hinges"][0]["law"] = law
+        moments.append(placed(keys)[0].record.positive.moment)
+    for moment in moments[1:]:
+        np.testing.assert_array_equal(moment, moments[0])
+
+
+def test_a_named_law_hides_the_type_of_its_name(keys):
+    keys["hinge_laws"] = {"kecman": {"type": "constant", "moment": "1 kN*m"}}
+    keys["members"]["arm"]["hinges"][0]["law"] = "kecman"
+    assert placed(keys)[0].law.name == "constant"
+
+
+def test_every_key_of_a_law_reaches_the_record(keys):
+    keys["hinge_laws"] = {
+        "mine": {
+            "type": "constant",
+            "moment": "800 N*m",
+            "form": "regularised",
+            "regularisation": {"rate": "0.1 rad/s"},
+            "softening": "accumulated",
+            "viscous_damping": "3 N*m*s/rad",
+            "stops": {
+                "rotation": "60 deg",
+                "stiffness": "5 kN*m/rad",
+                "exponent": 1.5,
+                "penetration": "2 deg",
+            },
+        }
+    }
+    keys["members"]["arm"]["hinges"][0]["law"] = "mine"
+    record = placed(keys)[0].record
+    assert record.form is Form.REGULARISED
+    assert record.softening_variable is SofteningVariable.ACCUMULATED
+    assert (record.regularisation_rate, record.viscous_damping) == (0.1, 3.0)
+    assert set(record.positive.moment) == {800.0}
+    stop = record.stop_positive
+    assert stop == record.stop_negative or np.isnan(stop.damping)
+    assert (stop.rotation, stop.stiffness, stop.exponent) == (pytest.approx(np.pi / 3), 5e3, 1.5)
+    assert np.isnan(stop.damping)
+    keys["hinge_laws"]["mine"]["stops"]["damping"] = 7.0
+    assert placed(keys)[0].record.stop_negative.damping == 7.0
+
+
+@pytest.mark.parametrize(("stops", "there"), [("law", True), ("none", False), (None, False), (False, False)])
+def test_the_stop_of_the_law_can_be_left_out(keys, stops, there):
+    law = {"type": "kecman", "after_jamming": "stop", "stops": stops}
+    keys["members"]["arm"]["hinges"][0]["law"] = law
+    assert (placed(keys)[0].record.stop_positive is not None) is there
+
+
+def test_the_rate_law_can_be_switched_off(keys):
+    keys["materials"]["steel"]["flow_rate"] = {"D": "6844 1/s", "q": 3.91}
+    assert np.isfinite(placed(keys)[0].record.rate_reference)
+    keys["members"]["arm"]["hinges"][0]["law"] = {"type": "kecman", "rate": "off"}
+    assert np.isinf(placed(keys)[0].record.rate_reference)
+
+
+def test_a_section_without_a_default_needs_a_law(keys):
+    keys["members"]["arm"]["section"] = "pipe"
+    with pytest.raises(InputError, match="a hinge in a circular_tube needs a law"):
+        Structure(**keys)
+    keys["members"]["arm"]["hinges"][0]["law"] = "constant"
+    assert len(hinge_places(Structure(**keys))) == 1

@@ -1,0 +1,112 @@
+"""A structure is frozen plain data; what follows from it is right."""
+
+import pickle
+
+import pytest
+from pydantic import ValidationError
+
+from crumple.errors import InputError
+from crumple.material import CowperSymonds, Material
+from crumple.section import CircularTube, RectangularTube
+from crumple.structure import FrozenMapping, Hinge, Member, Structure, Support
+
+
+def test_quantities_with_units_and_plain_si_numbers_are_one(keys):
+    with_units = Structure(**keys)
+    keys["sections"]["tube"] |= {"width": 0.05, "depth": 0.025, "thickness": 0.00265}
+    keys["materials"]["steel"] |= {"youngs_modulus": 210e9, "density": 7850, "yield_stress": 488e6}
+    assert Structure(**keys) == with_units
+    assert with_units.section_of("arm") == RectangularTube(0.05, 0.025, 0.00265)
+
+
+def test_parts_may_be_objects_of_their_rooms(keys):
+    steel = Material("any", 2e11, 0.3, 7850.0, 3e8, 4e8, 3.5e8, CowperSymonds(40.4, 5.0))
+    keys["materials"]["steel"] = steel
+    keys["sections"] = {"tube": RectangularTube(0.05, 0.025, 0.00265), "pipe": CircularTube(0.04, 0.002)}
+    keys["members"]["arm"] = Member(nodes=("root", "tip"), section="tube", material="steel")
+    structure = Structure(**keys)
+    made = structure.material_of("arm")
+    assert made.name == "steel"
+    assert (made.flow_stress, made.ultimate_stress, made.flow_rate) == (3.5e8, 4e8, None)
+    assert made.yield_rate == CowperSymonds(40.4, 5.0)
+    assert structure.sections["pipe"].section() == CircularTube(0.04, 0.002)
+
+
+def test_a_structure_is_frozen_hashable_and_travels(keys):
+    structure = Structure(**keys)
+    with pytest.raises(ValidationError, match="frozen"):
+        structure.gravity = (0, 0, 1)
+    with pytest.raises(TypeError, match="frozen"):
+        structure.nodes["new"] = (0, 0, 0)
+    with pytest.raises(TypeError, match="frozen"):
+        structure.members.update(a=1)
+    with pytest.raises(InputError, match="no node 'root'"):
+        structure.model_copy(update={"nodes": {}})
+    again = pickle.loads(pickle.dumps(structure))
+    assert again == structure
+    assert hash(again) == hash(structure)
+
+
+@pytest.mark.parametrize("change", ["clear", "popitem", "setdefault", "pop", "__delitem__", "__ior__"])
+def test_a_frozen_mapping_refuses_every_change(change):
+    mapping = FrozenMapping({"a": 1})
+    arguments = {"clear": (), "popitem": (), "__ior__": ({"b": 2},)}.get(change, ("a",))
+    with pytest.raises(TypeError, match="frozen"):
+        getattr(mapping, change)(*arguments)
+    assert dict(mapping) == {"a": 1}
+
+
+def test_every_mistake_is_reported_at_once_with_its_path(keys):
+    keys["sections"]["tube"]["width"] = "50 kg"
+    keys["members"]["arm"]["rol"] = "90 deg"
+    keys["materials"]["steel"]["poissons_ratio"] = 0.5
+    with pytest.raises(InputError) as refusal:
+        Structure(**keys)
+    where = {problem.where for problem in refusal.value.problems}
+    assert where == {"sections.tube.width", "members.arm.rol", "materials.steel.poissons_ratio"}
+    misspelt = next(p for p in refusal.value.problems if p.where == "members.arm.rol")
+    assert misspelt.todo == "did you mean 'roll'?"
+
+
+def test_a_misspelt_key_is_one_mistake_not_two():
+    with pytest.raises(InputError) as refusal:
+        Member(nodes=("a", "b"), sektion="s", material="m")
+    assert [problem.what for problem in refusal.value.problems] == ["unknown key 'sektion'"]
+
+
+def test_supports_hold_what_they_name_and_drive_the_rest():
+    assert Support(node="a", fix="pin").held == ("x", "y", "z")
+    driven = Support(node="a", fix="all", motion={"z": {"step": {"x0": 0, "h0": 0, "x1": 1, "h1": 0.1}}})
+    assert driven.held == ("x", "y", "rx", "ry", "rz")
+    assert float(driven.driven["z"](2.0)) == 0.1
+    assert Support(node="a", fix="x").held == ("x",)
+    for wrong in ({"fix": ()}, {"fix": "alll"}, {"fix": ["x", 3]}, {"fix": ["x"], "motion": {"x": 0}}):
+        with pytest.raises(InputError):
+            Support(node="a", **wrong)
+
+
+def test_bars_may_be_a_plain_number():
+    arm = {"nodes": ("a", "b"), "section": "s", "material": "m"}
+    assert Member(**arm, bars=4) == Member(**arm, bars={"number": 4})
+    for wrong in (0, 2.5, True, 10_001):
+        with pytest.raises(InputError):
+            Member(**arm, bars=wrong)
+
+
+@pytest.mark.parametrize(
+    ("at", "meant"), [("root", "root"), ("300 mm", 0.3), (0.3, 0.3), ("1e-1 m", 0.1), ("12", "12")]
+)
+def test_a_hinge_is_at_a_node_or_at_a_distance(at, meant):
+    assert Hinge(name="h", at=at).at == meant
+    with pytest.raises(InputError, match="unit of a time"):
+        Hinge(name="h", at="3a")
+
+
+@pytest.mark.parametrize("name", ["", "a b", "a.b", "x" * 65, "ü/ö", 1.5, None, True])
+def test_names_are_words(name):
+    with pytest.raises(InputError):
+        Hinge(name=name, at="root")
+
+
+def test_numbers_are_names_too():
+    assert Member(nodes=(1, "2"), section="s", material="m").nodes == ("1", "2")
