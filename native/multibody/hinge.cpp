@@ -204,7 +204,9 @@ double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0
         s.moment = m1;
         flowed = m1 == f.capacity[0] || m1 == -f.capacity[1];
         if ((s.sliding || flowed) && f.w0 * w1 < 0) {
-            // plastic flow ends where the rate passes zero
+            // plastic flow ends where the rate passes zero; a step that ends at capacity missed the turning back,
+            // and so do its halves, with the very same motion, while each of them turns forward on the whole
+            if (flowed) s.overrun += f.h * w1 * w1 / std::fabs(f.w0 - w1) / 2;
             flowed = true;
             arrest = t0 + f.h * f.w0 / (f.w0 - w1);
         }

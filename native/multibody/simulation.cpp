@@ -81,6 +81,9 @@ double Simulation::error(const State& coarse, const State& fine) const {
             worst = std::max(worst, k == 0 ? e : e / settings_.length);
         }
     }
+    for (size_t j = 0; j < model_.hinges.size(); j++) {
+        worst = std::max(worst, fine.hinge[j].overrun - state_.hinge[j].overrun);
+    }
     double e = worst / scale_;
     if (speed_ > 0) e = std::max(e, kinetic_norm(model_.tree, coarse.velocity, &fine.velocity) / speed_);
     return e / step_tolerance_;
