@@ -1,8 +1,8 @@
 """Models M1 and M2 and their hinge law, and small trees for the kernel, shared by the verification tests.
 
-The bar is a tube of 50x25x2.65 mm taken as slender and uniform, 2.8998685 kg/m.  The law with scale s is
-s * 1000 * (0.576 + 0.5/sqrt(max(|rotation|, 0.05))) N m, with a stop at 1.2 rad of 1e6 s N m/rad and
-2e3 s N m s/rad; the rotation is the present one, both senses alike.
+The bar is a tube of 50x25x2.65 mm taken as slender and uniform, 2.8998685 kg/m. The law with scale s is
+s * 1000 * (0.576 + 0.5/sqrt(max(|rotation|, 0.05))) N m, with a stop at 1.2 rad of 1e6 s N m/rad and 2e3
+s N m s/rad; the rotation is the present one, both senses alike.
 """
 
 from __future__ import annotations
