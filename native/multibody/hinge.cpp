@@ -232,7 +232,8 @@ double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0
     s.peak[0] = std::max(s.peak[0], s.plastic);
     s.peak[1] = std::max(s.peak[1], -s.plastic);
     s.damped += f.h * hinge.damping * w1 * mean_rate;
-    if (stop != 0) s.stop_dissipated += stop * mean_rate - (stop_energy(hinge, q0 + turn) - stop_energy(hinge, q0));
+    // also where the stop has let go and its spring relaxes into its damper
+    s.stop_dissipated += stop * mean_rate - (stop_energy(hinge, q0 + turn) - stop_energy(hinge, q0));
     s.total_moment = s.moment + hinge.damping * w1 + stop / f.h;
     s.rotation_max = std::max(s.rotation_max, std::fabs(q0 + turn));
     s.moment_max = std::max(s.moment_max, std::fabs(s.total_moment));
