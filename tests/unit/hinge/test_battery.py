@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 
 from crumple.errors import InputError
 from crumple.hinge import (
-    ConstantLaw,
     HingeLaw,
     SofteningVariable,
     Trust,
@@ -29,7 +28,9 @@ from crumple.section import Channel, CircularTube, ClosedHat, Hat, RectangularTu
 
 ERROR = 1e-4
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 355e6, flow_rate=CowperSymonds(6844.0, 3.91))
-FILE = write_law(stored_law(ConstantLaw(750.0), {"method": "formula"}))
+FILE = write_law(
+    stored_law(build_law("kecman", RectangularTube(0.05, 0.025, 0.00265), STEEL), {"method": "formula"})
+)
 OPTIONS = {
     "file": [{"text": FILE}],
     "table": [

@@ -22,7 +22,7 @@ from crumple.hinge import (
 )
 from crumple.hinge.band import Bound, band_of
 from crumple.hinge.law_file import read_law, stored_law, write_law
-from crumple.hinge.laws.stored import StoredCurve, StoredLaw
+from crumple.hinge.laws.stored import StoredCurve, StoredLaw, bounded
 from crumple.hinge.measured import bending_band, measured_band
 from crumple.material import CowperSymonds, Material
 from crumple.section import Channel, CircularTube, RectangularTube
@@ -134,14 +134,16 @@ def test_band_of_measured_curves_travels():
 def test_stated_band_scales_the_curve_and_reaches_the_stepper():
     text = write_law(stored_law(LAWS[0], ORIGIN))
     records = [
-        record_of(build_law("file", TUBE, STEEL, text=text, bound=bound))
+        record_of(bounded(build_law("file", TUBE, STEEL, text=text), bound))
         for bound in ("lower", "nominal", "upper")
     ]
     peaks = np.array([record.positive.moment[0] for record in records])
     np.testing.assert_allclose(peaks / peaks[1], [0.8, 1.0, 1.2])
+    assert float(bounded(LAWS[0], "lower").moment_capacity(0.0)) == pytest.approx(0.8 * peaks[1])
+    assert bounded(LAWS[0], "nominal") is LAWS[0]
     assert band_of(LAWS[0]).upper.factor == pytest.approx(1.2)
     with pytest.raises(InputError, match="nothing is known"):
-        build_law("file", TUBE, STEEL, text=write_law(stored_law(LAWS[-1], ORIGIN)), bound="upper")
+        bounded(read_law(write_law(stored_law(LAWS[-1], ORIGIN))), "upper")
 
 
 GOOD = write_law(stored_law(ConstantLaw(1000.0), {"method": "formula"}))

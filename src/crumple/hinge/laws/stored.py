@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.band import Band, Bound, band_of
-from crumple.hinge.law import Floats, SofteningVariable, Source, Validity
+from crumple.hinge.law import Floats, HingeLaw, SofteningVariable, Source, Validity
 from crumple.hinge.options import choice
 from crumple.hinge.rate import HingeRate, rate_factor
 from crumple.hinge.registry import law_type
@@ -94,7 +94,6 @@ class StoredLaw:
         axis: Axis = "y",
         *,
         text: str,
-        bound: Bound | str = Bound.NOMINAL,
     ) -> StoredLaw:
         """Law of a file's text.
 
@@ -104,17 +103,15 @@ class StoredLaw:
             Not used: the curve is already that of a section.
         text
             Content of a law file.
-        bound
-            Which law of its band.
 
         Raises
         ------
         InputError
-            With lines, if the text is no law file; or if it holds no band and one is asked for.
+            With lines, if the text is no law file.
         """
         from crumple.hinge.law_file import read_law  # noqa: PLC0415  (the reader builds this class)
 
-        return read_law(text).at(choice("bound", bound, Bound))
+        return read_law(text)
 
     def at(self, bound: Bound) -> StoredLaw:
         """Law of a bound: the stored curve, or the nominal one times 1 -+ the uncertainty."""
@@ -158,6 +155,20 @@ class StoredLaw:
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
         """Factor on the capacity at a rotation rate [rad/s]."""
         return rate_factor(self.rate, rotation_rate)
+
+
+def bounded(law: HingeLaw, bound: Bound | str) -> HingeLaw:
+    """Law of a bound: of a stored law its own edge, of any other the law times 1 -+ its uncertainty.
+
+    Raises
+    ------
+    InputError
+        If an edge is asked for and nothing is known of the scatter.
+    """
+    which = choice("bound", bound, Bound)
+    if which is Bound.NOMINAL:
+        return law
+    return law.at(which) if isinstance(law, StoredLaw) else band_of(law).law(which)
 
 
 def _both(curve: StoredCurve) -> tuple[Points, Points]:
