@@ -197,7 +197,7 @@ int kinks(const Hinge& hinge, const FrozenHinge& f, double* rates) {
     return n;
 }
 
-double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0, double q0, double w1) {
+double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0, double q0, double w1, bool guided) {
     const double mean_rate = (f.w0 + w1) / 2;
     double turn = f.h * mean_rate;
     const double impulse = law_response(hinge, f, w1).impulse, stop = stop_response(hinge, f, w1).impulse;
@@ -225,7 +225,7 @@ double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0
         const bool slid = std::fabs(f.w0) > f.width;
         s.sliding = std::fabs(w1) > f.width;
         flowed = slid || s.sliding;
-        if (slid && !s.sliding && hinge.form == Form::set_valued && stop == 0) {
+        if (slid && !s.sliding && hinge.form == Form::set_valued && stop == 0 && !guided) {
             // it stopped within the step, after the time in which the capacity gives the impulse: C t = |P|
             const double t = std::min(f.h, std::fabs(impulse) / s.capacity);
             arrest = t0 + t;

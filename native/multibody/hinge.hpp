@@ -100,8 +100,9 @@ Response stop_response(const Hinge& hinge, const FrozenHinge& f, double w);
 Response respond(const Hinge& hinge, const FrozenHinge& f, double w);
 // rates at which the slope of the response changes; returns how many (at most 9)
 int kinks(const Hinge& hinge, const FrozenHinge& f, double* rates);
-// advances the memory; returns the rotation over the step
-double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& state, double t0, double q0, double w1);
+// advances the memory; returns the rotation over the step.  `guided`: prescribed motion, not the hinge's own moment,
+// may have brought it to rest
+double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& state, double t0, double q0, double w1, bool guided);
 // elastic energy in the law's spring and in both stops at rotation q
 double elastic_energy(const Hinge& hinge, const HingeState& state);
 double stop_energy(const Hinge& hinge, double q);

@@ -191,7 +191,10 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     scale_ = std::max(scale_, std::clamp(expected, settings_.scale_floor, 0.5));
     speed_ = std::max(speed_, kinetic_norm(model_.tree, state_.velocity, nullptr));
     start_energy_ = energies(model_, state_).balance();
-    if (h_ <= 0) h_ = std::clamp(duration / 100, settings_.minimum_step, settings_.maximum_step);
+    if (h_ <= 0) {
+        h_ = std::clamp(duration / 100, settings_.minimum_step, settings_.maximum_step);
+        stepper_.set_drift_time(2 * h_);
+    }
     show_first_moments();
     for (const double t : times) {
         if (t > state_.t && !advance(t, record, poll)) break;
