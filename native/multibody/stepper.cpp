@@ -163,17 +163,19 @@ void Stepper::aim_rows(const State& s, double h) {
     if (rows_.empty()) return;
     double turning = 0;
     for (const double w : s.w) turning = std::max(turning, std::fabs(w));
-    const double mending = std::min(turning / mending_turn, 1 / (2 * h));
+    const double weld_mending = std::min(turning / mending_turn, 1 / (2 * h));
+    const double drive_mending = 1 / std::max(2 * h, drift_time_);
     model_.tree.twists(middle_.data(), w_.data(), twist_.data());
     for (size_t k = 0; k < rows_.size(); k++) row_target_[k] = row_rate(rows_[k], middle_.data());
     model_.tree.twists(end_.data(), w_.data(), twist_.data());
     for (size_t k = 0; k < rows_.size(); k++) {
-        double place = 0, rate = 0;
+        double place = 0, rate = 0, mending = weld_mending;
         if (k < model_.drives.size()) {
-            const TimeTable& motion = model_.drives[k].motion;
-            int hint[2] = {0, 0};
-            place = motion.value.at(s.t, hint[0]);
-            rate = motion.rate.at(s.t + h, hint[1]);
+            const Drive& drive = model_.drives[k];
+            int hint = 0;
+            place = drive.start + drive.rate.integral(s.t, hint);
+            rate = drive.rate.at(s.t + h, hint);
+            mending = drive_mending;
         }
         const double astray = relative(rows_[k], s.pose.data()) - rows_[k].origin - place;
         row_target_[k] += rate - row_rate(rows_[k], end_.data()) - astray * mending;
@@ -207,11 +209,12 @@ void Stepper::freeze(const State& s, double h) {
 
 void Stepper::commit(State& s, double h) {
     const Tree& tree = model_.tree;
+    const bool guided = !model_.drives.empty();
     for (size_t k = 0; k < w_.size(); k++) dq_[k] = h * (s.w[k] + w_[k]) / 2;
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         const Hinge& hinge = model_.hinges[j];
         const auto dof = static_cast<size_t>(hinge.dof);
-        dq_[dof] = multibody::commit(hinge, frozen_[j], s.hinge[j], s.t, s.q[dof], w_[dof]);
+        dq_[dof] = multibody::commit(hinge, frozen_[j], s.hinge[j], s.t, s.q[dof], w_[dof], guided);
         s.hinge[j].hint[0] = hint_[2 * j];
         s.hinge[j].hint[1] = hint_[2 * j + 1];
     }

@@ -2,7 +2,8 @@
 
 Source: energy balance, exact for a mechanism of one coordinate whose hinges turn one way: the frame stops
 where the areas under the hinges' curves have taken up the kinetic energy.  The angles follow from the
-closure of the four-bar linkage, solved here by itself; the time of rest is the integral of the coordinate over its rate.
+closure of the four-bar linkage, solved here by itself; the time of rest is the integral of the coordinate
+over its rate.
 Frame A(0,0) B(0,.5) C(1,.6) D(1,0) with 20 kg at the middle of BC; BC starts with 10 m/s along x, the columns
 turn with it.  Tolerances: the accuracy asked for, 1e-4.
 """
@@ -168,3 +169,14 @@ def test_pinned_feet_close_a_loop_with_the_ground_too() -> None:
     stop = brentq(left_over, 1e-3, 1.2, xtol=1e-12)
     for name, turn in zip("BC", turns(stop)[1:3], strict=True):
         assert result.hinges[name].rotation_max == pytest.approx(turn, rel=1e-4)
+
+
+def test_an_impulse_on_a_cut_body_gives_what_its_mass_takes() -> None:
+    """A blow of 20 kg times 10 m/s on the payload alone: the frame starts with what its inertia leaves."""
+    struck = portal({"type": "constant", "moment": 1000.0})
+    blow = {"node": "m", "impulse": (PAYLOAD * SPEED, 0.0, 0.0)}
+    struck = Structure.model_validate(struck.model_dump() | {"initial_velocity": [], "impulses": [blow]})
+    moved, given = solved(struck), solved(portal({"type": "constant", "moment": 1000.0}))
+    # one coordinate: J^2/(2 I) where the whole frame at SPEED has I SPEED^2/2, and J = PAYLOAD SPEED
+    share = PAYLOAD * SPEED**2 / (2 * start_energy(struck))
+    assert moved["energy.kinetic"][0] == pytest.approx(share**2 * given["energy.kinetic"][0], rel=1e-9)
