@@ -77,7 +77,7 @@ def led(one, accuracy=1e-4, inertia=1e-3):
 @pytest.mark.parametrize("softening", [ROTATION, ACCUMULATED, PEAK])
 def test_softening_variable(form, softening, record_figure):
     # a spring of 1e7 N m/rad and a ramp of 0.01 rad/s are near enough to rigid; where the capacity jumps
-    # (peak, passing straight), the elastic form takes the capacity of the step's end: a step's length of error
+    # (peak, passing straight), the elastic form takes the capacity of the step's end: an error of a step
     one = hinge(0, LAW, form, softening=softening, elastic_stiffness=1e7, regularisation_rate=0.01)
     found, record = led(one)
     names = {ROTATION: "rotation", ACCUMULATED: "accumulated", PEAK: "peak"}
