@@ -109,7 +109,7 @@ def test_motion_that_does_not_fit_is_told():
 @pytest.mark.parametrize("nodes", [("a", "b"), ("b", "a")])
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 def test_rotation_is_that_of_the_second_side_against_the_first(nodes, sense):
-    """Thrown about +y the outer side turns by +; with the nodes exchanged local y and the sides change both."""
+    """Thrown about +y the outer side turns by +; with the nodes exchanged local y and the sides change."""
     members = {"bar": member(*nodes, ("h", "a", {"offset": 0.0}))}
     velocity = [{"rotation": sense * 10.0, "axis": (0.0, 1.0, 0.0)}]
     outputs = Outputs(nodes=("b",), section_rotations={"whole": {"member": "bar", "from": 0.0, "to": 1.0}})
