@@ -67,7 +67,9 @@ def section_of(text: str) -> Section:
     named = _NAMED.fullmatch(text.strip())
     if named:
         structure = _loaded(named["path"]).structure
-        return structure.sections[_known(named["name"], structure.sections, text, "section")].section()
+        return structure.sections[_known(named["name"], structure.sections, text, "section")].section(
+            structure.materials
+        )
     from crumple.section import CircularTube, RectangularTube
 
     head, *extras = (part.strip() for part in text.split(","))

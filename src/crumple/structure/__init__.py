@@ -30,20 +30,34 @@ from crumple.structure.material import MaterialSpec, RateSpec
 from crumple.structure.member import Bars, Hinge, Member
 from crumple.structure.motion import FREEDOMS, InitialVelocity, Motion, Support
 from crumple.structure.outputs import Filter, Outputs, SectionRotation
-from crumple.structure.section import CircularTubeSpec, RectangularTubeSpec
+from crumple.structure.section import (
+    AngleSpec,
+    ChannelSpec,
+    CircularTubeSpec,
+    ClosedHatSpec,
+    HatSpec,
+    MultiCellTubeSpec,
+    RectangularTubeSpec,
+    SquareTubeSpec,
+)
 from crumple.structure.settings import MultibodySettings
 from crumple.structure.structure import Structure
+from crumple.structure.walls import WallSectionSpec, WallSpec, WeldSpec
 
 __all__ = [
     "FREEDOMS",
     "LAW_SPECS",
+    "AngleSpec",
     "Bars",
+    "ChannelSpec",
     "CircularTubeSpec",
+    "ClosedHatSpec",
     "ConstantLaw",
     "Filter",
     "ForceComponents",
     "Frame",
     "FrozenMapping",
+    "HatSpec",
     "Hinge",
     "HingePlace",
     "InitialVelocity",
@@ -55,6 +69,7 @@ __all__ = [
     "Member",
     "MomentComponents",
     "Motion",
+    "MultiCellTubeSpec",
     "MultibodySettings",
     "NodalImpulse",
     "Outputs",
@@ -63,10 +78,14 @@ __all__ = [
     "RectangularTubeSpec",
     "Regularisation",
     "SectionRotation",
+    "SquareTubeSpec",
     "Stops",
     "Structure",
     "Support",
     "TableLaw",
+    "WallSectionSpec",
+    "WallSpec",
+    "WeldSpec",
     "WierzbickiLaw",
     "frame_of",
     "hinge_places",
