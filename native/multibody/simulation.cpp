@@ -146,7 +146,8 @@ void Simulation::watch(Record& record) {
     const Energies e = energies(model_, state_);
     work_max_ = std::max(work_max_, std::fabs(e.external_work));
     const double reference = start_energy_ + work_max_;
-    if (reference > 0) record.residual = std::max(record.residual, std::fabs(e.balance() - start_energy_) / reference);
+    residual_max_ = std::max(residual_max_, std::fabs(e.balance() - start_energy_));
+    if (reference > 0) record.residual = residual_max_ / reference;
 }
 
 void Simulation::store(Record& r) const {
