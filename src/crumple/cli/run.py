@@ -35,8 +35,9 @@ def run(
     ] = False,
 ) -> None:
     """Solve an input file and report. Writes summary, histories, shapes, figures and a page to a folder."""
-    from crumple.analysis import canonical, load, solve
+    from crumple.analysis import canonical, load, solve, with_lines
     from crumple.cli.progress import progress_bar, stop_on_interrupt
+    from crumple.errors import InputError
     from crumple.report import ReportInput, write_report
     from crumple.result import summary_json, write
 
@@ -44,7 +45,10 @@ def run(
     folder = out if out is not None else Path("out") / file.stem
     folder.mkdir(parents=True, exist_ok=True)
     with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
-        result = solve(analysis, fidelity=fidelity.value, progress=progress, cancel=cancel)
+        try:
+            result = solve(analysis, fidelity=fidelity.value, progress=progress, cancel=cancel)
+        except InputError as error:
+            raise with_lines(error, file, analysis.structure) from None
     write(result, folder)
     source = ReportInput(
         title=analysis.title,

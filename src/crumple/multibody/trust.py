@@ -152,9 +152,8 @@ def _elastic_limit(structure: Structure, hinge: PlacedHinge, summary: HingeSumma
     """Energy [J] that the elastic part left out by a rigid hinge could store, at its capacity."""
     if hinge.record.form is Form.ELASTIC_PLASTIC:
         return 0.0
-    section, material = structure.section_of(hinge.member), structure.material_of(hinge.member)
     stiffness = tributary_stiffness(
-        material.youngs_modulus * section.second_moment(hinge.axis), hinge.tributary_length
+        structure.flexural_rigidity(hinge.member, hinge.axis), hinge.tributary_length
     )
     capacity = max(float(hinge.record.positive.moment.max()), float(hinge.record.negative.moment.max()))
     return min(summary.moment_max, capacity) ** 2 / (2.0 * stiffness)

@@ -238,9 +238,7 @@ class _Laws:
     def of(self, place: HingePlace, tributary_length: float) -> tuple[HingeLaw, HingeRecord]:
         """Law and record of a hinge that stands for a length of its member [m]."""
         member, spec = self._structure.members[place.member], law_spec(self._structure, place)
-        section = self._structure.section_of(place.member)
-        modulus = self._structure.material_of(place.member).youngs_modulus
-        rigidity = modulus * section.second_moment(place.axis)
+        rigidity = self._structure.flexural_rigidity(place.member, place.axis)
         key = (member.section, member.material, place.axis, spec)
         if key not in self._made:
             law = law_of(self._structure, place)

@@ -77,9 +77,7 @@ class ConstantLaw:
             "plastic moment of the section, held at every rotation",
             ("walls that fold lose moment: a constant capacity then overstates the energy absorbed",),
         )
-        return cls(
-            material.yield_stress * section.plastic_section_modulus(axis), PLASTIC_MOMENT, validity, rate
-        )
+        return cls(_plastic_moment(section, material, axis), PLASTIC_MOMENT, validity, rate)
 
     @property
     def title(self) -> str:
@@ -97,3 +95,12 @@ class ConstantLaw:
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
         """Factor on the capacity at a rotation rate [rad/s]."""
         return rate_factor(self.rate, rotation_rate)
+
+
+def _plastic_moment(section: Section, material: Material, axis: Axis) -> float:
+    """Plastic moment [N m]; walls of metals of their own count with their own yield stress."""
+    if any(wall.material is not None for wall in getattr(section, "walls", ())):
+        from crumple.section import moment_capacity  # noqa: PLC0415  (tubes need none of it)
+
+        return moment_capacity(section, material, axis).plastic_moment
+    return material.yield_stress * section.plastic_section_modulus(axis)
