@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ValidationError
 
-from crumple.analysis.analysis import DEFAULT_INTERVALS, Analysis, Settings, Title
+from crumple.analysis.analysis import DEFAULT_INTERVALS, Analysis, Settings, Title, run_problems
 from crumple.analysis.filters import filter_problems
 from crumple.analysis.reading import Document, read_file, read_text
 from crumple.analysis.solve import solve
@@ -131,6 +131,8 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
     outputs = whole.outputs if whole else _validated(Outputs, data.get("outputs") or {}, context)[0]
     if isinstance(outputs, Outputs):
         cross += output_problems(outputs, structure, defined)
+    if whole:
+        cross += run_problems(whole.outputs, whole.analysis.duration)
     if whole and not cross:
         interval = whole.outputs.every or whole.analysis.duration / DEFAULT_INTERVALS
         cross += filter_problems(structure, whole.outputs, whole.analysis.duration, interval)
