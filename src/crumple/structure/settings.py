@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from pydantic import model_validator
+
 from crumple.structure.quantity import Accuracy, Fraction, PositiveTime
-from crumple.structure.spec import Spec
+from crumple.structure.spec import Spec, refuse
 
 
 class MultibodySettings(Spec):
@@ -17,3 +19,14 @@ class MultibodySettings(Spec):
     """Largest step."""
     energy_residual_bound: Fraction = 1e-3
     """Energy residual above which the run ends with a status that says not to trust it."""
+
+    @model_validator(mode="after")
+    def _steps(self) -> MultibodySettings:
+        if self.minimum_time_step > self.maximum_time_step:
+            refuse(
+                "the smallest time step is above the largest",
+                key="minimum_time_step",
+                allowed=f"at most {self.maximum_time_step:g} s, the maximum_time_step",
+                todo="correct one of them",
+            )
+        return self
