@@ -27,7 +27,10 @@ def run(
     file: Annotated[Path, typer.Argument(help="Input file (YAML).", show_default=False)],
     *,
     out: Annotated[
-        Path | None, typer.Option(help="Folder for the results; by default out/ and the input file's name.")
+        str | None,
+        typer.Option(
+            metavar="FOLDER", help="Folder for the results; by default out/ and the input file's name."
+        ),
     ] = None,
     fidelity: Annotated[Fidelity, typer.Option(help="Which solver.")] = Fidelity.MULTIBODY,
     as_json: Annotated[
@@ -36,20 +39,19 @@ def run(
 ) -> None:
     """Solve an input file and report. Writes summary, histories, shapes, figures and a page to a folder."""
     from crumple.analysis import canonical, load, solve, with_lines
+    from crumple.cli.folder import results_errors, results_folder
     from crumple.cli.progress import progress_bar, stop_on_interrupt
     from crumple.errors import InputError
     from crumple.report import ReportInput, write_report
     from crumple.result import summary_json, write
 
     analysis = load(file)
-    folder = out if out is not None else Path("out") / file.stem
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = results_folder(out, file)
     with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
         try:
             result = solve(analysis, fidelity=fidelity.value, progress=progress, cancel=cancel)
         except InputError as error:
             raise with_lines(error, file, analysis.structure) from None
-    write(result, folder)
     source = ReportInput(
         title=analysis.title,
         text=file.read_text(encoding="utf-8-sig"),
@@ -58,7 +60,9 @@ def run(
         residual_bound=analysis.multibody.energy_residual_bound,
         accuracy=analysis.multibody.accuracy,
     )
-    write_report(result, source, folder)
+    with results_errors(folder):
+        write(result, folder)
+        write_report(result, source, folder)
     if as_json:
         typer.echo(summary_json(result), nl=False)
     else:
