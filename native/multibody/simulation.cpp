@@ -41,14 +41,26 @@ Simulation::Simulation(Model model, const Settings& settings)
     set_damping();
 }
 
-// The inertia that a damper feels is taken at the start.  A stop without a damper of its own gets the critical one, c = 2 sqrt(k m), m the inertia felt at the start.
+// The inertia that a damper feels is taken at the start.
 void Simulation::set_damping() {
     for (Hinge& hinge : model_.hinges) {
         if (hinge.damping > 0) hinge.damped_inertia = stepper_.effective_inertia(state_, hinge.dof);
         for (Stop& stop : hinge.stop) {
-            if (!std::isnan(stop.damping)) continue;
-            stop.damping = 2 * std::sqrt(stop.stiffness * stepper_.effective_inertia(state_, hinge.dof));
+            if (std::isnan(stop.damping)) critical_.push_back({&hinge, &stop});
         }
+    }
+    set_critical_damping(true);
+}
+
+// A stop without a damper of its own gets the critical one, c = 2 sqrt(k m), m the inertia felt just before the
+// stop is touched (at the start, should that come without notice).
+void Simulation::set_critical_damping(bool all) {
+    for (const Critical& c : critical_) {
+        const auto dof = static_cast<size_t>(c.hinge->dof);
+        const double sign = c.stop == &c.hinge->stop[0] ? 1 : -1, gap = sign * state_.q[dof] - c.stop->rotation;
+        const bool soon = gap <= 0 && gap + 2 * h_ * std::fabs(state_.w[dof]) > 0;
+        if (!all && !soon) continue;
+        c.stop->damping = 2 * std::sqrt(c.stop->stiffness * stepper_.effective_inertia(state_, c.hinge->dof));
     }
 }
 
@@ -135,6 +147,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
         h_ = last && e <= 1 ? std::max(h_, next) : next;
         record.steps++;
         watch(record);
+        set_critical_damping(false);
     }
     return true;
 }

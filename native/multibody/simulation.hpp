@@ -51,7 +51,12 @@ public:
     Record run(const std::vector<double>& times, const std::function<bool(double)>& poll);
 
 private:
+    struct Critical {
+        const Hinge* hinge;
+        Stop* stop;
+    };
     void set_damping();
+    void set_critical_damping(bool all);
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
     double error(const State& coarse, const State& fine) const;
     void show_first_moments();
@@ -62,6 +67,7 @@ private:
     Settings settings_;
     Stepper stepper_;
     State state_, coarse_, fine_;
+    std::vector<Critical> critical_;  // stops whose damper is left to the solver
     double step_tolerance_;  // of the error measure
     double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, work_max_ = 0, residual_max_ = 0, negligible_energy_ = 0;
     long poll_at_ = 0;  // work at which `poll` is asked next

@@ -16,9 +16,9 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from tests.verification.chains import hinge, started, wheel
+from tests.verification.chains import MASS_PER_LENGTH, bar, hinge, started, wheel
 
-from crumple._core.tree import TreeModel
+from crumple._core.tree import Simulation, TreeModel
 from crumple.function import impact
 
 INERTIA, STIFFNESS, RATE, GAP = 2.0, 1e6, 5.0, 0.01
@@ -98,3 +98,32 @@ def test_impact_with_its_ramp_of_the_damper(exponent, full_damping, ratio, recor
     record_figure(f"rebound rate, {name}", record.w[-1, 0], exact.y[1, -1], 10 * ACCURACY * RATE, "rad/s")
     record_figure(f"rotation, {name}", record.summary[0, 0], exact.y[0].max(), 1e-4, "rad", relative=True)
     assert record.residual < 1e-12
+
+
+def test_critical_damping_is_of_the_configuration_at_first_touch(record_figure):
+    """A bar folded by 1 rad on a free one feels another inertia than the straight pair.
+
+    Both hinges are free until the second touches its stop.  Then the stop's impulse acts on the relative rate
+    with m = 1/(J M^-1 J^T): a single stop event returns e^-2 of it.
+    """
+    angle = 1.0
+    stop = (angle, 1e8, 1.0, math.nan, 0.0)
+    bodies = (bar(1.0), bar(1.0, 0.0, (1.0, 0.0), 0))
+    hinges = (hinge(0, 1e-9), hinge(1, 1e-9, stop_positive=stop))
+    model = TreeModel(bodies, hinges)
+    record = started(model, [0.0, 10.0], 1e-6).run(np.linspace(0.0, 0.4, 20001))
+    touch = int(np.argmax(record.q[:, 1] > angle))
+    # the contact lasts 2/omega = 0.14 ms, seven outputs; from then on the rate changes by 1 in 1000 per output
+    returned = -record.w[touch + 8, 1] / record.w[touch - 1, 1]
+    straight, folded = (Simulation(model).effective_inertia(1), inertia_felt(model, record.q[touch]))
+    assert folded > 1.3 * straight
+    record_figure("rate that returns from a stop in a folded pair", returned, math.exp(-2), 2e-3)
+
+
+def inertia_felt(model, rotations):
+    """Inertia of the second joint of two bars in any configuration, from their mass matrix."""
+    bend = rotations[1]
+    own, line = MASS_PER_LENGTH / 3, MASS_PER_LENGTH
+    coupling = own + line / 2 * math.cos(bend)
+    first = own + own + line + line * math.cos(bend)
+    return own - coupling**2 / first
