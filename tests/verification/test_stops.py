@@ -113,7 +113,7 @@ def test_critical_damping_is_of_the_configuration_at_first_touch(record_figure):
     model = TreeModel(bodies, hinges)
     record = started(model, [0.0, 10.0], 1e-6).run(np.linspace(0.0, 0.4, 20001))
     touch = int(np.argmax(record.q[:, 1] > angle))
-    # the contact lasts 2/omega = 0.14 ms, seven outputs; from then on the rate changes by 1 in 1000 per output
+    # the contact lasts 2/omega = 0.14 ms, seven outputs; then the rate changes by 2 in 1000 per output
     returned = -record.w[touch + 8, 1] / record.w[touch - 1, 1]
     straight, folded = (Simulation(model).effective_inertia(1), inertia_felt(model, record.q[touch]))
     assert folded > 1.3 * straight
