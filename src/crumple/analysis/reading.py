@@ -69,6 +69,8 @@ def read_file(path: Path) -> Document:
     try:
         if not path.is_file():
             what = "this is a folder" if path.is_dir() else "there is no such file"
+            if path.exists() and not path.is_dir():
+                what = "this is not a regular file"
             raise _refusal(what, name, allowed="an input file", todo="check the name")
         with path.open("rb") as file:
             content = file.read(LARGEST_FILE + 1)

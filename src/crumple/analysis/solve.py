@@ -52,6 +52,9 @@ def solve(
     InputError
         If the fidelity is unknown or the solver cannot take the structure.
     """
+    if not isinstance(analysis, Analysis):
+        allowed, todo = "an Analysis", "load an input file, or build an Analysis"
+        raise InputError(Problem("an analysis is needed", type(analysis).__name__, allowed, todo, "analysis"))
     if fidelity not in FIDELITIES:
         allowed = ", ".join(FIDELITIES)
         raise InputError(Problem("unknown fidelity", fidelity, allowed, "choose one of these", "fidelity"))

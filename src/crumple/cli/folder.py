@@ -46,7 +46,7 @@ def results_folder(given: str | None, file: Path) -> Path:
 
 @contextmanager
 def results_errors(folder: Path) -> Iterator[None]:
-    """Tell what the system refuses inside the block by the folder that the user named, not by private files."""
+    """Tell what the system refuses inside the block, by the folder that the user named."""
     try:
         yield
     except BrokenPipeError:

@@ -23,7 +23,7 @@ SHOWN_PROBLEMS = 10
 SI_UNIT = {"rotation": "rad", "moment": "N*m"}
 
 
-def with_curve_read(given: dict[str, Any], directory: Path, prefix: str = "") -> dict[str, Any]:
+def with_curve_read(given: dict[str, Any], directory: Path | None, prefix: str = "") -> dict[str, Any]:
     """Replace the file of a table by its points; without a file the table stays as it is.
 
     Parameters
@@ -31,7 +31,7 @@ def with_curve_read(given: dict[str, Any], directory: Path, prefix: str = "") ->
     given
         Table as the input says it; ``<prefix>file`` names the file.
     directory
-        Where relative names start.
+        Folder of the input file, in which the file must lie; None: built in Python, any file.
     prefix
         ``"negative_"`` for the curve of the other sense.
     """
@@ -79,7 +79,7 @@ def _digits(value: Any) -> str:
     return str(value) if isinstance(value, Integral) else repr(float(value))
 
 
-def with_law_read(given: dict[str, Any], directory: Path) -> dict[str, Any]:
+def with_law_read(given: dict[str, Any], directory: Path | None) -> dict[str, Any]:
     """Replace the name of a law file by its content, checked; without a name the content itself is checked.
 
     Parameters
@@ -87,7 +87,7 @@ def with_law_read(given: dict[str, Any], directory: Path) -> dict[str, Any]:
     given
         Law as the input says it; ``file`` names the file, ``text`` is its content.
     directory
-        Where relative names start.
+        Folder of the input file, in which the file must lie; None: built in Python, any file.
     """
     name, text = given.get("file"), given.get("text")
     if name is None and not isinstance(text, str):
@@ -105,11 +105,12 @@ def with_law_read(given: dict[str, Any], directory: Path) -> dict[str, Any]:
     return {**{key: value for key, value in given.items() if key != "file"}, "text": text}
 
 
-def _content(name: str, directory: Path, key: str, kind: str) -> str:
+def _content(name: str, directory: Path | None, key: str, kind: str) -> str:
     """Text of a file, or a refusal that says what is wrong with it."""
     if "\0" in name:
         refuse("this is no file name", key=key)
-    path = directory / name
+    path = (directory or Path()) / name
+    _check_inside(path, directory, key)
     try:
         found, size = path.is_file(), path.stat().st_size if path.is_file() else 0
         text = path.read_text(encoding="utf-8-sig") if found and size <= LARGEST_FILE else ""
@@ -117,6 +118,8 @@ def _content(name: str, directory: Path, key: str, kind: str) -> str:
         refuse("the file is not a text in UTF-8", key=key, allowed=kind)
     except OSError as error:
         refuse(f"the file cannot be read: {error.strerror}", key=key, allowed=kind)
+    if not found and path.exists() and not path.is_dir():
+        refuse("this is not a regular file", key=key, allowed=kind)
     if not found:
         todo = "correct the name or put the file there"
         refuse("there is no such file", key=key, allowed="a file name, relative to the input file", todo=todo)
@@ -125,7 +128,24 @@ def _content(name: str, directory: Path, key: str, kind: str) -> str:
     return text
 
 
-def _read(name: str, directory: Path, key: str) -> tuple[list[float], list[float]]:
+def _check_inside(path: Path, directory: Path | None, key: str) -> None:
+    """Refuse a file outside the folder of the input file: a description from elsewhere must not read it."""
+    if directory is None:
+        return
+    try:
+        inside = path.resolve().is_relative_to(directory.resolve())
+    except (OSError, RuntimeError, ValueError):  # a loop of links, a name that is too long
+        inside = True
+    if not inside:
+        refuse(
+            "this file lies outside the folder of the input file",
+            key=key,
+            allowed="a file in the folder of the input file, or below it",
+            todo="copy it there",
+        )
+
+
+def _read(name: str, directory: Path | None, key: str) -> tuple[list[float], list[float]]:
     text = _content(name, directory, key, "a CSV file")
     try:
         rotation, moment = read_table(text, name)

@@ -30,7 +30,7 @@ from crumple.structure.quantity import (
     StiffnessOrAuto,
     StopExponent,
 )
-from crumple.structure.spec import Name, Spec, type_tag
+from crumple.structure.spec import Name, Spec, refuse, type_tag
 
 
 class Regularisation(Spec):
@@ -67,6 +67,12 @@ def _no_stops(given: Any) -> Any:
 
 def _on_or_off(given: Any) -> Any:
     return {True: "on", False: "off"}[given] if isinstance(given, bool) else given
+
+
+def _folder(info: ValidationInfo) -> Path | None:
+    """Folder of the input file; None where the law is built in Python."""
+    directory = (info.context or {}).get("directory")
+    return None if directory is None else Path(directory)
 
 
 class LawKeys(Spec):
@@ -119,7 +125,8 @@ class TableLaw(LawKeys):
     type: Literal["table"] = "table"
     """Kind of law."""
     file: FileName | None = None
-    """CSV file with one head such as `rotation [deg], moment [kN*m]`; relative to the input file."""
+    """CSV file with one head such as `rotation [deg], moment [kN*m]`, in the folder of the input file or
+    below."""
     rotation: Angles = ()
     """Rotations, increasing from 0, in place of a file."""
     moment: Moments = ()
@@ -143,9 +150,17 @@ class TableLaw(LawKeys):
         """Read the curve files, so that the law carries points and not paths."""
         if not isinstance(given, dict):
             return given
-        directory = Path((info.context or {}).get("directory", "."))
+        directory = _folder(info)
         given = with_curve_read(given, directory)
         return with_units(with_curve_read(given, directory, "negative_"))
+
+    @model_validator(mode="after")
+    def _two_points(self) -> TableLaw:
+        for key in ("rotation", "negative_rotation"):
+            if len(getattr(self, key) or ()) == 1:
+                todo = "add points, or write a constant law with this moment"
+                refuse("the table has one point", key=key, allowed="at least two points", todo=todo)
+        return self
 
 
 class KecmanLaw(LawKeys):
@@ -216,7 +231,7 @@ class FileLaw(LawKeys):
     type: Literal["file"] = "file"
     """Kind of law."""
     file: FileName | None = None
-    """Law file (YAML), relative to the input file."""
+    """Law file (YAML), in the folder of the input file or below."""
     text: Annotated[str, Field(max_length=LARGEST_TEXT)] = ""
     """Content of a law file, in place of its name."""
 
@@ -226,7 +241,7 @@ class FileLaw(LawKeys):
         """Read and check the file, so that the law carries its curve and not a path."""
         if not isinstance(given, dict):
             return given
-        return with_law_read(given, Path((info.context or {}).get("directory", ".")))
+        return with_law_read(given, _folder(info))
 
 
 LawSpec = Annotated[

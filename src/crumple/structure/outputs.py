@@ -38,7 +38,7 @@ class Outputs(Spec):
     """What a run reports; the hinges' quantities and the energies are always there."""
 
     every: PositiveTime | None = None
-    """Interval of the histories; without it a 200th of the duration."""
+    """Interval of the histories, at most 1 000 000 in the duration; without it a 200th of the duration."""
     nodes: tuple[Name, ...] = ()
     """Nodes whose displacement, velocity, acceleration and rotation are reported."""
     section_rotations: Named[SectionRotation] = FrozenMapping()
@@ -46,4 +46,4 @@ class Outputs(Spec):
     filters: Named[Filter] = FrozenMapping()
     """Filtered channels, by the name of the new channel."""
     pictures: Annotated[tuple[NonNegativeTime, ...], Field(max_length=MOST_PICTURES)] = ()
-    """Times at which the deformed shape is stored and drawn."""
+    """Times within the duration at which the deformed shape is stored and drawn."""

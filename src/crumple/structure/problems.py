@@ -83,7 +83,8 @@ def shown(value: object) -> str:
     elif isinstance(value, Mapping):
         text = "{" + ", ".join(str(key)[:20] for key in list(value)[:8]) + "}"
     elif isinstance(value, Sequence):
-        text = f"a list of {len(value)}"
+        plain = len(value) <= 4 and all(isinstance(item, float | int | str) for item in value)
+        text = f"[{', '.join(map(str, value))}]" if plain else f"a list of {len(value)}"
     else:
         text = "nothing" if value is None else type(value).__name__
     text = "".join(character if character.isprintable() else "?" for character in text[: LONGEST_SHOWN + 1])

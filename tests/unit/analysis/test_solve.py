@@ -45,6 +45,8 @@ def test_unknown_solvers_and_no_threads_are_refused():
     analysis = loads(TEXT)
     with pytest.raises(InputError, match="unknown fidelity"):
         solve(analysis, fidelity="shells")
+    with pytest.raises(InputError, match="an analysis is needed"):
+        solve(3)
     with pytest.raises(InputError, match="no thread"):
         solve(analysis, threads=0)
 

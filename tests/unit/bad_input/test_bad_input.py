@@ -1,5 +1,6 @@
 """Bad input files: each is refused with one clear message that names the place and says what is allowed."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -149,7 +150,7 @@ CASES = {
         "law: kecman",
         "law: {type: table, file: /dev/zero}",
         "members.tube.hinges[0].law.file",
-        "no such file",
+        "outside the folder of the input file",
     ),
     "odd curve": (
         "law: kecman",
@@ -159,7 +160,7 @@ CASES = {
     ),
     "rising from nothing": (
         "law: kecman",
-        "law: {type: table, rotation: [1 deg], moment: [1 kN*m]}",
+        "law: {type: table, rotation: [1 deg, 2 deg], moment: [1 kN*m, 1 kN*m]}",
         "members.tube.hinges[0].law",
         "from 0",
     ),
@@ -236,7 +237,7 @@ def test_a_large_file_is_refused_unread(tmp_path):
 
 @pytest.mark.parametrize(
     ("name", "what"),
-    [("none.yaml", "there is no such file"), (".", "this is a folder"), ("/dev/zero", "no such file")],
+    [("none.yaml", "there is no such file"), (".", "this is a folder"), ("/dev/zero", "not a regular file")],
 )
 def test_what_is_no_file_is_refused(tmp_path, name, what):
     (problem,) = check(tmp_path / name)
@@ -261,3 +262,47 @@ def test_load_raises_what_check_returns(tmp_path):
     with pytest.raises(InputError) as refusal:
         load(tmp_path / "a.yaml")
     assert refusal.value.problems == check(tmp_path / "a.yaml")
+
+
+@pytest.mark.parametrize("kind", ["type: table, file", "type: file, file"])
+def test_a_curve_outside_the_folder_of_the_input_file_is_refused(tmp_path, kind):
+    folder = tmp_path / "models"
+    folder.mkdir()
+    outside = tmp_path / "curve.csv"
+    outside.write_text("rotation [deg], moment [kN*m]\n0, 2\n90, 1\n")
+    (folder / "link.csv").symlink_to(outside)
+    file = folder / "model.yaml"
+    for name in (str(outside), "../curve.csv", "link.csv", "/dev/null"):
+        file.write_text(GOOD.replace("law: kecman", f"law: {{{kind}: '{name}'}}"))
+        [problem] = check(file)
+        assert "outside the folder of the input file" in problem.what
+        assert problem.where == "members.tube.hinges[0].law.file"
+        assert problem.line > 1
+    below = folder / "curves"
+    below.mkdir()
+    (below / "curve.csv").write_text(outside.read_text())
+    file.write_text(GOOD.replace("law: kecman", "law: {type: table, file: curves/../curves/curve.csv}"))
+    assert check(file) == []
+
+
+def test_what_is_no_regular_file_is_told_so(tmp_path):
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    for path in (pipe, Path("/dev/null")):
+        [problem] = check(path)
+        assert problem.what == "this is not a regular file"
+    file = tmp_path / "model.yaml"
+    file.write_text(GOOD.replace("law: kecman", "law: {type: table, file: pipe}"))
+    [problem] = check(file)
+    assert problem.what == "this is not a regular file"
+
+
+def test_a_table_needs_two_points_and_a_refused_inertia_is_shown(tmp_path):
+    file = tmp_path / "model.yaml"
+    file.write_text(GOOD.replace("law: kecman", "law: {type: table, rotation: [0 deg], moment: [1 kN*m]}"))
+    [problem] = check(file)
+    assert problem.what == "the table has one point"
+    inertia = "[0, 0, 5 kg*m^2]"
+    file.write_text(GOOD.replace("mass: 6 kg", f"mass: 6 kg, rotary_inertia: {inertia}"))
+    [problem] = check(file)
+    assert problem.came == inertia
