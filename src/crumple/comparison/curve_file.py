@@ -67,7 +67,8 @@ def read_curves(path: Path | str, name: str = "", pairs: Mapping[str, str] | Non
     name
         Of the source; by default the file's.
     pairs
-        Names of channels for columns that are called otherwise.
+        Names of channels for columns that are called otherwise; with a minus before it where the column counts
+        the other way.
 
     Raises
     ------
@@ -100,7 +101,8 @@ def read_curves(path: Path | str, name: str = "", pairs: Mapping[str, str] | Non
     for i, (title, _, unit) in columns.items():
         if i != times[0]:
             called = renamed.get(title, title)
-            signals[called] = Signal(called, unit, time, scaled[i])
+            side = -1.0 if called.startswith("-") else 1.0
+            signals[called.removeprefix("-")] = Signal(called.removeprefix("-"), unit, time, side * scaled[i])
     titles = next(csv.reader([head], delimiter=separator))
     left = tuple(title.strip() for i, title in enumerate(titles) if i not in columns)
     return CurveFile(name or place.stem, str(place), signals, left)

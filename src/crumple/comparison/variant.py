@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
-from crumple.structure import ConstantLaw, HingePlace, Member, Structure
+from collections.abc import Sequence
+
+import numpy as np
+
+from crumple.comparison.motion import HingeMotion
+from crumple.structure import ConstantLaw, HingePlace, Member, Structure, TableLaw
 from crumple.structure.hinges import hinge_places, law_spec
 from crumple.structure.law import LawKeys, LawReference
 from crumple.structure.member import Bars
 
 ELASTIC = "elastic-plastic"
+LEAST_TURN = np.radians(2.0)
+"""Plastic rotation [rad] from which a law can be read off."""
+INTERVALS = 16
+"""Of that law: wide enough that vibration averages out."""
 BARS = 8
 """Rigid bars that stand for an elastic member: its lowest frequencies are then right within some per cent."""
 
@@ -37,6 +46,60 @@ def with_elastic_members(structure: Structure) -> Structure | None:
     if members == dict(elastic.members):
         return None
     return elastic.model_copy(update={"members": members})
+
+
+def with_measured_laws(structure: Structure, motions: Sequence[HingeMotion]) -> Structure | None:
+    """The structure with elastic members, and hinges that carry the moments measured in another result.
+
+    Parameters
+    ----------
+    structure
+        Any.
+    motions
+        Hinges measured in that result; a hinge without a fold keeps its law.
+
+    Returns
+    -------
+    Structure or None
+        None where no hinge folded.  The law is the moment conjugate to plastic work against plastic rotation,
+        so a run with it is no prediction: it shows what is left of the difference once the law is right.
+    """
+    laws = {m.name: law for m in motions if m.fold and (law := measured_law(m)) is not None}
+    if not laws:
+        return None
+    base = with_elastic_members(structure) or structure
+    members = {
+        name: member.model_copy(
+            update={
+                "hinges": tuple(
+                    h.model_copy(update={"law": laws[h.name]}) if h.name in laws else h for h in member.hinges
+                )
+            }
+        )
+        for name, member in base.members.items()
+    }
+    return base.model_copy(update={"members": members})
+
+
+def measured_law(motion: HingeMotion) -> TableLaw | None:
+    """Plastic work over plastic rotation, interval by interval, as a table; None where it hardly turned."""
+    plastic = np.maximum.accumulate(np.maximum(motion.sense * motion.plastic_rotation, 0.0))
+    if not plastic[-1] > LEAST_TURN:
+        return None
+    grid, first = np.unique(plastic, return_index=True)
+    done = motion.plastic_work[np.append(first[1:] - 1, len(plastic) - 1)]
+    edges = np.linspace(0.0, plastic[-1], INTERVALS + 1)
+    moment = np.diff(np.interp(edges, grid, done)) / np.diff(edges)
+    keep = moment > 0.0
+    if not keep.any():
+        return None
+    rotation = ((edges[1:] + edges[:-1]) / 2)[keep]
+    return TableLaw(
+        form=ELASTIC,
+        rotation=(0.0, *map(float, rotation)),
+        moment=(float(moment[keep][0]), *map(float, moment[keep])),
+        rate="off",
+    )
 
 
 def _elastic(structure: Structure, name: str, member: Member, places: dict[str, HingePlace]) -> Member:

@@ -176,7 +176,7 @@ def _render(
         trim_blocks=True,
     )
     style = (here / "page.css").read_text(encoding="utf-8")
-    text = _input_text(source)
+    text = embedded(source)
     named = ("deformation", "rotation", "energy_rotation", "energy", "outputs")
     return environment.get_template("page.html.jinja").render(
         version=result.provenance.version,
@@ -204,7 +204,8 @@ def _meta(result: Result, source: ReportInput) -> list[str]:
     return [part for part in (*parts, f"input {provenance.input_hash[:12]}") if part]
 
 
-def _input_text(source: ReportInput) -> str:
+def embedded(source: ReportInput) -> str:
+    """The input as its author wrote it, else as it was understood."""
     if source.text or source.canonical is None:
         return source.text
     return json.dumps(source.canonical, indent=2, ensure_ascii=False, default=str)

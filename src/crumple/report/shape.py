@@ -27,7 +27,7 @@ _NAMED_HINGES = 8
 
 
 @dataclass(frozen=True)
-class _Surface:
+class Surface:
     """What every picture needs and no time changes.
 
     Attributes
@@ -51,11 +51,11 @@ class _Surface:
 
 def deformation(result: Result) -> str | None:
     """The figure as SVG, or None when the result has no states."""
-    states = _finite_states(result.states)
+    states = finite_states(result.states)
     if states is None:
         return None
     view = choose_view(states)
-    surface = _surface(states)
+    surface = surface_of(states)
     drawn = view.flat(np.concatenate([states.points[None], states.points + states.displacement]))
     low, high = drawn.reshape(-1, 2).min(axis=0), drawn.reshape(-1, 2).max(axis=0)
     size = np.maximum(high - low, 1e-3 * np.max(high - low))
@@ -68,7 +68,7 @@ def deformation(result: Result) -> str | None:
     panel_height = min(panel_width * height / width, 3.2)
     total = rows * (panel_height + label) + foot
     figure = new_figure(WIDTH, total)
-    hinges = _hinge_places(result, states)
+    hinges = hinge_places(result, states)
     raster = len(states.quads) * len(states.times) > _RASTER_FROM
     for i, time in enumerate(states.times):
         row, column = divmod(i, columns)
@@ -78,14 +78,14 @@ def deformation(result: Result) -> str | None:
         axes.set_xlim(low[0], high[0])
         axes.set_ylim(low[1], high[1])
         axes.set_aspect("equal", anchor="W")
-        _draw_walls(axes, states, surface, view, None, raster)
-        _draw_walls(axes, states, surface, view, i, raster)
+        draw_walls(axes, states, surface, view, None, raster)
+        draw_walls(axes, states, surface, view, i, raster)
         last = i == len(states.times) - 1
-        _draw_hinges(axes, {name: view.flat(places[i]) for name, places in hinges.items()}, named=last)
+        draw_hinges(axes, {name: view.flat(places[i]) for name, places in hinges.items()}, named=last)
         axes.text(
             0,
             1,
-            _time(float(time)),
+            picture_time(float(time)),
             transform=axes.transAxes,
             va="bottom",
             fontsize=8.5,
@@ -93,11 +93,11 @@ def deformation(result: Result) -> str | None:
         )
     scale = add_axes(figure, 0, 0, WIDTH, foot)
     inches_per_metre = min(panel_width / width, panel_height / height)
-    _draw_scale(scale, view, inches_per_metre, panel_width, foot)
+    draw_scale(scale, view, inches_per_metre, panel_width, foot)
     return to_svg(figure, "deformation", _description(states))
 
 
-def _finite_states(states: States | None) -> States | None:
+def finite_states(states: States | None) -> States | None:
     """The states that can be drawn: those in which every point has a place; None without any."""
     if states is None or not len(states.quads) or np.ptp(states.points, axis=0).max() == 0.0:
         return None
@@ -108,13 +108,14 @@ def _finite_states(states: States | None) -> States | None:
 
 
 def _description(states: States) -> str:
-    times = ", ".join(_time(float(time)) for time in states.times)
+    times = ", ".join(picture_time(float(time)) for time in states.times)
     return (
         f"Deformed shape of the member walls at {times}, over the undeformed shape in grey, all at one scale."
     )
 
 
-def _time(time: float) -> str:
+def picture_time(time: float) -> str:
+    """Time of a picture [s] as people read it."""
     return f"{time * 1e3:.4g} ms"
 
 
@@ -124,7 +125,8 @@ def _columns(aspect: float, n: int) -> int:
     return max(1, min(wish, n))
 
 
-def _surface(states: States) -> _Surface:
+def surface_of(states: States) -> Surface:
+    """Rings, edges and creases of a surface."""
     rings, ring = ring_centres(states)
     pairs = np.stack([states.quads, np.roll(states.quads, -1, axis=1)], axis=2).reshape(-1, 2)
     owner = np.repeat(np.arange(len(states.quads)), 4)
@@ -133,7 +135,7 @@ def _surface(states: States) -> _Surface:
     sides[inverse.reshape(-1), 1] = owner
     normals = _normals(states.points, states.quads)
     meeting = np.einsum("ij,ij->i", normals[sides[:, 0]], normals[sides[:, 1]])
-    return _Surface(rings, ring, edges, sides, (np.abs(meeting) < _CREASE) | (sides[:, 0] == sides[:, 1]))
+    return Surface(rings, ring, edges, sides, (np.abs(meeting) < _CREASE) | (sides[:, 0] == sides[:, 1]))
 
 
 def _normals(points: Floats, quads: NDArray[np.int64]) -> Floats:
@@ -143,8 +145,8 @@ def _normals(points: Floats, quads: NDArray[np.int64]) -> Floats:
     return normals
 
 
-def _draw_walls(
-    axes: Axes, states: States, surface: _Surface, view: View, state: int | None, raster: bool
+def draw_walls(
+    axes: Axes, states: States, surface: Surface, view: View, state: int | None, raster: bool
 ) -> None:
     """Walls of one state, farthest first, edged where they meet or turn away; None: undeformed, grey."""
     points = states.points if state is None else states.points + states.displacement[state]
@@ -194,7 +196,7 @@ def _draw_walls(
     axes.add_collection(outline, autolim=False)
 
 
-def _hinge_places(result: Result, states: States) -> dict[str, Floats]:
+def hinge_places(result: Result, states: States) -> dict[str, Floats]:
     """Place of every hinge in every state, (n_states, 3): it moves with the walls around it."""
     places = {}
     for name, hinge in result.hinges.items():
@@ -207,7 +209,8 @@ def _hinge_places(result: Result, states: States) -> dict[str, Floats]:
     return places
 
 
-def _draw_hinges(axes: Axes, places: dict[str, Floats], *, named: bool) -> None:
+def draw_hinges(axes: Axes, places: dict[str, Floats], *, named: bool) -> None:
+    """Circles at the hinges, with their names where there are few."""
     if not places:
         return
     spots = np.array(list(places.values()))
@@ -239,7 +242,7 @@ def _draw_hinges(axes: Axes, places: dict[str, Floats], *, named: bool) -> None:
             )
 
 
-def _draw_scale(axes: Axes, view: View, inches_per_metre: float, panel: float, height: float) -> None:
+def draw_scale(axes: Axes, view: View, inches_per_metre: float, panel: float, height: float) -> None:
     """Scale bar on the left, directions of the world axes beside it."""
     axes.set_axis_off()
     axes.set_xlim(0, WIDTH)
