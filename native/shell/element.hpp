@@ -91,7 +91,7 @@ CRUMPLE_INLINE CornerForces update_block(const Part& part, const Vec (&x)[4], co
         slots[thickness] = t;
     }
     HourglassForce h;
-    const Real hourglass_work = update_hourglass(part, f, k.hourglass, dt, t, volume, slots, h);
+    const Real hourglass_work = update_hourglass(part, f, k.hourglass, dt, t, volume, r.kept, slots, h);
     const Real work = volume * (r.internal + 0.5 * ((old_xz + xz) * k.strain.xz + (old_yz + yz) * k.strain.yz));
     CornerForces c = corner_forces(part, f, r, xz, yz, volume, t, h);
     stiffest = frequency(f, slots[wave], part.triangle) + 0.0 * work;

@@ -1,7 +1,8 @@
 // Control of the five modes that one-point integration cannot see, by stiffness or by viscosity.
 //
 // Stiffness: resultants grow with the hourglass rates (Flanagan-Belytschko type, coefficients of Belytschko, Lin and Tsay); viscosity: they are
-// proportional to them.  Work done on them is the hourglass energy.  Theory: docs/theory/hourglass.md.
+// proportional to them.  Where the thickness points yield, resultants of stiffness are returned by the mean share that
+// the points keep, as stresses away from the one point would be: else they would carry load that the metal cannot.  Work done on them is the hourglass energy.  Theory: docs/theory/hourglass.md.
 #pragma once
 #include "kinematics.hpp"
 
@@ -34,7 +35,7 @@ CRUMPLE_INLINE HourglassRange hourglass_viscosity(const Part& part, const Frame&
 
 // New resultants; returns the work done on them [J].
 CRUMPLE_INLINE Real update_hourglass(const Part& part, const Frame& f, const HourglassRate& rate, double dt, Real thickness,
-                                     Real volume, Real* slots, HourglassForce& now) {
+                                     Real volume, Real kept, Real* slots, HourglassForce& now) {
     const HourglassForce old = {slots[hourglass_x], slots[hourglass_y], slots[hourglass_z], slots[hourglass_rx],
                                 slots[hourglass_ry]};
     if (part.viscous_hourglass) {
@@ -42,8 +43,8 @@ CRUMPLE_INLINE Real update_hourglass(const Part& part, const Frame& f, const Hou
         now = {c.membrane * rate.x, c.membrane * rate.y, c.shear * rate.z, c.bending * rate.rx, c.bending * rate.ry};
     } else {
         const HourglassRange c = hourglass_stiffness(part, f, thickness, volume, dt);
-        now = {old.x + c.membrane * rate.x, old.y + c.membrane * rate.y, old.z + c.shear * rate.z,
-               old.rx + c.bending * rate.rx, old.ry + c.bending * rate.ry};
+        now = {kept * (old.x + c.membrane * rate.x), kept * (old.y + c.membrane * rate.y), kept * (old.z + c.shear * rate.z),
+               kept * (old.rx + c.bending * rate.rx), kept * (old.ry + c.bending * rate.ry)};
     }
     slots[hourglass_x] = now.x;
     slots[hourglass_y] = now.y;

@@ -78,7 +78,7 @@ struct Settings {
     double damping = 0.0;            // mass-proportional [1/s]
     Vec3 gravity;
     bool thickness_update = true, warping_correction = true, viscous_hourglass = false;
-    double hourglass_membrane = 0.05, hourglass_shear = 0.05, hourglass_bending = 0.05;
+    double hourglass_membrane = 0.01, hourglass_shear = 0.01, hourglass_bending = 0.01;
 };
 
 struct Model {

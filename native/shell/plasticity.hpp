@@ -23,6 +23,10 @@ constexpr int max_return_steps = 40;
 struct Stress {
     Real x, y, xy;
 };
+// What a return leaves behind: plastic work per volume [J/m3], and the share of the deviator that was kept.
+struct Returned {
+    Real work{}, kept = all(1.0);
+};
 
 // yield line in force at plastic strain `at`: value extrapolated to `start`, and slope
 struct YieldLine {
@@ -55,14 +59,14 @@ CRUMPLE_INLINE Real rate_factor(const Part& part, Real& rate, Real strain, doubl
     return factor;
 }
 
-// Linear hardening.  Returns the plastic work per volume [J/m3].
-CRUMPLE_INLINE Real return_linear(const Part& part, Stress& s, Real& ep) {
+// Linear hardening.
+CRUMPLE_INLINE Returned return_linear(const Part& part, Stress& s, Real& ep) {
     const double R = part.pressure_ratio, h = part.hardening * part.inverse_3g;
     const Real Y = part.yield_stress + part.hardening * ep;
     Real p = s.x + s.y, d = s.x - s.y;
     const Real a = 0.25 * p * p, b = 0.75 * d * d + 3.0 * s.xy * s.xy;
     const Mask yields = a + b > Y * Y;
-    if (!any(yields)) return Real{};
+    if (!any(yields)) return {};
     Real X{}, u = all(1.0), v = u;
     const Real inverse_Y = 1.0 / Y;
     Mask active = yields;
@@ -84,17 +88,17 @@ CRUMPLE_INLINE Real return_linear(const Part& part, Stress& s, Real& ep) {
     s.y = yields ? 0.5 * (p - d) : s.y;
     const Real Y_end = Y / (1.0 - h * X), increment = X * Y_end * part.inverse_3g;   // X is 0 where nothing yields
     ep += increment;
-    return Y_end * increment;
+    return {Y_end * increment, v};
 }
 
 // Table and rate factor: the line in force is looked up at every Newton step.
-CRUMPLE_INLINE Real return_general(const Part& part, Stress& s, Real& ep, Real factor) {
+CRUMPLE_INLINE Returned return_general(const Part& part, Stress& s, Real& ep, Real factor) {
     const double R = part.pressure_ratio;
     YieldLine line = yield_line(part, ep, ep, factor);
     Real p = s.x + s.y, d = s.x - s.y;
     const Real a = 0.25 * p * p, b = 0.75 * d * d + 3.0 * s.xy * s.xy;
     const Mask yields = a + b > line.value * line.value;
-    if (!any(yields)) return Real{};
+    if (!any(yields)) return {};
     Real X{}, u = all(1.0), v = u, q{};
     Mask active = yields;
     for (int step = 0; step < max_return_steps && any(active); step++) {
@@ -117,7 +121,7 @@ CRUMPLE_INLINE Real return_general(const Part& part, Stress& s, Real& ep, Real f
     s.y = yields ? 0.5 * (p - d) : s.y;
     const Real increment = X * q * part.inverse_3g;
     ep += increment;
-    return q * increment;
+    return {q * increment, v};
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ namespace {
 struct Resultants {
     Real nx{}, ny{}, nxy{}, mx{}, my{}, mxy{};
     Real internal{}, plastic{};
+    Real kept{};                 // mean share of the deviator left by plastic return
 };
 
 template <Law law>
@@ -24,15 +25,18 @@ CRUMPLE_INLINE void update_point(const Part& part, int k, const StrainIncrement&
     const double C = part.plane_modulus, nu = part.poissons_ratio;
     Stress now = {old.x + C * (ex + nu * ey), old.y + C * (ey + nu * ex), old.xy + part.shear_modulus * exy};
     // return to the yield surface
-    if constexpr (law == Law::linear) r.plastic += weight * return_linear(part, now, point[plastic_strain]);
+    Returned plastic;
+    if constexpr (law == Law::linear) plastic = return_linear(part, now, point[plastic_strain]);
     if constexpr (law == Law::general) {
         Real factor = all(1.0);
         if (part.rate) {
             const Real e2 = (4.0 / 3.0) * (ex * ex + ey * ey + ex * ey + 0.25 * exy * exy);
             factor = rate_factor(part, slots[rate_slot(part.points, k)], root(e2), dt);
         }
-        r.plastic += weight * return_general(part, now, point[plastic_strain], factor);
+        plastic = return_general(part, now, point[plastic_strain], factor);
     }
+    r.plastic += weight * plastic.work;
+    r.kept += weight * plastic.kept;
     point[stress_x] = now.x;
     point[stress_y] = now.y;
     point[stress_xy] = now.xy;

@@ -183,7 +183,7 @@ void Simulation::update_alive() {
 End Simulation::advance(double until, double seconds, std::int64_t steps, int threads) {
     if (end_ != End::running) return end_;
     const auto start = std::chrono::steady_clock::now();
-    const std::int64_t last_step = steps_ + steps;
+    const std::int64_t last_step = steps_ + std::min(steps, std::numeric_limits<std::int64_t>::max() - steps_);
     const std::size_t useful = std::max<std::size_t>(1, model_->elements() / elements_per_thread);
     const int members = int(std::min<std::size_t>(useful, std::size_t(std::max(threads, 1))));
     std::vector<ElementReport> reports;

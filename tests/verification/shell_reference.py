@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from crumple._core.shell import Cut, RigidSet, ShellMaterial, ShellModel, ShellSettings, ShellState
+from crumple._core.shell import Cut, Hourglass, RigidSet, ShellMaterial, ShellModel, ShellSettings, ShellState
 
 STEEL = ShellMaterial(7850.0, 210e9, 0.3, yield_stress=488e6)
 WALL = 2.65e-3
@@ -91,7 +91,9 @@ def main() -> None:
     deck, csv, *rest = sys.argv[1:]
     options = dict(item.split("=") for item in rest)
     threads = int(options.pop("threads", 1))
-    settings: dict[str, object] = {key: float(value) for key, value in options.items()}
+    settings: dict[str, object] = {key: float(value) for key, value in options.items() if key != "hourglass"}
+    if "hourglass" in options:
+        settings["hourglass"] = Hourglass(options["hourglass"])
     for key in ("thickness_update", "warping_correction", "self_contact"):
         if key in settings:
             settings[key] = bool(settings[key])

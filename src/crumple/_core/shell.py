@@ -190,9 +190,9 @@ class ShellSettings:
     thickness_update: bool = True
     warping_correction: bool = True
     hourglass: Hourglass = Hourglass.STIFFNESS
-    hourglass_membrane: float = 0.05
-    hourglass_shear: float = 0.05
-    hourglass_bending: float = 0.05
+    hourglass_membrane: float = 0.01
+    hourglass_shear: float = 0.01
+    hourglass_bending: float = 0.01
     self_contact: bool = False
     contact_gap: float = 0.0
     contact_stiffness: float = 0.1
