@@ -130,8 +130,9 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
 // columns: largest absolute rotation, largest absolute moment, time of rest, 1 while still turning, dissipated
 nb::object hinge_summary(Simulation& sim) {
     Doubles out;
-    for (const HingeState& s : sim.state().hinge) {
-        out.insert(out.end(), {s.rotation_max, s.moment_max, s.rest_time, s.sliding ? 1.0 : 0.0,
+    for (size_t j = 0; j < sim.state().hinge.size(); j++) {
+        const HingeState& s = sim.state().hinge[j];
+        out.insert(out.end(), {s.rotation_max, s.moment_max, s.rest_time, turning(sim.model().hinges[j], s) ? 1.0 : 0.0,
                                s.dissipated + s.damped + s.stop_dissipated});
     }
     return array(out, {sim.state().hinge.size(), 5});

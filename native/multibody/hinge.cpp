@@ -9,6 +9,9 @@ namespace {
 constexpr double half_pi = 1.57079632679489661923;
 // Below this turn [rad] the mean capacity is the present one: differences of areas would cancel.
 constexpr double smallest_mean = 1e-7;
+// An elastic hinge that has yielded swings back to just its capacity, where errors of the step make it flow or
+// not; its time of rest passes over flow of less than this share of all its plastic rotation.
+constexpr double smallest_episode = 1e-2;
 
 // Capacity in one sense (0 positive, 1 negative) before it turns further.  `u` is the plastic rotation counted in
 // that sense.  A fold that is being straightened keeps the strength that it had lost: the larger of both peaks
@@ -49,6 +52,10 @@ double step_polynomial(double x) {
 
 double elastic_moment(const Hinge& hinge, const FrozenHinge& f, double w) {
     return f.m0 + hinge.stiffness * f.h * (f.w0 + w) / 2;
+}
+
+bool counts(const Hinge& hinge, const HingeState& s) {
+    return hinge.form != Form::elastic_plastic || s.episode > smallest_episode * s.accumulated;
 }
 
 double clamped(const FrozenHinge& f, double m) { return std::min(std::max(m, -f.capacity[1]), f.capacity[0]); }
@@ -197,7 +204,9 @@ double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0
         s.moment = m1;
         flowed = m1 == f.capacity[0] || m1 == -f.capacity[1];
         if ((s.sliding || flowed) && f.w0 * w1 < 0) {
-            // plastic flow ends where the rate passes zero
+            // plastic flow ends where the rate passes zero; a step that ends at capacity missed the turning back,
+            // and so do its halves, with the very same motion, while each of them turns forward on the whole
+            if (flowed) s.overrun += f.h * w1 * w1 / std::fabs(f.w0 - w1) / 2;
             flowed = true;
             arrest = t0 + f.h * f.w0 / (f.w0 - w1);
         }
@@ -215,9 +224,11 @@ double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0
             turn = flow = f.w0 * t / 2;
         }
     }
-    if (flowed) s.rest_time = arrest;
     s.plastic += flow;
     s.accumulated += std::fabs(flow);
+    if (flowed) s.episode += std::fabs(flow);
+    if (flowed && counts(hinge, s)) s.rest_time = arrest;
+    if (!s.sliding) s.episode = 0;
     s.peak[0] = std::max(s.peak[0], s.plastic);
     s.peak[1] = std::max(s.peak[1], -s.plastic);
     s.damped += f.h * hinge.damping * w1 * mean_rate;
@@ -231,6 +242,8 @@ double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0
 double elastic_energy(const Hinge& hinge, const HingeState& s) {
     return hinge.form == Form::elastic_plastic ? s.moment * s.moment / (2 * hinge.stiffness) : 0;
 }
+
+bool turning(const Hinge& hinge, const HingeState& s) { return s.sliding && counts(hinge, s); }
 
 double stop_energy(const Hinge& hinge, double q) {
     return hinge.stop[0].energy(q - hinge.stop[0].rotation) + hinge.stop[1].energy(-q - hinge.stop[1].rotation);

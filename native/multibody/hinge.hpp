@@ -66,6 +66,8 @@ struct Hinge {
 // What one hinge remembers.
 struct HingeState {
     double plastic = 0, peak[2] = {0, 0}, accumulated = 0;
+    double episode = 0;             // plastic rotation since it last came to rest
+    double overrun = 0;             // elastic-plastic: turned back within steps that still took it for plastic
     double moment = 0;              // elastic-plastic: at the end of the last step; else its mean over it
     double capacity = 0, total_moment = 0;  // of the sense it turns in; with dampers and stops
     double dissipated = 0, damped = 0, stop_dissipated = 0;
@@ -102,5 +104,7 @@ double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& state, doubl
 // elastic energy in the law's spring and in both stops at rotation q
 double elastic_energy(const Hinge& hinge, const HingeState& state);
 double stop_energy(const Hinge& hinge, double q);
+// whether it is in plastic flow that counts
+bool turning(const Hinge& hinge, const HingeState& state);
 
 }  // namespace crumple::multibody

@@ -17,7 +17,7 @@ constexpr double loosest_share = 1e-3;
 double step_tolerance(double accuracy) { return accuracy * std::min(1.0, std::sqrt(accuracy / loosest_share)); }
 
 constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
-constexpr long poll_interval = 256;  // steps between calls of `poll`
+constexpr long poll_interval = 100'000;  // solves times bodies between calls of `poll`: some 10 ms
 
 double kinetic_norm(const Tree& tree, const std::vector<Twist>& a, const std::vector<Twist>* b) {
     double e = 0;
@@ -81,6 +81,9 @@ double Simulation::error(const State& coarse, const State& fine) const {
             worst = std::max(worst, k == 0 ? e : e / settings_.length);
         }
     }
+    for (size_t j = 0; j < model_.hinges.size(); j++) {
+        worst = std::max(worst, fine.hinge[j].overrun - state_.hinge[j].overrun);
+    }
     double e = worst / scale_;
     if (speed_ > 0) e = std::max(e, kinetic_norm(model_.tree, coarse.velocity, &fine.velocity) / speed_);
     return e / step_tolerance_;
@@ -88,8 +91,16 @@ double Simulation::error(const State& coarse, const State& fine) const {
 
 bool Simulation::advance(double target, Record& record, const std::function<bool(double)>& poll) {
     while (state_.t < target) {
+        const long done = stepper_.solves() * model_.tree.bodies();
+        if (done > poll_at_ && poll) {
+            poll_at_ = done + poll_interval;
+            if (!poll(state_.t)) {
+                record.outcome = Outcome::cancelled;
+                return false;
+            }
+        }
         const double left = target - state_.t;
-        bool last = h_ >= left * (1 - 1e-9);
+        const bool last = h_ >= left * (1 - 1e-9);
         const double h = last ? left : (h_ > left / 2 ? left / 2 : h_);
         coarse_ = state_;
         fine_ = state_;
@@ -121,10 +132,6 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
         h_ = last && e <= 1 ? std::max(h_, next) : next;
         record.steps++;
         watch(record);
-        if (record.steps % poll_interval == 0 && poll && !poll(state_.t)) {
-            record.outcome = Outcome::cancelled;
-            return false;
-        }
     }
     return true;
 }

@@ -64,6 +64,7 @@ private:
     State state_, coarse_, fine_;
     double step_tolerance_;  // of the error measure
     double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, work_max_ = 0;
+    long poll_at_ = 0;  // work at which `poll` is asked next
 };
 
 }  // namespace crumple::multibody

@@ -16,7 +16,7 @@ DEFAULT_INTERVALS = 200
 
 
 class Settings(Spec):
-    """What the key ``analysis`` of an input file holds."""
+    """How long to simulate, and the settings of the solvers."""
 
     duration: PositiveTime
     """Time to simulate."""

@@ -9,7 +9,7 @@ import typer
 
 
 def check(file: Annotated[Path, typer.Argument(help="Input file (YAML).", show_default=False)]) -> None:
-    """Report every mistake in an input file: place, what came, what is allowed, what to do."""
+    """Report every mistake in an input file. Each with its place, what came, what is allowed, what to do."""
     from crumple.analysis import check as problems_of
     from crumple.errors import InputError
 

@@ -42,7 +42,7 @@ def hinge(
     to: Annotated[str, typer.Option(help="Largest rotation.")] = "45 deg",
     figure: Annotated[Path | None, typer.Option(help="Write the drawing to this SVG file too.")] = None,
 ) -> None:
-    """Print and draw collapse laws of a section side by side: moment against rotation, source and range."""
+    """Print and draw collapse laws side by side. Moment against rotation, source and range of each law."""
     import numpy as np
     from rich.console import Console
 

@@ -5,20 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from crumple.hinge import HingeLaw
-from crumple.report.style import (
-    WIDTH,
-    Floats,
-    Line,
-    add_axes,
-    display_unit,
-    draw_lines,
-    drawing,
-    largest,
-    name_axes,
-    new_figure,
-    spread,
-    to_svg,
-)
+from crumple.report.scales import Floats, display_unit, largest, spread
+from crumple.report.style import WIDTH, Line, add_axes, draw_lines, drawing, name_axes, new_figure, to_svg
 
 LABELS = 1.35  # room for the names at the ends of the lines [in]
 

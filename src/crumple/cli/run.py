@@ -34,7 +34,7 @@ def run(
         bool, typer.Option("--json", help="Print summary.json in place of the table.")
     ] = False,
 ) -> None:
-    """Solve an input file; write summary, histories, states, figures and a report."""
+    """Solve an input file and report. Writes summary, histories, shapes, figures and a page to a folder."""
     from crumple.analysis import canonical, load, solve
     from crumple.cli.progress import progress_bar, stop_on_interrupt
     from crumple.report import ReportInput, write_report

@@ -8,7 +8,7 @@ import typer
 
 
 def schema() -> None:
-    """Print the JSON Schema of the input file; editors complete and check input with it."""
+    """Print the JSON Schema of the input file. Editors complete and check input with it."""
     from crumple.analysis import json_schema
 
     typer.echo(json.dumps(json_schema(), indent=2, ensure_ascii=False))

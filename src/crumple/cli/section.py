@@ -13,7 +13,7 @@ def section(
     section: Annotated[str, typer.Argument(help=SECTION_HELP, show_default=False)],
     material: Annotated[str | None, typer.Option(help=MATERIAL_HELP)] = None,
 ) -> None:
-    """Print the properties of a cross-section; with a material also its mass and plastic moments."""
+    """Print the properties of a cross-section. With a material also its mass and plastic moments."""
     from rich.console import Console
     from rich.table import Table
 

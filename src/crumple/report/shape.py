@@ -225,9 +225,18 @@ def _draw_hinges(axes: Axes, places: dict[str, Floats], *, named: bool) -> None:
     if named and len(places) <= _NAMED_HINGES:
         for name, (x, y) in places.items():
             axes.annotate(
-                short(name, 20), (x, y), (0, -6), textcoords="offset points", ha="center", va="top",
-                color=SERIES[1], fontsize=7.0, zorder=5, annotation_clip=False,
-            )  # fmt: skip
+                short(name, 20),
+                (x, y),
+                (5, -4),
+                textcoords="offset points",
+                ha="left",
+                va="top",
+                color=SERIES[1],
+                fontsize=7.0,
+                zorder=5,
+                annotation_clip=False,
+                bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 0.4},
+            )
 
 
 def _draw_scale(axes: Axes, view: View, inches_per_metre: float, panel: float, height: float) -> None:

@@ -27,6 +27,9 @@ from crumple.report.scales import Floats, thinned
 WIDTH = 7.0  # of the text column of an A4 page [in]
 HALF = 3.42  # of two figures side by side [in]
 
+RASTER = 200.0
+"""Of what is drawn as an image, because it has too many parts [1/in]."""
+
 INK = "#1c2733"
 MUTED = "#5a6672"
 RULE = "#aab4be"
@@ -105,7 +108,7 @@ def drawing() -> Iterator[None]:
 
 def new_figure(width: float, height: float) -> Figure:
     """An empty figure of a size in inches."""
-    figure = Figure(figsize=(width, height))
+    figure = Figure(figsize=(width, height), dpi=RASTER)
     FigureCanvasSVG(figure)
     figure.patch.set_alpha(0)
     return figure
@@ -203,7 +206,7 @@ def to_svg(figure: Figure, name: str, description: str) -> str:
         What a person who cannot see the figure should hear.
     """
     text = io.StringIO()
-    figure.canvas.print_svg(text, metadata={"Date": None})  # type: ignore[attr-defined]
+    figure.canvas.print_svg(text)  # type: ignore[attr-defined]
     svg = text.getvalue()
     svg = re.sub(r"<metadata>.*?</metadata>", "", svg[svg.index("<svg") :], flags=re.DOTALL)
     svg = re.sub(r"<style[^>]*>.*?</style>", "", svg, flags=re.DOTALL)

@@ -11,10 +11,10 @@ from crumple.result import States
 
 Floats = NDArray[np.float64]
 
-_PLANAR = (
-    0.05  # spread across the plane over the spread along it, below which structure and motion count as planar
-)
-_STRAIGHT = 0.02  # the same for a line
+_PLANAR = 0.05
+"""Spread across a plane over the spread along it, below which structure and motion count as planar."""
+_STRAIGHT = 0.02
+"""The same across a line."""
 _SNAP = np.cos(np.radians(3.0))  # nearer than this to a world axis the view takes the axis itself
 _AZIMUTH, _ELEVATION = np.radians(-55.0), np.radians(22.0)  # of the eye for a structure in space
 

@@ -84,9 +84,9 @@ def _balance(result: Result, bound: float | None) -> str:
     residual = result.energy_residual
     if not math.isfinite(residual):
         return "The energy balance could not be closed."
-    allowed = f", within its bound of {percent(bound)}" if bound is not None and residual <= bound else ""
-    if bound is not None and residual > bound:
-        allowed = f", beyond its bound of {percent(bound)}"
+    allowed = ""
+    if bound is not None:
+        allowed = f", {'within' if residual <= bound else 'beyond'} its bound of {percent(bound)}"
     return f"Energy balance: residual {percent(residual)} of the energy put in{allowed}."
 
 

@@ -212,7 +212,8 @@ class Result:
             at = int(np.argmax(np.where(finite, np.abs(values), -1.0)))
             final = float(values[np.flatnonzero(finite)[-1]])
             unit = self.channels[name].unit
-            summaries[name] = OutputSummary(final, float(values[at]), float(self.time[at]), unit)
+            # adding zero turns a negative zero into a plain one
+            summaries[name] = OutputSummary(final + 0.0, float(values[at]) + 0.0, float(self.time[at]), unit)
         return summaries
 
     def filtered(self, name: str, channel_class: ChannelClass, *, standard: Standard = "SAE J211") -> Channel:

@@ -220,3 +220,14 @@ def test_wrong_arguments(run_command, arguments: tuple[str, ...], message: str) 
     code, out, err = run_command(*arguments)
     assert (code, out) == (2, "")
     assert message in " ".join(err.split())
+
+
+def test_run_imports_nothing_slow(tmp_path: Path) -> None:
+    code = (
+        "import sys\nfrom crumple.cli.main import app\n"
+        f"app(['run', {str(EXAMPLE)!r}, '--out', {str(tmp_path)!r}], standalone_mode=False)\n"
+        "slow = ('pandas', 'matplotlib.pyplot', 'scipy.optimize', 'pint')\n"
+        "print([name for name in slow if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert done.stdout.splitlines()[-1] == "[]"

@@ -27,6 +27,12 @@ def test_outputs_take_the_value_of_largest_magnitude_with_its_sign(tube):
     assert (output.final, output.max, output.time_of_max, output.unit) == (2.0, -3.0, tube.time[2], "m")
 
 
+def test_outputs_have_no_negative_zero(tube):
+    channels = {"x": Channel("x", "m", np.full(len(tube.time), -0.0))}
+    output = tube_result(channels=channels, output_names=("x",)).outputs["x"]
+    assert math.copysign(1.0, output.max) == math.copysign(1.0, output.final) == 1.0
+
+
 def test_outputs_skip_a_channel_without_any_number(tube):
     channels = tube_channels(tube.time)
     channels["x"] = Channel("x", "m", np.full(len(tube.time), math.nan))

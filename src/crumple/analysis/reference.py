@@ -1,0 +1,199 @@
+"""Tables of every key of the input file for docs/input.md, written from the models themselves.
+
+    python -m crumple.analysis.reference docs/input.md
+
+puts the tables anew between the two marks of that file; a test holds the file against them.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from types import UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
+
+from pydantic import BaseModel, Tag
+from pydantic.fields import FieldInfo
+
+from crumple.analysis.input_file import InputFile
+from crumple.analysis.schema import field_descriptions, first_sentence
+from crumple.structure import LawKeys
+from crumple.structure.member import Place
+from crumple.structure.quantity import Dimension
+from crumple.structure.spec import Name
+from crumple.structure.time_function import FunctionOf
+
+BEGIN = "<!-- written by `python -m crumple.analysis.reference docs/input.md`: begin -->"
+END = "<!-- end -->"
+HEAD = ("Key", "Value", "Unit", "Default", "Meaning")
+
+
+def input_reference() -> str:
+    """Markdown: one table per part of the input file, in the order in which they are met."""
+    return "\n\n".join(_tables())
+
+
+def main(path: Path) -> None:
+    """Write the tables anew between the marks of a file."""
+    before, _, rest = path.read_text(encoding="utf-8").partition(BEGIN)
+    after = rest.partition(END)[2]
+    path.write_text(f"{before}{BEGIN}\n\n{input_reference()}\n\n{END}{after}", encoding="utf-8")
+
+
+def _tables(
+    path: str = "The file", model: type[BaseModel] = InputFile, seen: set[type[BaseModel]] | None = None
+) -> Iterator[str]:
+    """Table of a part, followed by those of the parts inside it, each where it is first met."""
+    seen = {model} if seen is None else seen
+    if issubclass(model, LawKeys) and LawKeys not in seen:
+        seen.add(LawKeys)
+        yield from _tables("`hinge_laws.NAME`, any type", LawKeys, seen)
+    own = {name: field for name, field in model.model_fields.items() if not _shared(model, name)}
+    yield _table(path, model, own)
+    for name, field in own.items():
+        inner = _path(path, field.alias or name, field)
+        for found in dict.fromkeys(_models(field.annotation)):
+            if found not in seen:
+                seen.add(found)
+                kind = found.model_fields.get("type")
+                # a law in place has the keys of a named one
+                inner = "`hinge_laws.NAME`" if issubclass(found, LawKeys) else inner
+                yield from _tables(f"{inner}, type {kind.default}" if kind else inner, found, seen)
+
+
+def _shared(model: type[BaseModel], name: str) -> bool:
+    """Whether a key belongs to every law and stands in their common table."""
+    return model is not LawKeys and issubclass(model, LawKeys) and name in LawKeys.model_fields
+
+
+def _table(path: str, model: type[BaseModel], fields: dict[str, FieldInfo]) -> str:
+    texts = field_descriptions(model)
+    rows = [HEAD, ("---",) * len(HEAD)]
+    for name, field in fields.items():
+        kind = _annotated(field)
+        rows.append(
+            (f"`{field.alias or name}`", _value(kind), _unit(kind), _default(name, field, kind), texts[name])
+        )
+    lines = [f"| {' | '.join(cell.replace('|', '/') for cell in row)} |" for row in rows]
+    return "\n".join([f"### {path}", "", first_sentence(model), "", *lines])
+
+
+def _path(path: str, key: str, field: FieldInfo) -> str:
+    start = "" if path == "The file" else path.partition(",")[0].strip("`") + "."
+    origin = get_origin(_plain(field.annotation))
+    tail = ".NAME" if _is_mapping(origin) else "[]" if origin is tuple else ""
+    return f"`{start}{key}{tail}`"
+
+
+def _annotated(field: FieldInfo) -> Any:
+    """Annotation with the outermost metadata that pydantic keeps apart."""
+    kind = field.annotation
+    return Annotated[(kind, *field.metadata)] if field.metadata else kind
+
+
+def _plain(kind: Any) -> Any:
+    """Annotation without Annotated and without None."""
+    if get_origin(kind) is Annotated:
+        return _plain(get_args(kind)[0])
+    if get_origin(kind) in {Union, UnionType}:
+        choices = [choice for choice in get_args(kind) if choice is not type(None)]
+        return _plain(choices[0]) if len(choices) == 1 else kind
+    return kind
+
+
+def _measure(kind: Any) -> Dimension | FunctionOf | None:
+    """What a value measures, looked for in the metadata and through None."""
+    if get_origin(kind) is Annotated:
+        inner, *metadata = get_args(kind)
+        found = [item for item in metadata if isinstance(item, Dimension | FunctionOf)]
+        return found[0] if found else _measure(inner)
+    if get_origin(kind) in {Union, UnionType}:
+        return next((found for found in map(_measure, get_args(kind)) if found is not None), None)
+    if get_origin(kind) is tuple or _is_mapping(get_origin(kind)):
+        return _measure(get_args(kind)[-1 if _is_mapping(get_origin(kind)) else 0])
+    return None
+
+
+def _value(kind: Any) -> str:
+    """Kind of value in words."""
+    if kind in (Name, Place):
+        return "name" if kind == Name else "node or length"
+    measure, plain = _measure(kind), _plain(kind)
+    origin, arguments = get_origin(plain), get_args(plain)
+    if _is_mapping(origin):
+        return f"named {_several(_value(arguments[1]))}"
+    if origin is tuple:
+        number = "list of" if arguments[-1] is Ellipsis else f"{len(arguments)}"
+        return f"{number} {_several(_value(arguments[0]))}"
+    if measure is not None:
+        words = "".join(f", or `{word}`" for word in getattr(measure, "words", ()))
+        bounds = f" {measure.bounds()}" if isinstance(measure, Dimension) and measure.bounds() else ""
+        suffix = " as a function of time" if isinstance(measure, FunctionOf) else ""
+        return f"{measure.noun.split(' ', 1)[1]}{bounds}{suffix}{words}"
+    return _value_without_unit(plain)
+
+
+def _several(value: str) -> str:
+    """Plural of what `_value` says: "group" and "length at least 0" in their lists."""
+    noun, space, rest = value.partition(" ")
+    plural = {"group": "groups", "name": "names", "length": "lengths", "time": "times", "angle": "angles"}
+    if rest.startswith("lengths"):
+        return f"lists of {value}"
+    return f"{plural.get(noun, noun)}{space}{rest}"
+
+
+def _value_without_unit(plain: Any) -> str:
+    origin, arguments = get_origin(plain), get_args(plain)
+    if origin is Literal:
+        return ", ".join(f"`{choice}`" for choice in arguments)
+    if isinstance(plain, type) and issubclass(plain, BaseModel):
+        return "group"
+    if origin in {Union, UnionType}:
+        choices = [choice for choice in arguments if choice is not type(None)]
+        return " or ".join(dict.fromkeys(_value(_untagged(choice)) for choice in choices))
+    return {str: "text", bool: "`true` or `false`", int: "whole number"}[plain]
+
+
+def _untagged(kind: Any) -> Any:
+    """Alternative without the label that tells it apart."""
+    if get_origin(kind) is Annotated:
+        inner, *metadata = get_args(kind)
+        rest = [item for item in metadata if not isinstance(item, Tag)]
+        return Annotated[(inner, *rest)] if rest else _untagged(inner)
+    return kind
+
+
+def _unit(kind: Any) -> str:
+    measure = _measure(kind)
+    return "" if measure is None or measure.unit == "1" else f"`{measure.unit}`, as `{measure.example}`"
+
+
+def _default(name: str, field: FieldInfo, kind: Any) -> str:
+    if field.is_required() or name == "type":
+        return "required"
+    default = field.default
+    if isinstance(default, BaseModel) or default in (None, (), {}, ""):
+        return ""
+    measure = _measure(kind)
+    unit = f" {measure.unit}" if measure is not None and measure.unit != "1" else ""
+    if isinstance(default, tuple):
+        return f"`[{', '.join(f'{value:g}' for value in default)}]`"
+    if isinstance(default, float):
+        return f"`{default:g}{unit if default else ''}`"
+    return f"`{str(default).lower() if isinstance(default, bool) else default}`"
+
+
+def _models(kind: Any) -> Iterator[type[BaseModel]]:
+    if isinstance(kind, type) and issubclass(kind, BaseModel):
+        yield kind
+    for argument in get_args(kind):
+        yield from _models(argument)
+
+
+def _is_mapping(origin: Any) -> bool:
+    return isinstance(origin, type) and issubclass(origin, Mapping)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
