@@ -61,11 +61,23 @@ def stations(ends: Zone, asked: Iterable[float], zones: Sequence[Zone], sizes: S
     NDArray
         Increasing from the first to the last [m], at least two.
     """
+    zones = _merged(zones)
     fixed = _fixed_places(ends, asked, zones, sizes)
     rings = [np.array([fixed[0]])]
     for a, b in pairwise(fixed):
         rings.append(_divided(a, b, zones, sizes)[1:])
     return np.concatenate(rings)
+
+
+def _merged(zones: Sequence[Zone]) -> list[Zone]:
+    """Zones that overlap as one, in order."""
+    merged: list[Zone] = []
+    for a, b in sorted(zones):
+        if merged and a <= merged[-1][1]:
+            merged[-1] = (merged[-1][0], max(b, merged[-1][1]))
+        else:
+            merged.append((a, b))
+    return merged
 
 
 def _fixed_places(

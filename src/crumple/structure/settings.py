@@ -2,8 +2,33 @@
 
 from __future__ import annotations
 
-from crumple.structure.quantity import Accuracy, Fraction, PositiveTime
-from crumple.structure.spec import Spec
+from dataclasses import replace
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, model_validator
+
+from crumple.structure.quantity import (
+    NUMBER,
+    Accuracy,
+    Dimension,
+    Fraction,
+    NonNegativeLength,
+    NonNegativeNumber,
+    PositiveLength,
+    PositiveTime,
+)
+from crumple.structure.spec import Name, Spec, refuse
+
+
+def _on_or_off(given: Any) -> Any:
+    return {True: "on", False: "off"}[given] if isinstance(given, bool) else given
+
+
+Switch = Annotated[Literal["on", "off"], BeforeValidator(_on_or_off)]
+Growth = Annotated[float, replace(NUMBER, example="1.15", above=1.0, at_most=2.0)]
+SafetyFactor = Annotated[float, replace(NUMBER, example="0.9", above=0.0, at_most=1.0)]
+HourglassCoefficient = Annotated[float, replace(NUMBER, example="0.01", at_least=0.0, at_most=0.2)]
+Damping = Annotated[float, Dimension("a damping rate", "1/s", "10 1/s", at_least=0.0)]
 
 
 class MultibodySettings(Spec):
