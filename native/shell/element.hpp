@@ -68,7 +68,10 @@ CRUMPLE_INLINE void silence(CornerForces& c, Mask live) {
     }
 }
 
-// Advances the state of a block; `stiffest` gets its squared frequency, NaN where the state is not finite.
+// A strain increment beyond a third in one step is not a motion of metal but a run that has gone astray.
+constexpr double torn_strain = 0.33;
+
+// Advances the state of a block; `stiffest` gets its squared frequency: NaN where the state is not finite, infinite where it is torn.
 template <Law law, int points>
 CRUMPLE_INLINE CornerForces update_block(const Part& part, const Vec (&x)[4], const Vec (&v)[4], const Vec (&w)[4], double dt,
                                          Real* slots, Real& stiffest) {
@@ -94,7 +97,9 @@ CRUMPLE_INLINE CornerForces update_block(const Part& part, const Vec (&x)[4], co
     const Real hourglass_work = update_hourglass(part, f, k.hourglass, dt, t, volume, r.kept, slots, h);
     const Real work = volume * (r.internal + 0.5 * ((old_xz + xz) * k.strain.xz + (old_yz + yz) * k.strain.yz));
     CornerForces c = corner_forces(part, f, r, xz, yz, volume, t, h);
-    stiffest = frequency(f, slots[wave], part.triangle) + 0.0 * work;
+    stiffest = frequency(f, slots[wave], part.triangle) + 0.0 * (work + f.area);
+    const StrainIncrement& e = k.strain;
+    stiffest = e.xx * e.xx + e.yy * e.yy + e.xy * e.xy > torn_strain * torn_strain ? all(__builtin_inf()) : stiffest;
     // accumulate energies, of lanes that are alive
     if (part.fails) {
         const Mask before = slots[alive] > 0.5, live = still_alive(part, slots);

@@ -118,14 +118,30 @@ double first_stable_step(const Model& m, std::size_t e) {
     return 2.0 / std::sqrt((4.0 - tri) * c2 * (std::max(xx, yy) + std::abs(xy)));
 }
 
+// In a mesh the stiffest mode alternates from element to element and cannot dilate them all; an element
+// with two corners of its own can dilate, which raises its squared frequency by 1 + nu.
+static std::vector<double> loose_ends(const Model& m) {
+    std::vector<int> sharing(m.nodes(), 0);
+    for (std::size_t e = 0; e < m.elements(); e++)
+        for (std::size_t c = 0; c < (m.triangle(e) ? 3 : 4); c++) sharing[m.quads[4 * e + c]]++;
+    std::vector<double> out(m.elements(), 1.0);
+    for (std::size_t e = 0; e < m.elements(); e++) {
+        int own = 0;
+        for (std::size_t c = 0; c < (m.triangle(e) ? 3 : 4); c++) own += sharing[m.quads[4 * e + c]] == 1;
+        if (own >= 2) out[e] = 1.0 + m.materials[m.sheets[m.sheet_of[e]].material].poissons_ratio;
+    }
+    return out;
+}
+
 Masses lump(const Model& m) {
     Masses out;
+    out.loose = loose_ends(m);
     out.mass = m.added_mass;
     out.inertia = m.added_inertia;
     out.scale.assign(m.elements(), 1.0);
     const double target = m.settings.scaled_step / m.settings.safety;
     for (std::size_t e = 0; e < m.elements(); e++) {
-        const double step = first_stable_step(m, e), area = area_of(m, e), t = m.thickness[e];
+        const double step = first_stable_step(m, e) / std::sqrt(out.loose[e]), area = area_of(m, e), t = m.thickness[e];
         if (step < target) out.scale[e] = (target / step) * (target / step);
         const double plain = m.materials[m.sheets[m.sheet_of[e]].material].density * t * area;
         const double mass = plain * out.scale[e];

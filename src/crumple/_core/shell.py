@@ -301,7 +301,7 @@ class ShellState:
             left -= self._core.steps - before
             if progress is not None:
                 progress(self)
-            if end == 2:
+            if end in (2, 4):
                 return Status.NOT_FINITE
             if end == 3:
                 return Status.STEP_COLLAPSED
@@ -316,6 +316,8 @@ class ShellState:
             return f"the state of element {element} is not finite at {self.time:.6g} s"
         if self._core.end == 3:
             return f"element {element} has collapsed: its stable time step is below the least step at {self.time:.6g} s"
+        if self._core.end == 4:
+            return f"the run has gone astray: element {element} strained by more than a third in one step at {self.time:.6g} s"
         return ""
 
     @property
