@@ -133,6 +133,14 @@ static std::vector<double> loose_ends(const Model& m) {
     return out;
 }
 
+// Rotary inertia per mass is (t^2 + a A) / 12.  With a = 3 kG / (C - kG) (kG transverse shear, C plane modulus) the
+// squared frequency of shear, 4 kG (1/A + 3/(a A)) in a square, stays at that of membrane waves, 4 C / A: shear
+// never governs the step.  With a = 1 narrow strips of a metal of low nu run away.  Theory: docs/theory/explicit_stepper.md.
+static double inertia_factor(const Material& a) {
+    const double shear = 5.0 / 6.0 / (2.0 * (1.0 + a.poissons_ratio)), plane = 1.0 / (1.0 - a.poissons_ratio * a.poissons_ratio);
+    return 3.0 * shear / (plane - shear);
+}
+
 Masses lump(const Model& m) {
     Masses out;
     out.loose = loose_ends(m);
@@ -147,9 +155,8 @@ Masses lump(const Model& m) {
         const double mass = plain * out.scale[e];
         out.structure += plain;
         out.added += mass - plain;
-        // rotary inertia large enough that shear does not govern the step (docs/theory/explicit_stepper.md)
         const bool tri = m.triangle(e);
-        const double gyration = (t * t + (tri ? 2.0 : 1.0) * area) / 12.0;
+        const double gyration = (t * t + (tri ? 2.0 : 1.0) * inertia_factor(m.materials[m.sheets[m.sheet_of[e]].material]) * area) / 12.0;
         for (int c = 0; c < 4; c++) {
             const double share = tri ? (c < 2 ? 1.0 / 3.0 : 1.0 / 6.0) : 0.25;
             out.mass[m.quads[4 * e + c]] += share * mass;
