@@ -82,7 +82,7 @@ def test_large_deflection_of_a_cantilever():
 
 
 def twisted(direction, correction, nx=24, ny=4):
-    """Deflection of the twisted beam under a unit end load along y or z (inch, pound, second in the source)."""
+    """Deflection of the twisted beam under a unit end load along y or z (inch, pound, second)."""
     x, quads = grid(nx, ny, 12.0, 1.1)
     y, angle = x[:, 1] - 0.55, 0.5 * np.pi * x[:, 0] / 12
     x = np.stack([x[:, 0], y * np.cos(angle), y * np.sin(angle)], axis=1)
@@ -99,10 +99,9 @@ def twisted(direction, correction, nx=24, ny=4):
 
 @pytest.mark.parametrize(("direction", "exact"), [("z", 5.424e-3), ("y", 1.754e-3)])
 def test_twisted_beam(direction, exact):
-    """With the warping correction within 3 %; without it worse."""
-    right, wrong = twisted(direction, True), twisted(direction, False)
-    assert right == pytest.approx(exact, rel=0.03)
-    assert abs(wrong / exact - 1) > abs(right / exact - 1)
+    """With the warping correction within 2 %; without it the nodes' drill is a mechanism."""
+    assert twisted(direction, True) == pytest.approx(exact, rel=0.02)
+    assert twisted(direction, False) > 5 * exact
 
 
 def test_wave_in_a_bar():
@@ -125,7 +124,11 @@ def test_rigid_end_turns_like_the_beam_it_closes():
     x, quads = grid(20, 2, length, width)
     moment = 0.3 * E * width * t**3 / 12 / length
     m = model(x, quads, t, PLAIN, fixed=clamped(x), settings={"damping": 2000.0})
-    m = replace(m, rigid_sets=[RigidSet([60, 61, 62], mass=1e-4)], loads=[NodalLoad(61, "ry", [0, 0.01], [0, -moment])])
+    m = replace(
+        m,
+        rigid_sets=[RigidSet([60, 61, 62], mass=1e-4)],
+        loads=[NodalLoad(61, "ry", [0, 0.01], [0, -moment])],
+    )
     state = ShellState(m)
     state.advance(0.03)
     turn = state.rigid_sets[0, 9:].reshape(3, 3)
