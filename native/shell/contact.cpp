@@ -20,18 +20,17 @@ constexpr double moved_share = 0.35;
 Contact::Contact(const Model& model, const Masses& masses, double step)
     : model_(model), mass_(masses.mass), half_(model.nodes(), 0.0), step_(step), on_(model.contact.on), planes_(model.planes) {
     std::vector<int> sharing(model.nodes(), 0);
-    double side = 0.0;
     for (std::size_t e = 0; e < model.elements(); e++) {
         for (int c = 0; c < 4; c++) {
             half_[model.quads[4 * e + c]] += 0.5 * model.thickness[e];
             sharing[model.quads[4 * e + c]]++;
         }
         reach_ = std::max(reach_, model.thickness[e]);
-        side += std::sqrt(area_of(model, e)) / double(model.elements());
     }
     for (std::size_t n = 0; n < model.nodes(); n++) half_[n] /= std::max(sharing[n], 1);
     if (model.contact.gap > 0.0) reach_ = model.contact.gap;
-    skin_ = std::max(reach_, 0.5 * side);
+    // not beyond the neighbourhood, else every node would list the rest of its own wall
+    skin_ = (neighbourhood - 1.0) * reach_;
     if (!any()) return;
     force_.assign(4 * model.nodes(), 0.0);
     force_before_.assign(4 * model.nodes(), 0.0);
@@ -127,6 +126,7 @@ void Contact::search(const Motions& m, const std::vector<std::uint8_t>& alive) {
         if (neighbour(n, e)) continue;
         Vec3 x[4];
         corners(m.position, e, x);
+        if (closest_on_quad(read3(m.position + position_record * n), x).distance > reach_ + skin_) continue;
         const Vec3 centre = 0.25 * ((x[0] + x[1]) + (x[2] + x[3])), normal = cross(x[2] - x[0], x[3] - x[1]);
         std::int8_t side = dot(read3(m.position + position_record * n) - centre, normal) >= 0.0 ? 1 : -1;
         // a pair known already keeps its side, even where the node has been pressed through

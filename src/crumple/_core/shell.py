@@ -189,10 +189,12 @@ class ShellState:
 
     @property
     def energies(self) -> dict[str, float]:
-        """Ledger [J]: kinetic, elastic, plastic, hourglass, contact, damping, external_work, residual; eroded.
+        """Ledger [J]: kinetic, elastic, plastic, hourglass, contact, damping, external_work, residual.
+
+        Also ``eroded``: the elastic energy of deleted elements, contained in ``elastic``.
 
         ``residual`` = kinetic + elastic + plastic + hourglass + contact + damping - external_work - kinetic
-        at the start.  ``eroded`` is the elastic energy of deleted elements, contained in ``elastic``.
+        at the start.
         """
         return dict(self._core.energies())
 
@@ -204,7 +206,8 @@ class ShellState:
     def element_field(self, name: str) -> Floats:
         """Per element, (m,).
 
-        Names: thickness [m]; internal_energy, plastic_energy, hourglass_energy [J]; shear_xz, shear_yz [Pa]; alive.
+        Names: thickness [m]; internal_energy, plastic_energy, hourglass_energy [J]; shear_xz, shear_yz [Pa];
+        alive.
         """
         return _array(self._core.element_slot(_SLOTS[name]))
 
@@ -217,16 +220,16 @@ class ShellState:
 
     @property
     def rigid_sets(self) -> Floats:
-        """Per rigid set, (k, 18): centre of mass [m], velocity, angular velocity, rotation from the start (rows)."""
+        """Per rigid set, (k, 18): centre of mass [m], velocity, angular velocity, rotation by rows."""
         return _array(self._core.rigid_states())
 
     @property
     def internal_forces(self) -> Floats:
-        """Internal force [N] and moment [N m] per node, (n, 6): what has to be applied from outside to hold it."""
+        """Internal force [N] and moment [N m] per node, (n, 6): what from outside would hold it."""
         return _array(self._core.node_forces())
 
     def deform(self, position: Floats, velocity: Floats, spin: Floats, dt: float) -> Floats:
-        """Run the elements once over ``dt`` [s] to a given position, without stepping; returns internal_forces."""
+        """Run the elements over ``dt`` [s] to a given position, without stepping; internal_forces."""
         self._core.deform(floats(position), floats(velocity), floats(spin), dt)
         return self.internal_forces
 

@@ -75,7 +75,7 @@ class ShellMaterial:
 
 @dataclass(frozen=True)
 class Sheet:
-    """Elements of one material and one rule of ``points`` (1 to 10) through the thickness: Gauss, or Lobatto."""
+    """Elements of one material and one rule of 1 to 10 points through the thickness, Gauss or Lobatto."""
 
     material: int = 0
     points: int = 5
@@ -106,7 +106,7 @@ class RigidSet:
 
 @dataclass(frozen=True)
 class NodalLoad:
-    """Force [N] or moment [N m] on a node, piecewise linear in time, constant outside; ``dof`` as in `RigidSet`."""
+    """Force [N] or moment [N m] on a node, piecewise linear in time; ``dof`` as in `RigidSet`."""
 
     node: int
     dof: str
@@ -127,7 +127,7 @@ class PrescribedVelocity:
 
 @dataclass(frozen=True)
 class RigidPlane:
-    """Solid half space behind a plane; ``gap``: distance of a node at first touch [m]; ``nodes`` None: all."""
+    """Solid half space behind a plane; ``gap``: distance at first touch [m]; ``nodes`` None: all."""
 
     point: tuple[float, float, float]
     normal: tuple[float, float, float]
