@@ -191,10 +191,8 @@ class ShellState:
     def energies(self) -> dict[str, float]:
         """Ledger [J]: kinetic, elastic, plastic, hourglass, contact, damping, external_work, residual.
 
-        Also ``eroded``: the elastic energy of deleted elements, contained in ``elastic``.
-
         ``residual`` = kinetic + elastic + plastic + hourglass + contact + damping - external_work - kinetic
-        at the start.
+        at the start; ``eroded``, elastic energy of deleted elements, is contained in ``elastic``.
         """
         return dict(self._core.energies())
 

@@ -163,7 +163,8 @@ class ShellSettings:
     thickness_update
         Let the thickness follow the strain.
     warping_correction
-        Belytschko-Wong-Chiang curvature terms.
+        Belytschko-Wong-Chiang curvature terms with the drill projected out: needed for twisted members, too
+        soft in tight folds (docs/theory/shell_element.md).
     hourglass, hourglass_membrane, hourglass_shear, hourglass_bending
         Kind of control and its coefficients.
     self_contact, contact_gap
@@ -178,7 +179,7 @@ class ShellSettings:
     damping: float = 0.0
     gravity: tuple[float, float, float] = (0.0, 0.0, 0.0)
     thickness_update: bool = True
-    warping_correction: bool = True
+    warping_correction: bool = False
     hourglass: Hourglass = Hourglass.STIFFNESS
     hourglass_membrane: float = 0.01
     hourglass_shear: float = 0.01
