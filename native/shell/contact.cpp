@@ -20,18 +20,17 @@ constexpr double moved_share = 0.35;
 Contact::Contact(const Model& model, const Masses& masses, double step)
     : model_(model), mass_(masses.mass), half_(model.nodes(), 0.0), step_(step), on_(model.contact.on), planes_(model.planes) {
     std::vector<int> sharing(model.nodes(), 0);
-    double side = 0.0;
     for (std::size_t e = 0; e < model.elements(); e++) {
         for (int c = 0; c < 4; c++) {
             half_[model.quads[4 * e + c]] += 0.5 * model.thickness[e];
             sharing[model.quads[4 * e + c]]++;
         }
         reach_ = std::max(reach_, model.thickness[e]);
-        side += std::sqrt(area_of(model, e)) / double(model.elements());
     }
     for (std::size_t n = 0; n < model.nodes(); n++) half_[n] /= std::max(sharing[n], 1);
     if (model.contact.gap > 0.0) reach_ = model.contact.gap;
-    skin_ = std::max(reach_, 0.5 * side);
+    // not beyond the neighbourhood, else every node would list the rest of its own wall
+    skin_ = (neighbourhood - 1.0) * reach_;
     if (!any()) return;
     force_.assign(4 * model.nodes(), 0.0);
     force_before_.assign(4 * model.nodes(), 0.0);
@@ -45,23 +44,53 @@ void Contact::corners(const double* position, Index e, Vec3 (&x)[4]) const {
     for (int c = 0; c < 4; c++) x[c] = read3(position + position_record * model_.quads[4 * e + std::size_t(c)]);
 }
 
-// pairs that are close at the start are the same piece of sheet, or welded on purpose
+// Elements of `near` that hang together with the node: start at its own, go on to those that share a node.
+static std::vector<Index> connected(const std::vector<Index>& quads, Index node, const std::vector<Index>& near) {
+    auto shares = [&](Index a, Index b) {
+        for (std::size_t i = 0; i < 4; i++)
+            for (std::size_t j = 0; j < 4; j++)
+                if (quads[4 * a + i] == quads[4 * b + j]) return true;
+        return false;
+    };
+    std::vector<Index> found, open(near);
+    for (auto e = open.begin(); e != open.end();) {
+        const bool own = std::find(&quads[4 * *e], &quads[4 * *e] + 4, node) != &quads[4 * *e] + 4;
+        if (own) found.push_back(*e);
+        e = own ? open.erase(e) : e + 1;
+    }
+    for (std::size_t k = 0; k < found.size(); k++)
+        for (auto e = open.begin(); e != open.end();) {
+            const bool next = shares(found[k], *e);
+            if (next) found.push_back(*e);
+            e = next ? open.erase(e) : e + 1;
+        }
+    return found;
+}
+
+// The same piece of sheet, and what overlaps at the start (walls joined on purpose), never touch.
 void Contact::list_neighbours() {
     const std::vector<std::uint8_t> alive(model_.elements(), 1);
     neighbour_first_.assign(model_.nodes() + 1, 0);
-    const double reach = neighbourhood * reach_;
-    PairList near;
-    for (auto [n, e] : close_pairs(model_.position.data(), 3, model_.nodes(), model_.quads, alive, reach)) {
-        Vec3 x[4];
-        for (std::size_t c = 0; c < 4; c++) x[c] = read3(&model_.position[3 * model_.quads[4 * e + c]]);
-        const double gap = model_.contact.gap > 0.0 ? model_.contact.gap : half_[n] + 0.5 * model_.thickness[e];
-        if (closest_on_quad(read3(&model_.position[3 * n]), x).distance < neighbourhood * gap) near.emplace_back(n, e);
+    const PairList pairs = close_pairs(model_.position.data(), 3, model_.nodes(), model_.quads, alive, neighbourhood * reach_);
+    std::size_t k = 0;
+    for (Index n = 0; n < model_.nodes(); n++) {
+        std::vector<Index> near, overlapping;
+        for (; k < pairs.size() && pairs[k].first == n; k++) {
+            const Index e = pairs[k].second;
+            Vec3 x[4];
+            for (std::size_t c = 0; c < 4; c++) x[c] = read3(&model_.position[3 * model_.quads[4 * e + c]]);
+            const double gap = model_.contact.gap > 0.0 ? model_.contact.gap : half_[n] + 0.5 * model_.thickness[e];
+            const double distance = closest_on_quad(read3(&model_.position[3 * n]), x).distance;
+            if (distance < neighbourhood * gap) near.push_back(e);
+            if (distance < (1.0 - 1e-6) * gap) overlapping.push_back(e);
+        }
+        std::vector<Index> apart = connected(model_.quads, n, near);
+        apart.insert(apart.end(), overlapping.begin(), overlapping.end());
+        std::sort(apart.begin(), apart.end());
+        apart.erase(std::unique(apart.begin(), apart.end()), apart.end());
+        neighbours_.insert(neighbours_.end(), apart.begin(), apart.end());
+        neighbour_first_[n + 1] = Index(neighbours_.size());
     }
-    for (auto [n, e] : near) {
-        neighbour_first_[n + 1]++;
-        neighbours_.push_back(e);
-    }
-    for (std::size_t n = 0; n < model_.nodes(); n++) neighbour_first_[n + 1] += neighbour_first_[n];
 }
 
 bool Contact::neighbour(Index n, Index e) const {
@@ -97,6 +126,7 @@ void Contact::search(const Motions& m, const std::vector<std::uint8_t>& alive) {
         if (neighbour(n, e)) continue;
         Vec3 x[4];
         corners(m.position, e, x);
+        if (closest_on_quad(read3(m.position + position_record * n), x).distance > reach_ + skin_) continue;
         const Vec3 centre = 0.25 * ((x[0] + x[1]) + (x[2] + x[3])), normal = cross(x[2] - x[0], x[3] - x[1]);
         std::int8_t side = dot(read3(m.position + position_record * n) - centre, normal) >= 0.0 ? 1 : -1;
         // a pair known already keeps its side, even where the node has been pressed through
@@ -118,14 +148,14 @@ void Contact::search(const Motions& m, const std::vector<std::uint8_t>& alive) {
 }
 
 // normal force along `direction`, viscous share and friction, from a relative velocity
-static Vec3 penalty(double k, double mass, double depth, Vec3 direction, Vec3 slip, double friction, double damping) {
+static Vec3 penalty(double k, double mass, double step, double depth, Vec3 direction, Vec3 slip, double friction, double damping) {
     const double approach = dot(slip, direction), impedance = std::sqrt(k * mass);
     const double normal = std::max(k * depth - 2.0 * damping * impedance * approach, 0.0);
     const Vec3 tangent = slip - approach * direction;
     const double speed = norm(tangent);
     Vec3 force = normal * direction;
-    // friction is viscous up to the Coulomb limit
-    if (friction > 0.0 && speed > 0.0) force = force - (std::min(friction * normal / speed, 0.5 * impedance)) * tangent;
+    // friction is viscous up to the Coulomb limit; half a mass per step is the stiffest damper that central differences take well
+    if (friction > 0.0 && speed > 0.0) force = force - (std::min(friction * normal / speed, 0.5 * mass / step)) * tangent;
     return force;
 }
 
@@ -169,7 +199,7 @@ Touch Contact::touch_wall(const Motions& m, Index n, std::size_t first, std::siz
     }
     const SelfContact& s = model_.contact;
     const double k = s.stiffness / (compliance * step_ * step_);
-    touch.force = penalty(k, 1.0 / compliance, touch.depth * gap, direction, slip, s.friction, s.damping);
+    touch.force = penalty(k, 1.0 / compliance, step_, touch.depth * gap, direction, slip, s.friction, s.damping);
     return touch;
 }
 
@@ -182,7 +212,7 @@ Touch Contact::touch_plane(const Motions& m, std::size_t item) const {
     touch.active = true;
     touch.depth = depth / std::max(plane.gap, half_[n]);
     const double k = model_.contact.stiffness * mass_[n] / (step_ * step_);
-    touch.force = penalty(k, mass_[n], depth, plane.normal, read3(m.velocity + velocity_record * n), plane.friction,
+    touch.force = penalty(k, mass_[n], step_, depth, plane.normal, read3(m.velocity + velocity_record * n), plane.friction,
                           model_.contact.damping);
     return touch;
 }

@@ -1,7 +1,7 @@
 // Contact of walls with walls and with rigid planes: penalty forces on nodes.
 //
-// A node keeps the distance `gap` (half of both thicknesses) from any element that was further than
-// twice the gap away at the start: closer ones are its neighbourhood in the sheet, so elements may be
+// A node keeps the distance `gap` (half of both thicknesses) from every element but its neighbourhood in
+// the sheet: those within twice the gap at the start that hang together with it.  So elements may be
 // smaller than the wall is thick.  One record per node: the closest element.  Theory: docs/theory/contact.md.
 #pragma once
 #include <utility>

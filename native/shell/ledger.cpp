@@ -75,7 +75,7 @@ double Simulation::gravity_work() const {
 
 Energies Simulation::energies() const {
     Energies e;
-    e.kinetic = kinetic();
+    e.kinetic = steps_ == 0 ? first_kinetic_ : kinetic();
     double internal = 0.0;
     for (std::size_t i = 0; i < model_->elements(); i++) {
         const double in = slot(i, internal_energy), plastic = slot(i, plastic_energy);

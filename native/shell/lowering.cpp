@@ -118,22 +118,45 @@ double first_stable_step(const Model& m, std::size_t e) {
     return 2.0 / std::sqrt((4.0 - tri) * c2 * (std::max(xx, yy) + std::abs(xy)));
 }
 
+// In a mesh the stiffest mode alternates from element to element and cannot dilate them all; an element
+// with two corners of its own can dilate, which raises its squared frequency by 1 + nu.
+static std::vector<double> loose_ends(const Model& m) {
+    std::vector<int> sharing(m.nodes(), 0);
+    for (std::size_t e = 0; e < m.elements(); e++)
+        for (std::size_t c = 0; c < (m.triangle(e) ? 3 : 4); c++) sharing[m.quads[4 * e + c]]++;
+    std::vector<double> out(m.elements(), 1.0);
+    for (std::size_t e = 0; e < m.elements(); e++) {
+        int own = 0;
+        for (std::size_t c = 0; c < (m.triangle(e) ? 3 : 4); c++) own += sharing[m.quads[4 * e + c]] == 1;
+        if (own >= 2) out[e] = 1.0 + m.materials[m.sheets[m.sheet_of[e]].material].poissons_ratio;
+    }
+    return out;
+}
+
+// Rotary inertia per mass is (t^2 + a A) / 12.  With a = 3 kG / (C - kG) (kG transverse shear, C plane modulus) the
+// squared frequency of shear, 4 kG (1/A + 3/(a A)) in a square, stays at that of membrane waves, 4 C / A: shear
+// never governs the step.  With a = 1 narrow strips of a metal of low nu run away.  Theory: docs/theory/explicit_stepper.md.
+static double inertia_factor(const Material& a) {
+    const double shear = 5.0 / 6.0 / (2.0 * (1.0 + a.poissons_ratio)), plane = 1.0 / (1.0 - a.poissons_ratio * a.poissons_ratio);
+    return 3.0 * shear / (plane - shear);
+}
+
 Masses lump(const Model& m) {
     Masses out;
+    out.loose = loose_ends(m);
     out.mass = m.added_mass;
     out.inertia = m.added_inertia;
     out.scale.assign(m.elements(), 1.0);
     const double target = m.settings.scaled_step / m.settings.safety;
     for (std::size_t e = 0; e < m.elements(); e++) {
-        const double step = first_stable_step(m, e), area = area_of(m, e), t = m.thickness[e];
+        const double step = first_stable_step(m, e) / std::sqrt(out.loose[e]), area = area_of(m, e), t = m.thickness[e];
         if (step < target) out.scale[e] = (target / step) * (target / step);
         const double plain = m.materials[m.sheets[m.sheet_of[e]].material].density * t * area;
         const double mass = plain * out.scale[e];
         out.structure += plain;
         out.added += mass - plain;
-        // rotary inertia large enough that shear does not govern the step (docs/theory/explicit_stepper.md)
         const bool tri = m.triangle(e);
-        const double gyration = (t * t + (tri ? 2.0 : 1.0) * area) / 12.0;
+        const double gyration = (t * t + (tri ? 2.0 : 1.0) * inertia_factor(m.materials[m.sheets[m.sheet_of[e]].material]) * area) / 12.0;
         for (int c = 0; c < 4; c++) {
             const double share = tri ? (c < 2 ? 1.0 / 3.0 : 1.0 / 6.0) : 0.25;
             out.mass[m.quads[4 * e + c]] += share * mass;

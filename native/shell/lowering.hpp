@@ -28,6 +28,7 @@ struct Blocks {
 struct Masses {
     std::vector<double> mass, inertia;           // [node]; isotropic rotary inertia [kg m2]
     std::vector<double> scale;                   // [element] factor on the density from mass scaling
+    std::vector<double> loose;                   // [element] factor on the squared frequency of ends of strips
     double added = 0.0;                          // mass added by scaling [kg]
     double structure = 0.0;                      // mass of the elements without it [kg]
 };

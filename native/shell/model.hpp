@@ -77,7 +77,7 @@ struct Settings {
     double least_step = 1e-12;       // below it the run stops [s]
     double damping = 0.0;            // mass-proportional [1/s]
     Vec3 gravity;
-    bool thickness_update = true, warping_correction = true, viscous_hourglass = false;
+    bool thickness_update = true, warping_correction = false, viscous_hourglass = false;
     double hourglass_membrane = 0.01, hourglass_shear = 0.01, hourglass_bending = 0.01;
 };
 

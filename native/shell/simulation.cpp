@@ -30,16 +30,16 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const Kernels& kernel
     start_elements();
     double step = std::numeric_limits<double>::max();
     for (std::size_t e = 0; e < model_->elements(); e++)
-        step = std::min(step, first_stable_step(*model_, e) * std::sqrt(masses_.scale[e]));
+        step = std::min(step, first_stable_step(*model_, e) * std::sqrt(masses_.scale[e] / masses_.loose[e]));
     first_dt_ = model_->settings.safety * step;
     contact_ = std::make_unique<Contact>(*model_, masses_, first_dt_);
     contact_->search_when_needed(motions(), alive_, true);
     // forces of contact at the start; the elements are free of stress
     contact_->evaluate(motions(), 0, contact_->items());
     if (contact_->any()) contact_->commit(motions(), 0.0);
+    first_kinetic_ = kinetic();      // before there is a step, of the velocities as they are
     dt_ = first_dt_;
     for (Driven& d : driven_) std::copy_n(kick_driven(d).outside, 6, d.outside);
-    first_kinetic_ = kinetic();
 }
 
 void Simulation::place_nodes() {
@@ -111,7 +111,7 @@ void Simulation::start_elements() {
         auto slot = [&](int s) -> double& { return state_[blocks_.offset[block] + std::size_t(s * blocks_.lanes) + lane]; };
         slot(thickness) = model_->thickness[e];
         slot(volume0) = model_->thickness[e] * area_of(*model_, e);
-        slot(wave) = (part.triangle > 0.0 ? 3.0 : 4.0) * part.plane_modulus / (part.density * masses_.scale[e]);
+        slot(wave) = (part.triangle > 0.0 ? 3.0 : 4.0) * part.plane_modulus * masses_.loose[e] / (part.density * masses_.scale[e]);
         slot(alive) = 1.0;
         can_fail_ |= part.fails;
     }
@@ -153,24 +153,28 @@ void Simulation::end_step(const std::vector<ElementReport>& reports) {
     dt_ = std::min(stable, 1.02 * dt_);
 }
 
+// the first element of the block that is not finite, else the one that is torn or the smallest
 void Simulation::note_failure(const ElementReport& r) {
-    // the first element of the block that is not finite, else the stiffest
     const std::size_t block = std::size_t(r.bad_block);
-    end_ = End::step_collapsed;
+    end_ = std::isinf(r.frequency) ? End::torn : End::step_collapsed;
     double worst = -1.0;
     for (std::size_t lane = 0; lane < std::size_t(blocks_.lanes); lane++) {
         const std::int64_t e = blocks_.element_of[block * std::size_t(blocks_.lanes) + lane];
         if (e < 0) continue;
-        Vec3 x[4];
-        for (std::size_t c = 0; c < 4; c++) x[c] = read3(&position_[position_record * model_->quads[4 * std::size_t(e) + c]]);
+        Vec3 x[4], v[4];
+        for (std::size_t c = 0; c < 4; c++) {
+            x[c] = read3(&position_[position_record * model_->quads[4 * std::size_t(e) + c]]);
+            v[c] = read3(&velocity_[velocity_record * model_->quads[4 * std::size_t(e) + c]]);
+        }
         const double area = norm(cross(x[2] - x[0], x[3] - x[1]));
         if (!std::isfinite(area) || !std::isfinite(slot(std::size_t(e), internal_energy))) {
             end_ = End::not_finite;
             failed_element_ = e;
             return;
         }
-        if (1.0 / area > worst) {
-            worst = 1.0 / area;
+        const double speed = std::max(norm(v[2] - v[0]), norm(v[3] - v[1])), badness = (end_ == End::torn ? speed : 1.0) / area;
+        if (badness > worst) {
+            worst = badness;
             failed_element_ = e;
         }
     }

@@ -74,13 +74,14 @@ def run(model: ShellModel, threads: int = 1, end: float = 0.1, outputs: int = 20
             break
         tip, e = state.rigid_sets[0, :3], state.energies
         chord = state.position[near].mean(axis=0)
-        internal = e["elastic"] + e["plastic"]
-        rows.append(
-            (state.time, np.arctan2(tip[2], tip[0]), e["kinetic"], internal, e["plastic"], e["hourglass"], e["residual"])
-            + (state.cut(0)[1][1], np.arctan2(chord[2], chord[0]), e["contact"])
-        )
-    names = "time tip_rotation kinetic internal plastic hourglass residual root_moment chord_rotation contact".split()
-    history = dict(zip(names, np.array(rows).T, strict=True))
+        row = {name: e[name] for name in ("kinetic", "plastic", "hourglass", "residual", "contact")}
+        row["time"] = state.time
+        row["internal"] = e["elastic"] + e["plastic"]
+        row["tip_rotation"] = np.arctan2(tip[2], tip[0])
+        row["chord_rotation"] = np.arctan2(chord[2], chord[0])
+        row["root_moment"] = state.cut(0)[1][1]
+        rows.append(row)
+    history = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     history["steps"] = np.array(state.steps)
     history["elements"] = np.array(len(model.elements))
     history["searches"] = np.array(state.contact_searches)
@@ -101,25 +102,32 @@ def main() -> None:
     h = run(tube(Path(deck), **settings), threads)
     wall = time.perf_counter() - start
     r = np.genfromtxt(csv, delimiter=",", names=True)
+    step_cost = wall / h["steps"] / h["elements"] * 1e9
+    print(f"{options} steps {h['steps']} wall {wall:.2f} s = {step_cost:.1f} ns, searches {h['searches']}")
+    for name, ours, theirs in compared(h, r):
+        print(f"  {name:32s} {ours:10.4f} {theirs:10.4f}  {100 * (ours / theirs - 1):+.2f} %")
+    scale = h["kinetic"][0]
+    print(f"  hourglass {h['hourglass'].max() / scale:.4%}, residual {abs(h['residual']).max() / scale:.4%}")
+
+
+def compared(h: dict[str, np.ndarray], r: np.ndarray) -> list[tuple[str, float, float]]:
+    """Name, our value and the other code's, of what is compared."""
     best, other = int(h["tip_rotation"].argmax()), int(r["tip_rotation_rad"].argmax())
-    print(f"{options} steps {h['steps']} wall {wall:.2f} s = {wall / h['steps'] / h['elements'] * 1e9:.1f} ns, searches {h['searches']}")
-    for name, ours, theirs in (
+    moment, theirs = abs(h["root_moment"]), abs(r["root_1_root_M2"])
+    rows = [
         ("largest tip rotation [rad]", h["tip_rotation"][best], r["tip_rotation_rad"][other]),
         ("at [ms]", 1e3 * h["time"][best], 1e3 * r["time_s"][other]),
         ("largest chord rotation [rad]", h["chord_rotation"].max(), r["chord_rotation_100mm_rad"].max()),
-        ("peak root moment [N m]", abs(h["root_moment"]).max(), abs(r["root_1_root_M2"]).max()),
-        *(
-            (f"root moment at {t} ms", abs(np.interp(t / 1e3, h["time"], h["root_moment"])), abs(np.interp(t / 1e3, r["time_s"], r["root_1_root_M2"])))
-            for t in (20, 40, 60, 80)
-        ),
-        *(
-            (f"internal at rotation {a} [J]", np.interp(a, h["tip_rotation"][:best], h["internal"][:best]), np.interp(a, r["tip_rotation_rad"][:other], r["internal_energy_J"][:other]))
-            for a in (0.1, 0.2, 0.3, 0.4, 0.5)
-        ),
-    ):
-        print(f"  {name:32s} {ours:10.4f} {theirs:10.4f}  {100 * (ours / theirs - 1):+.2f} %")
-    scale = h["kinetic"][0]
-    print(f"  hourglass {h['hourglass'].max() / scale:.4%}, residual {abs(h['residual']).max() / scale:.4%}, first kinetic {scale:.3f}")
+        ("peak root moment [N m]", moment.max(), theirs.max()),
+    ]
+    for t in (0.02, 0.04, 0.06, 0.08):
+        values = np.interp(t, h["time"], moment), np.interp(t, r["time_s"], theirs)
+        rows.append((f"root moment at {1e3 * t:.0f} ms", *values))
+    for angle in (0.1, 0.2, 0.3, 0.4, 0.5):
+        ours = np.interp(angle, h["tip_rotation"][:best], h["internal"][:best])
+        others = np.interp(angle, r["tip_rotation_rad"][:other], r["internal_energy_J"][:other])
+        rows.append((f"internal energy at {angle} rad [J]", ours, others))
+    return rows
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ def test_membrane_patch():
 
 
 def test_bending_patch():
-    """Constant curvature with matching slopes: moment exact, no shear, inner nodes in balance."""
+    """Linear field of rotations: the bending moment of constant curvature, exact in every element."""
     kappa = SMALL * np.array([1.0, -0.5, 0.7])  # w,xx  w,yy  w,xy
 
     def deflection(x):
@@ -44,7 +44,7 @@ def test_bending_patch():
 
     _, state, force = patch_forces(lambda x: 0 * x, slopes, {"hourglass_membrane": 0.0})
     z, weight = thickness_rule(5)
-    # with the deflection held at zero only the bending part is looked at: the shear of constant-curvature bending is not constant
+    # the deflection is held at zero: only the bending part is looked at, whose curvature is constant
     trace = (state.point_field("stress_x") + state.point_field("stress_y")) @ (weight * z)
     assert trace == pytest.approx(-E / (1 - NU) * T * (kappa[0] + kappa[1]) / 12, rel=1e-8)
     assert deflection(distorted_patch()[0]).shape == (8, 3)
@@ -65,7 +65,9 @@ def test_triangle_has_the_strain_of_its_corners():
     state = ShellState(model(x, np.array([[0, 1, 2, 2]]), T, settings={"thickness_update": False}))
     u = SMALL * x @ np.diag([1.0, 0.5, 0.0])
     force = state.deform(x + u, u, 0 * x, 1.0)
-    assert (state.point_field("stress_x") + state.point_field("stress_y")) == pytest.approx(E / (1 - NU) * 1.5 * SMALL, rel=1e-8)
+    assert (state.point_field("stress_x") + state.point_field("stress_y")) == pytest.approx(
+        E / (1 - NU) * 1.5 * SMALL, rel=1e-8
+    )
     assert force[:, :3].sum(axis=0) == pytest.approx(0, abs=1e-12 * abs(force).max())
     assert state.element_field("hourglass_energy") == pytest.approx(0, abs=1e-30)
 
@@ -73,7 +75,7 @@ def test_triangle_has_the_strain_of_its_corners():
 @pytest.mark.parametrize("warp", [0.0, 0.002])
 @pytest.mark.parametrize("correction", [True, False])
 def test_large_rigid_rotation_is_free_of_stress(warp, correction):
-    """Turns about a skew axis, flat and warped: exact but for the warping terms, which are of second order in the step."""
+    """Turns about a skew axis, flat and warped: exact but for warping terms of second order in the step."""
     x, quads = distorted_patch()
     x[4:, 2] += warp * np.array([1, -1, 1, -0.5])
     x[:4, 2] += warp * np.array([-1, 1, -0.6, 1])
@@ -125,7 +127,9 @@ def test_thickness_follows_elastic_and_plastic_strain():
     now = x + u
     area = np.ptp(now[:, 0]) * np.ptp(now[:, 1])
     trace = (state.point_field("stress_x") + state.point_field("stress_y"))[0, 0]
-    assert state.element_field("thickness")[0] * area / (T * 1e-4) == pytest.approx(1 + (1 - 2 * NU) / E * trace, rel=1e-12)
+    assert state.element_field("thickness")[0] * area / (T * 1e-4) == pytest.approx(
+        1 + (1 - 2 * NU) / E * trace, rel=1e-12
+    )
 
 
 def test_hourglass_control_resists_and_books_its_work():

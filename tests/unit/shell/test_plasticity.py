@@ -1,4 +1,4 @@
-"""Plane-stress return: on the yield surface to round-off, against a fine integration, hardening, rate, failure."""
+"""Plane-stress return: yield surface to round-off, fine integration, hardening, rate, failure."""
 
 import numpy as np
 import pytest
@@ -83,18 +83,24 @@ def test_table_with_kinks_is_followed():
     material = ShellMaterial(7850.0, E, NU, hardening=(strain, stress))
     for size in (0.005, 0.02, 0.08, 0.3):
         s, state = one(material, (size, -size / 2, 0), 3)
-        assert mises(s) == pytest.approx(np.interp(state.point_field("plastic_strain")[0, 0], strain, stress), rel=1e-12)
+        assert mises(s) == pytest.approx(
+            np.interp(state.point_field("plastic_strain")[0, 0], strain, stress), rel=1e-12
+        )
 
 
 def test_cowper_symonds_raises_the_yield_stress():
-    material = ShellMaterial(7850.0, E, NU, yield_stress=488e6, rate_reference=40.4, rate_exponent=5.0, rate_time=0.0)
+    material = ShellMaterial(
+        7850.0, E, NU, yield_stress=488e6, rate_reference=40.4, rate_exponent=5.0, rate_time=0.0
+    )
     state = ShellState(model(X, QUAD, 2e-3, material))
     rate, dt = 100.0, 1e-6
     velocity = X @ np.diag([rate, -0.5 * rate, 0.0])
     for _ in range(200):
         state.deform(X, velocity, 0 * X, dt)
     # uniaxial incompressible flow: the equivalent rate is the axial one
-    assert mises(stress_of(state)) == pytest.approx(488e6 * (1 + (rate / 40.4) ** 0.2), rel=1e-5)  # the elastic share is still settling
+    assert mises(stress_of(state)) == pytest.approx(
+        488e6 * (1 + (rate / 40.4) ** 0.2), rel=1e-5
+    )  # the elastic share is still settling
 
 
 def test_answer_of_an_element_does_not_depend_on_its_neighbours():
@@ -113,7 +119,9 @@ def test_answer_of_an_element_does_not_depend_on_its_neighbours():
 
 @pytest.mark.parametrize("any_point", [True, False])
 def test_failed_element_carries_nothing_and_keeps_its_energy(any_point):
-    material = ShellMaterial(7850.0, E, NU, yield_stress=300e6, failure_strain=0.02, fails_at_any_point=any_point)
+    material = ShellMaterial(
+        7850.0, E, NU, yield_stress=300e6, failure_strain=0.02, fails_at_any_point=any_point
+    )
     state = ShellState(model(X, QUAD, 2e-3, material))
     u = X @ np.diag([2e-3, -1e-3, 0])
     for _ in range(20):
