@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crumple.shell.contour import Floats
+from crumple.shell.contour import Floats, Integers
 from crumple.shell.joints import Joint
-from crumple.shell.mesh import Integers, Mesh
+from crumple.shell.mesh import Mesh
 from crumple.structure import FREEDOMS, Structure
 
 

@@ -6,15 +6,19 @@ of sides, so that a row of nodes runs along its middle, where a folding flange h
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
 from crumple.section import Section
 
 Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
 
 SHARP_TURN = np.radians(25.0)
-"""Turn between two chords from which a corner is a corner; the outlines' arcs turn by 11.25 degrees a chord."""
+"""Turn between two chords from which a corner is a corner; arcs of outlines turn by 11.25 degrees a chord."""
 UNEQUAL_CHORDS = 1.5
 """Ratio of neighbouring chords from which one is a wall and the other part of a bend."""
 SHORTEST_BEND = 0.3
@@ -26,7 +30,48 @@ LEAST_AROUND_CIRCLE = 8
 """Sides around a closed curve, at least: fewer are no longer round."""
 
 
-def contour(section: Section, size: float) -> Floats:
+@dataclass(frozen=True, eq=False)
+class Contour:
+    """A section as the mesh takes it.
+
+    Attributes
+    ----------
+    points
+        (y, z) [m] on the mid-lines, (n, 2).
+    sides
+        Pairs of points that a wall joins, (k, 2); around a closed section counter-clockwise.
+    thickness
+        Of every side [m], (k,).
+    """
+
+    points: Floats
+    sides: Integers
+    thickness: Floats
+
+    @property
+    def area(self) -> float:
+        """Area of the metal [m^2]."""
+        ends = self.points[self.sides]
+        return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) @ self.thickness)
+
+
+def contour_of(section: Section, size: float) -> Contour:
+    """Divide a section.
+
+    Parameters
+    ----------
+    section
+        Closed, of one thickness.
+    size
+        Wished length of a side [m].
+    """
+    points = outline_points(section, size)
+    numbers = np.arange(len(points))
+    sides = np.column_stack([numbers, np.roll(numbers, -1)])
+    return Contour(points, sides, np.full(len(points), section.thickness))
+
+
+def outline_points(section: Section, size: float) -> Floats:
     """Points of a closed section for a mesh.
 
     Parameters
@@ -50,7 +95,7 @@ def contour(section: Section, size: float) -> Floats:
     start = np.roll(outline, -breaks[0], axis=0)
     ends = [*(breaks - breaks[0]), len(outline)]
     closed = np.vstack([start, start[:1]])
-    paths = [closed[a : b + 1] for a, b in zip(ends[:-1], ends[1:], strict=True)]
+    paths = [closed[a : b + 1] for a, b in pairwise(ends)]
     points = [_divided(path, _number(path, size))[:-1] for path in _without_small_bends(paths, size)]
     return np.asarray(np.concatenate(points), float)
 

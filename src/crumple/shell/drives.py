@@ -32,7 +32,9 @@ def loads_of(structure: Structure, mesh: Mesh, duration: float) -> Iterator[Noda
                     yield NodalLoad(mesh.reference[load.node], kind + axis, times, values)
 
 
-def motions_of(structure: Structure, bodies: tuple[Body, ...], duration: float) -> Iterator[PrescribedVelocity]:
+def motions_of(
+    structure: Structure, bodies: tuple[Body, ...], duration: float
+) -> Iterator[PrescribedVelocity]:
     """Prescribed velocities of the rigid bodies."""
     number = {body.node: i for i, body in enumerate(bodies)}
     for support in structure.supports.values():

@@ -32,7 +32,7 @@ def channels_of(structure: Structure, sampler: Sampler, record: Record, outputs:
 
 
 def energy_channels(record: Record) -> Iterator[Channel]:
-    """Ledger: kinetic + elastic + dissipated + hourglass + contact + damping - external work - start = residual."""
+    """Ledger: kinetic + elastic + dissipated + hourglass + contact + damping - work - start = residual."""
     energy = record["energy"]
     for i, name in enumerate(ENERGIES):
         if name in ("damping", "eroded") and not energy[:, i].any():
@@ -51,7 +51,9 @@ def hinge_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
             ("moment", "N*m", moment),
             ("energy", "J", energy),
         )
-        yield from (Channel(f"hinge.{zone.place.name}.{name}", unit, values) for name, unit, values in columns)
+        yield from (
+            Channel(f"hinge.{zone.place.name}.{name}", unit, values) for name, unit, values in columns
+        )
 
 
 def hinge_history(
@@ -104,16 +106,18 @@ def node_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
 def section_channels(
     structure: Structure, sampler: Sampler, record: Record, outputs: Outputs
 ) -> Iterator[Channel]:
-    """Rotation of one station of a member against another about one of its axes: the hinges', else the larger."""
+    """Rotation of one station of a member against another about the hinges' axis, else the larger."""
     for name, asked in outputs.section_rotations.items():
         tube = sampler.lowered.mesh.tubes[asked.member]
-        ends = [
+        first, last = (
             ring_history(sampler, record, asked.member, tube.ring_at(station))
             for station in (asked.start, asked.end)
-        ]
+        )
         axes = {zone.place.axis for zone in sampler.lowered.zones if zone.place.member == asked.member}
-        turned = {axis: relative_rotation(*ends, tube.frame.axis(axis)) for axis in ("y", "z")}
-        axis = axes.pop() if len(axes) == 1 else max(turned, key=lambda axis: float(np.abs(turned[axis]).max()))
+        turned = {axis: relative_rotation(first, last, tube.frame.axis(axis)) for axis in ("y", "z")}
+        axis = (
+            axes.pop() if len(axes) == 1 else max(turned, key=lambda axis: float(np.abs(turned[axis]).max()))
+        )
         yield Channel(name, "rad", turned[axis])
 
 

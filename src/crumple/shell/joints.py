@@ -3,7 +3,7 @@
 Members that meet at a node are cut back so that their walls do not cross, and their end sections move as one
 rigid body; what was cut away stays as its mass.  With outgoing unit vectors x_i and x_j at an angle a, and
 half depths e_i and e_j in their common plane, the inner edges meet at (e_j + e_i cos a) / sin a along i.
-Two members whose contours meet point by point in the plane that halves their angle share those points: a mitre.
+Two members whose contours meet point by point in the plane halving their angle share those points: a mitre.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crumple.errors import InputError, Problem
-from crumple.shell.contour import Floats
+from crumple.shell.contour import Contour, Floats
 from crumple.structure import FREEDOMS, Structure
 
 SHARPEST_MITRE = np.radians(100.0)
-"""Change of direction up to which two members share a mitre: beyond it the mitre is longer than the section."""
+"""Change of direction up to which two members share a mitre: beyond it a mitre is longer than the section."""
 SAME_POINT = 1e-6
 """Distance over the section's size below which two contours' points are one."""
 NARROWEST_ANGLE = np.radians(10.0)
@@ -84,7 +84,7 @@ class Joint:
         return self.kind is Kind.RIGID or self.rigid_ring
 
 
-def joints_of(structure: Structure, contours: dict[str, Floats]) -> dict[str, Joint]:
+def joints_of(structure: Structure, contours: dict[str, Contour]) -> dict[str, Joint]:
     """Joint of every node at which a member ends.
 
     Raises
@@ -124,13 +124,18 @@ def _loaded_nodes(structure: Structure) -> set[str]:
     """Nodes that carry, take or are driven by something."""
     return {
         part.node
-        for parts in (structure.masses.values(), structure.supports.values(), structure.loads, structure.impulses)
+        for parts in (
+            structure.masses.values(),
+            structure.supports.values(),
+            structure.loads,
+            structure.impulses,
+        )
         for part in parts
     }
 
 
 def _joint(
-    structure: Structure, contours: dict[str, Floats], node: str, ends: tuple[End, ...], loaded: bool
+    structure: Structure, contours: dict[str, Contour], node: str, ends: tuple[End, ...], loaded: bool
 ) -> Joint:
     clamped = is_clamped(structure, node)
     if len(ends) == 1:
@@ -145,7 +150,7 @@ def _joint(
 
 
 def _mitre(
-    structure: Structure, contours: dict[str, Floats], node: str, ends: tuple[End, ...], loaded: bool
+    structure: Structure, contours: dict[str, Contour], node: str, ends: tuple[End, ...], loaded: bool
 ) -> Joint | None:
     """Shared section of two members, or None where their contours do not meet."""
     x = [outgoing(structure, end) for end in ends]
@@ -155,7 +160,7 @@ def _mitre(
     normal = (x[0] - x[1]) / np.linalg.norm(x[0] - x[1])
     slants, points = [], []
     for end, direction in zip(ends, x, strict=True):
-        frame, ring = structure.frame_of(end.member), contours[end.member]
+        frame, ring = structure.frame_of(end.member), contours[end.member].points
         arms = ring @ frame.axes[1:]
         slant = -(arms @ normal) / float(direction @ normal)
         if SHEARED_LENGTH * np.abs(slant).max() > LONGEST_CUT * frame.length:
@@ -166,14 +171,14 @@ def _mitre(
         return None
     distance = np.linalg.norm(points[1][:, None] - points[0][None], axis=2)
     match = np.argmin(distance, axis=1)
-    size = float(np.ptp(contours[ends[0].member], axis=0).max())
+    size = float(np.ptp(contours[ends[0].member].points, axis=0).max())
     if distance.min(axis=1).max() > SAME_POINT * size or len(set(match)) < len(match):
         return None
     return Joint(node, Kind.MITRED, ends, (0.0, 0.0), tuple(slants), match, rigid_ring=loaded)
 
 
 def _cut(
-    structure: Structure, contours: dict[str, Floats], node: str, end: End, ends: tuple[End, ...]
+    structure: Structure, contours: dict[str, Contour], node: str, end: End, ends: tuple[End, ...]
 ) -> float:
     """Length that one end is cut back by, so that its walls keep clear of every other member's [m]."""
     length, most = structure.frame_of(end.member).length, 0.0
@@ -189,7 +194,9 @@ def _cut(
             continue
         mine = _half_depth(structure, contours, end, (y - cosine * x) / sine)
         theirs = _half_depth(structure, contours, other, (x - cosine * y) / sine)
-        walls = (structure.section_of(end.member).thickness + structure.section_of(other.member).thickness) / 2
+        walls = (
+            structure.section_of(end.member).thickness + structure.section_of(other.member).thickness
+        ) / 2
         most = max(most, (theirs + cosine * mine) / sine + walls)
     if most > LONGEST_CUT * length:
         raise InputError(
@@ -204,10 +211,10 @@ def _cut(
     return most
 
 
-def _half_depth(structure: Structure, contours: dict[str, Floats], end: End, direction: Floats) -> float:
+def _half_depth(structure: Structure, contours: dict[str, Contour], end: End, direction: Floats) -> float:
     """Largest reach of a section from its axis along a direction [m]."""
     frame = structure.frame_of(end.member)
-    return float(np.abs(contours[end.member] @ (frame.axes[1:] @ direction)).max())
+    return float(np.abs(contours[end.member].points @ (frame.axes[1:] @ direction)).max())
 
 
 def _within(node: str, end: End, other: End, angle: float) -> InputError:

@@ -5,15 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from crumple.errors import InputError, Problem
-from crumple.shell.contour import Floats, contour
+from crumple.shell.contour import Contour, Floats, Integers, contour_of
 from crumple.shell.joints import SHEARED_LENGTH, Joint, Kind, joints_of
 from crumple.shell.stations import Sizes, Zone, stations
 from crumple.structure import Frame, Outputs, ShellSettings, Structure, hinge_places
-
-Integers = NDArray[np.int64]
 
 MOST_ELEMENTS = 5_000_000
 """Elements of one mesh; more is a slip of the pen and would fill the memory."""
@@ -28,37 +25,42 @@ class Tube:
     Attributes
     ----------
     frame, contour
-        Axes at the start, and section points (y, z) [m], (around, 2).
+        Axes at the start, and the divided section.
     stations
         Of the rings along the member [m], (rings,); a mitre's slant is not counted.
     nodes
-        Node of each ring and contour point, (rings, around).
+        Node of each ring and contour point, (rings, points).
     first_element
-        Number of its first element; ring i, side j has element ``first_element + i * around + j``.
+        Number of its first element; ring i, side j has element ``first_element + i * sides + j``.
     """
 
     frame: Frame
-    contour: Floats
+    contour: Contour
     stations: Floats
     nodes: Integers
     first_element: int
 
     @property
-    def around(self) -> int:
-        """Sides around the section."""
-        return self.nodes.shape[1]
+    def sides(self) -> int:
+        """Elements from one ring to the next."""
+        return len(self.contour.sides)
+
+    @property
+    def bays(self) -> int:
+        """Rows of elements along the member."""
+        return len(self.stations) - 1
 
     def ring_at(self, station: float) -> int:
         """Ring nearest to a station [m]."""
         return int(np.argmin(np.abs(self.stations - station)))
 
     def bay(self, ring: int) -> Integers:
-        """Elements between a ring and the next, (around,)."""
-        return self.first_element + ring * self.around + np.arange(self.around)
+        """Elements between a ring and the next, (sides,)."""
+        return self.first_element + ring * self.sides + np.arange(self.sides)
 
     def elements_between(self, first: int, last: int) -> Integers:
         """Elements between two rings."""
-        return self.first_element + np.arange(first * self.around, last * self.around)
+        return self.first_element + np.arange(first * self.sides, last * self.sides)
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,14 +93,14 @@ class Mesh:
         return len(self.position) - len(self.reference)
 
     def end_ring(self, member: str, second: bool) -> Integers:
-        """Nodes of a member's last ring at its first or second node, (around,)."""
-        return self.tubes[member].nodes[-1 if second else 0]
+        """Nodes of a member's last ring at its first or second node, (points,)."""
+        return np.asarray(self.tubes[member].nodes[-1 if second else 0])
 
     def place_of(self, element: int) -> str:
         """Where an element lies, in words."""
         for name, tube in self.tubes.items():
-            ring, side = divmod(element - tube.first_element, tube.around)
-            if 0 <= ring < len(tube.stations) - 1:
+            ring, side = divmod(element - tube.first_element, tube.sides)
+            if 0 <= ring < tube.bays:
                 middle = (tube.stations[ring] + tube.stations[ring + 1]) / 2
                 return f"member {name}, {1e3 * middle:.4g} mm from its first node, side {side} of the section"
         return "no member"
@@ -122,7 +124,7 @@ def mesh_of(structure: Structure, settings: ShellSettings, outputs: Outputs | No
         If a member cannot be meshed, by name.
     """
     size = settings.fine_size or settings.element_size
-    contours = {name: contour(structure.section_of(name), size) for name in structure.members}
+    contours = {name: contour_of(structure.section_of(name), size) for name in structure.members}
     joints = joints_of(structure, contours)
     rings = {
         name: _rings(structure, name, settings, joints, outputs or Outputs()) for name in structure.members
@@ -139,7 +141,10 @@ def _rings(
     cut = [_cut_of(joints, structure, member, second) for second in (False, True)]
     ends = (cut[0], length - cut[1])
     if ends[1] - ends[0] < settings.element_size / 2:
-        what, came = "nothing is left of this member between its joints", f"{1e3 * (ends[1] - ends[0]):.4g} mm"
+        what, came = (
+            "nothing is left of this member between its joints",
+            f"{1e3 * (ends[1] - ends[0]):.4g} mm",
+        )
         todo = "make it longer, or the elements smaller"
         raise InputError(Problem(what, came, "at least one element", todo, f"members.{member}"))
     asked = [
@@ -179,8 +184,8 @@ def _cut_of(joints: dict[str, Joint], structure: Structure, member: str, second:
     return joint.cut[at]
 
 
-def _check_number(contours: dict[str, Floats], rings: dict[str, Floats]) -> None:
-    number = sum(len(contours[name]) * (len(rings[name]) - 1) for name in rings)
+def _check_number(contours: dict[str, Contour], rings: dict[str, Floats]) -> None:
+    number = sum(len(contours[name].sides) * (len(rings[name]) - 1) for name in rings)
     if number > MOST_ELEMENTS:
         what, todo = "the mesh has too many elements", "give a larger element_size"
         allowed = f"at most {MOST_ELEMENTS}"
@@ -189,7 +194,7 @@ def _check_number(contours: dict[str, Floats], rings: dict[str, Floats]) -> None
 
 def _joined(
     structure: Structure,
-    contours: dict[str, Floats],
+    contours: dict[str, Contour],
     joints: dict[str, Joint],
     rings: dict[str, Floats],
 ) -> Mesh:
@@ -199,9 +204,9 @@ def _joined(
     tubes: dict[str, Tube] = {}
     count = elements = 0
     for name in structure.members:
-        frame, around = structure.frame_of(name), len(contours[name])
+        frame, around = structure.frame_of(name), len(contours[name].points)
         numbers = np.full((len(rings[name]), around), -1, dtype=np.int64)
-        points = _points(structure, name, contours[name], rings[name], joints)
+        points = _points(structure, name, contours[name].points, rings[name], joints)
         for second in (False, True):
             shared = _shared(structure, joints, tubes, name, second)
             if shared is not None:
@@ -211,7 +216,7 @@ def _joined(
         count += int(new.sum())
         positions.append(points[new])
         tubes[name] = Tube(frame, contours[name], rings[name], numbers, elements)
-        quads.append(_quads(numbers))
+        quads.append(_quads(numbers, contours[name].sides))
         elements += len(quads[-1])
     bodies = [node for node, joint in joints.items() if joint.is_body]
     reference = {node: count + i for i, node in enumerate(bodies)}
@@ -219,10 +224,8 @@ def _joined(
     return Mesh(np.concatenate(positions), np.concatenate(quads), tubes, joints, reference)
 
 
-def _points(
-    structure: Structure, member: str, ring: Floats, at: Floats, joints: dict[str, Joint]
-) -> Floats:
-    """Positions of one member's nodes [m], (rings, around, 3), slanted towards mitres."""
+def _points(structure: Structure, member: str, ring: Floats, at: Floats, joints: dict[str, Joint]) -> Floats:
+    """Positions of one member's nodes [m], (rings, points, 3), slanted towards mitres."""
     frame = structure.frame_of(member)
     along = np.repeat(at[:, None], len(ring), axis=1)
     for second in (False, True):
@@ -252,11 +255,12 @@ def _shared(
         return None
     ring = tubes[other.member].nodes[-1 if other.second else 0]
     # match gives the first end's point of each of the second's
-    return ring[joint.match] if mine == 1 else ring[np.argsort(joint.match)]
+    order = joint.match if mine == 1 else np.argsort(joint.match)
+    return np.asarray(ring[order])
 
 
-def _quads(numbers: Integers) -> Integers:
-    """Corners of a tube's elements, normals outwards, (m, 4)."""
-    beside = np.roll(numbers, -1, axis=1)
-    corners = np.stack([numbers[:-1], beside[:-1], beside[1:], numbers[1:]], axis=2)
+def _quads(numbers: Integers, sides: Integers) -> Integers:
+    """Corners of a member's elements, normals to the right of the sides, (m, 4)."""
+    here, beside = numbers[:, sides[:, 0]], numbers[:, sides[:, 1]]
+    corners = np.stack([here[:-1], beside[:-1], beside[1:], here[1:]], axis=2)
     return np.asarray(corners.reshape(-1, 4))

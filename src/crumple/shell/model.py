@@ -15,18 +15,16 @@ from crumple._core.shell import (
     ShellModel,
 )
 from crumple._core.shell import ShellSettings as CoreSettings
-from crumple.material import Material
 from crumple.shell.bodies import Body, bodies_of
+from crumple.shell.contour import Integers
 from crumple.shell.drives import loads_of, motions_of
 from crumple.shell.joints import Kind
-from crumple.shell.mesh import Integers, Mesh, mesh_of
+from crumple.shell.mesh import Mesh, mesh_of
+from crumple.shell.metal import shell_material
 from crumple.shell.places import HingeZone, hinge_zones
 from crumple.shell.quality import MeshReport, report_of, wall_thickness
 from crumple.shell.start import Start, start_of
 from crumple.structure import Outputs, ShellSettings, Structure
-
-HARDENING_FREE = 0.0
-"""Slope behind the yield stress [Pa]: the structure describes an elastic-perfectly plastic metal."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,12 +83,12 @@ def lower(
     start = start_of(structure, mesh, bodies)
     zones = hinge_zones(structure, mesh)
     supports = {name: _support_cut(mesh, support.node) for name, support in structure.supports.items()}
-    cuts = [Cut(elements=zone.cut_elements, nodes=zone.cut_nodes) for zone in zones]
+    cuts = [_cut(zone.cut_elements, zone.cut_nodes) for zone in zones]
     materials, sheets, sheet = _sheets(structure, mesh, settings)
     model = ShellModel(
         position=mesh.position,
         elements=mesh.quads,
-        thickness=wall_thickness(structure, mesh),
+        thickness=wall_thickness(mesh),
         materials=materials,
         sheets=sheets,
         sheet=sheet,
@@ -106,20 +104,6 @@ def lower(
     return Lowered(mesh, report, bodies, start, zones, tuple(supports), model)
 
 
-def shell_material(material: Material) -> ShellMaterial:
-    """A metal as the elements take it: elastic, then perfectly plastic at its flow stress."""
-    rate = material.flow_rate or material.yield_rate
-    rates = {} if rate is None else {"rate_reference": rate.D, "rate_exponent": rate.q}
-    return ShellMaterial(
-        density=material.density,
-        youngs_modulus=material.youngs_modulus,
-        poissons_ratio=material.poissons_ratio,
-        yield_stress=material.flow_stress,
-        hardening_modulus=HARDENING_FREE,
-        **rates,
-    )
-
-
 def _sheets(
     structure: Structure, mesh: Mesh, settings: ShellSettings
 ) -> tuple[list[ShellMaterial], list[Sheet], Integers]:
@@ -128,7 +112,7 @@ def _sheets(
     materials = [shell_material(structure.materials[name].material(name)) for name in names]
     sheets = [Sheet(material=i, points=settings.thickness_points) for i in range(len(names))]
     parts = [
-        np.full((len(tube.stations) - 1) * tube.around, names.index(structure.members[member].material))
+        np.full(tube.bays * tube.sides, names.index(structure.members[member].material))
         for member, tube in mesh.tubes.items()
     ]
     return materials, sheets, np.concatenate(parts)
@@ -149,7 +133,7 @@ def _rigid_set(body: Body) -> RigidSet:
     xy, yz, zx = lump.inertia[0, 1], lump.inertia[1, 2], lump.inertia[2, 0]
     x, y, z = lump.centre
     return RigidSet(
-        nodes=body.nodes,
+        nodes=body.nodes.astype(np.uint32),
         mass=lump.mass,
         at=(float(x), float(y), float(z)),
         inertia=(float(xx), float(yy), float(zz), float(xy), float(yz), float(zx)),
@@ -160,11 +144,13 @@ def _rigid_set(body: Body) -> RigidSet:
 def _support_cut(mesh: Mesh, node: str) -> Cut:
     """What all members exert on the end sections at a node."""
     ends = mesh.joints[node].ends
-    bays = [
-        mesh.tubes[end.member].bay(len(mesh.tubes[end.member].stations) - 2 if end.second else 0) for end in ends
-    ]
+    bays = [mesh.tubes[end.member].bay(mesh.tubes[end.member].bays - 1 if end.second else 0) for end in ends]
     rings = [mesh.end_ring(end.member, end.second) for end in ends]
-    return Cut(elements=np.concatenate(bays), nodes=np.unique(np.concatenate(rings)))
+    return _cut(np.concatenate(bays), np.unique(np.concatenate(rings)))
+
+
+def _cut(elements: Integers, nodes: Integers) -> Cut:
+    return Cut(elements=elements.astype(np.uint32), nodes=nodes.astype(np.uint32))
 
 
 def _settings(structure: Structure, settings: ShellSettings) -> CoreSettings:

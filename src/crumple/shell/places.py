@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from crumple.section import half_fold_length
-from crumple.shell.contour import Floats
-from crumple.shell.mesh import Integers, Mesh
+from crumple.shell.contour import Floats, Integers
+from crumple.shell.mesh import Mesh
 from crumple.structure import HingePlace, Structure, hinge_places
 
 SIDE = 3.0
@@ -57,7 +57,8 @@ def hinge_zones(structure: Structure, mesh: Mesh) -> tuple[HingeZone, ...]:
     return tuple(
         _zone(structure, mesh, place, [other.station for other in places if other is not place])
         for places in (
-            [place for place in hinge_places(structure) if place.member == member] for member in structure.members
+            [place for place in hinge_places(structure) if place.member == member]
+            for member in structure.members
         )
         for place in places
     )

@@ -58,22 +58,20 @@ class MeshReport:
 def areas(mesh: Mesh) -> Floats:
     """Areas of the elements [m^2], (m,)."""
     corner = mesh.position[mesh.quads]
-    return np.asarray(np.linalg.norm(np.cross(corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1]), axis=1) / 2)
+    return np.asarray(
+        np.linalg.norm(np.cross(corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1]), axis=1) / 2
+    )
 
 
-def wall_thickness(structure: Structure, mesh: Mesh) -> Floats:
+def wall_thickness(mesh: Mesh) -> Floats:
     """Thickness of every element [m], (m,)."""
-    parts = [
-        np.full((len(tube.stations) - 1) * tube.around, structure.section_of(name).thickness)
-        for name, tube in mesh.tubes.items()
-    ]
-    return np.concatenate(parts)
+    return np.concatenate([np.tile(tube.contour.thickness, tube.bays) for tube in mesh.tubes.values()])
 
 
 def wall_density(structure: Structure, mesh: Mesh) -> Floats:
     """Density of every element [kg/m^3], (m,)."""
     parts = [
-        np.full((len(tube.stations) - 1) * tube.around, structure.material_of(name).density)
+        np.full(tube.bays * tube.sides, structure.material_of(name).density)
         for name, tube in mesh.tubes.items()
     ]
     return np.concatenate(parts)
@@ -91,7 +89,7 @@ def report_of(structure: Structure, mesh: Mesh) -> MeshReport:
     side = np.linalg.norm(np.roll(corner, -1, axis=1) - corner, axis=2)
     _check(mesh, corner, side)
     pair = np.stack([side[:, 0] + side[:, 2], side[:, 1] + side[:, 3]])
-    mass = areas(mesh) * wall_thickness(structure, mesh) * wall_density(structure, mesh)
+    mass = areas(mesh) * wall_thickness(mesh) * wall_density(structure, mesh)
     return MeshReport(
         elements=len(mesh.quads),
         nodes=mesh.walls,

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from crumple._core.shell import ShellState
-from crumple.shell.contour import Floats
-from crumple.shell.mesh import Integers, Mesh
+from crumple.shell.contour import Floats, Integers
+from crumple.shell.mesh import Mesh
 from crumple.shell.model import Lowered
 from crumple.shell.sections import mean_spin, section_rotation
 from crumple.structure import Outputs
@@ -78,7 +78,9 @@ class Sampler:
             body, at = state.rigid_sets[which], mesh.reference[name]
             centre, linear, spin = body[:3], body[3:6], body[6:9]
             moved = position[at] - mesh.position[at]
-            return np.vstack([moved, linear + np.cross(spin, position[at] - centre), spin, body[9:].reshape(3, 3)])
+            return np.vstack(
+                [moved, linear + np.cross(spin, position[at] - centre), spin, body[9:].reshape(3, 3)]
+            )
         nodes = ring_of_node(mesh, name)
         moved = (position[nodes] - mesh.position[nodes]).mean(axis=0)
         spin = mean_spin(position[nodes], velocity[nodes])

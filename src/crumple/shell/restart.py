@@ -67,12 +67,19 @@ def read_restart(path: Path, state: ShellState, mark: str) -> tuple[Record, floa
         found = {key: head[key] for key in ("format", "mark", "isa", "seconds")}
     except (OSError, KeyError, ValueError, EOFError) as error:
         what, todo = "the restart file cannot be read", "give the file that an interrupted run wrote"
-        raise InputError(Problem(what, f"{type(error).__name__}: {str(error)[:200]}", "", todo, file=str(path))) from error
+        raise InputError(
+            Problem(what, f"{type(error).__name__}: {str(error)[:200]}", "", todo, file=str(path))
+        ) from error
     if found["format"] != FORMAT or found["mark"] != mark:
-        what, todo = "the restart file belongs to another input", "restart with the input file that was interrupted"
+        what, todo = (
+            "the restart file belongs to another input",
+            "restart with the input file that was interrupted",
+        )
         raise InputError(Problem(what, todo=todo, file=str(path)))
     if found["isa"] != state.isa:
         what, todo = "the restart file was written with another instruction set", "set CRUMPLE_ISA to it"
         raise InputError(Problem(what, found["isa"], state.isa, todo, file=str(path)))
-    state.restore({name[len("state/") :]: values for name, values in arrays.items() if name.startswith("state/")})
+    state.restore(
+        {name[len("state/") :]: values for name, values in arrays.items() if name.startswith("state/")}
+    )
     return Record.from_arrays(arrays), float(found["seconds"])

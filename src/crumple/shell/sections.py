@@ -1,8 +1,9 @@
 """Rotation of a deformed section: the plane that fits its points best, and the turn within that plane.
 
 The plane's normal is the direction of least spread of the points.  The turn about the normal is taken from
-the rotation R that carries the points best in the sense of least squares: with the points' arms a at the start
-and b now, sum of b a^T = U S V^T gives R = U diag(1, 1, det(U V^T)) V^T (Kabsch, Acta Cryst. A32 (1976) 922).
+the rotation R that carries the points best in the sense of least squares: with the points' arms a at the
+start and b now, the sum of b a^T = U S V^T gives R = U diag(1, 1, det(U V^T)) V^T (the solution of the
+orthogonal Procrustes problem among rotations).
 """
 
 from __future__ import annotations

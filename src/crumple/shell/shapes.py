@@ -6,8 +6,8 @@ import numpy as np
 
 from crumple._core.shell import ShellState
 from crumple.result import States
-from crumple.shell.contour import Floats
-from crumple.shell.mesh import Integers, Mesh
+from crumple.shell.contour import Floats, Integers
+from crumple.shell.mesh import Mesh
 from crumple.shell.record import Record
 
 CELL_FIELDS = ("plastic_strain", "thickness", "von_mises")
@@ -34,12 +34,12 @@ def states_of(mesh: Mesh, record: Record) -> States | None:
         return None
     shapes = {name: np.array(values) for name, values in record.shapes.items()}
     quads, member, station, contour, count = [], [], [], [], 0
-    for i, tube in enumerate(mesh.tubes.values()):
+    for which, tube in enumerate(mesh.tubes.values()):
         rings, around = tube.nodes.shape
         numbers = count + np.arange(rings * around).reshape(rings, around)
-        beside = np.roll(numbers, -1, axis=1)
-        quads.append(np.stack([numbers[:-1], beside[:-1], beside[1:], numbers[1:]], axis=2).reshape(-1, 4))
-        member.append(np.full(rings * around, i))
+        here, beside = (numbers[:, tube.contour.sides[:, i]] for i in (0, 1))
+        quads.append(np.stack([here[:-1], beside[:-1], beside[1:], here[1:]], axis=2).reshape(-1, 4))
+        member.append(np.full(rings * around, which))
         station.append(np.repeat(tube.stations, around))
         contour.append(np.tile(np.arange(around), rings))
         count += rings * around

@@ -158,7 +158,9 @@ class _Stepping:
         self.sampler, self.record = Sampler.of(lowered, run.outputs), Record()
         self.mark = fingerprint(structure, run.settings, run.outputs, run.duration, run.every)
         self.times = output_times(run)
-        self.pictures = {int(np.argmin(np.abs(self.times - t))) for t in picture_times(run) if t <= run.duration}
+        self.pictures = {
+            int(np.argmin(np.abs(self.times - t))) for t in picture_times(run) if t <= run.duration
+        }
         self.begin, self.spent_before, self.first_time = begin, 0.0, 0.0
         self.saved = self.watched = begin
         if long_run.restart_from is not None:
@@ -245,12 +247,14 @@ def _result(structure: Structure, run: ShellRun, stepping: _Stepping, status: St
 
 
 def _at(channel: Channel, times: Floats, noted: Floats) -> Channel:
-    """Channel at the output times; the stepper stops at its first step at or after each, under a microsecond late."""
+    """Channel at the output times; the stepper stops at its first step at or after each."""
     return Channel(channel.name, channel.unit, np.interp(times, noted, channel.values))
 
 
 def _settings(run: ShellRun, lowered: Lowered, state: ShellState) -> dict[str, float | int | str]:
-    given = {key: value for key, value in run.settings.model_dump(mode="json").items() if value not in (None, [])}
+    given = {
+        key: value for key, value in run.settings.model_dump(mode="json").items() if value not in (None, [])
+    }
     report = lowered.report
     return {
         **given,
@@ -280,7 +284,11 @@ def _with_place(reason: str, lowered: Lowered) -> str:
 def _named(error: InputError, lowered: Lowered) -> InputError:
     problems = [
         Problem(
-            _with_place(problem.what, lowered), problem.came, problem.allowed, problem.todo, problem.where or "analysis.shell"
+            _with_place(problem.what, lowered),
+            problem.came,
+            problem.allowed,
+            problem.todo,
+            problem.where or "analysis.shell",
         )
         for problem in error.problems
     ]

@@ -58,8 +58,8 @@ def start_of(structure: Structure, mesh: Mesh, bodies: tuple[Body, ...]) -> Star
 
 
 def nodal_masses(structure: Structure, mesh: Mesh) -> tuple[Floats, Floats]:
-    """Masses [kg] and isotropic rotary inertias [kg m^2] of the nodes, (n,) each, as the stepper lumps them."""
-    area, thickness = areas(mesh), wall_thickness(structure, mesh)
+    """Masses [kg] and isotropic rotary inertias [kg m^2] of the nodes, (n,) each, as the stepper lumps."""
+    area, thickness = areas(mesh), wall_thickness(mesh)
     share = area * thickness * wall_density(structure, mesh) / 4
     gyration = (thickness**2 + area) / 12
     mass, inertia = np.zeros(len(mesh.position)), np.zeros(len(mesh.position))
@@ -75,7 +75,9 @@ def _field(structure: Structure, kind: str, name: str, points: Floats) -> tuple[
         everywhere = field.nodes is None and field.members is None
         if everywhere or name in (getattr(field, kind) or ()):
             rate = _rate(field)
-            velocity += np.asarray(field.translation, float) + np.cross(rate, points - np.asarray(field.about))
+            velocity += np.asarray(field.translation, float) + np.cross(
+                rate, points - np.asarray(field.about)
+            )
             spin += rate
     return velocity, spin
 

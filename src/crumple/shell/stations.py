@@ -80,10 +80,8 @@ def _merged(zones: Sequence[Zone]) -> list[Zone]:
     return merged
 
 
-def _fixed_places(
-    ends: Zone, asked: Iterable[float], zones: Sequence[Zone], sizes: Sizes
-) -> list[float]:
-    """Places that get a ring: the ends first, then asked stations, then the ends of zones, if far enough apart."""
+def _fixed_places(ends: Zone, asked: Iterable[float], zones: Sequence[Zone], sizes: Sizes) -> list[float]:
+    """Places that get a ring: the ends, then asked stations, then ends of zones, if far enough apart."""
     kept = list(ends)
     for place in [*asked, *(end for zone in zones for end in zone)]:
         if not ends[0] < place < ends[1]:

@@ -7,6 +7,7 @@ import numpy as np
 from crumple._core.shell import ShellState
 from crumple.shell.bodies import Body
 from crumple.shell.joints import Kind
+from crumple.shell.metal import in_words
 from crumple.shell.model import Lowered
 from crumple.shell.record import ENERGIES, Record
 from crumple.structure import ShellSettings, Structure
@@ -14,7 +15,7 @@ from crumple.structure import ShellSettings, Structure
 LOST_SHARE = 1e-3
 """Share of the given energy that may vanish at the start before a warning."""
 HOURGLASS_SHARE = 0.05
-"""Hourglass energy over the largest internal energy above which the elements are held by what is no physics."""
+"""Hourglass energy over the largest internal energy above which what holds the elements is no physics."""
 PRESSED_IN = 0.5
 """Penetration over the distance kept above which contact is soft enough to be worth a warning."""
 ADDED_SHARE = 0.01
@@ -30,7 +31,9 @@ LEAST_ENERGY = 1e-9
 def energy_residual(record: Record) -> float:
     """Largest abs(residual) over the initial kinetic energy and the largest external work."""
     energy = record["energy"]
-    given = float(energy[0, ENERGIES.index("kinetic")] + np.abs(energy[:, ENERGIES.index("external_work")]).max())
+    given = float(
+        energy[0, ENERGIES.index("kinetic")] + np.abs(energy[:, ENERGIES.index("external_work")]).max()
+    )
     worst = float(np.abs(energy[:, ENERGIES.index("residual")]).max())
     return worst / given if given > LEAST_ENERGY else 0.0
 
@@ -44,12 +47,7 @@ def assumptions(structure: Structure, lowered: Lowered, settings: ShellSettings)
         f"{settings.warping_correction}, self-contact {settings.self_contact}.",
     ]
     for name in dict.fromkeys(member.material for member in structure.members.values()):
-        material = structure.materials[name].material(name)
-        rate = material.flow_rate or material.yield_rate
-        raised = "" if rate is None else f", raised with the strain rate (D {rate.D:g} 1/s, q {rate.q:g})"
-        found.append(
-            f"Material {name} is elastic, then perfectly plastic at {material.flow_stress / 1e6:.4g} MPa{raised}."
-        )
+        found.append(in_words(structure.materials[name].material(name)))
     for node, joint in lowered.mesh.joints.items():
         if joint.kind is Kind.RIGID and len(joint.ends) > 1:
             members = ", ".join(end.member for end in joint.ends)
@@ -79,9 +77,13 @@ def warnings(structure: Structure, lowered: Lowered, record: Record, state: Shel
         )
     depth = state.deepest_penetration
     if depth > 1.0:
-        found.append("Walls passed through each other: contact could not hold them, and the folds after that are not real.")
+        found.append(
+            "Walls passed through each other: contact could not hold them, and later folds are not real."
+        )
     elif depth > PRESSED_IN:
-        found.append(f"Walls pressed into each other by up to {depth:.0%} of the distance that contact keeps.")
+        found.append(
+            f"Walls pressed into each other by up to {depth:.0%} of the distance that contact keeps."
+        )
     if state.added_mass > ADDED_SHARE * state.mass:
         found.append(f"Mass scaling added {state.added_mass:.3g} kg to {state.mass:.3g} kg of walls.")
     kinetic, given = float(energy["kinetic"][0]), lowered.start.given_energy
@@ -97,8 +99,7 @@ def _mesh_warnings(structure: Structure, lowered: Lowered) -> list[str]:
     found = []
     for name, tube in lowered.mesh.tubes.items():
         section = structure.section_of(name)
-        sides = np.roll(tube.contour, -1, axis=0) - tube.contour
-        area = float(np.linalg.norm(sides, axis=1).sum()) * section.thickness
+        area = tube.contour.area
         if abs(area / section.area - 1.0) > MASS_SHARE:
             found.append(
                 f"The mesh of member {name} has {area / section.area:.1%} of its section's area: "

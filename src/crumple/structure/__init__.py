@@ -11,7 +11,7 @@ For a solver:
 - `MultibodySettings`, `ShellSettings` and `Outputs` -> what the solver is told beside the structure.
 """
 
-from crumple.structure.checks import output_problems, problems_in
+from crumple.structure.checks import output_problems, problems_in, shell_problems
 from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges import HingePlace, PlacedHinge, hinge_places, placed_hinges
 from crumple.structure.law import (
@@ -75,4 +75,5 @@ __all__ = [
     "output_problems",
     "placed_hinges",
     "problems_in",
+    "shell_problems",
 ]

@@ -61,7 +61,7 @@ class ShellSettings(Spec):
     fine_size: PositiveLength | None = None
     """Length of the elements near supports, joints and hinge places, and around every section."""
     fine_length: PositiveLength | None = None
-    """How far the fine mesh reaches to both sides of such a place; without it twice the section's largest side."""
+    """How far the fine mesh reaches to both sides of such a place; without it twice the largest side."""
     growth: Growth = 1.15
     """Largest ratio of the lengths of neighbouring elements between fine and coarse."""
     fine_at: tuple[FinePlace, ...] = ()
