@@ -54,6 +54,10 @@ double elastic_moment(const Hinge& hinge, const FrozenHinge& f, double w) {
     return f.m0 + hinge.stiffness * f.h * (f.w0 + w) / 2;
 }
 
+double penetration_at_end(const FrozenHinge& f, int k, double w) {
+    return f.gap[k] + (k == 0 ? 1 : -1) * f.h * (f.w0 + w) / 2;
+}
+
 bool counts(const Hinge& hinge, const HingeState& s) {
     return hinge.form != Form::elastic_plastic || s.episode > smallest_episode * s.accumulated;
 }
@@ -126,9 +130,10 @@ FrozenHinge freeze(const Hinge& hinge, const HingeState& s, double h, double q0,
         const double sign = k == 0 ? 1 : -1;
         const Stop& stop = hinge.stop[k];
         f.gap[k] = sign * q0 - stop.rotation;
-        const double g = f.gap[k] + sign * turn / 2;
-        f.engaged[k] = g > 0;
-        if (!f.engaged[k]) continue;
+        const double start = std::max(f.gap[k], 0.0), end = std::max(f.gap[k] + sign * turn, 0.0);
+        const double g = (start + end) / 2;
+        if (g == 0) continue;
+        f.touched[k] = start > 0 && end > 0 ? 1 : 2 * g / std::fabs(turn);
         f.stop_damping[k] = stop.damping * (stop.penetration > 0 ? step_polynomial(g / stop.penetration) : 1);
     }
     return f;
@@ -149,16 +154,16 @@ Response law_response(const Hinge& hinge, const FrozenHinge& f, double w) {
 Response stop_response(const Hinge& hinge, const FrozenHinge& f, double w) {
     Response r{0, 0};
     for (int k = 0; k < 2; k++) {
-        if (!f.engaged[k]) continue;
-        const double sign = k == 0 ? 1 : -1, v = sign * w;
-        const double g = f.gap[k] + sign * f.h * (f.w0 + w) / 4;
+        if (f.touched[k] == 0) continue;
+        const double sign = k == 0 ? 1 : -1, v = sign * w, h = f.h * f.touched[k];
+        const double end = penetration_at_end(f, k, w), g = (std::max(f.gap[k], 0.0) + std::max(end, 0.0)) / 2;
         const Stop& stop = hinge.stop[k];
         const double spring = g > 0 ? stop.force(g) : 0;
         const double force = spring + f.stop_damping[k] * v;
         if (force <= 0) continue;
-        r.impulse += sign * f.h * force;
-        r.slope += f.h * f.stop_damping[k];
-        if (g > 0) r.slope += f.h * f.h / 4 * stop.exponent * spring / g;
+        r.impulse += sign * h * force;
+        r.slope += h * f.stop_damping[k];
+        if (end > 0) r.slope += h * f.h / 4 * stop.exponent * spring / g;
     }
     return r;
 }
@@ -180,11 +185,14 @@ int kinks(const Hinge& hinge, const FrozenHinge& f, double* rates) {
         rates[n++] = f.width;
     }
     for (int k = 0; k < 2; k++) {
-        if (!f.engaged[k]) continue;
-        // where the linear stop lets go: k (gap + h (w0 + v)/4) + c v = 0
-        const double sign = k == 0 ? 1 : -1, stiffness = hinge.stop[k].stiffness, quarter = f.h / 4;
-        const double v = -stiffness * (f.gap[k] + quarter * sign * f.w0) / (stiffness * quarter + f.stop_damping[k]);
-        rates[n++] = sign * v;
+        if (f.touched[k] == 0) continue;
+        const double sign = k == 0 ? 1 : -1, start = std::max(f.gap[k], 0.0), damping = f.stop_damping[k];
+        const double stiffness = hinge.stop[k].stiffness, quarter = f.h / 4;
+        // where the end leaves the stop: gap + h (w0 + v)/2 = 0
+        rates[n++] = -f.w0 - sign * 2 * f.gap[k] / f.h;
+        // where a linear stop lets go with its end inside, k (start + gap + h (w0 + v)/2)/2 + c v = 0, or outside
+        rates[n++] = -sign * stiffness * ((start + f.gap[k]) / 2 + quarter * sign * f.w0) / (stiffness * quarter + damping);
+        if (damping > 0) rates[n++] = -sign * stiffness * start / (2 * damping);
     }
     return n;
 }
@@ -232,7 +240,8 @@ double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0
     s.peak[0] = std::max(s.peak[0], s.plastic);
     s.peak[1] = std::max(s.peak[1], -s.plastic);
     s.damped += f.h * hinge.damping * w1 * mean_rate;
-    if (stop != 0) s.stop_dissipated += stop * mean_rate - (stop_energy(hinge, q0 + turn) - stop_energy(hinge, q0));
+    // also where the stop has let go and its spring relaxes into its damper
+    s.stop_dissipated += stop * mean_rate - (stop_energy(hinge, q0 + turn) - stop_energy(hinge, q0));
     s.total_moment = s.moment + hinge.damping * w1 + stop / f.h;
     s.rotation_max = std::max(s.rotation_max, std::fabs(q0 + turn));
     s.moment_max = std::max(s.moment_max, std::fabs(s.total_moment));

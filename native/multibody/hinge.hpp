@@ -1,14 +1,15 @@
 // One hinge kernel for all laws: the impulse that a hinge gives against its rate at the end of the step.
 //
 // Over a step of length h everything that is not convex in the end rate w (capacity along the softening
-// curve, rate factor, whether a stop is engaged) is frozen at its prediction.  The rigid forms take the mean
+// curve, rate factor, for how long a stop is touched) is frozen at its prediction.  The rigid forms take the mean
 // capacity over the predicted turn, so the energy under the curve is exact however sharp its kinks.  What remains is a
 // non-decreasing impulse P(w), the derivative of a convex potential:
 //   set-valued       P = h C sign(w), any value up to h C at w = 0 (ramp of half-width `stick_rate`)
 //   elastic-plastic  P = h (M0 + M1)/2,  M1 = M0 + k h (w0 + w)/2 clamped to the capacity
 //   regularised      P = h C HAVSIN(w, -w_reg, -1, w_reg, 1)
 //   damper           P = h c w
-//   stop             P = h max(0, k g^e + c w),  g the mean of start and end penetration
+//   stop             P = h f max(0, k g^e + c w),  g the mean of start and end penetration, neither below zero,
+//                    f the share of the step in which it is touched, frozen
 // The elastic terms use the mean of start and end, so an elastic swing keeps its energy; dampers use the
 // end rate, so stiff ones decay.
 #pragma once
@@ -83,7 +84,7 @@ struct FrozenHinge {
     double capacity[2] = {0, 0};
     double gap[2] = {0, 0};         // start penetration of each stop (negative: open)
     double stop_damping[2] = {0, 0};
-    bool engaged[2] = {false, false};
+    double touched[2] = {0, 0};     // share of the step in which each stop is touched
 };
 
 struct Response {
@@ -97,7 +98,7 @@ FrozenHinge freeze(const Hinge& hinge, const HingeState& state, double h, double
 Response law_response(const Hinge& hinge, const FrozenHinge& f, double w);
 Response stop_response(const Hinge& hinge, const FrozenHinge& f, double w);
 Response respond(const Hinge& hinge, const FrozenHinge& f, double w);
-// rates at which the slope of the response changes; returns how many (at most 8)
+// rates at which the slope of the response changes; returns how many (at most 9)
 int kinks(const Hinge& hinge, const FrozenHinge& f, double* rates);
 // advances the memory; returns the rotation over the step
 double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& state, double t0, double q0, double w1);

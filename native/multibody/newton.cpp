@@ -11,10 +11,11 @@ namespace {
 
 // Whole Newton steps before the guaranteed path is taken; they fail only by cycling, which is rare.
 constexpr int bold_limit = 16;
-// Newton steps per width of the ramps before the step is given up and halved.
-constexpr int newton_limit = 60;
+// Newton steps per width of the ramps before the step is given up and shortened: a fixed number, and some per
+// hinge, since in the worst case (an impulse on the end of a long chain) hinges lock and let go one at a time.
+constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
 // Widening: from the largest rate down by this factor a time.
-constexpr double narrowing = 1e-2;
+constexpr double narrowing = 1e-1;
 // Relative accuracy of a hinge's impulse; piecewise linear laws reach round-off, HAVSIN ramps converge to this.
 constexpr double impulse_tolerance = 1e-9;
 
@@ -26,7 +27,8 @@ constexpr double impulse_tolerance = 1e-9;
 bool Stepper::newton() {
     std::fill(impedance_.begin(), impedance_.end(), 0.0);
     std::fill(rhs_.begin(), rhs_.end(), 0.0);
-    if (all_set_valued_ ? descend(bold_limit, true) : descend(newton_limit, false)) return true;
+    const int limit = newton_limit + newton_limit_per_hinge * static_cast<int>(frozen_.size());
+    if (all_set_valued_ ? descend(bold_limit, true) : descend(limit, false)) return true;
     double width = 1;
     for (const double w : w_) width = std::max(width, std::fabs(w));
     if (!std::isfinite(width)) return false;
@@ -41,7 +43,7 @@ bool Stepper::newton() {
             frozen_[j].width = wanted;
             if (wanted > ramp_width(hinge)) narrowest = false;
         }
-        if (!descend(newton_limit, false)) return false;
+        if (!descend(limit, false)) return false;
     }
     return true;
 }
@@ -166,7 +168,7 @@ double Stepper::search(double slope_end) {
         const auto dof = static_cast<size_t>(model_.hinges[j].dof);
         const double d = direction_[dof];
         linear_end += (rhs_[dof] - impedance_[dof] * next_[dof]) * d;
-        double rates[8];
+        double rates[9];
         const int n = kinks(model_.hinges[j], frozen_[j], rates);
         for (int k = 0; k < n; k++) {
             const double a = (rates[k] - w_[dof]) / d;

@@ -169,11 +169,13 @@ void Simulation::store(Record& r) const {
     r.drive.insert(r.drive.end(), state_.drive_impulse.begin(), state_.drive_impulse.end());
 }
 
-// A rigid hinge has no moment before the first step; what it will carry at once is seen by a step that is thrown away.
+// Before the first step a rigid hinge has no moment and no hinge a sense in which it turns; what it will carry at once
+// is seen by a step that is thrown away.
 void Simulation::show_first_moments() {
     State probe = state_;
     if (state_.t > 0 || !stepper_.step(probe, 100 * settings_.minimum_step)) return;
     for (size_t j = 0; j < model_.hinges.size(); j++) {
+        state_.hinge[j].capacity = probe.hinge[j].capacity;
         if (model_.hinges[j].form != Form::elastic_plastic) state_.hinge[j].total_moment = probe.hinge[j].total_moment;
     }
 }

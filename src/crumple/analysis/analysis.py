@@ -6,7 +6,14 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from crumple.structure import MultibodySettings, Outputs, Structure, output_problems
+from crumple.structure import (
+    MultibodySettings,
+    Outputs,
+    ShellSettings,
+    Structure,
+    output_problems,
+    shell_problems,
+)
 from crumple.structure.quantity import PositiveTime
 from crumple.structure.spec import Spec, raise_all
 
@@ -22,6 +29,8 @@ class Settings(Spec):
     """Time to simulate."""
     multibody: MultibodySettings = MultibodySettings()
     """Settings of the multibody solver."""
+    shell: ShellSettings = ShellSettings()
+    """Settings of the shell solver."""
 
 
 Title = Annotated[str, Field(max_length=LONGEST_TITLE)]
@@ -40,8 +49,8 @@ class Analysis(Spec):
         [s].
     title
         One line for people.
-    multibody
-        Settings of the multibody solver.
+    multibody, shell
+        Settings of the solvers.
     outputs
         What is reported.
     """
@@ -50,6 +59,7 @@ class Analysis(Spec):
     duration: PositiveTime
     title: Title = ""
     multibody: MultibodySettings = MultibodySettings()
+    shell: ShellSettings = ShellSettings()
     outputs: Outputs = Outputs()
 
     @model_validator(mode="after")
@@ -57,6 +67,7 @@ class Analysis(Spec):
         from crumple.analysis.filters import filter_problems  # noqa: PLC0415  (filters know this class)
 
         problems = output_problems(self.outputs, self.structure)
+        problems += shell_problems(self.shell, self.structure)
         interval = self.output_interval
         raise_all(problems or filter_problems(self.structure, self.outputs, self.duration, interval))
         return self

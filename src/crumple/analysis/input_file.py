@@ -13,7 +13,7 @@ from crumple.analysis.analysis import DEFAULT_INTERVALS, Analysis, Settings, Tit
 from crumple.analysis.filters import filter_problems
 from crumple.analysis.reading import Document, read_file, read_text
 from crumple.errors import InputError, Problem
-from crumple.structure import Outputs, Structure, output_problems, problems_in
+from crumple.structure import Outputs, Structure, output_problems, problems_in, shell_problems
 from crumple.structure.problems import Place, path_of, placed_problems, shown
 
 FORMAT = 1
@@ -92,6 +92,8 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
     outputs = whole.outputs if whole else _validated(Outputs, data.get("outputs") or {}, context)[0]
     if isinstance(outputs, Outputs):
         cross += output_problems(outputs, structure, defined)
+    if whole:
+        cross += shell_problems(whole.analysis.shell, structure, defined)
     if whole and not cross:
         interval = whole.outputs.every or whole.analysis.duration / DEFAULT_INTERVALS
         cross += filter_problems(structure, whole.outputs, whole.analysis.duration, interval)
@@ -106,6 +108,7 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
             "duration": whole.analysis.duration,
             "title": whole.title,
             "multibody": whole.analysis.multibody,
+            "shell": whole.analysis.shell,
             "outputs": whole.outputs,
         }
     )

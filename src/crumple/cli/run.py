@@ -21,6 +21,7 @@ class Fidelity(StrEnum):
     """Solvers by name."""
 
     MULTIBODY = "multibody"
+    SHELL = "shell"
 
 
 def run(
@@ -30,6 +31,13 @@ def run(
         Path | None, typer.Option(help="Folder for the results; by default out/ and the input file's name.")
     ] = None,
     fidelity: Annotated[Fidelity, typer.Option(help="Which solver.")] = Fidelity.MULTIBODY,
+    threads: Annotated[
+        int | None, typer.Option(help="Threads; by default all cores.", min=1, show_default=False)
+    ] = None,
+    restart: Annotated[
+        Path | None,
+        typer.Option(help="Go on from the restart file of an interrupted shell run.", show_default=False),
+    ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print summary.json in place of the table.")
     ] = False,
@@ -37,28 +45,41 @@ def run(
     """Solve an input file and report. Writes summary, histories, shapes, figures and a page to a folder."""
     from crumple.analysis import canonical, load, solve
     from crumple.cli.progress import progress_bar, stop_on_interrupt
+    from crumple.cli.shell_run import RESTART, available_threads, long_run_of
     from crumple.report import ReportInput, write_report
     from crumple.result import summary_json, write
 
     analysis = load(file)
     folder = out if out is not None else Path("out") / file.stem
     folder.mkdir(parents=True, exist_ok=True)
+    is_shell = fidelity is Fidelity.SHELL
+    if restart is not None and not is_shell:
+        raise typer.BadParameter("only shell runs are long enough to be restarted", param_hint="--restart")
     with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
-        result = solve(analysis, fidelity=fidelity.value, progress=progress, cancel=cancel)
+        result = solve(
+            analysis,
+            fidelity=fidelity.value,
+            threads=threads or (available_threads() if is_shell else 1),
+            progress=progress,
+            cancel=cancel,
+            long_run=long_run_of(folder, restart, progress) if is_shell else None,
+        )
     write(result, folder)
     source = ReportInput(
         title=analysis.title,
         text=file.read_text(encoding="utf-8-sig"),
         name=file.name,
         canonical=canonical(analysis),
-        residual_bound=analysis.multibody.energy_residual_bound,
-        accuracy=analysis.multibody.accuracy,
+        residual_bound=(analysis.shell if is_shell else analysis.multibody).energy_residual_bound,
+        accuracy=None if is_shell else analysis.multibody.accuracy,
     )
     write_report(result, source, folder)
     if as_json:
         typer.echo(summary_json(result), nl=False)
     else:
         _show(result, folder)
+        if (folder / RESTART).exists():
+            typer.echo(f"Go on with: crumple run {file} --fidelity shell --restart {folder / RESTART}")
     if not result.status.ok:
         raise typer.Exit(1)
 

@@ -1,43 +1,67 @@
 """Section and material to collapse law, with a source and a range, and to the record of the stepper."""
 
+from crumple.hinge.axial_law import AxialLaw, CrushDistance, CrushRate, CrushValidity, absorbed_by
 from crumple.hinge.energy import absorbed_energy, rotation_absorbing
 from crumple.hinge.jamming import AfterJamming
 from crumple.hinge.law import HingeLaw, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.laws.circular import CircularLaw
 from crumple.hinge.laws.constant import ConstantLaw
 from crumple.hinge.laws.kecman import KecmanLaw, Start
+from crumple.hinge.laws.oblique import ObliqueLaw
 from crumple.hinge.laws.tabulated import TabulatedLaw
 from crumple.hinge.laws.wierzbicki import WierzbickiLaw
 from crumple.hinge.rate import HingeRate
 from crumple.hinge.record import Envelope, Form, HingeRecord
 from crumple.hinge.recording import record_of, tributary_stiffness
-from crumple.hinge.registry import build_law, law_options, law_types
+from crumple.hinge.registry import (
+    axial_law_types,
+    build_axial_law,
+    build_law,
+    build_torsion_law,
+    law_options,
+    law_types,
+    torsion_law_types,
+)
 from crumple.hinge.stop import Stop
 from crumple.hinge.table import plastic_part, read_table
+from crumple.hinge.torsion_law import TorsionLaw
 
 __all__ = [
     "AfterJamming",
+    "AxialLaw",
+    "CircularLaw",
     "ConstantLaw",
+    "CrushDistance",
+    "CrushRate",
+    "CrushValidity",
     "Envelope",
     "Form",
     "HingeLaw",
     "HingeRate",
     "HingeRecord",
     "KecmanLaw",
+    "ObliqueLaw",
     "SofteningVariable",
     "Source",
     "Start",
     "Stop",
     "TabulatedLaw",
+    "TorsionLaw",
     "Trust",
     "Validity",
     "WierzbickiLaw",
+    "absorbed_by",
     "absorbed_energy",
+    "axial_law_types",
+    "build_axial_law",
     "build_law",
+    "build_torsion_law",
     "law_options",
     "law_types",
     "plastic_part",
     "read_table",
     "record_of",
     "rotation_absorbing",
+    "torsion_law_types",
     "tributary_stiffness",
 ]

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from crumple.errors import InputError, Problem
-from crumple.material import CowperSymonds
+from crumple.material import CowperSymonds, RateLaw
 
 FOLDS_PER_HINGE = 3.0
 """Folds that share the rotation; more would lower the strain rate in proportion."""
@@ -49,17 +49,20 @@ class HingeRate:
             )
 
 
-def hinge_rate(strain_rate_law: CowperSymonds | None) -> HingeRate | None:
+def hinge_rate(strain_rate_law: RateLaw | None) -> HingeRate | None:
     """Rate law of a bending hinge whose folds follow a strain-rate law; None stays None.
 
     Notes
     -----
-    Mechanisms work at large strain, so they take the material's flow pair.
+    Mechanisms work at large strain, so they take the material's flow pair.  A Johnson-Cook law becomes the
+    power law with the same factor at 10 and 1000 1/s.
 
     References
     ----------
     docs/theory/rate.md.  Verified in tests/unit/hinge/test_rate.py.
     """
+    if strain_rate_law is not None and not isinstance(strain_rate_law, CowperSymonds):
+        strain_rate_law = strain_rate_law.as_cowper_symonds()
     if strain_rate_law is None:
         return None
     return HingeRate(2.0 * FOLDS_PER_HINGE * FOLD_WIDTH * strain_rate_law.D, strain_rate_law.q)

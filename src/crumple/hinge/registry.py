@@ -1,4 +1,7 @@
-"""Laws by name.  Adding a law is adding a file to `crumple.hinge.laws` with a class under `law_type`."""
+"""Laws by name.  Adding a law is adding a file to one of the three folders with a class under its decorator.
+
+``laws`` holds bending, ``axial`` axial crushing, ``torsion`` twisting.
+"""
 
 from __future__ import annotations
 
@@ -6,49 +9,114 @@ import importlib
 import inspect
 import pkgutil
 from collections.abc import Callable
-from functools import lru_cache
-from typing import Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.law import HingeLaw
 from crumple.material import Material
 from crumple.section import Axis, Section
 
+if TYPE_CHECKING:
+    from crumple.hinge.axial_law import AxialLaw
+    from crumple.hinge.torsion_law import TorsionLaw
+
+_Class = TypeVar("_Class")
+
 
 class LawType(Protocol):
-    """A law that can be built for a section; every law class offers it."""
+    """A law that can be built for a section; every bending law class offers it."""
 
     def of(self, section: Section, material: Material, axis: Axis = "y", **options: Any) -> HingeLaw:
         """Build the law of a section about an axis; options differ from law to law."""
         ...
 
 
-_types: dict[str, Any] = {}
-_Class = TypeVar("_Class")
+class Family:
+    """Laws of one kind of collapse, one file each in one folder.
+
+    Parameters
+    ----------
+    folder
+        Package that holds the files; imported on first use.
+    what
+        What messages call a law of this kind.
+    """
+
+    def __init__(self, folder: str, what: str) -> None:
+        self._folder = folder
+        self._what = what
+        self._types: dict[str, Any] = {}
+        self._loaded = False
+
+    def register(self, name: str) -> Callable[[_Class], _Class]:
+        """Register a law class under the name that people use."""
+
+        def register(cls: _Class) -> _Class:
+            self._types[name] = cls
+            return cls
+
+        return register
+
+    def types(self) -> dict[str, Any]:
+        """Every law class by its name, sorted."""
+        if not self._loaded:
+            package = importlib.import_module(self._folder)
+            for module in pkgutil.iter_modules(package.__path__):
+                importlib.import_module(f"{self._folder}.{module.name}")
+            self._loaded = True
+        return dict(sorted(self._types.items()))
+
+    def type_of(self, name: str) -> Any:
+        """Law class of a name; refuses unknown ones with `InputError`."""
+        types = self.types()
+        if name not in types:
+            what, todo = f"unknown {self._what}", "choose one of these"
+            raise InputError(Problem(what, repr(name), ", ".join(types), todo, "type"))
+        return types[name]
+
+    def options(self, name: str) -> tuple[str, ...]:
+        """Names of the keyword options of a law."""
+        parameters = inspect.signature(self.type_of(name).of).parameters.values()
+        return tuple(parameter.name for parameter in parameters if parameter.kind is parameter.KEYWORD_ONLY)
+
+    def build(self, name: str, *arguments: Any, **options: Any) -> Any:
+        """Build a law by its name; refuses unknown options with `InputError`."""
+        cls = self.type_of(name)
+        allowed = self.options(name)
+        unknown = [option for option in options if option not in allowed]
+        if unknown:
+            todo = f"give the law {name} only options that it knows"
+            raise InputError(
+                [
+                    Problem("unknown option", option, ", ".join(allowed) or "none", todo, option)
+                    for option in unknown
+                ]
+            )
+        return cls.of(*arguments, **options)
 
 
-def law_type(name: str) -> Callable[[_Class], _Class]:
-    """Register a law class under the name that the input file uses."""
+_BENDING = Family("crumple.hinge.laws", "hinge law")
+_AXIAL = Family("crumple.hinge.axial", "axial law")
+_TORSION = Family("crumple.hinge.torsion", "torsion law")
 
-    def register(cls: _Class) -> _Class:
-        _types[name] = cls
-        return cls
-
-    return register
-
-
-@lru_cache(maxsize=1)
-def _load_all() -> None:
-    """Import every file of the laws folder once, so that its classes register themselves."""
-    laws = importlib.import_module("crumple.hinge.laws")
-    for module in pkgutil.iter_modules(laws.__path__):
-        importlib.import_module(f"{laws.__name__}.{module.name}")
+law_type = _BENDING.register
+axial_law_type = _AXIAL.register
+torsion_law_type = _TORSION.register
 
 
 def law_types() -> dict[str, LawType]:
-    """Every law class by its name, sorted."""
-    _load_all()
-    return dict(sorted(_types.items()))
+    """Every bending law class by its name, sorted."""
+    return _BENDING.types()
+
+
+def axial_law_types() -> dict[str, Any]:
+    """Every axial law class by its name, sorted."""
+    return _AXIAL.types()
+
+
+def torsion_law_types() -> dict[str, Any]:
+    """Every torsion law class by its name, sorted."""
+    return _TORSION.types()
 
 
 def law_options(name: str) -> tuple[str, ...]:
@@ -59,12 +127,11 @@ def law_options(name: str) -> tuple[str, ...]:
     InputError
         If no law has this name.
     """
-    parameters = inspect.signature(_law_type(name).of).parameters.values()
-    return tuple(parameter.name for parameter in parameters if parameter.kind is parameter.KEYWORD_ONLY)
+    return _BENDING.options(name)
 
 
 def build_law(name: str, section: Section, material: Material, axis: Axis = "y", **options: Any) -> HingeLaw:
-    """Build a law by its name.
+    """Build a bending law by its name.
 
     Parameters
     ----------
@@ -85,24 +152,19 @@ def build_law(name: str, section: Section, material: Material, axis: Axis = "y",
     InputError
         If the name or an option is unknown, or the law does not fit the section.
     """
-    cls = _law_type(name)
-    allowed = law_options(name)
-    unknown = [option for option in options if option not in allowed]
-    if unknown:
-        todo = f"give the law {name} only options that it knows"
-        raise InputError(
-            [
-                Problem("unknown option", option, ", ".join(allowed) or "none", todo, option)
-                for option in unknown
-            ]
-        )
-    return cls.of(section, material, axis, **options)
+    law: HingeLaw = _BENDING.build(name, section, material, axis, **options)
+    return law
 
 
-def _law_type(name: str) -> LawType:
-    types = law_types()
-    if name not in types:
-        raise InputError(
-            Problem("unknown hinge law", repr(name), ", ".join(types), "choose one of these", "type")
-        )
-    return types[name]
+def build_axial_law(name: str, section: Section, material: Material, **options: Any) -> AxialLaw:
+    """Build an axial law by its name, one of `axial_law_types`; refuses like `build_law`."""
+    law: AxialLaw = _AXIAL.build(name, section, material, **options)
+    return law
+
+
+def build_torsion_law(
+    name: str, section: Section, material: Material, length: float, **options: Any
+) -> TorsionLaw:
+    """Build the torsion law of a member of a length [m] by its name; refuses like `build_law`."""
+    law: TorsionLaw = _TORSION.build(name, section, material, length, **options)
+    return law

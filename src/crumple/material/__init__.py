@@ -1,6 +1,42 @@
-"""What the metal does: elasticity, yield and flow stress, strain-rate law."""
+"""What the metal does: elasticity, hardening, yield and flow stress, strain-rate law, named grades."""
 
+from crumple.material.flow_stress import (
+    bending_flow_stress,
+    mean_flow_stress,
+    membrane_flow_stress,
+    power_law_flow_stress,
+)
+from crumple.material.grades import Evidence, FlowRule, Grade, grade, grade_material, grades
+from crumple.material.hardening import (
+    HardeningCurve,
+    HardeningTable,
+    PerfectlyPlastic,
+    Swift,
+    Voce,
+    swift_from_tensile_test,
+)
 from crumple.material.material import Material
-from crumple.material.rate import CowperSymonds
+from crumple.material.rate import CowperSymonds, JohnsonCook, RateLaw
 
-__all__ = ["CowperSymonds", "Material"]
+__all__ = [
+    "CowperSymonds",
+    "Evidence",
+    "FlowRule",
+    "Grade",
+    "HardeningCurve",
+    "HardeningTable",
+    "JohnsonCook",
+    "Material",
+    "PerfectlyPlastic",
+    "RateLaw",
+    "Swift",
+    "Voce",
+    "bending_flow_stress",
+    "grade",
+    "grade_material",
+    "grades",
+    "mean_flow_stress",
+    "membrane_flow_stress",
+    "power_law_flow_stress",
+    "swift_from_tensile_test",
+]

@@ -6,7 +6,8 @@ import math
 from dataclasses import dataclass
 
 from crumple.errors import InputError, Problem
-from crumple.material.rate import CowperSymonds
+from crumple.material.hardening import HardeningCurve
+from crumple.material.rate import RateLaw
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,8 @@ class Material:
         Mean stress [Pa] in a fold at large strain, or None: see `flow_stress`.
     yield_rate, flow_rate
         Strain-rate law at yield and at large strain; None: no rate effect.
+    hardening
+        True stress against plastic strain, from the same yield stress; None: perfectly plastic, or unknown.
 
     Raises
     ------
@@ -45,8 +48,9 @@ class Material:
     yield_stress: float
     ultimate_stress: float | None = None
     given_flow_stress: float | None = None
-    yield_rate: CowperSymonds | None = None
-    flow_rate: CowperSymonds | None = None
+    yield_rate: RateLaw | None = None
+    flow_rate: RateLaw | None = None
+    hardening: HardeningCurve | None = None
 
     def __post_init__(self) -> None:
         problems = [*_not_positive(self), *_inconsistent(self)]
@@ -116,6 +120,18 @@ def _inconsistent(material: Material) -> list[Problem]:
                 "ultimate >= yield",
                 "exchange the two, or leave the ultimate stress out",
                 "ultimate_stress",
+            )
+        )
+    curve = material.hardening
+    # a part in a million: curves and yield stress may come from the same text in different units
+    if curve is not None and abs(curve.yield_stress / material.yield_stress - 1.0) > 1e-6:
+        problems.append(
+            Problem(
+                "the hardening curve does not begin at the yield stress",
+                f"{curve.yield_stress:g} Pa",
+                f"{material.yield_stress:g} Pa",
+                "give both the same yield stress",
+                "hardening",
             )
         )
     return problems

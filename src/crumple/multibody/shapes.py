@@ -6,11 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crumple._core.tree import TreeRecord
-from crumple.multibody.histories import motion_of, rotated
+from crumple.multibody.histories import motion_of
 from crumple.multibody.mechanism import GROUND, Mechanism, Piece
 from crumple.multibody.rigid import Floats
 from crumple.result import States
 from crumple.structure import Structure
+
+Integers = NDArray[np.int64]
 
 LONGEST_QUAD = 2.0
 """Length of a quadrilateral over the section's largest side: smooth enough to draw, few enough to store."""
@@ -29,7 +31,7 @@ def states_of(structure: Structure, mechanism: Mechanism, record: TreeRecord, ti
         for x in stations:
             ring = frame.position(x) + outline @ frame.axes[1:]
             points.append(ring)
-            moved.append(_carried(mechanism, record, name, x, ring)[rows])
+            moved.append(_carried(mechanism, record, name, x, ring=ring, rows=rows))
         member += [index] * (around * len(stations))
         station.append(np.repeat(stations, around))
         contour.append(np.tile(np.arange(around), len(stations)))
@@ -57,29 +59,29 @@ def _stations(pieces: tuple[Piece, ...], side: float) -> Floats:
     return np.unique(np.array(found))
 
 
-def _tube_quads(rings: int, around: int) -> NDArray[np.int64]:
+def _tube_quads(rings: int, around: int) -> Integers:
     i, j = np.divmod(np.arange((rings - 1) * around), around)
     k = (j + 1) % around
     return np.stack([i * around + j, (i + 1) * around + j, (i + 1) * around + k, i * around + k], axis=1)
 
 
-def _carried(mechanism: Mechanism, record: TreeRecord, member: str, station: float, ring: Floats) -> Floats:
-    """Positions of a ring of points over time, (n, around, 3).
+def _carried(
+    mechanism: Mechanism, record: TreeRecord, member: str, station: float, *, ring: Floats, rows: Integers
+) -> Floats:
+    """Positions of a ring of points at some of the output times, (rows, around, 3).
 
     At a hinge the ring turns by the mean of both bodies about the hinge, so that the walls meet.
     """
     pieces = mechanism.pieces[member]
     meeting = [piece.body for piece in pieces if piece.start <= station <= piece.end]
-    if len(meeting) == 1 or meeting[0] == meeting[-1]:
-        return np.stack([motion_of(mechanism, record, meeting[0], point)[0] for point in ring], axis=1)
-    plane = mechanism.plane
-    middle = ring.mean(axis=0)
-    place = motion_of(mechanism, record, meeting[0], middle)[0]
-    turns = [record.pose[:, b, 0] if b != GROUND else np.zeros(record.time.size) for b in meeting]
-    angle = (turns[0] + turns[-1]) / 2
-    out = []
-    for point in ring:
-        arm = point - middle
-        across = float(arm @ plane.normal) * plane.normal
-        out.append(place + plane.raised(rotated(plane.flat(arm), angle)) + across)
-    return np.stack(out, axis=1)
+    plane, middle = mechanism.plane, ring.mean(axis=0)
+    place = motion_of(mechanism, record, meeting[0], middle)[0][rows]
+    turns = [record.pose[rows, b, 0] if b != GROUND else np.zeros(rows.size) for b in meeting]
+    angle = (turns[0] + turns[-1])[:, None] / 2
+    c, s = np.cos(angle), np.sin(angle)
+    arms = ring - middle
+    first, second = plane.flat(arms).T
+    turned = np.stack([c * first - s * second, s * first + c * second], axis=-1)
+    across = (arms @ plane.normal)[:, None] * plane.normal
+    carried: Floats = place[:, None] + plane.raised(turned) + across
+    return carried

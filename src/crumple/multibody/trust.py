@@ -15,6 +15,10 @@ LOST_SHARE = 1e-3
 """Share of the given energy that may vanish at the start before a warning."""
 ELASTIC_SHARE = 0.05
 """Share of elastic energy above which rigid bars are worth a warning: as large as the laws' own scatter."""
+ERROR_SHARE = 0.01
+"""Estimated error of a rotation over the largest rotation above which an engineer must know."""
+MOST_NAMES = 6
+"""Hinges that a warning names one by one."""
 SOFTENING = {
     SofteningVariable.PEAK: "the largest plastic rotation in each sense (bent back, it stays weak)",
     SofteningVariable.ROTATION: "the present plastic rotation (bent back, it regains its strength)",
@@ -61,8 +65,13 @@ def warnings(
 ) -> tuple[str, ...]:
     """Sentences that must be read before believing the result."""
     found: list[str] = []
-    for hinge in hinges_of(mechanism):
-        found += _of_hinge(hinge, hinges[hinge.name])
+    placed = hinges_of(mechanism)
+    largest = max((summary.rotation_max for summary in hinges.values()), default=0.0)
+    by_text: dict[str, list[str]] = {}
+    for hinge in placed:
+        for text in _of_hinge(hinge, hinges[hinge.name], largest):
+            by_text.setdefault(text, []).append(hinge.name)
+    found += [f"{_named(names)}: {text}" for text, names in by_text.items()]
     kinetic = float(record.energy[0, 0])
     vanished = max(start.given_energy - kinetic, lost) if not start.impulse.any() else lost
     if vanished > LOST_SHARE * max(start.given_energy, kinetic):
@@ -70,7 +79,7 @@ def warnings(
             f"{vanished:.4g} J of the given {max(start.given_energy, kinetic + lost):.4g} J is lost "
             "at the start: the given motion does not fit the supports and hinges."
         )
-    stored = sum(_elastic_limit(structure, hinge, hinges[hinge.name]) for hinge in hinges_of(mechanism))
+    stored = sum(_elastic_limit(structure, hinge, hinges[hinge.name]) for hinge in placed)
     total = kinetic + float(abs(record.energy[:, 5]).max())
     if total > 0.0 and stored > ELASTIC_SHARE * total:
         found.append(
@@ -83,32 +92,41 @@ def warnings(
     return tuple(found)
 
 
-def _of_hinge(hinge: PlacedHinge, summary: HingeSummary) -> list[str]:
-    law, found = hinge.law, [f"Hinge {hinge.name}: {text}" for text in hinge.law.validity.warnings]
-    turned = f"Hinge {hinge.name} turned by {math.degrees(summary.rotation_max):.1f} deg"
+def _of_hinge(hinge: PlacedHinge, summary: HingeSummary, largest: float) -> list[str]:
+    """Sentences about one hinge; those that many hinges share read the same."""
+    law, found = hinge.law, list(hinge.law.validity.warnings)
+    turned = f"turned by {math.degrees(summary.rotation_max):.1f} deg"
     if law.jamming_angle is not None and summary.rotation_max > law.jamming_angle:
-        found.append(
-            f"{turned}: its walls jam at {math.degrees(law.jamming_angle):.1f} deg, what follows is a guess."
-        )
+        jams = math.degrees(law.jamming_angle)
+        found.append(f"{turned}; its walls jam at {jams:.1f} deg, and what follows is a guess")
     elif summary.rotation_max > law.validity.rotation_max:
-        found.append(
-            f"{turned}; its law is backed up to {math.degrees(law.validity.rotation_max):.1f} deg only "
-            f"({law.validity.basis})."
-        )
-    if summary.rotation_error is not None and summary.rotation_error > 0.01 * max(summary.rotation_max, 1e-3):
-        found.append(
-            f"Hinge {hinge.name}: its rotation errs by about {math.degrees(summary.rotation_error):.2g} deg; "
-            "ask for a tighter accuracy."
-        )
+        backed = math.degrees(law.validity.rotation_max)
+        found.append(f"{turned}; its law is backed up to {backed:.1f} deg only ({law.validity.basis})")
+    if summary.rotation_error is not None and summary.rotation_error > ERROR_SHARE * largest:
+        error = math.degrees(summary.rotation_error)
+        found.append(f"its rotation errs by about {error:.2g} deg; ask for a tighter accuracy")
     return found
 
 
+def _named(names: list[str]) -> str:
+    """Hinges of a sentence: all names while they are few."""
+    if len(names) == 1:
+        return f"Hinge {names[0]}"
+    shown = (
+        names
+        if len(names) <= MOST_NAMES
+        else [*names[: MOST_NAMES - 1], f"{len(names) - MOST_NAMES + 1} more"]
+    )
+    return f"Hinges {', '.join(shown)}"
+
+
 def _elastic_limit(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -> float:
-    """Energy [J] that the elastic part left out by a rigid hinge could store."""
+    """Energy [J] that the elastic part left out by a rigid hinge could store, at its capacity."""
     if hinge.record.form is Form.ELASTIC_PLASTIC:
         return 0.0
     section, material = structure.section_of(hinge.member), structure.material_of(hinge.member)
     stiffness = tributary_stiffness(
         material.youngs_modulus * section.second_moment(hinge.axis), hinge.tributary_length
     )
-    return summary.moment_max**2 / (2.0 * stiffness)
+    capacity = max(float(hinge.record.positive.moment.max()), float(hinge.record.negative.moment.max()))
+    return min(summary.moment_max, capacity) ** 2 / (2.0 * stiffness)

@@ -94,7 +94,7 @@ def write_report(result: Result, source: ReportInput, directory: Path | str) -> 
 
 def _draw(result: Result, bound: float | None) -> list[tuple[str, str, str]]:
     """Every figure that the result has something for: file name, SVG, caption."""
-    from crumple.report import curves, moment, shape  # noqa: PLC0415  (matplotlib takes a third of a second)
+    from crumple.report import curves, fold, moment, shape  # noqa: PLC0415  (matplotlib takes a third of a second)
     from crumple.report.style import drawing  # noqa: PLC0415
 
     with drawing():
@@ -105,6 +105,7 @@ def _draw(result: Result, bound: float | None) -> list[tuple[str, str, str]]:
                 "Deformed member walls at the picture times over the undeformed shape in grey, "
                 "all at one scale. Circles mark hinges.",
             ),
+            *((f"fold_{i + 1}", svg, caption) for i, (svg, caption) in enumerate(fold.folds(result))),
             (
                 "rotation",
                 curves.rotations(result),
@@ -167,6 +168,7 @@ def _render(
 
     # the figures and the style are our own; everything else is escaped
     figures = {name: _Figure(i + 1, Markup(svg), caption) for i, (name, svg, caption) in enumerate(drawn)}
+    close_ups = [figure for name, figure in figures.items() if name.startswith("fold_")]
     moments = [figure for name, figure in figures.items() if name.startswith("moment_")]
     here = Path(__file__).parent
     environment = Environment(
@@ -185,7 +187,7 @@ def _render(
         style=Markup(style),
         verdict=wording.verdict(result, bound, accuracy),
         key_figures=wording.key_figures(result),
-        figures={**{name: figures.get(name) for name in named}, "moments": moments},
+        figures={**{name: figures.get(name) for name in named}, "moments": moments, "folds": close_ups},
         omitted_hinges=max(len(result.hinges) - MAX_MOMENT_FIGURES, 0),
         hinge_table=wording.hinge_table(result),
         output_table=wording.output_table(result),

@@ -12,6 +12,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
+from crumple.report.strain import draw_key, largest_strain, wall_colours
 from crumple.report.style import INK, MUTED, RULE, SERIES, WIDTH, add_axes, new_figure, short, to_svg
 from crumple.report.view import View, choose_view, ring_centres
 from crumple.result import Result, States
@@ -92,6 +93,8 @@ def deformation(result: Result) -> str | None:
             color=INK,
         )
     scale = add_axes(figure, 0, 0, WIDTH, foot)
+    if top := largest_strain(states):
+        draw_key(scale, top, WIDTH - 1.5, 0.1)
     inches_per_metre = min(panel_width / width, panel_height / height)
     draw_scale(scale, view, inches_per_metre, panel_width, foot)
     return to_svg(figure, "deformation", _description(states))
@@ -104,7 +107,10 @@ def finite_states(states: States | None) -> States | None:
     keep = np.isfinite(states.displacement).all(axis=(1, 2))
     if not keep.any():
         return None
-    return replace(states, times=states.times[keep], displacement=states.displacement[keep])
+    cells = {name: values[keep] for name, values in states.cell_data.items()}
+    return replace(
+        states, times=states.times[keep], displacement=states.displacement[keep], cell_data=cells
+    )
 
 
 def _description(states: States) -> str:
@@ -177,7 +183,9 @@ def draw_walls(
         return
     light = np.abs(normals @ (0.75 * view.towards + 0.6 * view.up))
     shade = np.clip(0.62 + 0.5 * light, 0.0, 1.15)[:, None]
-    colours = np.clip(1.0 - (1.0 - np.array(_WALL)) * (1.9 - shade), 0.0, 1.0)
+    top = largest_strain(states)
+    base = wall_colours(states, state, top) if top else np.tile(_WALL, (len(quads), 1))
+    colours = np.clip(1.0 - (1.0 - base) * (1.9 - shade), 0.0, 1.0)
     walls = PolyCollection(
         corners[order],
         facecolors=colours[order],

@@ -1,8 +1,85 @@
-"""What the cross-section is: outline of walls and the properties that follow from it."""
+"""What the cross-section is: its walls, and the properties, capacities and interaction that follow from them.
+
+The names of sections made of walls are looked up on first access: tubes need none of them.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from crumple.section.circular_tube import CircularTube
 from crumple.section.fold import half_fold_length
 from crumple.section.rectangular_tube import RectangularTube
 from crumple.section.section import AXES, Axis, Section
 
-__all__ = ["AXES", "Axis", "CircularTube", "RectangularTube", "Section", "half_fold_length"]
+if TYPE_CHECKING:
+    from crumple.section.built_up import ClosedHat, MultiCellTube
+    from crumple.section.capacity import MomentCapacity, moment_capacity
+    from crumple.section.interaction import PlasticInteraction, plastic_interaction
+    from crumple.section.interaction_fit import InteractionFit, fitted_interaction
+    from crumple.section.open_sections import Angle, Channel, Hat
+    from crumple.section.properties import SectionProperties
+    from crumple.section.wall import Wall, Weld
+    from crumple.section.wall_section import WallSection, outline_section, square_tube, walls_of
+    from crumple.section.walled import WalledSection
+
+_FILES = {
+    "Angle": "open_sections",
+    "Channel": "open_sections",
+    "ClosedHat": "built_up",
+    "Hat": "open_sections",
+    "InteractionFit": "interaction_fit",
+    "MomentCapacity": "capacity",
+    "MultiCellTube": "built_up",
+    "PlasticInteraction": "interaction",
+    "SectionProperties": "properties",
+    "Wall": "wall",
+    "WallSection": "wall_section",
+    "WalledSection": "walled",
+    "Weld": "wall",
+    "fitted_interaction": "interaction_fit",
+    "moment_capacity": "capacity",
+    "outline_section": "wall_section",
+    "plastic_interaction": "interaction",
+    "square_tube": "wall_section",
+    "walls_of": "wall_section",
+}
+
+__all__ = [
+    "AXES",
+    "Angle",
+    "Axis",
+    "Channel",
+    "CircularTube",
+    "ClosedHat",
+    "Hat",
+    "InteractionFit",
+    "MomentCapacity",
+    "MultiCellTube",
+    "PlasticInteraction",
+    "RectangularTube",
+    "Section",
+    "SectionProperties",
+    "Wall",
+    "WallSection",
+    "WalledSection",
+    "Weld",
+    "fitted_interaction",
+    "half_fold_length",
+    "moment_capacity",
+    "outline_section",
+    "plastic_interaction",
+    "square_tube",
+    "walls_of",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _FILES:
+        return getattr(import_module(f"crumple.section.{_FILES[name]}"), name)
+    raise AttributeError(f"module 'crumple.section' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_FILES})

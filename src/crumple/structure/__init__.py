@@ -8,10 +8,10 @@ For a solver:
 - ``structure.section_of(member)`` and ``structure.material_of(member)`` -> objects of those rooms;
 - ``placed_hinges(structure)`` -> `PlacedHinge` per hinge: member, station, position, direction, law, record;
 - ``support.held`` -> freedoms held at zero, ``support.driven`` -> functions of time by driven freedom;
-- `MultibodySettings` and `Outputs` -> what the solver is told beside the structure.
+- `MultibodySettings`, `ShellSettings` and `Outputs` -> what the solver is told beside the structure.
 """
 
-from crumple.structure.checks import output_problems, problems_in
+from crumple.structure.checks import output_problems, problems_in, shell_problems
 from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges import HingePlace, PlacedHinge, hinge_places, placed_hinges
 from crumple.structure.law import (
@@ -31,7 +31,7 @@ from crumple.structure.member import Bars, Hinge, Member
 from crumple.structure.motion import FREEDOMS, InitialVelocity, Motion, Support
 from crumple.structure.outputs import Filter, Outputs, SectionRotation
 from crumple.structure.section import CircularTubeSpec, RectangularTubeSpec
-from crumple.structure.settings import MultibodySettings
+from crumple.structure.settings import FinePlace, MultibodySettings, ShellSettings
 from crumple.structure.structure import Structure
 
 __all__ = [
@@ -41,6 +41,7 @@ __all__ = [
     "CircularTubeSpec",
     "ConstantLaw",
     "Filter",
+    "FinePlace",
     "ForceComponents",
     "Frame",
     "FrozenMapping",
@@ -63,6 +64,7 @@ __all__ = [
     "RectangularTubeSpec",
     "Regularisation",
     "SectionRotation",
+    "ShellSettings",
     "Stops",
     "Structure",
     "Support",
@@ -73,4 +75,5 @@ __all__ = [
     "output_problems",
     "placed_hinges",
     "problems_in",
+    "shell_problems",
 ]

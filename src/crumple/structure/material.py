@@ -61,7 +61,7 @@ class MaterialSpec(Spec):
             "yield_stress": given.yield_stress,
             "ultimate_stress": given.ultimate_stress,
             "flow_stress": given.given_flow_stress,
-            **{key: {"D": rate.D, "q": rate.q} for key, rate in rates.items() if rate is not None},
+            **{key: _keys(rate) for key, rate in rates.items() if rate is not None},
         }
 
     @model_validator(mode="after")
@@ -85,6 +85,13 @@ class MaterialSpec(Spec):
             yield_rate=_rate(self.yield_rate),
             flow_rate=_rate(self.flow_rate),
         )
+
+
+def _keys(rate: object) -> dict[str, float]:
+    """Keys of a rate law of the physics room."""
+    if not isinstance(rate, material.CowperSymonds):
+        refuse("this rate law cannot be described", allowed="a Cowper-Symonds law", key="flow_rate")
+    return {"D": rate.D, "q": rate.q}
 
 
 def _rate(spec: RateSpec | None) -> material.CowperSymonds | None:

@@ -16,6 +16,7 @@ SAME = {
     "units": ("2.65 mm", "0.265 cm"),
     "stress unit": ("488 MPa", "0.488 GPa"),
     "inches": ("width: 50 mm", "width: 1.968503937007874 in"),
+    "degrees, rounded": ("rotation: 15 rad/s", "rotation: 859.436692696235 deg/s"),
     "minus zero": ("[0, -1, 0]", "[-0.0, -1, 0]"),
     "default spelled out": ("payload: {node: tip,", "payload: {node: tip, offset: [0, 0, 0],"),
     "default left out": (
@@ -55,6 +56,7 @@ def test_the_canonical_form_is_plain_sorted_and_complete():
     form = canonical(loads(TEXT))
     assert json.loads(json.dumps(form, allow_nan=False)) == form
     assert list(form) == sorted(form)
+    assert "null" not in json.dumps(form)
     assert form["structure"]["sections"]["tube"] == {
         "type": "rectangular_tube",
         "width": 0.05,

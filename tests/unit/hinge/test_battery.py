@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from crumple.errors import InputError
 from crumple.hinge import HingeLaw, SofteningVariable, Trust, absorbed_energy, build_law, law_types, record_of
 from crumple.material import CowperSymonds, Material
-from crumple.section import RectangularTube
+from crumple.section import Channel, CircularTube, ClosedHat, Hat, RectangularTube
 
 ERROR = 1e-4
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 355e6, flow_rate=CowperSymonds(6844.0, 3.91))
@@ -40,8 +40,36 @@ OPTIONS = {
         ]
     ],
     "wierzbicki": [{"after_jamming": after} for after in ("second_fold", "stop", "hold")],
+    "oblique": [
+        {"angle": 0.3, "after_jamming": "second_fold"},
+        {"angle": math.pi / 4, "after_jamming": "hold"},
+        {"angle": 1.2, "after_jamming": "stop", "rolling_weight": 0.0},
+    ],
+    "circular": [{"after_jamming": "stop", "rolling_weight": 0.0}, {"after_jamming": "second_fold"}],
+    "folded_profile": [
+        {},
+        {"after_jamming": "second_fold"},
+        {"rolling_weight": 0.0},
+        {"after_jamming": "stop"},
+    ],
 }
-ASYMMETRIC = {("table", 1)}
+ASYMMETRIC = {("table", 1), *(("folded_profile", number) for number in range(4))}
+
+
+def sheet(tube):
+    """Wall of a profile: its edges must stay clear of each other."""
+    return min(tube.thickness, 0.05 * tube.width, 0.05 * tube.depth)
+
+
+# laws of other sections get one with the tube's dimensions
+SECTIONS = {
+    ("circular", None): lambda s: CircularTube(s.width, s.thickness),
+    ("folded_profile", 0): lambda s: Channel(s.width, s.depth, sheet(s)),
+    ("folded_profile", 1): lambda s: Channel(s.width, s.depth, sheet(s), lip=0.2 * s.depth),
+    ("folded_profile", 2): lambda s: Hat(s.width, s.depth, sheet(s), 0.3 * s.width),
+    ("folded_profile", 3): lambda s: ClosedHat(s.width, s.depth, sheet(s), 0.3 * s.width),
+}
+FACE = {Channel: "z", Hat: "y", ClosedHat: "y"}
 CASES = [(name, number) for name in law_types() for number in range(len(OPTIONS.get(name, [{}])))]
 
 tubes = st.builds(
@@ -60,6 +88,10 @@ def law_of(case, section, axis="y"):
     """Law of a case, or None where it rightly refuses the section."""
     name, number = case
     options = OPTIONS.get(name, [{}])[number]
+    build = SECTIONS.get((name, number)) or SECTIONS.get((name, None))
+    if build is not None:
+        section = build(section)
+        axis = FACE.get(type(section), axis)
     try:
         return build_law(name, section, STEEL, axis, **options)
     except InputError as error:
@@ -232,6 +264,8 @@ def test_rate_factor_is_one_at_rest_and_grows(case, section, shares, sense):
 
 @every_case
 def test_turned_section_has_the_law_of_the_other_axis(case, section, shares, sense):
+    if case[0] in {"folded_profile", "circular"}:
+        return  # a profile has one axis of its own, a circular tube looks the same about all
     law, turned = law_of(case, section, "z"), law_of(case, section.turned("z"), "y")
     if law is None or turned is None:
         assert law is turned

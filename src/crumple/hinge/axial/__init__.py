@@ -1,0 +1,1 @@
+"""Laws of axial crushing, one per file; each registers itself with `axial_law_type`."""

@@ -1,0 +1,143 @@
+"""What every law of axial crushing offers: peak force, mean force, stroke, rate, with a source and a range.
+
+A column that crushes folds progressively: the force rises once to a peak and then swings about a mean.  The
+mean times the effective stroke is the energy that the column absorbs.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import Enum
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crumple.hinge.law import Floats, Source
+from crumple.material import CowperSymonds, Material
+
+
+@dataclass(frozen=True)
+class CrushValidity:
+    """Range in which an axial law is backed by evidence.
+
+    Attributes
+    ----------
+    basis
+        What backs it, in one sentence.
+    warnings
+        One sentence for each condition that does not hold.
+    uncertainty
+        Relative half-width of the band of the mean force, or None where nothing is known.
+    """
+
+    basis: str
+    warnings: tuple[str, ...] = ()
+    uncertainty: float | None = None
+
+
+@dataclass(frozen=True)
+class CrushRate:
+    """Factor 1 + (shape V/D)^(1/q) on the mean force at an impact speed V.
+
+    Attributes
+    ----------
+    shape
+        [1/m]: strain rate of the folds over the impact speed; the mean speed V/2 is in it.
+    metal
+        Pair of the metal at large strain.
+    """
+
+    shape: float
+    metal: CowperSymonds
+
+    def factor(self, impact_speed: ArrayLike) -> Floats:
+        """Dynamic over static mean force at an impact speed [m/s]."""
+        return self.metal.factor(self.shape * np.asarray(impact_speed, np.float64))
+
+
+@runtime_checkable
+class AxialLaw(Protocol):
+    """Crushing of one column; pure, frozen.
+
+    Attributes
+    ----------
+    name, title
+        Short key and one line for people.
+    peak_force
+        Squash or plate-buckling load [N].
+    mean_crushing_force
+        Static mean force over the effective stroke [N].
+    effective_stroke
+        Shortening over length [-] at which the folds are closed.
+    half_fold_length
+        H [m], or None where the law does not know it.
+    rate
+        Rate law of the mean force, or None.
+    """
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def title(self) -> str: ...
+    @property
+    def source(self) -> Source: ...
+    @property
+    def validity(self) -> CrushValidity: ...
+    @property
+    def peak_force(self) -> float: ...
+    @property
+    def mean_crushing_force(self) -> float: ...
+    @property
+    def effective_stroke(self) -> float: ...
+    @property
+    def half_fold_length(self) -> float | None: ...
+    @property
+    def rate(self) -> CrushRate | None: ...
+
+
+def absorbed_by(law: AxialLaw, length: float) -> float:
+    """Energy [J] of a column of a length [m] crushed to its effective stroke, slowly."""
+    return law.mean_crushing_force * law.effective_stroke * length
+
+
+def rate_factor_of(law: AxialLaw, impact_speed: ArrayLike) -> Floats:
+    """Factor on the mean force at an impact speed [m/s]; ones without a rate law."""
+    if law.rate is None:
+        return np.ones_like(np.asarray(impact_speed, np.float64))
+    return law.rate.factor(impact_speed)
+
+
+class CrushDistance(Enum):
+    """Over which shortening the mean force is taken; the energy of a column is the same."""
+
+    EFFECTIVE = "effective"
+    """Until the folds are closed: what a test shows as its mean force."""
+    FULL = "full"
+    """The whole length: what a folding calculation gives before its correction."""
+
+
+def crush_rate(shape: float, material: Material) -> CrushRate | None:
+    """Rate law of a mean force: strain rate over impact speed [1/m] and the flow pair of the metal."""
+    pair = material.flow_rate
+    if pair is not None and not isinstance(pair, CowperSymonds):
+        pair = pair.as_cowper_symonds()
+    return None if pair is None else CrushRate(shape, pair)
+
+
+def rate_warnings(material: Material) -> tuple[str, ...]:
+    """Warn of a rate law that a mean force does not use."""
+    if material.yield_rate is None or material.flow_rate is not None:
+        return ()
+    return ("a rate law at yield alone overstates the effect in a fold and is not used: give one at flow",)
+
+
+def flat_wall_moment(flow_stress: float, thickness: float) -> float:
+    """M_0 = s_0 h^2/4, plastic moment per width of a flat wall [N]."""
+    return flow_stress * thickness**2 / 4.0
+
+
+def curved_wall_moment(flow_stress: float, thickness: float) -> float:
+    """M_0 = 2/sqrt(3) s_0 h^2/4, plastic moment per width of a wall held from widening (plane strain) [N]."""
+    return 2.0 / math.sqrt(3.0) * flow_stress * thickness**2 / 4.0

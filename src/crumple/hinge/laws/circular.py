@@ -1,0 +1,197 @@
+"""Circular tube in bending: plastic moment or elastic ovalisation, then a kink.
+
+Unknown: M(theta) of a tube of mean radius R and wall t.
+
+    largest moment   min(s_y Z_pl, 0.987 E R t^2/sqrt(1 - nu^2))            second: Brazier's elastic limit
+    kink begins      theta_k = k_c 2 H_b,  k_c = t/((pi - 2) R^2)           plastic ovalisation, derived:
+        fibres at s_y on a curvature k press the wall inwards by s_y t k per area; the ring is a mechanism of
+        four hinges when  s_y t k R^2 (pi/2 - 1) = 2 m_p,  m_p = s_y t^2/4;  the quarters then turn by psi and
+        Z = 4 t R^2 (cos psi - (pi/2 - 1) sin psi), unstably, down to 0.3035 of Z_pl when flat (psi = 45 deg)
+    after that       min(largest moment, mechanism of the square tube with the same length of mid-line)
+
+The last line scales a known mechanism to another shape: an estimate, not a derivation; it is kept above the
+flattened tube's 0.3035 M_p.  The length 2 H_b over which the tube ovalises is that of a square tube's fold.
+Limits: thick walls never buckle elastically; thin ones: M -> Brazier ~ R t^2.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crumple.errors import InputError, Problem
+from crumple.hinge.capped import CappedMechanism
+from crumple.hinge.jamming import AfterJamming, continued, continued_kinks
+from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.mechanism import FoldMechanism
+from crumple.hinge.options import choice
+from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
+from crumple.hinge.registry import law_type
+from crumple.hinge.root import sign_change
+from crumple.hinge.stop import Stop
+from crumple.material import Material
+from crumple.section import Axis, CircularTube, Section, half_fold_length
+
+SOURCE = Source(
+    "plastic moment, Brazier's ovalisation limit, plastic ovalisation, kink as a square tube",
+    Trust.DERIVED,
+    "Brazier's limit is classical and quoted; the onset of the kink is derived here; the kinked branch is "
+    "that of a square tube with the same length of mid-line",
+)
+FLATTENED = math.sqrt(0.5) * (2.0 - math.pi / 2.0)
+"""Plastic modulus of the flat four-hinge ring over that of the round one [-], 0.3035."""
+
+
+@law_type("circular")
+@dataclass(frozen=True)
+class CircularLaw:
+    """Collapse law of a circular tube; the same about every axis and in both senses.
+
+    Attributes
+    ----------
+    fold
+        Largest moment and scaled mechanism.
+    residual
+        Moment of the flattened tube [N m]; the kinked branch does not fall below it.
+    kink_from
+        theta_k: rotation at which the tube ovalises plastically [rad].
+    elastic_limit
+        Brazier's moment [N m].
+    after_jamming, rate, stop
+        As in the Kecman-type law.
+
+    References
+    ----------
+    docs/theory/circular_tube.md.  Verified in tests/verification/test_circular_bending.py.
+    """
+
+    name: ClassVar[str] = "circular"
+
+    fold: CappedMechanism
+    residual: float
+    kink_from: float
+    elastic_limit: float
+    validity: Validity
+    after_jamming: AfterJamming = AfterJamming.HOLD
+    rate: HingeRate | None = None
+    stop: Stop | None = None
+    softening_variable: SofteningVariable = SofteningVariable.PEAK
+    source: Source = SOURCE
+    elastic_stiffness: float | None = None
+
+    @classmethod
+    def of(
+        cls,
+        section: Section,
+        material: Material,
+        axis: Axis = "y",
+        *,
+        rolling_weight: float = 1.0,
+        after_jamming: AfterJamming | str = AfterJamming.HOLD,
+    ) -> CircularLaw:
+        """Law of a circular tube.
+
+        Parameters
+        ----------
+        section
+            Circular tube.
+        material
+        Yield stress, elastic constants; flow stress for the kink; flow rate for the rate factor. axis
+            Any: the tube looks the same about all.
+        rolling_weight, after_jamming
+            As in the Kecman-type law; by default the capacity is held when the scaled fold jams.
+
+        Raises
+        ------
+        InputError
+            If the section is no circular tube or a choice is unknown.
+        """
+        if not isinstance(section, CircularTube):
+            what, todo = "this law is one of circular tubes", "use kecman for a rectangular one"
+            raise InputError(Problem(what, section.title, "circular_tube", todo, "section"))
+        after = choice("after_jamming", after_jamming, AfterJamming)
+        t = section.thickness
+        radius = (section.diameter - t) / 2.0
+        plastic = material.yield_stress * section.plastic_section_modulus(axis)
+        limit = brazier_moment(radius, t, material)
+        side = math.pi * radius / 2.0 + t
+        mechanism = FoldMechanism(side, side, t, material.flow_stress, rolling_weight)
+        fold = CappedMechanism(min(plastic, limit), mechanism)
+        kink = 2.0 * half_fold_length(section, axis) * ovalisation_curvature(radius, t)
+        stiffness = material.youngs_modulus * section.second_moment(axis) / side
+        return cls(
+            fold,
+            min(FLATTENED * plastic, fold.peak),
+            kink,
+            limit,
+            _validity(min(kink, fold.folding_from, fold.jamming_angle), plastic, limit, material),
+            after,
+            hinge_rate(material.flow_rate),
+            Stop(fold.jamming_angle, stiffness) if after is AfterJamming.STOP else None,
+        )
+
+    @property
+    def title(self) -> str:
+        """One line for people."""
+        return "circular tube, kink scaled from a square tube"
+
+    @property
+    def jamming_angle(self) -> float:
+        """Rotation at which the scaled fold jams [rad]."""
+        return self.fold.jamming_angle
+
+    def kinks(self, sense: int = 1) -> tuple[float, ...]:
+        """Rotations where the slope jumps [rad]."""
+        jamming = self.jamming_angle
+        floor = sign_change(
+            lambda at: self.residual - self.fold.mechanism.moment(at), 1e-4 * jamming, jamming
+        )
+        within = (*self.fold.kinks, *(() if floor is None or floor >= jamming else (floor,)))
+        return continued_kinks(within, jamming, self.after_jamming)
+
+    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
+        """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
+        return continued(self._single_fold, rotation, self.jamming_angle, self.after_jamming)
+
+    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
+        """Factor on the capacity at a rotation rate [rad/s]."""
+        return rate_factor(self.rate, rotation_rate)
+
+    def _single_fold(self, rotation: Floats) -> Floats:
+        return np.maximum(self.fold.moment(rotation), self.residual)
+
+
+def brazier_moment(radius: float, thickness: float, material: Material) -> float:
+    """Largest elastic moment of an ovalising tube, 0.987 E R t^2/sqrt(1 - nu^2) [N m]; R: mean radius [m]."""
+    stretch = math.sqrt(1.0 - material.poissons_ratio**2)
+    return 0.987 * material.youngs_modulus * radius * thickness**2 / stretch
+
+
+def ovalisation_curvature(radius: float, thickness: float) -> float:
+    """Curvature [1/m] at which a fully plastic tube becomes a ring mechanism, t/((pi - 2) R^2)."""
+    return thickness / ((math.pi - 2.0) * radius**2)
+
+
+def _validity(backed: float, plastic: float, limit: float, material: Material) -> Validity:
+    warnings = [
+        "the kinked branch is the mechanism of a square tube with the same length of mid-line: compared with "
+        "nothing"
+    ]
+    if limit < plastic:
+        warnings.append(
+            f"thin wall: it ovalises elastically at {limit / plastic:.2f} of the plastic moment, and local "
+            "buckling, which no formula here looks at, may come first"
+        )
+    if material.yield_rate is not None and material.flow_rate is None:
+        warnings.append(
+            "a rate law at yield alone overstates the effect in a fold and is not used: give one at flow"
+        )
+    basis = (
+        "up to there the section carries its largest moment; plastic ovalisation and the kink were compared "
+        "with no test and no finite elements"
+    )
+    return Validity(backed, basis, tuple(warnings))

@@ -1,0 +1,235 @@
+"""Rectangular tube bent about any axis of its section: two Kecman-type folds at once.
+
+Unknown: the moment M(theta) about an axis at an angle alpha from a side of the tube, the rotation held to
+that axis.  With c = cos alpha, s = sin alpha the tube folds about both sides, by theta c and theta s.  If the
+two folds do not help each other, their work adds, W = W_a(theta c) + W_b(theta s), and
+
+    M = min( M_alpha,  c M_a(theta c) + s M_b(theta s) )
+
+M_a and M_b are the laws of the sides.  M_alpha, the largest moment, has every fibre at yield:
+s_y integral |u| dA with u the distance from the axis; of a rectangle w x d, p = d c/2 and q = w s/2:
+
+    integral |u| dA = w d (p/2 + q^2/(6 p)),  p >= q        (otherwise with p and q exchanged)
+
+of the outer rectangle less the inner one.  Where flanges buckle, M_alpha is reduced like the two sides, in
+the mean with weights c^2 and s^2.  Limits: alpha = 0 and 90 deg are the laws of the sides; the sum is an
+upper bound of its kinematics, and the walls jam as soon as one of the folds does: min(theta_Ja/c,
+theta_Jb/s).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crumple.errors import InputError, Problem
+from crumple.hinge.jamming import AfterJamming, continued, continued_kinks
+from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.laws.kecman import KecmanLaw
+from crumple.hinge.options import choice, number_between
+from crumple.hinge.rate import HingeRate, rate_factor
+from crumple.hinge.registry import law_type
+from crumple.hinge.root import sign_change
+from crumple.hinge.stop import Stop
+from crumple.material import Material
+from crumple.section import Axis, RectangularTube, Section
+
+SOURCE = Source(
+    "two Kecman-type mechanisms at once, after D. Kecman, Int. J. Mech. Sci. 25 (1983) 623-636",
+    Trust.DERIVED,
+    "sum of the works of both folds, derived here; tests of biaxial collapse exist (Brown & Tidbury 1983) "
+    "but were not obtained",
+)
+SAME_KINK = 1e-9
+"""Kinks closer than this share of the jamming angle are one: a slope between them means nothing."""
+
+
+@law_type("oblique")
+@dataclass(frozen=True)
+class ObliqueLaw:
+    """Collapse law of a rectangular tube about an axis between its sides; the same in both senses.
+
+    Attributes
+    ----------
+    angle
+        Of the bending axis from the side that the law was asked for [rad], 0 to pi/2.
+    first, second
+        Laws about that side and about the other one.
+    peak
+        M_alpha [N m].
+    after_jamming, rate, stop
+        As in the Kecman-type law.
+
+    References
+    ----------
+    docs/theory/oblique.md.  Verified in tests/verification/test_oblique_bending.py.
+    """
+
+    name: ClassVar[str] = "oblique"
+
+    angle: float
+    first: KecmanLaw
+    second: KecmanLaw
+    peak: float
+    validity: Validity
+    after_jamming: AfterJamming = AfterJamming.SECOND_FOLD
+    rate: HingeRate | None = None
+    stop: Stop | None = None
+    softening_variable: SofteningVariable = SofteningVariable.PEAK
+    source: Source = SOURCE
+    elastic_stiffness: float | None = None
+
+    @classmethod
+    def of(
+        cls,
+        section: Section,
+        material: Material,
+        axis: Axis = "y",
+        *,
+        angle: float = math.pi / 4.0,
+        rolling_weight: float = 1.0,
+        after_jamming: AfterJamming | str = AfterJamming.SECOND_FOLD,
+    ) -> ObliqueLaw:
+        """Law of a rectangular tube.
+
+        Parameters
+        ----------
+        section
+            Rectangular tube.
+        material
+            As in the Kecman-type law.
+        axis
+            Side that the angle is measured from.
+        angle
+        Of the bending axis from that side [rad], 0 to pi/2; either way: the tube has both mirrors.
+        rolling_weight, after_jamming
+            As in the Kecman-type law.
+
+        Raises
+        ------
+        InputError
+            If the section is no rectangular tube or a value is out of range.
+        """
+        if not isinstance(section, RectangularTube):
+            what, todo = "this law is one of rectangular tubes", "use the law circular or folded_profile"
+            raise InputError(Problem(what, section.title, "rectangular_tube", todo, "section"))
+        angle = number_between("angle", angle, 0.0, math.pi / 2.0)
+        after = choice("after_jamming", after_jamming, AfterJamming)
+        other: Axis = "z" if axis == "y" else "y"
+        first, second = (
+            KecmanLaw.of(section, material, each, rolling_weight=rolling_weight, after_jamming="hold")
+            for each in (axis, other)
+        )
+        c2 = math.cos(angle) ** 2
+        share = c2 * _reduction(first) + (1.0 - c2) * _reduction(second)
+        peak = share * material.yield_stress * oblique_plastic_modulus(section, axis, angle)
+        jamming = _jamming(first, second, angle)
+        stiffness = c2 * section.second_moment(axis) + (1.0 - c2) * section.second_moment(other)
+        length = 2.0 * min(first.mechanism.half_length, second.mechanism.half_length)
+        stop = Stop(jamming, material.youngs_modulus * stiffness / length)
+        return cls(
+            angle,
+            first,
+            second,
+            peak,
+            _validity(first, second, jamming),
+            after,
+            first.rate,
+            stop if after is AfterJamming.STOP else None,
+        )
+
+    @property
+    def title(self) -> str:
+        """One line for people."""
+        return f"two folds about an axis {math.degrees(self.angle):.3g} deg from a side"
+
+    @property
+    def jamming_angle(self) -> float:
+        """Rotation at which one of the folds jams [rad]."""
+        return _jamming(self.first, self.second, self.angle)
+
+    def kinks(self, sense: int = 1) -> tuple[float, ...]:
+        """Rotations where the slope jumps [rad]."""
+        c, s = math.cos(self.angle), math.sin(self.angle)
+        ends = [(self.first.mechanism_from, c), (self.second.mechanism_from, s), (self._peak_to, 1.0)]
+        within: list[float] = []
+        for kink in sorted(end / share for end, share in ends if share * self.jamming_angle > end):
+            # both folds of a square tube at 45 deg begin at once but for rounding
+            if not within or kink - within[-1] > SAME_KINK * self.jamming_angle:
+                within.append(kink)
+        return continued_kinks(tuple(within), self.jamming_angle, self.after_jamming)
+
+    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
+        """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
+        return continued(self._single_fold, rotation, self.jamming_angle, self.after_jamming)
+
+    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
+        """Factor on the capacity at a rotation rate [rad/s]."""
+        return rate_factor(self.rate, rotation_rate)
+
+    @cached_property
+    def _peak_to(self) -> float:
+        """Rotation up to which the largest moment governs [rad]; infinite if it always does."""
+        crossing = sign_change(
+            lambda at: self.peak - self._folds(at), 1e-4 * self.jamming_angle, self.jamming_angle
+        )
+        return math.inf if crossing is None else crossing
+
+    def _folds(self, rotation: Floats) -> Floats:
+        c, s = math.cos(self.angle), math.sin(self.angle)
+        first = self.first.moment_capacity(c * rotation)
+        return np.asarray(c * first + s * self.second.moment_capacity(s * rotation), np.float64)
+
+    def _single_fold(self, rotation: Floats) -> Floats:
+        """Capacity of one fold up to jamming [N m]."""
+        return np.minimum(self.peak, self._folds(rotation))
+
+
+def oblique_plastic_modulus(section: RectangularTube, axis: Axis, angle: float) -> float:
+    """Plastic section modulus about an axis at an angle [rad] from a side [m^3]; exact for sharp corners.
+
+    Rounded corners enter by the ratio of exact to sharp moduli about both sides, weights c^2 and s^2.
+    """
+    t, a, b = section.thickness, section.flange_width(axis), section.bending_depth(axis)
+    sharp = _first_moment(a, b, angle) - _first_moment(a - 2.0 * t, b - 2.0 * t, angle)
+    if section.corner_radius == 0.0:
+        return sharp
+    square = RectangularTube(section.width, section.depth, t)
+    other: Axis = "z" if axis == "y" else "y"
+    weights = ((axis, math.cos(angle) ** 2), (other, math.sin(angle) ** 2))
+    return sharp * sum(
+        w * section.plastic_section_modulus(each) / square.plastic_section_modulus(each)
+        for each, w in weights
+    )
+
+
+def _first_moment(width: float, depth: float, angle: float) -> float:
+    """Integral of |u| over a rectangle [m^3]."""
+    p, q = depth * math.cos(angle) / 2.0, width * math.sin(angle) / 2.0
+    p, q = max(p, q), min(p, q)
+    return width * depth * (p / 2.0 + q**2 / (6.0 * p))
+
+
+def _reduction(law: KecmanLaw) -> float:
+    return law.peak.moment / law.peak.plastic_moment
+
+
+def _jamming(first: KecmanLaw, second: KecmanLaw, angle: float) -> float:
+    c, s = math.cos(angle), math.sin(angle)
+    # below the rounding of a right angle the other fold does not turn at all
+    ends = [law.jamming_angle / share for law, share in ((first, c), (second, s)) if share > 1e-12]
+    return min(*ends, math.pi)
+
+
+def _validity(first: KecmanLaw, second: KecmanLaw, jamming: float) -> Validity:
+    warnings = dict.fromkeys((*first.validity.warnings, *second.validity.warnings))
+    basis = (
+        "the laws of both sides are Kecman-type; their sum about an oblique axis was compared with nothing; "
+        f"the walls touch at {math.degrees(jamming):.1f} deg; what follows that is a model without a source"
+    )
+    return Validity(jamming, basis, tuple(warnings))

@@ -1,0 +1,1 @@
+"""Laws of torsional collapse, one per file; each registers itself with `torsion_law_type`."""

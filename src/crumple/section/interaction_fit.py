@@ -1,0 +1,169 @@
+"""Compact convex function for the plastic interaction of a section: what a solver evaluates at every step.
+
+    g(x)^r = [sum_k |a_k . (n, m_y, m_z)|^p]^(r/p) + |t|^r,        x on the surface: g = 1
+
+with the resultants over their largest values.  Powers of linear forms are convex and even, so g is a norm,
+whatever the rows a_k.  They are picked from the normals of the exact surface: least squares for sum_k w_k
+|d_k . x|^p = 1 with w_k >= 0 (Lawson and Hanson's active set), rows a_k = w_k^(1/p) d_k; few w_k are not
+zero.
+
+r = 2 is von Mises where all walls share the torque; sections whose inner walls carry none of it want a
+larger r.
+
+Limits: p = 2 is an ellipsoid, large p the polyhedron of tangent planes.  The corner at pure axial force is
+rounded, and there the error is largest.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crumple.section.interaction import PlasticInteraction
+from crumple.section.section import Floats
+
+POWERS = (6.0, 10.0, 16.0)
+"""Exponents p that are tried; higher ones follow edges better and curve more."""
+TORQUE_POWERS = (2.0, 2.5, 3.0, 4.0)
+"""Exponents r that are tried."""
+
+
+@dataclass(frozen=True, eq=False)
+class InteractionFit:
+    """Smooth convex surface g = 1 in (N, M_y, M_z, T).
+
+    Attributes
+    ----------
+    scales
+        Largest N, M_y, M_z and T [N, N m, N m, N m], shape (4,).
+    rows
+        Linear forms in N, M_y, M_z over their scales, shape (k, 3).
+    power, torque_power
+        Exponents p and r.
+    error
+        Largest relative distance between the two surfaces along rays through the origin, over a spread of
+        points with and without torque that the fit did not see.
+    mean_error
+        Mean of the same.
+    """
+
+    scales: Floats
+    rows: Floats
+    power: float
+    torque_power: float = 2.0
+    error: float = 0.0
+    mean_error: float = 0.0
+
+    def gauge(self, resultants: ArrayLike) -> Floats:
+        """Value g of resultants (N, M_y, M_z, T), shapes (...) and (..., 4): 1 on the surface."""
+        return self.gauge_and_gradient(resultants)[0]
+
+    def gauge_and_gradient(self, resultants: ArrayLike) -> tuple[Floats, Floats]:
+        """Value g and its gradient [1/N, 1/(N m), ...], shapes (...) and (..., 4); zero at the origin."""
+        x = np.asarray(resultants, float) / self.scales
+        forms = x[..., :3] @ self.rows.T
+        largest = np.abs(forms).max(axis=-1, keepdims=True)
+        # the largest form taken out, so that high powers neither overflow nor vanish
+        ratio = np.divide(forms, largest, out=np.zeros_like(forms), where=largest > 0.0)
+        total = (np.abs(ratio) ** self.power).sum(axis=-1)
+        direct = np.where(total > 0.0, largest[..., 0] * total ** (1.0 / self.power), 0.0)
+        twist, r = np.abs(x[..., 3]), self.torque_power
+        top = np.maximum(direct, twist)
+        safe = np.where(top > 0.0, top, 1.0)
+        g = top * ((direct / safe) ** r + (twist / safe) ** r) ** (1.0 / r)
+        over = np.where(g > 0.0, g, 1.0)
+        weight = np.sign(ratio) * np.abs(ratio) ** (self.power - 1.0)
+        scale = np.where(total > 0.0, total, 1.0) ** (1.0 / self.power - 1.0)
+        slope = (weight @ self.rows) * (scale * (direct / over) ** (r - 1.0))[..., None]
+        about = (np.sign(x[..., 3]) * (twist / over) ** (r - 1.0))[..., None]
+        return g, np.concatenate([slope, about], axis=-1) / self.scales
+
+
+def fitted_interaction(interaction: PlasticInteraction, *, rows: int = 40) -> InteractionFit:
+    """Compact fit of an interaction surface, the best of several exponents.
+
+    Parameters
+    ----------
+    interaction
+        Exact surface.
+    rows
+        Most linear forms to use.
+
+    Returns
+    -------
+    InteractionFit
+        With its error.
+    """
+    scales = interaction.scales
+    points, normals = _surface(interaction, 24, 13, 1)
+    seen = _surface(interaction, 23, 14, 3)[0] * scales
+    fits = []
+    for power in POWERS:
+        chosen = _rows(points[:, :3], normals[:, :3], power, rows)
+        for torque_power in TORQUE_POWERS:
+            fit = InteractionFit(scales, chosen, power, torque_power)
+            off = np.abs(1.0 / fit.gauge(seen) - 1.0)
+            fits.append(replace(fit, error=float(off.max()), mean_error=float(off.mean())))
+    return min(fits, key=lambda fit: fit.error)
+
+
+def _surface(
+    interaction: PlasticInteraction, around: int, levels: int, torques: int
+) -> tuple[Floats, Floats]:
+    """Points over their scales and normals d with d . x = 1, both of shape (n, 4)."""
+    rates = interaction.spread_rates(around, levels, torques)[: -1 if torques == 1 else None]
+    points = interaction.point(rates / interaction.scales) / interaction.scales
+    power = (rates * points).sum(axis=1)
+    return points, rates / power[:, None]
+
+
+def _rows(points: Floats, normals: Floats, power: float, most: int) -> Floats:
+    # the body is even: one of each pair of normals
+    half = normals[(normals @ [1.0, 1e-3, 1e-6]) >= 0.0]
+    columns = np.abs(points @ half.T) ** power
+    weights = nonnegative_least_squares(columns, np.ones(len(points)), most)
+    used = weights > 0.0
+    return np.asarray(half[used] * weights[used, None] ** (1.0 / power))
+
+
+def nonnegative_least_squares(matrix: Floats, right: Floats, most: int) -> Floats:
+    """Find x >= 0 with the smallest |matrix x - right| and at most ``most`` entries that are not zero.
+
+    Active set of Lawson and Hanson (Solving Least Squares Problems, 1974), stopped early by ``most``.
+
+    Parameters
+    ----------
+    matrix, right
+        Shapes (n, k) and (n,).
+    most
+        Entries of the solution that may differ from zero.
+    """
+    product, goal = matrix.T @ matrix, matrix.T @ right
+    x = np.zeros(matrix.shape[1])
+    free = np.zeros(len(x), bool)
+    small = 1e-10 * float(np.abs(goal).max())
+    for _ in range(3 * most):
+        gain = np.where(free, -np.inf, goal - product @ x)
+        enter = int(gain.argmax())
+        if gain[enter] <= small or free.sum() >= most:
+            break
+        free[enter] = True
+        while True:
+            trial = np.zeros_like(x)
+            block = product[np.ix_(free, free)]
+            block = block + 1e-12 * np.trace(block) * np.eye(len(block))
+            trial[free] = np.linalg.solve(block, goal[free])
+            if (trial[free] > 0.0).all():
+                break
+            # as far towards the trial as all stay positive; who reaches zero leaves
+            falling = free & (trial <= 0.0)
+            step = float((x[falling] / np.maximum(x[falling] - trial[falling], 1e-300)).min())
+            x = x + step * (trial - x)
+            free &= x > 1e-14
+            x[~free] = 0.0
+            if not free.any():
+                return x
+        x = trial
+    return x

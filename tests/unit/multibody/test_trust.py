@@ -1,0 +1,76 @@
+"""Warnings that an engineer reads before believing a result."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from crumple.multibody import Run, solve_multibody
+from crumple.result import Result
+from crumple.structure import Structure
+
+STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "density": 7850.0, "yield_stress": 488e6}
+TUBE = {"type": "rectangular_tube", "width": 0.05, "depth": 0.025, "thickness": 0.00265}
+
+
+def thrown(rate: float, bars: int = 1, **law: Any) -> Result:
+    """A tube with 6 kg at its tip, thrown against its clamp."""
+    law = {"type": "kecman"} | law
+    member = {
+        "nodes": ("root", "tip"),
+        "section": "tube",
+        "material": "steel",
+        "bars": {"number": bars, "law": law},
+        "hinges": [{"name": "root", "at": "root", "law": law}],
+    }
+    structure = Structure(
+        materials={"steel": STEEL},
+        sections={"tube": TUBE},
+        nodes={"root": (0.0, 0.0, 0.0), "tip": (1.0, 0.0, 0.0)},
+        members={"tube": member},
+        supports={"clamp": {"node": "root", "fix": "all"}},
+        masses={"payload": {"node": "tip", "mass": 6.0}},
+        initial_velocity=[{"rotation": rate, "axis": (0.0, 1.0, 0.0)}],
+    )
+    return solve_multibody(structure, Run(duration=0.1, every=2e-3))
+
+
+def about(result: Result, word: str) -> list[str]:
+    return [text for text in result.warnings if word in text]
+
+
+def test_rigid_bars_that_hide_much_elastic_energy_are_named() -> None:
+    (text,) = about(thrown(15.0), "elastically")
+    # M_p^2 L / (6 E I) = 1696.09^2 * 1 / (6 * 210e9 * 3.66254e-8) = 62.3 J of 783.7 J
+    assert "62.3 J" in text
+    assert "8%" in text
+    assert not about(thrown(15.0, form="elastic-plastic"), "elastically")
+
+
+def test_a_stop_does_not_count_as_elastic_energy() -> None:
+    stop = {"rotation": 0.3, "stiffness": 1e6, "damping": 0.0}
+    (text,) = about(thrown(15.0, stops=stop), "elastically")
+    assert "62.3 J" in text
+
+
+def test_turning_beyond_the_range_and_jamming_are_told_apart() -> None:
+    assert not about(thrown(15.0), "backed up to")
+    assert about(thrown(17.8), "backed up to 42.0 deg only")
+    (text,) = about(thrown(24.0), "jam at 53.1 deg")
+    assert text.startswith("Hinge root: turned by")
+
+
+def test_what_many_hinges_share_is_said_once() -> None:
+    result = thrown(15.0, bars=12, type="constant")
+    (text,) = about(result, "a constant capacity")
+    assert text.startswith("Hinges root, tube-1, tube-2, tube-3, tube-4, 7 more: ")
+
+
+@pytest.mark.parametrize("form", ["set-valued", "elastic-plastic", "regularised"])
+def test_every_assumption_names_its_hinge_and_place(form: str) -> None:
+    result = thrown(15.0, form=form)
+    (text,) = [
+        text for text in result.assumptions if text.startswith("Hinge root lies 23.11 mm from node root")
+    ]
+    assert {"set-valued": "rigid until", "elastic-plastic": "kN m/rad", "regularised": "HAVSIN"}[form] in text

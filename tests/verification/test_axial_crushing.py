@@ -1,0 +1,214 @@
+"""Axial crushing: quoted coefficients, what they say of each other, and the effective-width peak.
+
+Square tubes after Abramowicz & Jones (1984, 1986), superfolding elements after Wierzbicki & Abramowicz (1983),
+circular tubes after Alexander (1960), hats after White, Jones & Abramowicz (1999): coefficients as quoted,
+originals not seen, so nothing here confirms a level.  What can be checked is that they agree: 52.22 is 38.12/0.73; the
+three constants of the superfolding element belong to one minimum with 4 pi of straight hinge lines; both hats
+follow from the square tube; Alexander's short form is the leading term of the long one.  No test result was
+obtained.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from crumple.errors import InputError
+from crumple.hinge import (
+    AxialLaw,
+    Trust,
+    absorbed_by,
+    axial_law_types,
+    build_axial_law,
+)
+from crumple.hinge.axial.circular import concertina_force, effective_distance
+from crumple.hinge.axial.square import Mode, mode_forces
+from crumple.hinge.axial.superfolding import COEFFICIENT, HALF_FOLD, ROLLING_RADIUS
+from crumple.hinge.axial.top_hat import DOUBLE_HAT, TOP_HAT, HatCrushing
+from crumple.hinge.axial_law import rate_factor_of
+from crumple.hinge.squash import FREE, HELD, effective_width
+from crumple.material import CowperSymonds, Material
+from crumple.section import CircularTube, ClosedHat, RectangularTube
+
+STEEL = Material("steel", 210e9, 0.3, 7850.0, 300e6)
+SQUARE = RectangularTube(0.040, 0.040, 0.002)
+ROUND = CircularTube(0.042, 0.002)
+HAT = ClosedHat(0.060, 0.040, 0.0015, 0.020)
+LAWS = [
+    ("square", SQUARE),
+    ("superfolding", RectangularTube(0.05, 0.04, 0.002)),
+    ("circular", ROUND),
+    ("top_hat", HAT),
+]
+every_law = pytest.mark.parametrize(("name", "section"), LAWS, ids=[name for name, _ in LAWS])
+
+
+def test_forces_of_the_notes(record_figure):
+    square = build_axial_law("square", SQUARE, STEEL)
+    record_figure(
+        "40x40x2, 300 MPa, 52.22 (c/h)^(1/3) M0", square.mean_crushing_force / 1e3, 42.5, 0.05, "kN"
+    )
+    folding = build_axial_law("superfolding", SQUARE, STEEL, crush_distance="full")
+    force = folding.mean_crushing_force / 1e3
+    record_figure("40x40x2, 300 MPa, 38.27 (c/h)^(1/3) M0", force, 31.2, 0.05, "kN")
+    tube = build_axial_law("circular", ROUND, STEEL, crush_distance="full")
+    force = tube.mean_crushing_force / 1e3
+    record_figure("R 20, h 2, 300 MPa, Alexander", force, 36.3, 0.05, "kN")
+
+
+def test_coefficients_agree_with_each_other(record_figure):
+    record_figure("52.22 as 38.12 over 0.73", 38.12 / 0.73, 52.22, 0.005)
+    short = 13.06 * 300.0 * 40.0 ** (1 / 3) * 2.0 ** (5 / 3) / 1e3
+    long = 52.22 * 20.0 ** (1 / 3) * 300.0 / 1e3
+    record_figure("13.06 s0 c^(1/3) h^(5/3) as 52.22 M0", short, long, 5e-4, "kN", relative=True)
+    record_figure("top hat from the square tube", 52.22 / 4.0 ** (1 / 3), TOP_HAT, 5e-4, relative=True)
+    record_figure("double hat from two top hats", 2.0 ** (2 / 3) * TOP_HAT, DOUBLE_HAT, 5e-4, relative=True)
+    leading = 20.79 * 2.0 / math.sqrt(3.0) / 4.0
+    record_figure("Alexander's 6 s0 h^1.5 D^0.5 as 20.79", leading, 6.0, 5e-4, relative=True)
+
+
+def test_superfolding_constants_belong_to_one_minimum(record_figure):
+    # P = A1 r/h + A2 c/H + A3 H/r is least where its three terms are P/3 each
+    straight = COEFFICIENT / 3.0 * HALF_FOLD
+    record_figure("straight hinge lines, 4 pi", straight, 4.0 * math.pi, 5e-3, relative=True)
+    toroidal, inclined = COEFFICIENT / 3.0 / ROLLING_RADIUS, COEFFICIENT / 3.0 * ROLLING_RADIUS / HALF_FOLD
+    radii = np.linspace(0.5, 1.0, 201)
+    folds = np.linspace(0.7, 1.3, 241)
+    forces = toroidal * radii[:, None] + straight / folds + inclined * folds / radii[:, None]
+    place = np.unravel_index(np.argmin(forces), forces.shape)
+    record_figure("least force on a grid", forces.min(), COEFFICIENT, 1e-4, relative=True)
+    record_figure("its rolling radius over h^(2/3) c^(1/3)", radii[place[0]], ROLLING_RADIUS, 0.003)
+    record_figure("its half fold length over h^(1/3) c^(2/3)", folds[place[1]], HALF_FOLD, 0.003)
+
+
+@every_law
+def test_law_says_where_it_comes_from(name, section):
+    law = build_axial_law(name, section, STEEL)
+    assert isinstance(law, AxialLaw)
+    assert law.name == name
+    assert law.source.trust is Trust.QUOTED
+    assert law.title
+    assert law.validity.basis
+    assert 0.0 < law.effective_stroke <= 1.0
+    assert 0.0 < law.mean_crushing_force < law.peak_force
+    assert set(axial_law_types()) == {name for name, _ in LAWS}
+
+
+@every_law
+@given(scale=st.floats(0.1, 10.0))
+def test_forces_scale_with_size_squared_and_with_stress(name, section, scale):
+    sizes = {key: value * scale for key, value in vars(section).items() if isinstance(value, float) and value}
+    larger = type(section)(**sizes)
+    strong = Material("strong", 210e9 * scale, 0.3, 7850.0, 300e6 * scale)
+    base = build_axial_law(name, section, STEEL)
+    for law, factor in (
+        (build_axial_law(name, larger, STEEL), scale**2),
+        (build_axial_law(name, section, strong), scale),
+    ):
+        assert law.mean_crushing_force == pytest.approx(base.mean_crushing_force * factor, rel=1e-9)
+        assert law.peak_force == pytest.approx(base.peak_force * factor, rel=1e-9)
+
+
+@every_law
+def test_rate_factor(name, section):
+    fast = Material("steel", 210e9, 0.3, 7850.0, 300e6, flow_rate=CowperSymonds(6844.0, 3.91))
+    law = build_axial_law(name, section, fast)
+    factors = rate_factor_of(law, [0.0, 1.0, 10.0, 20.0])
+    assert factors[0] == 1.0
+    assert np.all(np.diff(factors) > 0.0)
+    assert np.all(rate_factor_of(build_axial_law(name, section, STEEL), [0.0, 10.0]) == 1.0)
+
+
+def test_rate_factor_of_the_square_law(record_figure):
+    fast = Material("steel", 210e9, 0.3, 7850.0, 300e6, flow_rate=CowperSymonds(6844.0, 3.91))
+    value = float(rate_factor_of(build_axial_law("square", SQUARE, fast), 10.0))
+    expected = 1.0 + (0.33 * 10.0 / (0.040 * 6844.0)) ** (1.0 / 3.91)
+    record_figure("40x40x2 at 10 m/s, 6844 1/s and 3.91", value, expected, 1e-12)
+
+
+def test_crush_distance_changes_the_mean_but_not_the_energy():
+    for name, section in (("superfolding", SQUARE), ("circular", ROUND)):
+        full, effective = (
+            build_axial_law(name, section, STEEL, crush_distance=distance)
+            for distance in ("full", "effective")
+        )
+        assert absorbed_by(full, 0.3) == pytest.approx(absorbed_by(effective, 0.3), rel=1e-12)
+        assert full.mean_crushing_force < effective.mean_crushing_force
+
+
+def test_superfolding_lies_beside_the_square_law(record_figure):
+    square, folding = (build_axial_law(name, SQUARE, STEEL) for name in ("square", "superfolding"))
+    ratio = folding.mean_crushing_force / square.mean_crushing_force
+    record_figure("superfolding over square, effective crush distance", ratio, 1.0, 0.01)
+
+
+@given(st.floats(2.0, 200.0))
+def test_lowest_mode_is_the_least_and_meets_without_a_jump(slenderness):
+    forces = mode_forces(slenderness)
+    nearby = mode_forces(slenderness * (1.0 + 1e-9))
+    assert min(nearby.values()) == pytest.approx(min(forces.values()), rel=1e-8)
+    tube = RectangularTube(0.1, 0.1, 0.1 / max(slenderness, 2.1))
+    law = build_axial_law("square", tube, STEEL, mode="lowest")
+    assert law.mode is not Mode.LOWEST
+    assert law.mean_crushing_force == pytest.approx(
+        min(
+            build_axial_law("square", tube, STEEL, mode=mode).mean_crushing_force
+            for mode in Mode
+            if mode is not Mode.LOWEST
+        )
+    )
+
+
+@given(st.floats(2.01, 1000.0))
+def test_concertina_ends(ratio):
+    assert 0.45 < effective_distance(ratio) < 0.86
+    # thin walls: Alexander's short form
+    assert concertina_force(ratio) / (20.79 * math.sqrt(ratio)) - 1.0 == pytest.approx(
+        0.5724 / math.sqrt(ratio), rel=1e-3
+    )
+
+
+@given(st.sampled_from([HELD, FREE]), st.floats(1.0, 500.0))
+def test_effective_width_has_no_jump_and_ends_in_the_slender_limit(coefficient, slenderness):
+    width = effective_width(slenderness * 1e-3, 1e-3, STEEL, coefficient)
+    beside = effective_width(slenderness * (1 + 1e-9) * 1e-3, 1e-3, STEEL, coefficient)
+    assert beside == pytest.approx(width, rel=1e-8)
+    assert 0.0 < width <= slenderness * 1e-3
+    limit = 1e-3 * math.sqrt(coefficient * math.pi**2 * 210e9 / (12 * 0.91 * 300e6))
+    assert effective_width(100.0, 1e-3, STEEL, coefficient) == pytest.approx(limit, rel=1e-2)
+
+
+def test_stout_walls_squash():
+    law = build_axial_law("square", RectangularTube(0.04, 0.04, 0.004), STEEL)
+    assert law.peak_force == pytest.approx(300e6 * 4 * 0.036 * 0.004, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "section", "options"),
+    [
+        ("square", RectangularTube(0.05, 0.04, 0.002), {}),
+        ("square", ROUND, {}),
+        ("superfolding", ROUND, {}),
+        ("circular", SQUARE, {}),
+        ("circular", ROUND, {"mode": "diamond", "crush_distance": "full"}),
+        ("circular", ROUND, {"mode": "spiral"}),
+        ("top_hat", SQUARE, {}),
+        ("square", SQUARE, {"side": 1.0}),
+        ("spiral", SQUARE, {}),
+    ],
+)
+def test_what_does_not_fit_is_refused(name, section, options):
+    with pytest.raises(InputError):
+        build_axial_law(name, section, STEEL, **options)
+
+
+def test_warnings():
+    thin = build_axial_law("circular", ROUND, STEEL, mode="diamond")
+    assert any("stroke of the diamond" in warning for warning in thin.validity.warnings)
+    stout = build_axial_law("square", RectangularTube(0.04, 0.04, 0.008), STEEL)
+    assert any("extensional" in warning for warning in stout.validity.warnings)
+    slow = Material("steel", 210e9, 0.3, 7850.0, 300e6, yield_rate=CowperSymonds(40.4, 5.0))
+    assert any("at flow" in w for w in build_axial_law("square", SQUARE, slow).validity.warnings)
+    assert HatCrushing.from_perimeter(0.3, 0.0015, STEEL, True).double

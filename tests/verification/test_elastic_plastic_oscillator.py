@@ -1,0 +1,77 @@
+"""Elastic-perfectly plastic oscillator: largest rotation, residual, then free vibration within yield.
+
+With omega^2 = k/I and x_y = M_y/k, a start from x = 0 with rate r omega x_y, r > 1, gives
+
+    x_max/x_y = (1 + r^2)/2,   residual = x_max - x_y,   reached at (asin(1/r) + sqrt(r^2 - 1))/omega,
+
+then harmonic vibration of amplitude x_y about the residual; with r <= 1 it stays elastic. The tolerance
+is the accuracy asked for, 1e-4 of the largest rotation; the elastic swing itself keeps its energy to
+rounding.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from tests.verification.chains import ELASTIC_PLASTIC, hinge, started, wheel
+
+from crumple._core.tree import TreeModel
+
+INERTIA, STIFFNESS, YIELD = 2.0, 2e5, 700.0
+OMEGA, X_Y = math.sqrt(STIFFNESS / INERTIA), YIELD / STIFFNESS
+PERIOD = 2 * math.pi / OMEGA
+ACCURACY = 1e-4
+
+
+def run(ratio, sense=1.0, periods=5.0, accuracy=ACCURACY):
+    one = hinge(0, YIELD, ELASTIC_PLASTIC, elastic_stiffness=STIFFNESS)
+    simulation = started(TreeModel((wheel(INERTIA),), (one,)), [sense * ratio * OMEGA * X_Y], accuracy)
+    return simulation.run(np.linspace(0.0, periods * PERIOD, 501))
+
+
+@pytest.mark.parametrize("ratio", [1.5, 3.0, 10.0])
+def test_yields_once_and_swings_about_its_residual(ratio, record_figure):
+    record, largest = run(ratio), X_Y * (1 + ratio**2) / 2
+    allowed = ACCURACY * largest
+    residual = largest - X_Y
+    name = f"start at {ratio:g} times the yield rate"
+    record_figure(f"largest rotation, {name}", record.summary[0, 0], largest, allowed, "rad")
+    record_figure(f"plastic rotation, {name}", record.hinge[-1, 0, 0], residual, allowed, "rad")
+    after = record.q[record.time > 2 * PERIOD, 0]
+    record_figure(f"middle of the swing, {name}", (after.max() + after.min()) / 2, residual, allowed, "rad")
+    # the swing is read off 100 outputs a period: its top is missed by (pi/100)^2/2 of it
+    missed = (math.pi / 100) ** 2 / 2 * X_Y
+    record_figure(f"amplitude, {name}", (after.max() - after.min()) / 2, X_Y, allowed + missed, "rad")
+    stop = (math.asin(1 / ratio) + math.sqrt(ratio**2 - 1)) / OMEGA
+    record_figure(f"time of rest, {name}", record.summary[0, 2], stop, ACCURACY, "s", relative=True)
+    assert record.summary[0, 3] == 0.0
+    assert record.hinge[-1, 0, 3] == pytest.approx(YIELD * residual, rel=10 * ACCURACY)
+    assert record.residual < 1e-12
+
+
+@pytest.mark.parametrize("ratio", [0.5, 0.999])
+def test_below_yield_it_is_a_harmonic_oscillator(ratio, record_figure):
+    record = run(ratio)
+    closed = ratio * X_Y * np.sin(OMEGA * record.time)
+    worst = float(np.abs(record.q[:, 0] - closed).max())
+    # the trapezoidal rule lengthens the period by (omega h)^2/12: 0.033 % at 100 steps a period
+    drift = 2 * math.pi * 5 * (2 * math.pi / 100) ** 2 / 12
+    record_figure(f"departure from a sine over 5 periods, {ratio:g}", worst / (ratio * X_Y), 0.0, drift)
+    assert abs(record.hinge[-1, 0, 3]) < 1e-12 * record.energy[0, 0]
+    np.testing.assert_allclose(record.energy[:, 0] + record.energy[:, 1], record.energy[0, 0], rtol=1e-12)
+
+
+def test_senses_mirror():
+    one, other = run(3.0), run(3.0, sense=-1.0)
+    np.testing.assert_array_equal(one.q, -other.q)
+    np.testing.assert_array_equal(one.hinge[:, 0, :2], -other.hinge[:, 0, :2])
+
+
+@pytest.mark.parametrize("accuracy", [1e-3, 1e-4, 1e-5, 1e-6])
+@pytest.mark.parametrize("stiffness", [1e5, 1e6])
+def test_long_steps_do_not_run_past_the_turning_point(stiffness, accuracy):
+    """Without outputs between, steps grow while the moment is constant; the unloading must end them."""
+    one = hinge(0, YIELD, ELASTIC_PLASTIC, elastic_stiffness=stiffness)
+    record = started(TreeModel((wheel(INERTIA),), (one,)), [15.0], accuracy).run(np.array([0.2]))
+    plastic = (INERTIA * 15.0**2 - YIELD**2 / stiffness) / (2 * YIELD)
+    assert record.hinge[-1, 0, 0] == pytest.approx(plastic, rel=accuracy)

@@ -1,0 +1,100 @@
+"""Torsional collapse of a square tube: the quoted torques, their plastic cap, and the ends of the decay.
+
+T_i = 3.72 s_y t^1.25 b^1.75 and T_s = 5.58 s_0 t^1.4 b^2.2 L^-0.6 after Chen & Wierzbicki (2000), read in a
+paper that quotes them.  That T_i passes Bredt's plastic torque wherever b/t < 107.7 is derived; the law caps it.
+"""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from crumple.errors import InputError
+from crumple.hinge import Form, HingeLaw, TorsionLaw, Trust, build_torsion_law, record_of, torsion_law_types
+from crumple.material import Material
+from crumple.section import CircularTube, RectangularTube
+
+STEEL = Material("steel", 210e9, 0.3, 7850.0, 300e6)
+TUBE = RectangularTube(0.052, 0.052, 0.002)
+
+
+def test_torques(record_figure):
+    law = build_torsion_law("square_tube", TUBE, STEEL, 0.5)
+    plastic = 2.0 * 0.050**2 * 0.002 * 300e6 / math.sqrt(3.0)
+    record_figure(
+        "50 mm mid-line, t 2, 300 MPa: initial torque",
+        law.initial_torque,
+        plastic,
+        1e-12,
+        "N m",
+        relative=True,
+    )
+    steady = 5.58 * 300.0 * 2.0**1.4 * 50.0**2.2 * 500.0**-0.6 / 1e3
+    record_figure(
+        "the same over 0.5 m: steady torque", law.steady_torque, steady, 1e-12, "N m", relative=True
+    )
+    assert any("passes the plastic torque" in warning for warning in law.validity.warnings)
+
+
+def test_cap_ends_at_a_slenderness(record_figure):
+    ratio = (3.72 * math.sqrt(3.0) / 2.0) ** 4
+    record_figure("b/t at which the quoted torque is the plastic one", ratio, 107.7, 0.05)
+    for factor, capped in ((0.999, True), (1.001, False)):
+        wall = 1e-3
+        tube = RectangularTube(ratio * factor * wall + wall, ratio * factor * wall + wall, wall)
+        law = build_torsion_law("square_tube", tube, STEEL, 1.0)
+        plastic = 2.0 * (ratio * factor * wall) ** 2 * wall * 300e6 / math.sqrt(3.0)
+        assert law.initial_torque == pytest.approx(plastic, rel=1e-3)
+        assert any("passes" in warning for warning in law.validity.warnings) is capped
+
+
+@given(st.floats(0.01, 10.0))
+def test_ends_of_the_decay(twist):
+    def law(decay):
+        return build_torsion_law("square_tube", TUBE, STEEL, 0.5, decay=decay)
+
+    assert float(law(1e9).moment_capacity(twist)) == pytest.approx(law(1.0).initial_torque, rel=1e-6)
+    assert float(law(1e-6).moment_capacity(twist)) == pytest.approx(law(1.0).steady_torque, rel=1e-12)
+    assert float(law(None).moment_capacity(0.0)) == law(None).steady_torque
+    middle = float(law(0.2).moment_capacity(0.2))
+    share = (middle - law(0.2).steady_torque) / (law(0.2).initial_torque - law(0.2).steady_torque)
+    assert share == pytest.approx(math.exp(-1.0))
+
+
+@given(st.floats(0.05, 100.0))
+def test_steady_torque_never_passes_the_initial_one(length):
+    law = build_torsion_law("square_tube", TUBE, STEEL, length)
+    assert 0.0 < law.steady_torque <= law.initial_torque
+
+
+def test_it_is_a_hinge_law_that_the_stepper_takes():
+    law = build_torsion_law("square_tube", TUBE, STEEL, 0.5, decay=0.2)
+    assert isinstance(law, HingeLaw)
+    assert isinstance(law, TorsionLaw)
+    assert law.source.trust is Trust.QUOTED
+    assert torsion_law_types() == {"square_tube": type(law)}
+    record = record_of(law, form=Form.ELASTIC_PLASTIC)
+    twist = np.linspace(0.0, 3.0, 50)
+    sampled = np.interp(twist, record.positive.rotation, record.positive.moment)
+    np.testing.assert_allclose(sampled, law.moment_capacity(twist), rtol=1e-4)
+    assert record.elastic_stiffness == pytest.approx(STEEL.shear_modulus * TUBE.torsion_constant / 0.5)
+    assert law.validity.warning_at(0.1) is not None
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        law.decay = 1.0
+
+
+@pytest.mark.parametrize(
+    ("section", "length", "options"),
+    [
+        (RectangularTube(0.05, 0.04, 0.002), 1.0, {}),
+        (CircularTube(0.05, 0.002), 1.0, {}),
+        (TUBE, 0.0, {}),
+        (TUBE, 1.0, {"decay": -1.0}),
+    ],
+)
+def test_what_does_not_fit_is_refused(section, length, options):
+    with pytest.raises(InputError):
+        build_torsion_law("square_tube", section, STEEL, length, **options)
