@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 if TYPE_CHECKING:
     from rich.table import Table
 
+    from crumple.analysis import Analysis
     from crumple.result import Result
 
 MOST_HINGES = 20
@@ -22,6 +23,7 @@ class Fidelity(StrEnum):
 
     MULTIBODY = "multibody"
     SHELL = "shell"
+    BOTH = "both"
 
 
 def run(
@@ -43,18 +45,45 @@ def run(
     ] = False,
 ) -> None:
     """Solve an input file and report. Writes summary, histories, shapes, figures and a page to a folder."""
-    from crumple.analysis import canonical, load, solve
-    from crumple.cli.progress import progress_bar, stop_on_interrupt
-    from crumple.cli.shell_run import RESTART, available_threads, long_run_of
-    from crumple.report import ReportInput, write_report
-    from crumple.result import summary_json, write
+    from crumple.analysis import load
 
     analysis = load(file)
     folder = out if out is not None else Path("out") / file.stem
-    folder.mkdir(parents=True, exist_ok=True)
-    is_shell = fidelity is Fidelity.SHELL
-    if restart is not None and not is_shell:
+    if restart is not None and fidelity is not Fidelity.SHELL:
         raise typer.BadParameter("only shell runs are long enough to be restarted", param_hint="--restart")
+    both = fidelity is Fidelity.BOTH
+    summaries, good = {}, True
+    for one in (Fidelity.MULTIBODY, Fidelity.SHELL) if both else (fidelity,):
+        place = folder / one.value if both else folder
+        result = _solve(analysis, file, place, (one, threads, restart))
+        good = good and result.status.ok
+        if as_json:
+            summaries[one.value] = _summary(result)
+        else:
+            _show(result, place)
+            _show_restart(file, place)
+    if as_json:
+        import json
+
+        content = summaries if both else next(iter(summaries.values()))
+        typer.echo(json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False))
+    if not good:
+        raise typer.Exit(1)
+
+
+def _solve(
+    analysis: Analysis, file: Path, folder: Path, how: tuple[Fidelity, int | None, Path | None]
+) -> Result:
+    """Solve with one engine and write its files; `how`: which, threads, restart file."""
+    from crumple.analysis import canonical, solve
+    from crumple.cli.progress import progress_bar, stop_on_interrupt
+    from crumple.cli.shell_run import available_threads, long_run_of
+    from crumple.report import ReportInput, write_report
+    from crumple.result import write
+
+    fidelity, threads, restart = how
+    is_shell = fidelity is Fidelity.SHELL
+    folder.mkdir(parents=True, exist_ok=True)
     with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
         result = solve(
             analysis,
@@ -74,14 +103,23 @@ def run(
         accuracy=None if is_shell else analysis.multibody.accuracy,
     )
     write_report(result, source, folder)
-    if as_json:
-        typer.echo(summary_json(result), nl=False)
-    else:
-        _show(result, folder)
-        if (folder / RESTART).exists():
-            typer.echo(f"Go on with: crumple run {file} --fidelity shell --restart {folder / RESTART}")
-    if not result.status.ok:
-        raise typer.Exit(1)
+    return result
+
+
+def _summary(result: Result) -> dict[str, Any]:
+    from crumple.result import summary
+
+    return summary(result)
+
+
+def _show_restart(file: Path, folder: Path) -> None:
+    """Say how to go on with a shell run that was interrupted."""
+    from crumple.cli.shell_run import RESTART
+
+    if (folder / RESTART).exists():
+        typer.echo(
+            f"Go on with: crumple run {file} --fidelity shell --out {folder} --restart {folder / RESTART}"
+        )
 
 
 def _show(result: Result, folder: Path) -> None:

@@ -6,7 +6,9 @@ from crumple.comparison.metrics import HingeComparison, HingeMetrics
 from crumple.comparison.motion import HingeMotion
 from crumple.comparison.pairing import Pair
 from crumple.comparison.rating import EDITION, SAMPLING_RATE, Rating, rating
+from crumple.comparison.sections import at_times
 from crumple.comparison.signal import Signal
+from crumple.comparison.solving import picture_times, solve_and_compare, with_frames, with_pictures
 from crumple.comparison.trust import Trust, energy_put_in
 
 __all__ = [
@@ -23,8 +25,13 @@ __all__ = [
     "Signal",
     "Source",
     "Trust",
+    "at_times",
     "compare",
     "energy_put_in",
+    "picture_times",
     "rating",
     "read_curves",
+    "solve_and_compare",
+    "with_frames",
+    "with_pictures",
 ]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from crumple.comparison.curve_file import CurveFile
 from crumple.comparison.metrics import HingeComparison, compared, metrics_of
 from crumple.comparison.motion import HingeMotion, Measured, channel_motions, measured, member_sections
-from crumple.comparison.pairing import Pair, pairs_of
+from crumple.comparison.pairing import TELLING, Pair, pairs_of
 from crumple.comparison.signal import Signal, member_signals, signals_of
 from crumple.comparison.trust import Trust, trust_of
 from crumple.errors import InputError, Problem
@@ -81,6 +81,8 @@ class Comparison:
         Hinges in order of opening, by source name.
     trust
         Verdict and sentences.
+    stepping
+        Wall time of one run of the multibody stepper alone [s], by source name, where it was measured.
     """
 
     title: str
@@ -94,11 +96,18 @@ class Comparison:
     unpaired: Mapping[str, tuple[str, ...]]
     opened: Mapping[str, tuple[Opening, ...]]
     trust: Trust = field(default_factory=lambda: Trust("caution", "", (), ()))
+    stepping: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def speed_ratio(self) -> float | None:
         """Solve time of the reference over that of the candidate; None where one is not known."""
         a, b = self.candidate.result.solve_seconds, self.reference.result.solve_seconds
+        return b / a if a > 0.0 and b > 0.0 else None
+
+    @property
+    def stepping_ratio(self) -> float | None:
+        """Solve time of the reference over the candidate's stepping alone; None where one is not known."""
+        a, b = self.stepping.get(self.candidate.name, 0.0), self.reference.result.solve_seconds
         return b / a if a > 0.0 and b > 0.0 else None
 
     @property
@@ -147,12 +156,12 @@ def compare(
     hinges = placed_hinges(structure)
     names = _names(candidate, reference, variants or {})
     results = (candidate, *(variants or {}).values(), reference)
-    sources = [
-        _source(name, result, structure, hinges) for name, result in zip(names, results, strict=True)
-    ]
+    sources = [_source(name, result, structure, hinges) for name, result in zip(names, results, strict=True)]
     first, others, last = sources[0], tuple(sources[1:-1]), sources[-1]
     tables = {source.name: _hinges(source, last) for source in (first, *others)}
-    pairs = [pair for s in (first, *others) for pair in pairs_of((s.name, s.signals), (last.name, last.signals))]
+    pairs = pairs_of((first.name, first.signals), (last.name, last.signals))
+    for s in others:
+        pairs += pairs_of((s.name, s.signals), (last.name, last.signals), ranks=TELLING)
     unpaired = {}
     for curve in curves:
         known = {c for source in sources for c in source.signals}

@@ -1,8 +1,8 @@
 """Measured or foreign curves from CSV: one column of time, any number of others, units in the header.
 
-A head is ``name [unit]`` or ``name (unit)``; the short form ``name_unit`` is read for the units of `SUFFIXES`,
-because other programs write it.  A column without a unit is left out and named; what is wrong is refused with
-file and line.
+A head is ``name [unit]`` or ``name (unit)``; the short form ``name_unit`` is read for the units of
+`SUFFIXES`, because other programs write it.  A column without a unit is left out and named; what is wrong
+is refused with file and line.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ LARGEST_FILE = 50_000_000
 SHOWN = 10
 """Bad lines that are reported."""
 SUFFIXES = {
-    "s": "s", "ms": "ms", "rad": "rad", "deg": "deg", "rad_s": "rad/s", "deg_s": "deg/s", "m": "m", "mm": "mm",
-    "m_s": "m/s", "N": "N", "kN": "kN", "Nm": "N*m", "kNm": "kN*m", "J": "J", "kJ": "kJ",
+    "s": "s", "ms": "ms", "rad": "rad", "deg": "deg", "rad_s": "rad/s", "deg_s": "deg/s", "m": "m",
+    "mm": "mm", "m_s": "m/s", "N": "N", "kN": "kN", "Nm": "N*m", "kNm": "kN*m", "J": "J", "kJ": "kJ",
 }  # fmt: skip
 SI_UNITS = ("s", "m", "rad", "rad/s", "m/s", "m/s^2", "rad/s^2", "N", "J", "Pa", "kg", "1")
 """Units that a column may be turned into; a moment and an energy are told apart by how they are written."""
@@ -67,8 +67,8 @@ def read_curves(path: Path | str, name: str = "", pairs: Mapping[str, str] | Non
     name
         Of the source; by default the file's.
     pairs
-        Names of channels for columns that are called otherwise; with a minus before it where the column counts
-        the other way.
+        Names of channels for columns that are called otherwise; with a minus before it where the column
+        counts the other way.
 
     Raises
     ------
@@ -78,24 +78,34 @@ def read_curves(path: Path | str, name: str = "", pairs: Mapping[str, str] | Non
     """
     place = Path(path)
     text = _text(place)
-    lines = [(n, t) for n, t in enumerate(text.splitlines(), 1) if t.strip() and not t.lstrip().startswith("#")]
+    lines = [
+        (n, t) for n, t in enumerate(text.splitlines(), 1) if t.strip() and not t.lstrip().startswith("#")
+    ]
     if not lines:
-        raise _refused("the file is empty", place, todo="write a header such as 'time [ms], hinge.root.rotation [deg]'")
+        raise _refused(
+            "the file is empty", place, todo="write a header such as 'time [ms], hinge.root.rotation [deg]'"
+        )
     head_line, head = lines[0]
     separator = max(",;\t", key=head.count)
     columns = _columns(next(csv.reader([head], delimiter=separator)), place, head_line)
     times = [i for i, (title, _, unit) in columns.items() if unit == "s" and title.lower() in ("time", "t")]
     if not times:
-        raise _refused("no column of time", place, head_line, head[:80], "a column such as 'time [s]' or 'time [ms]'")
+        raise _refused(
+            "no column of time", place, head_line, head[:80], "a column such as 'time [s]' or 'time [ms]'"
+        )
     if len(columns) < 2:
-        raise _refused("no column beside time has a unit", place, head_line, head[:80], "heads such as 'tip [rad]'")
+        raise _refused(
+            "no column beside time has a unit", place, head_line, head[:80], "heads such as 'tip [rad]'"
+        )
     table = _numbers(lines[1:], separator, sorted(columns), place)
     scaled = {i: table[:, k] * columns[i][1] for k, i in enumerate(sorted(columns))}
     time = scaled[times[0]]
     if time.size < 2 or not (np.diff(time) > 0.0).all():
         where = int(np.flatnonzero(np.diff(time) <= 0.0)[0]) + 2 if time.size > 1 else 0
         line = lines[where][0] if time.size > 1 else head_line
-        raise _refused("the times do not increase", place, line, "", "at least two rows, each later than the last")
+        raise _refused(
+            "the times do not increase", place, line, "", "at least two rows, each later than the last"
+        )
     renamed = dict(pairs or {})
     signals = {}
     for i, (title, _, unit) in columns.items():
@@ -113,7 +123,9 @@ def _text(place: Path) -> str:
         if not place.is_file():
             raise _refused("there is no such file", place, todo="correct the name")
         if place.stat().st_size > LARGEST_FILE:
-            raise _refused("the file is too large for curves", place, 0, "", f"at most {LARGEST_FILE / 1e6:g} MB")
+            raise _refused(
+                "the file is too large for curves", place, 0, "", f"at most {LARGEST_FILE / 1e6:g} MB"
+            )
         return place.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
         raise _refused("the file is not a text in UTF-8", place, 0, "", "a CSV file") from None
@@ -133,7 +145,9 @@ def _columns(heads: list[str], place: Path, line: int) -> dict[int, tuple[str, f
             si, factor = _si(unit)
         except QuantityError as error:
             problem = error.problems[0]
-            raise _refused(problem.what, place, line, cell.strip()[:60], "a unit such as rad, deg/s, kN*m") from None
+            raise _refused(
+                problem.what, place, line, cell.strip()[:60], "a unit such as rad, deg/s, kN*m"
+            ) from None
         found[index] = (title, factor, si)
     return found
 
@@ -171,7 +185,9 @@ def _numbers(rows: list[tuple[int, str]], separator: str, wanted: list[int], pla
         table.append(values)
         if not all(map(math.isfinite, values)):
             todo = "write plain numbers with a decimal point in every column that has a unit"
-            problems.append(Problem("this is not a row of numbers", text[:60], "", todo, "", str(place), line))
+            problems.append(
+                Problem("this is not a row of numbers", text[:60], "", todo, "", str(place), line)
+            )
     if problems:
         more = [Problem(f"{len(problems) - SHOWN} more lines are wrong", file=str(place))]
         raise InputError(problems[:SHOWN] + (more if len(problems) > SHOWN else []))

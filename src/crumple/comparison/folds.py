@@ -1,10 +1,10 @@
 """Where a result folded: found in its plastic strain along each member, not assumed.
 
-Plastic strain times wall area is summed between neighbouring sections and divided by their distance.  A fold is
-a stretch in which this density passes a share of the largest density in the structure; stretches nearer to each
-other than half the section's depth are one.  Its place is the mean station weighted with the density.  The planes
-between which its rotation is measured lie half a depth outside, where the sections are plane again, but no
-nearer to a neighbouring fold than half way.
+Plastic strain times wall area is summed between neighbouring sections and divided by their distance.  A
+fold is a stretch in which this density passes a share of the largest density in the structure; stretches
+nearer to each other than half the section's depth are one.  Its place is the mean station weighted with the
+density.  The planes between which its rotation is measured lie half a depth outside, where the sections are
+plane again, but no nearer to a neighbouring fold than half way.
 
 Without a field of plastic strain the change of section rotation between neighbours takes the density's place.
 """
@@ -105,7 +105,7 @@ def _bending(own: Sections) -> Floats:
 
 
 def _zones(inside: np.ndarray, stations: Floats, gap: float) -> list[tuple[int, int]]:
-    """Runs of intervals (first, last) that are inside; those with less than a gap [m] between them are one."""
+    """Runs of intervals (first, last) that are inside; with less than a gap [m] between them they are one."""
     zones: list[tuple[int, int]] = []
     for i in np.flatnonzero(inside).tolist():
         if zones and stations[i] - stations[zones[-1][1] + 1] < gap:

@@ -80,7 +80,7 @@ class HingeComparison:
     how: str = ""
 
     def error(self, quantity: str) -> float | None:
-        """Relative error of a figure of the candidate, None where it cannot be had; times differ in seconds."""
+        """Relative error of a figure of the candidate; None where it cannot be had."""
         if self.first is None or self.second is None:
             return None
         a, b = getattr(self.first, quantity), getattr(self.second, quantity)
@@ -159,9 +159,7 @@ def _energy_at(plastic: Floats, work: Floats, level: float) -> float | None:
     return float(work[i - 1] + share * (work[i] - work[i - 1]))
 
 
-def compared(
-    place: HingeMotion, first: HingeMotion | None, second: HingeMotion | None
-) -> HingeComparison:
+def compared(place: HingeMotion, first: HingeMotion | None, second: HingeMotion | None) -> HingeComparison:
     """One hinge of both results side by side.
 
     Parameters

@@ -2,11 +2,12 @@
 
 A multibody result says it in its channels.  In a shell result it is measured:
 
-- rotation: of the section plane beyond the fold relative to the one before it, about the hinge's axis at the start;
-- plastic work: the part of the energy dissipated that falls between the planes, by plastic strain times wall area
-  (nearly so for perfect plasticity and one wall thickness);
-- moment: the channel of that name where the result has one, else the moment conjugate to plastic work, work over
-  rotation across a window of rotation;
+- rotation: of the section plane beyond the fold relative to the one before it, about the hinge's axis at
+  the start;
+- plastic work: the part of the energy dissipated that falls between the planes, by plastic strain times
+  wall area (nearly so for perfect plasticity and one wall thickness);
+- moment: the channel of that name where the result has one, else the moment conjugate to plastic work, work
+  over rotation across a window of rotation;
 - plastic rotation: rotation - M/k, k = EI over the distance of the planes.
 """
 
@@ -94,16 +95,12 @@ def channel_motions(
         if prefix + "rotation" not in result.channels:
             continue
         rotation = result[prefix + "rotation"]
-        values = {
-            quantity: result[prefix + key] if prefix + key in result.channels else np.zeros_like(rotation)
-            for quantity, key in (
-                ("rotation_rate", "rotation_rate"),
-                ("plastic_rotation", "plastic_rotation"),
-                ("moment", "moment"),
-                ("plastic_work", "energy"),
-            )
-        }
-        moved = float(np.ptp(values["plastic_rotation"])) if rotation.size else 0.0
+        zero = np.zeros_like(rotation)
+        rate, plastic, moment, work = (
+            result[prefix + key] if prefix + key in result.channels else zero
+            for key in ("rotation_rate", "plastic_rotation", "moment", "energy")
+        )
+        moved = float(np.ptp(plastic)) if rotation.size else 0.0
         own, far = sections.get(hinge.member), None
         if own is not None:
             far = np.interp(result.time, own.times, far_rotation(own, hinge.station, hinge.direction))
@@ -114,10 +111,13 @@ def channel_motions(
                 station=hinge.station,
                 time=result.time,
                 rotation=rotation,
+                rotation_rate=rate,
+                plastic_rotation=plastic,
+                moment=moment,
+                plastic_work=work,
                 how="The hinge's own histories.",
                 far=far,
                 fold=moved > 0.0,
-                **values,
             )
         )
     return found
@@ -200,10 +200,8 @@ def largest_side(structure: Structure, member: str) -> float:
     return float(np.ptp(structure.section_of(member).outline(), axis=0).max())
 
 
-def matched(
-    folds: Sequence[Fold], hinges: Sequence[PlacedHinge], depths: dict[str, float]
-) -> dict[int, str]:
-    """Folds and the hinges that they belong to, nearest pairs first, one to one: index of the fold to name."""
+def matched(folds: Sequence[Fold], hinges: Sequence[PlacedHinge], depths: dict[str, float]) -> dict[int, str]:
+    """Hinge that each fold belongs to, by the fold's index: nearest pairs first, one to one."""
     distances = sorted(
         (abs(fold.station - hinge.station), i, hinge.name)
         for i, fold in enumerate(folds)
@@ -241,9 +239,7 @@ def _stand_in(structure: Structure, own: Sections, fold: Fold) -> _Where:
     """A hinge for a fold where none was put, about the section axis about which it turned more."""
     frame = structure.frame_of(fold.member)
     first, last = fold.planes
-    turns = {
-        axis: float(np.abs(_between(own, frame.axis(axis), first, last)).max()) for axis in ("y", "z")
-    }
+    turns = {axis: float(np.abs(_between(own, frame.axis(axis), first, last)).max()) for axis in ("y", "z")}
     axis = max(turns, key=lambda name: turns[name])
     name = f"{fold.member} at {fold.station * 1e3:.0f} mm"
     return _Where(name, fold.member, fold.station, axis, frame.axis(axis))
@@ -267,10 +263,13 @@ def _measure(result: Result, structure: Structure, own: Sections, site: _Site) -
     elastic = work < ELASTIC_WORK * max(float(work.max(initial=0.0)), 1e-300)
     plastic = np.where(elastic, 0.0, plastic)
     where = (
-        f"the fold found from {fold.start * 1e3:.0f} to {fold.end * 1e3:.0f} mm" if fold else "no fold found here"
+        f"the fold found from {fold.start * 1e3:.0f} to {fold.end * 1e3:.0f} mm"
+        if fold
+        else "no fold found here"
     )
     how = (
-        f"Between best-fit planes of the sections at {a * 1e3:.0f} and {b * 1e3:.0f} mm of member {hinge.member} "
+        f"Between best-fit planes of the sections at {a * 1e3:.0f} and {b * 1e3:.0f} mm of member "
+        f"{hinge.member} "
         f"({where}); {said}; elastic part M/k with k = {stiffness / 1e3:.3g} kN m/rad."
     )
     return HingeMotion(
@@ -358,4 +357,4 @@ def conjugate_moment(rotation: Floats, work: Floats, stiffness: float) -> Floats
     slope = (np.interp(high, grid, done) - np.interp(low, grid, done)) / np.maximum(high - low, 1e-12)
     moment = np.interp(turned, grid, slope)
     elastic = work < ELASTIC_WORK * work[-1]
-    return side * np.where(elastic, np.minimum(stiffness * side * rotation, moment.max()), moment)
+    return np.asarray(side * np.where(elastic, np.minimum(stiffness * side * rotation, moment.max()), moment))

@@ -29,7 +29,9 @@ _ORDER = (
     re.compile(r"energy\.(kinetic|elastic|dissipated)"),
     re.compile(r"node\..+\.(displacement|velocity|rotation)\..*"),
 )
-"""What is rated, the most telling first; requested outputs by other names come after, everything else never."""
+"""What is rated, the most telling first; requested outputs by other names come after, the rest never."""
+TELLING = 4
+"""First so many of these kinds tell how good a further model is."""
 _NEVER = re.compile(r"(energy|cut|support|hinge|node)\..*")
 
 
@@ -66,7 +68,10 @@ class Pair:
 
 
 def pairs_of(
-    candidate: tuple[str, Mapping[str, Signal]], reference: tuple[str, Mapping[str, Signal]]
+    candidate: tuple[str, Mapping[str, Signal]],
+    reference: tuple[str, Mapping[str, Signal]],
+    *,
+    ranks: int = len(_ORDER) + 1,
 ) -> list[Pair]:
     """Every pair of histories worth a rating, the most telling first.
 
@@ -74,6 +79,8 @@ def pairs_of(
     ----------
     candidate, reference
         Name of the source and its histories.
+    ranks
+        Kinds of histories that are rated, the most telling first.
     """
     (name, first), (other, second) = candidate, reference
     common = [c for c in first if c in second and first[c].unit == second[c].unit]
@@ -82,7 +89,7 @@ def pairs_of(
         signal = second[channel]
         size = float(np.nanmax(np.abs(signal.values), initial=0.0))
         sizes[signal.unit] = max(sizes.get(signal.unit, 0.0), size)
-    ranked = sorted((c for c in common if _rank(c) < len(_ORDER) + 1), key=_rank)
+    ranked = sorted((c for c in common if _rank(c) < ranks), key=_rank)
     found = []
     for channel in ranked:
         a, b = first[channel], second[channel]

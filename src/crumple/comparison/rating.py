@@ -1,13 +1,13 @@
 """Objective rating of one curve against a reference after ISO/TS 18571:2014.
 
-Corridor, phase, magnitude and slope scores between 0 and 1, weighted 0.4, 0.2, 0.2, 0.2.  Both curves are sampled
-at 10 kHz over the interval of evaluation.
+Corridor, phase, magnitude and slope scores between 0 and 1, weighted 0.4, 0.2, 0.2, 0.2.  Both curves are
+sampled at 10 kHz over the interval of evaluation.
 
-Corridor: points within 5 % of the reference's largest absolute value score 1, beyond 50 % score 0, between them
-the square of the remaining share.  Phase: the shift by at most 20 % of the samples with the best
-cross-correlation; the score falls linearly with the shift.  Magnitude and slope are judged after that shift:
-magnitude by the relative L1 error after dynamic time warping within a tenth of the samples (0.5 scores 0), slope
-by the relative L1 error of derivatives averaged over nine points (2.0 scores 0).
+Corridor: points within 5 % of the reference's largest absolute value score 1, beyond 50 % score 0, between
+them the square of the remaining share.  Phase: the shift by at most 20 % of the samples with the best
+cross-correlation; the score falls linearly with the shift.  Magnitude and slope are judged after that
+shift: magnitude by the relative L1 error after dynamic time warping within a tenth of the samples (0.5
+scores 0), slope by the relative L1 error of derivatives averaged over nine points (2.0 scores 0).
 """
 
 from __future__ import annotations
@@ -115,7 +115,9 @@ def rating(
     number = int(np.floor((finish - begin) * SAMPLING_RATE + 1e-9)) + 1
     if number < FEWEST:
         raise _refused(
-            "the curves share too short an interval", f"{begin:g} s to {finish:g} s", "at least 2 ms in common"
+            "the curves share too short an interval",
+            f"{begin:g} s to {finish:g} s",
+            "at least 2 ms in common",
         )
     sampled = begin + np.arange(number) / SAMPLING_RATE
     a = np.interp(sampled, t_reference, np.asarray(reference, float))
@@ -145,7 +147,7 @@ def corridor_score(reference: Floats, curve: Floats) -> float:
 
 
 def best_shift(reference: Floats, curve: Floats) -> int:
-    """Samples by which the curve comes late, by cross-correlation; the smallest shift wins a tie, late first."""
+    """Samples by which the curve comes late, by cross-correlation; the smallest shift wins a tie."""
     best, found = _correlation(reference, curve), 0
     for shift in range(1, int(np.floor(LARGEST_SHIFT * reference.size)) + 1):
         for late, a, b in (
@@ -198,13 +200,13 @@ def warping_path(first: Floats, second: Floats, window: int) -> tuple[NDArray[np
         j = d - i
         before = np.minimum(np.minimum(total[i, j + 1], total[i + 1, j]), total[i, j])
         total[i + 1, j + 1] = (first[i] - second[j]) ** 2 + before
-    i, j = n - 1, n - 1
-    path = [(i, j)]
-    while i or j:
-        steps = (total[i, j + 1], total[i + 1, j], total[i, j])
+    row, column = n - 1, n - 1
+    path = [(row, column)]
+    while row or column:
+        steps = (total[row, column + 1], total[row + 1, column], total[row, column])
         back = int(np.argmin(steps))
-        i, j = (i - 1, j) if back == 0 else (i, j - 1) if back == 1 else (i - 1, j - 1)
-        path.append((i, j))
+        row, column = ((row - 1, column), (row, column - 1), (row - 1, column - 1))[back]
+        path.append((row, column))
     pairs = np.array(path[::-1], dtype=np.int64)
     return pairs[:, 0], pairs[:, 1]
 

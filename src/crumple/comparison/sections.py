@@ -1,9 +1,9 @@
 """How the sections of a member turn: best-fit planes of its rings of points, in any result that has states.
 
-A ring is the set of points of one member at one station.  Its plane is the least-squares plane through the moved
-points: the eigenvector of their scatter with the smallest eigenvalue, pointing the way in which the outline runs
-round.  The rotation of a section about an axis is the angle between its normal now and at the start, both seen
-along the axis, counted on without a jump at half a turn.
+A ring is the set of points of one member at one station.  Its plane is the least-squares plane through the
+moved points: the eigenvector of their scatter with the smallest eigenvalue, pointing the way in which the
+outline runs round.  The rotation of a section about an axis is the angle between its normal now and at the
+start, both seen along the axis, counted on without a jump at half a turn.
 
 Limits: a section that is flattened to a line has no plane; its angle is then noise.  A fold's own rings warp,
 so a relative rotation is taken between rings on both sides of it.
@@ -11,7 +11,7 @@ so a relative rotation is taken between rings on both sides of it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,7 +73,7 @@ class Sections:
         return int(np.argmin(np.abs(self.stations - station)))
 
     def chord_rotation(self, axis: Floats) -> Floats:
-        """Rotation of the line from the first to the last section's centre about an axis [rad], (n_states,)."""
+        """Rotation of the line from the first to the last section about an axis [rad], (n_states,)."""
         line = self.centres[:, -1] - self.centres[:, 0]
         first = self.start_centres[-1] - self.start_centres[0]
         first = first - (first @ axis) * axis
@@ -99,7 +99,9 @@ def sections_of(states: States, member: str) -> Sections | None:
     order = own[np.lexsort((states.contour[own], states.station[own]))]
     station = states.station[order]
     gap = SAME_STATION * max(float(np.ptp(station)), 1e-9)
-    rings = [ring for ring in np.split(order, np.flatnonzero(np.diff(station) > gap) + 1) if len(ring) >= FEWEST]
+    rings = [
+        ring for ring in np.split(order, np.flatnonzero(np.diff(station) > gap) + 1) if len(ring) >= FEWEST
+    ]
     if len(rings) < 2:
         return None
     planes = [_planes(states.points[None, ring] + states.displacement[:, ring]) for ring in rings]
@@ -125,3 +127,15 @@ def _planes(points: Floats) -> tuple[Floats, Floats]:
     area = np.cross(arm, np.roll(arm, -1, axis=1)).sum(axis=1)
     side = np.where(np.einsum("ti,ti->t", normal, area) < 0.0, -1.0, 1.0)
     return centre, normal * side[:, None]
+
+
+def at_times(states: States, times: Floats) -> States:
+    """The states nearest to given times, (n,) [s]."""
+    rows = np.array([int(np.argmin(np.abs(states.times - t))) for t in times], dtype=np.int64)
+    return replace(
+        states,
+        times=states.times[rows],
+        displacement=states.displacement[rows],
+        point_data={name: values[rows] for name, values in states.point_data.items()},
+        cell_data={name: values[rows] for name, values in states.cell_data.items()},
+    )

@@ -33,7 +33,9 @@ _HINGE = (
 )
 
 
-def signals_of(result: Result, measured: Sequence[HingeMotion], members: Sequence[Signal]) -> dict[str, Signal]:
+def signals_of(
+    result: Result, measured: Sequence[HingeMotion], members: Sequence[Signal]
+) -> dict[str, Signal]:
     """Channels of a result, with what was measured in its shapes in place of channels of the same name.
 
     Parameters
@@ -56,7 +58,7 @@ def signals_of(result: Result, measured: Sequence[HingeMotion], members: Sequenc
 
 
 def member_signals(structure: Structure, sections: Mapping[str, Sections]) -> list[Signal]:
-    """Rotation of every member about its bending axis: of the line between its ends, and between end sections.
+    """Rotation of every member about its bending axis: of the line between its ends, and of its end sections.
 
     ``member.NAME.chord_rotation`` and ``member.NAME.end_rotation`` with their rates ``..._rate``.
     """

@@ -1,4 +1,4 @@
-"""A plain statement of trust: what the candidate got right, what it could not see, whether the check is sound."""
+"""A plain statement of trust: what the candidate got right, what it could not see, if the check is sound."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crumple.comparison.metrics import HingeComparison
 from crumple.comparison.motion import HingeMotion, largest_side
 from crumple.hinge import Form
 from crumple.result import Result
@@ -19,7 +18,9 @@ if TYPE_CHECKING:
     from crumple.comparison.comparison import Comparison, Source
 
 AGREES = 0.12
-"""Relative error of largest rotation and plastic energy up to which a concept-stage answer counts as agreeing."""
+"""Relative error of largest rotation and plastic energy up to which a concept-stage answer agrees."""
+FAR_OFF = 0.25
+"""The same from which it does not."""
 ELASTIC = 0.05
 """Share of elastic energy from which rigid bars are worth a word."""
 VIBRATES = 0.05
@@ -68,17 +69,53 @@ def trust_of(comparison: Comparison, structure: Structure) -> Trust:
         *_reference(comparison.reference),
     ):
         (cautions if serious else facts).append(text)
+    level, headline = _verdict(comparison, bool(cautions))
     if failed:
-        said = [f"The {s.name} run: {s.result.status.value}. {s.result.reason}".strip() for s in failed]
-        return Trust("bad", "A run did not end well: compare with care.", tuple(facts), (*said, *cautions))
-    wrong = any(flag for _, flag in errors)
-    name = comparison.candidate.name
-    if wrong:
-        headline = f"The {name} answer is off by more than {AGREES:.0%} somewhere."
-        return Trust("bad", headline, tuple(facts), tuple(cautions))
-    if cautions:
-        return Trust("caution", "Both answers agree, with reservations.", tuple(facts), tuple(cautions))
-    return Trust("good", "Both answers agree.", tuple(facts), ())
+        ends = (f"The {s.name} run: {s.result.status.value}. {s.result.reason}".strip() for s in failed)
+        cautions = [*ends, *cautions]
+        level, headline = "bad", "A run did not end well: what was computed until then is compared."
+    return Trust(level, headline, tuple(facts), tuple(cautions))
+
+
+def _verdict(comparison: Comparison, doubtful: bool) -> tuple[str, str]:
+    """Level and headline of two runs that ended well."""
+    first, second = comparison.candidate.name, comparison.reference.name
+    missed = _missed(comparison)
+    if missed:
+        return (
+            "bad",
+            f"The {first} answer is wrong: the {second} run folds where no hinge was put ({missed}).",
+        )
+    off = _worst(comparison)
+    if off is None:
+        return "bad", "No hinge turned in both results: nothing is compared."
+    said = f"largest rotation within {off[0]:.1%}, plastic energy within {off[1]:.1%}"
+    if max(off) > AGREES:
+        level = "bad" if max(off) > FAR_OFF else "caution"
+        return level, f"The {first} answer is only roughly that of the {second} run: {said}."
+    if doubtful:
+        return "caution", f"Both answers agree, with reservations: {said}."
+    return "good", f"Both answers agree: {said}."
+
+
+def _missed(comparison: Comparison) -> str:
+    """Members in which folds without a hinge took up much of the plastic work; empty without any."""
+    motions = (*comparison.reference.hinges, *comparison.reference.extra)
+    work = {m.name: float(m.plastic_work[-1]) if m.plastic_work.size else 0.0 for m in motions}
+    most = max(work.values(), default=0.0)
+    extra = [m for m in comparison.reference.extra if work[m.name] > SMALL * most]
+    return ", ".join(dict.fromkeys(f"{m.member} at {_mm(m.station)}" for m in extra))
+
+
+def _worst(comparison: Comparison) -> tuple[float, float] | None:
+    """Largest relative errors of rotation and of plastic energy among the hinges that matter."""
+    most = max((h.second.plastic_energy for h in comparison.hinges if h.second is not None), default=0.0)
+    found = []
+    for hinge in comparison.hinges:
+        rotation = hinge.error("rotation_max")
+        if rotation is not None and hinge.second is not None and hinge.second.plastic_energy > SMALL * most:
+            found.append((abs(rotation), abs(worst(hinge.energy_errors()) or 0.0)))
+    return (max(r for r, _ in found), max(e for _, e in found)) if found else None
 
 
 def _agreement(comparison: Comparison) -> Iterator[tuple[str, bool]]:
@@ -118,19 +155,23 @@ def _ranges(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator[
             reached = float(np.max(motion.sense * motion.rotation))
             if jams is not None and reached > jams:
                 yield (
-                    f"Hinge {name} reaches {_deg(reached)} in the {source.name} result; the walls of its law jam at "
+                    f"Hinge {name} reaches {_deg(reached)} in the {source.name} result; the walls of its "
+                    "law jam at "
                     f"{_deg(jams)}, and what the law says beyond is a guess.",
                     True,
                 )
             elif reached > limit:
                 yield (
-                    f"Hinge {name} reaches {_deg(reached)} in the {source.name} result, outside the range of its law "
+                    f"Hinge {name} reaches {_deg(reached)} in the {source.name} result, outside the range "
+                    "of its law "
                     f"({_deg(limit)}: {hinge.law.validity.basis}).",
                     True,
                 )
             else:
                 inside.append((name, source.name))
-    both = [n for n in hinges if all((n, s.name) in inside for s in (comparison.candidate, comparison.reference))]
+    both = [
+        n for n in hinges if all((n, s.name) in inside for s in (comparison.candidate, comparison.reference))
+    ]
     if both:
         which = f"Hinge {both[0]} stays" if len(both) == 1 else f"{len(both)} of {len(hinges)} hinges stay"
         yield f"{which} inside the range of the law in both results.", False
@@ -143,8 +184,10 @@ def _folds(
     first, second = comparison.candidate.name, comparison.reference.name
     for motion in comparison.reference.extra:
         yield (
-            f"The {second} result folds in member {motion.member} at {_mm(motion.station)} (by {_deg(_most(motion))}), "
-            f"where no hinge was put: the {first} model cannot fold there, and its answer is wrong by what this fold "
+            f"The {second} result folds in member {motion.member} at {_mm(motion.station)} (by "
+            f"{_deg(_most(motion))}), "
+            f"where no hinge was put: the {first} model cannot fold there, and its answer is wrong by what "
+            "this fold "
             "takes up.",
             True,
         )
@@ -154,7 +197,11 @@ def _folds(
             continue
         here, there = hinge.name in opened[first], hinge.name in opened[second]
         if here and not there:
-            yield f"Hinge {hinge.name} opens in the {first} result alone; the {second} result has no fold there.", True
+            yield (
+                f"Hinge {hinge.name} opens in the {first} result alone; the {second} result has no fold "
+                "there.",
+                True,
+            )
         elif there and not here:
             yield f"Hinge {hinge.name} opens in the {second} result alone.", True
         if hinge.fold_station is not None:
@@ -176,7 +223,8 @@ def _order(comparison: Comparison) -> Iterator[tuple[str, bool]]:
             yield f"Hinges open in the same order in both: {', '.join(common[0])}.", False
         else:
             yield (
-                f"Hinges open in another order: {', '.join(common[0])} in the {comparison.candidate.name} result, "
+                f"Hinges open in another order: {', '.join(common[0])} in the {comparison.candidate.name} "
+                "result, "
                 f"{', '.join(common[1])} in the {comparison.reference.name} result.",
                 True,
             )
@@ -184,7 +232,10 @@ def _order(comparison: Comparison) -> Iterator[tuple[str, bool]]:
 
 def _elastic(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator[tuple[str, bool]]:
     """Share of elastic energy, and whether the candidate can hold any."""
-    stored, put_in = _largest(comparison.reference.result, "energy.elastic"), energy_put_in(comparison.reference.result)
+    stored, put_in = (
+        _largest(comparison.reference.result, "energy.elastic"),
+        energy_put_in(comparison.reference.result),
+    )
     if stored is None or not put_in > 0.0:
         return
     share = stored / put_in
@@ -192,7 +243,8 @@ def _elastic(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator
     rigid = [name for name, hinge in hinges.items() if hinge.record.form is not Form.ELASTIC_PLASTIC]
     if rigid and share > ELASTIC:
         text += (
-            f"; hinges that are rigid until their capacity is reached ({', '.join(rigid[:4])}) hold none of it, so the "
+            f"; hinges that are rigid until their capacity is reached ({', '.join(rigid[:4])}) hold none of "
+            "it, so the "
             f"{comparison.candidate.name} rotations lack the elastic part and peak early"
         )
     yield text + ".", bool(rigid) and share > ELASTIC
@@ -210,7 +262,8 @@ def _bending(comparison: Comparison) -> Iterator[tuple[str, bool]]:
         reach = float(np.max(np.abs(bent)))
         if most > 0.0 and reach > VIBRATES * most:
             yield (
-                f"Member {motion.member} bends between the fold of hinge {motion.name} and its far end by up to "
+                f"Member {motion.member} bends between the fold of hinge {motion.name} and its far end by "
+                "up to "
                 f"{_deg(reach)} ({reach / most:.0%} of the rotation) and vibrates there with an amplitude of "
                 f"{_deg(wobble)}: bars between hinges are rigid and cannot.",
                 False,
@@ -219,10 +272,14 @@ def _bending(comparison: Comparison) -> Iterator[tuple[str, bool]]:
 
 def _contact(comparison: Comparison) -> Iterator[tuple[str, bool]]:
     """Whether walls touched, which laws up to jamming know nothing of."""
-    touched, put_in = _largest(comparison.reference.result, "energy.contact"), energy_put_in(comparison.reference.result)
+    touched, put_in = (
+        _largest(comparison.reference.result, "energy.contact"),
+        energy_put_in(comparison.reference.result),
+    )
     if touched is not None and put_in > 0.0 and touched > TOUCHED * put_in:
         yield (
-            f"Walls touch in the {comparison.reference.name} result (contact energy up to {touched / put_in:.1%} of the "
+            f"Walls touch in the {comparison.reference.name} result (contact energy up to "
+            f"{touched / put_in:.1%} of the "
             "energy put in): from then on a fold is stiffer than a law without contact.",
             True,
         )
@@ -233,13 +290,20 @@ def _reference(source: Source) -> Iterator[tuple[str, bool]]:
     if source.result.fidelity != "shell":
         return
     internal = sum(
-        float(v) for v in (_largest(source.result, f"energy.{n}") for n in ("elastic", "dissipated")) if v is not None
+        float(v)
+        for v in (_largest(source.result, f"energy.{n}") for n in ("elastic", "dissipated"))
+        if v is not None
     )
     hourglass = _largest(source.result, "energy.hourglass")
     if hourglass is not None and internal > 0.0 and hourglass > HOURGLASS * internal:
-        yield f"Hourglass energy is {hourglass / internal:.1%} of the internal energy: the mesh is no reference.", True
+        yield (
+            f"Hourglass energy is {hourglass / internal:.1%} of the internal energy: the mesh is no "
+            "reference.",
+            True,
+        )
     yield (
-        "The shell run is one mesh: solve again with elements of half the size before trusting differences of a few "
+        "The shell run is one mesh: solve again with elements of half the size before trusting differences "
+        "of a few "
         "per cent.",
         False,
     )

@@ -40,7 +40,9 @@ def with_elastic_members(structure: Structure) -> Structure | None:
     elastic = with_elastic_hinges(structure) or structure
     cut = ConstantLaw(form=ELASTIC)
     members = {
-        name: member.model_copy(update={"bars": Bars(number=BARS, law=cut)}) if member.bars.number == 1 else member
+        name: member.model_copy(update={"bars": Bars(number=BARS, law=cut)})
+        if member.bars.number == 1
+        else member
         for name, member in elastic.members.items()
     }
     if members == dict(elastic.members):
@@ -107,7 +109,9 @@ def _elastic(structure: Structure, name: str, member: Member, places: dict[str, 
         hinge.model_copy(update={"law": _law(structure, places[hinge.name])}) for hinge in member.hinges
     )
     bars = member.bars
-    between = next((p for p in places.values() if p.member == name and p.name not in {h.name for h in hinges}), None)
+    between = next(
+        (p for p in places.values() if p.member == name and p.name not in {h.name for h in hinges}), None
+    )
     if between is not None:
         bars = bars.model_copy(update={"law": _law(structure, between)})
     return member.model_copy(update={"hinges": hinges, "bars": bars})

@@ -39,10 +39,8 @@ def motion_over_time(comparison: Comparison, name: str, figure_name: str) -> str
     return to_svg(figure, figure_name, f"Rotation and angular velocity of hinge {name} against time.")
 
 
-def _measures(
-    comparison: Comparison, name: str
-) -> list[tuple[str, HingeMotion, Floats, int]]:
-    """Lines of one hinge: candidate, reference near the fold and at the far end; label, motion, values, colour."""
+def _measures(comparison: Comparison, name: str) -> list[tuple[str, HingeMotion, Floats, int]]:
+    """Lines of one hinge, candidate and reference: label, motion, values, colour."""
     first, second = comparison.candidate, comparison.reference
     lines: list[tuple[str, HingeMotion, Floats, int]] = []
     a, b = first.hinge(name), second.hinge(name)
@@ -77,7 +75,8 @@ def energy_as_drawn_once(comparison: Comparison, name: str, figure_name: str) ->
     svg = _energy_figure(lines, "rotation, deg", f"Total energy, {unit}", figure_name, name)
     words = (
         f"The {first.name} curve is shifted by {shifts[0] * _DEGREES:.1f}° against the far end "
-        f"({shifts[1] * _DEGREES:.1f}° would fit the rotation near the hinge): a drawing aid that stands for the elastic "
+        f"({shifts[1] * _DEGREES:.1f}° would fit the rotation near the hinge): a drawing aid that stands "
+        "for the elastic "
         "bending which rigid bars lack, not a result."
     )
     return svg, words
@@ -86,7 +85,9 @@ def energy_as_drawn_once(comparison: Comparison, name: str, figure_name: str) ->
 def energy_cleanly(comparison: Comparison, name: str, figure_name: str) -> str | None:
     """Plastic work against plastic rotation, nothing shifted, as SVG."""
     lines = []
-    found = [(s, m, i) for i, s in enumerate((comparison.candidate, comparison.reference)) if (m := s.hinge(name))]
+    found = [
+        (s, m, i) for i, s in enumerate((comparison.candidate, comparison.reference)) if (m := s.hinge(name))
+    ]
     unit, factor = display_unit("J", largest([m.plastic_work for _, m, _ in found]))
     for source, motion, index in found:
         plastic = np.maximum.accumulate(np.maximum(motion.sense * motion.plastic_rotation, 0.0))
@@ -102,11 +103,15 @@ def variants_over_rotation(comparison: Comparison, name: str) -> str | None:
     sources = [s for s in comparison.sources if (m := s.hinge(name)) is not None and m.far is not None]
     peak = largest([total_energy(s, s.result.time) for s in sources])
     unit, factor = display_unit("J", peak)
-    for index, source in enumerate([comparison.reference, *(s for s in sources if s is not comparison.reference)]):
+    for index, source in enumerate(
+        [comparison.reference, *(s for s in sources if s is not comparison.reference)]
+    ):
         motion = source.hinge(name)
         if motion is not None and motion.far is not None:
             energy = total_energy(source, motion.time) / factor
-            lines.append(Line(source.name, motion.sense * motion.far * _DEGREES, energy, (1, 0, 2, 3, 4, 5)[index % 6]))
+            lines.append(
+                Line(source.name, motion.sense * motion.far * _DEGREES, energy, (1, 0, 2, 3, 4, 5)[index % 6])
+            )
     if len(lines) < 2:
         return None
     figure = new_figure(WIDTH, _HEAD + _PANEL + 0.4 + _FOOT)
@@ -139,7 +144,9 @@ def _energy_figure(lines: Sequence[Line], x: str, y: str, figure_name: str, hing
     figure = new_figure(HALF, _HEAD + _PANEL + _FOOT)
     axes = add_axes(figure, _LEFT, _FOOT, HALF - _LEFT - _RIGHT, _PANEL)
     _draw(axes, lines, x, y, labels=True)
-    return to_svg(figure, figure_name, f"{y.partition(',')[0]} against {x.partition(',')[0]} of hinge {hinge}.")
+    return to_svg(
+        figure, figure_name, f"{y.partition(',')[0]} against {x.partition(',')[0]} of hinge {hinge}."
+    )
 
 
 def _draw(axes: object, lines: Sequence[Line], x: str, y: str, *, labels: bool) -> None:

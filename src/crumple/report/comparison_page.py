@@ -72,21 +72,26 @@ def _draw(comparison: Comparison, pictures: Sequence[float]) -> list[tuple[str, 
     first, second = comparison.candidate.name, comparison.reference.name
     found: list[tuple[str, str | None, str]] = []
     with drawing():
-        caption = f"Deformed walls, {first} left and {second} right, in the same view and at one scale. Circles: hinges."
+        caption = (
+            f"Deformed walls, {first} left and {second} right, in one view and at one scale. Circles: hinges."
+        )
         found.append(("shapes", shapes_side_by_side(comparison, times), caption))
         for i, hinge in enumerate(ranked(comparison)[:MOST_HINGES], 1):
             name = hinge.name
             caption = (
-                f"Rotation and angular velocity of hinge {name} against time. The {second} rotation is measured near the "
+                f"Rotation and angular velocity of hinge {name} against time. The {second} rotation is "
+                "measured near the "
                 "fold, between section planes on both sides of it, and at the far end, from the line to it."
             )
             found.append((f"motion_{i}", figures.motion_over_time(comparison, name, f"motion-{i}"), caption))
             shifted = figures.energy_as_drawn_once(comparison, name, f"shifted-{i}")
             if shifted is not None:
-                caption = f"Hinge {name}, as earlier papers drew it: total energy against rotation. {shifted[1]}"
+                caption = (
+                    f"Hinge {name}, as earlier papers drew it: total energy against rotation. {shifted[1]}"
+                )
                 found.append((f"shifted_{i}", shifted[0], caption))
             clean = figures.energy_cleanly(comparison, name, f"plastic-{i}")
-            caption = f"Hinge {name}, cleanly: plastic work against plastic rotation (rotation less M/k). Nothing shifted."
+            caption = f"Hinge {name}, cleanly: plastic work against plastic rotation, rotation less M/k."
             found.append((f"plastic_{i}", clean, caption))
         if comparison.variants and comparison.hinges:
             svg = figures.variants_over_rotation(comparison, ranked(comparison)[0].name)
@@ -121,7 +126,11 @@ def _render(comparison: Comparison, source: ReportInput, drawn: list[tuple[str, 
     return environment.get_template("comparison.html.jinja").render(
         version=provenance.version,
         title=source.title or comparison.title or "Comparison",
-        meta=[p for p in (source.name, f"Crumple {provenance.version}", f"input {provenance.input_hash[:12]}") if p],
+        meta=[
+            p
+            for p in (source.name, f"Crumple {provenance.version}", f"input {provenance.input_hash[:12]}")
+            if p
+        ],
         style=Markup(_text(here / "page.css") + _text(here / "comparison.css")),
         scripts=[Markup(script) for script in scripts],
         hashes=" ".join(_hash(script) for script in scripts),

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
-from crumple.comparison import Comparison
+from crumple.comparison import Comparison, at_times
 from crumple.report.scales import Floats
 from crumple.report.shape import (
     draw_hinges,
@@ -21,23 +20,11 @@ from crumple.report.shape import (
 )
 from crumple.report.style import INK, MUTED, WIDTH, add_axes, new_figure, to_svg
 from crumple.report.view import View, choose_view
-from crumple.result import Result, States
+from crumple.result import States
 
 _TALLEST = 8.6  # of the figure, to fit a page [in]
 _GAP, _LABEL, _FOOT, _HEAD = 0.12, 0.18, 0.34, 0.2
 _RASTER_FROM = 4000
-
-
-def at_times(states: States, times: Floats) -> States:
-    """The states nearest to given times, (n,) [s]."""
-    rows = np.array([int(np.argmin(np.abs(states.times - t))) for t in times], dtype=np.int64)
-    return replace(
-        states,
-        times=states.times[rows],
-        displacement=states.displacement[rows],
-        point_data={name: values[rows] for name, values in states.point_data.items()},
-        cell_data={name: values[rows] for name, values in states.cell_data.items()},
-    )
 
 
 def shapes_side_by_side(comparison: Comparison, times: Sequence[float]) -> str | None:
@@ -83,12 +70,13 @@ def shapes_side_by_side(comparison: Comparison, times: Sequence[float]) -> str |
                 axes.text(0, 1, label, transform=axes.transAxes, va="bottom", fontsize=8.5, color=INK)
             if row == 0:
                 axes.text(
-                    1, 1 + _LABEL / tall, names[k], transform=axes.transAxes, ha="right", va="bottom", fontsize=8.5,
-                    color=MUTED, clip_on=False,
+                    1, 1 + _LABEL / tall, names[k], transform=axes.transAxes, ha="right", va="bottom",
+                    fontsize=8.5, color=MUTED, clip_on=False,
                 )  # fmt: skip
     scale = add_axes(figure, 0, 0, WIDTH, _FOOT)
     draw_scale(scale, view, min(panel / width, tall / height), panel, _FOOT)
-    said = f"Deformed shapes, {names[0]} left and {names[1]} right, at {', '.join(picture_time(float(t)) for t in shown)}."
+    when = ", ".join(picture_time(float(t)) for t in shown)
+    said = f"Deformed shapes, {names[0]} left and {names[1]} right, at {when}."
     return to_svg(figure, "shapes", said)
 
 
@@ -104,8 +92,3 @@ def _limits(chosen: Sequence[States], view: View) -> tuple[Floats, Floats]:
     low, high = flat.min(axis=0), flat.max(axis=0)
     size = np.maximum(high - low, 1e-3 * float(np.max(high - low)))
     return low - 0.03 * size.max(), low + size + 0.03 * size.max()
-
-
-def has_shapes(result: Result) -> bool:
-    """Whether anything of a result can be drawn."""
-    return finite_states(result.states) is not None

@@ -51,17 +51,23 @@ def key_figures(comparison: Comparison) -> list[tuple[str, str, str]]:
     if hinges:
         hinge = hinges[0]
         worst = max((abs(e) for e in hinge.energy_errors() if e is not None), default=None)
-        figures.append(("Largest rotation", signed_percent(hinge.error("rotation_max")), f"hinge {hinge.name}"))
+        figures.append(
+            ("Largest rotation", signed_percent(hinge.error("rotation_max")), f"hinge {hinge.name}")
+        )
         if worst is not None:
             figures.append(("Plastic energy", f"±{100 * worst:.1f} %", "at equal plastic rotations, at most"))
-        figures.append(("Peak moment", signed_percent(hinge.error("moment_peak")), f"hinge {hinge.name}"))
-        for word, key in (("Rating, rotation", "rotation"), ("Rating, velocity", "rotation_rate")):
-            pair = pair_of(comparison, f"hinge.{hinge.name}.{key}", first, second)
+        for word, channel, where in (
+            ("Rating, rotation", f"hinge.{hinge.name}.rotation", f"hinge {hinge.name}"),
+            ("Rating, velocity", f"hinge.{hinge.name}.rotation_rate", f"hinge {hinge.name}"),
+            ("Rating, velocity", f"member.{hinge.member}.chord_rotation_rate", "far end"),
+        ):
+            pair = pair_of(comparison, channel, first, second)
             if pair is not None and pair.rating is not None:
-                figures.append((word, f"{pair.rating.overall:.2f}", f"{pair.rating.grade}, hinge {hinge.name}"))
-    ratio = comparison.speed_ratio
+                figures.append((word, f"{pair.rating.overall:.2f}", f"{pair.rating.grade}, {where}"))
+    ratio, alone = comparison.speed_ratio, comparison.stepping_ratio
     if ratio is not None:
-        figures.append(("Faster", f"{number(ratio, 3)} ×", f"{first} than {second}"))
+        note = f"{first} than {second}" + (f"; {number(alone, 2)} × stepping alone" if alone else "")
+        figures.append(("Faster", f"{number(ratio, 3)} ×", note))
     return figures
 
 
@@ -90,8 +96,8 @@ def _hinge_rows(hinge: HingeComparison) -> Iterator[tuple[str, str, str, str]]:
     a, b = hinge.first, hinge.second
 
     def row(name: str, key: str, unit: str) -> tuple[str, str, str, str]:
-        values = [None if m is None else getattr(m, key) for m in (a, b)]
-        return (name, *(_value(v, unit) for v in values), signed_percent(hinge.error(key)))
+        first, second = (None if m is None else getattr(m, key) for m in (a, b))
+        return name, _value(first, unit), _value(second, unit), signed_percent(hinge.error(key))
 
     yield row("Largest rotation", "rotation_max", "rad")
     yield row("Largest rotation, as the far end shows it", "far_rotation_max", "rad")
@@ -138,8 +144,10 @@ def rating_note(comparison: Comparison) -> str:
         else "each over the interval that both histories cover"
     )
     return (
-        f"Rated after {EDITION}, both histories interpolated linearly at {SAMPLING_RATE / 1e3:g} kHz, {interval}, "
-        f"unfiltered. 1 is full agreement; above 0.94 excellent, above 0.80 good, above 0.58 fair. Overall = 0.4 "
+        f"Rated after {EDITION}, both histories interpolated linearly at {SAMPLING_RATE / 1e3:g} kHz, "
+        f"{interval}, "
+        "unfiltered. 1 is full agreement; above 0.94 excellent, above 0.80 good, above 0.58 fair. Overall "
+        "= 0.4 "
         "corridor + 0.2 phase + 0.2 magnitude + 0.2 slope."
     )
 
@@ -157,11 +165,20 @@ def rating_table(comparison: Comparison) -> Table:
         parts = [f"{getattr(rated, part):.2f}" for part in _PARTS]
         shift = f"{1e3 * rated.shift:+.1f}".replace("-", "−")
         rows.append(
-            (pair.channel, pair.candidate, pair.reference, f"{rated.overall:.3f}", rated.grade, *parts, shift, *peaks)
+            (
+                pair.channel,
+                pair.candidate,
+                pair.reference,
+                f"{rated.overall:.3f}",
+                rated.grade,
+                *parts,
+                shift,
+                *peaks,
+            )
         )
     heads = (
-        "History", "Rated", "Against", "Overall", "Grade", "Corridor", "Phase", "Magnitude", "Slope", "Late by, ms",
-        "Its peak", "Reference's peak",
+        "History", "Rated", "Against", "Overall", "Grade", "Corridor", "Phase", "Magnitude", "Slope",
+        "Late by, ms", "Its peak", "Reference's peak",
     )  # fmt: skip
     return Table(rating_note(comparison), heads, rows, frozenset({1, 2, 4}))
 
@@ -169,7 +186,9 @@ def rating_table(comparison: Comparison) -> Table:
 def opening_table(comparison: Comparison) -> Table:
     """Which hinges opened, in which order, where, in both."""
     rows = []
-    both = {name: list(comparison.opened[name]) for name in (comparison.candidate.name, comparison.reference.name)}
+    both = {
+        name: list(comparison.opened[name]) for name in (comparison.candidate.name, comparison.reference.name)
+    }
     names = dict.fromkeys(o.name for opened in both.values() for o in opened)
     for name in names:
         cells = [name]
@@ -193,7 +212,9 @@ def model_table(comparison: Comparison) -> Table:
     hinge = ranked(comparison)[0] if comparison.hinges else None
     for source in comparison.sources:
         tables = {comparison.candidate.name: comparison.hinges, **comparison.variant_hinges}
-        own = next((h for h in tables.get(source.name, ()) if hinge is not None and h.name == hinge.name), None)
+        own = next(
+            (h for h in tables.get(source.name, ()) if hinge is not None and h.name == hinge.name), None
+        )
         seconds = source.result.solve_seconds
         ratio = second.result.solve_seconds / seconds if seconds > 0.0 else math.nan
         cells = [source.name]
@@ -202,20 +223,27 @@ def model_table(comparison: Comparison) -> Table:
         errors = [abs(e) for e in (own.energy_errors() if own else ()) if e is not None]
         cells.append("reference" if source is second else f"{100 * max(errors):.1f} %" if errors else "—")
         for key in ("rotation", "rotation_rate"):
-            pair = pair_of(comparison, f"hinge.{hinge.name}.{key}", source.name, second.name) if hinge else None
+            pair = (
+                pair_of(comparison, f"hinge.{hinge.name}.{key}", source.name, second.name) if hinge else None
+            )
             cells.append("—" if pair is None or pair.rating is None else f"{pair.rating.overall:.3f}")
         chord = f"member.{hinge.member}.chord_rotation" if hinge else ""
         for key in ("", "_rate"):
             pair = pair_of(comparison, chord + key, source.name, second.name)
             cells.append("—" if pair is None or pair.rating is None else f"{pair.rating.overall:.3f}")
         cells += [_seconds(seconds), "1" if source is second else f"{number(ratio, 3)}"]
+        alone = comparison.stepping.get(source.name, 0.0)
+        cells.append(number(second.result.solve_seconds / alone, 2) if alone > 0.0 else "—")
         rows.append(tuple(cells))
     of = f" of hinge {hinge.name}" if hinge else ""
     heads = (
-        "Model", "Largest rotation", "at the far end", "Plastic rotation", "Plastic energy, worst", "Rating, rotation",
-        "velocity", "Rating, far end", "velocity", "Solve time", f"Times faster than {second.name}",
+        "Model", "Largest rotation", "at the far end", "Plastic rotation", "Plastic energy, worst",
+        "Rating, rotation", "velocity", "Rating, far end", "velocity", "Solve time",
+        f"Times faster than {second.name}", "Stepping alone, times",
     )  # fmt: skip
-    return Table(f"Every model against the {second.name} run: errors{of}, ratings, and time to solve.", heads, rows)
+    return Table(
+        f"Every model against the {second.name} run: errors{of}, ratings, and time to solve.", heads, rows
+    )
 
 
 def _seconds(seconds: float) -> str:

@@ -1,9 +1,10 @@
 // Plays the shapes of two results in step: orbit, zoom, scrub, colour.  WebGL by three.js; a 2D canvas without it.
 "use strict";
 (() => {
-  const CLOSED_TO_REST = ["#8c98a4", "#d95f02", "#1f5f9e"];  // hinge closed, turning, at rest
+  const CLOSED_TO_REST = [[0.55, 0.60, 0.64], [0.85, 0.37, 0.01], [0.12, 0.37, 0.62]];  // hinge closed, turning, at rest
   const RAMP = [[0.80, 0.85, 0.90], [0.99, 0.91, 0.62], [0.97, 0.64, 0.32], [0.83, 0.24, 0.19], [0.42, 0.05, 0.20]];
-  const WALL = [0.68, 0.76, 0.84];
+  const WALL = [0.62, 0.71, 0.80];
+  const CLOSE_UP = 5;  // zoom on a hinge
   const PERIOD = 5000;  // of one showing [ms]
 
   const root = document.getElementById("player");
@@ -11,7 +12,8 @@
   const slider = root.querySelector("input[type=range]");
   const play = root.querySelector("[data-role=play]");
   const clock = root.querySelector("output");
-  const colour = root.querySelector("select");
+  const colour = root.querySelector("[data-role=colour]");
+  const look = root.querySelector("[data-role=look]");
   const note = root.querySelector("[data-role=note]");
   const scene = JSON.parse(document.getElementById("scene-header").textContent);
 
@@ -77,23 +79,27 @@
   }
 
   const showsHinges = (model) => colour.value === "hinge" || (colour.value === "strain" && !model.coloured);
-  const radius = 0.02 * Math.hypot(...scene.size);
+  const radius = 0.012 * Math.hypot(...scene.size);
   const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -100, 100);
-  const eye = new THREE.Vector3(...scene.view.towards), size = Math.hypot(...scene.size) || 1;
-  camera.up.set(...scene.view.up);
+  const [right, up, towards] = ["right", "up", "towards"].map((name) => new THREE.Vector3(...scene.view[name]));
+  // a little from the side and above, so that depth is seen
+  const eye = towards.clone().multiplyScalar(0.86).addScaledVector(right, -0.36).addScaledVector(up, 0.36).normalize();
+  const size = Math.hypot(...scene.size) || 1;
+  camera.up.copy(up);
   const controls = new THREE.OrbitControls(camera, canvas);
   controls.enableDamping = false;
 
   // half-width and half-height of what the standard view must hold
   function extent() {
     let wide = 0, tall = 0;
+    const across = new THREE.Vector3().crossVectors(up, eye).normalize(), above = new THREE.Vector3().crossVectors(eye, across);
     for (const model of scene.models) for (const grid of [model.grid[0], model.grid[model.grid.length - 1]]) {
       for (let i = 0; i < grid.length; i += 3) {
         let x = 0, y = 0;
         for (let c = 0; c < 3; c++) {
           const place = grid[i + c] * scene.step - scene.size[c] / 2;
-          x += place * scene.view.right[c];
-          y += place * scene.view.up[c];
+          x += place * across.getComponent(c);
+          y += place * above.getComponent(c);
         }
         wide = Math.max(wide, Math.abs(x));
         tall = Math.max(tall, Math.abs(y));
@@ -101,11 +107,14 @@
     }
     return [1.06 * wide || 1, 1.1 * tall || 1];
   }
-  let reach = [1, 1];
+  let reach = [1, 1], frame = 0;
+  // the whole, or one hinge close up: its place in the last model now
   function reset() {
-    camera.position.copy(eye).multiplyScalar(2 * size);
-    camera.zoom = 1;
-    controls.target.set(0, 0, 0);
+    const hinge = look.value && scene.models[scene.models.length - 1].hinges[Number(look.value)];
+    controls.target.set(...(hinge ? hingeNow(hinge, frame).place : [0, 0, 0]));
+    camera.position.copy(eye).multiplyScalar(2 * size).add(controls.target);
+    camera.zoom = hinge ? CLOSE_UP : 1;
+    camera.updateProjectionMatrix();
     controls.update();
   }
 
@@ -113,11 +122,12 @@
     const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
     renderer.setPixelRatio(Math.min(devicePixelRatio || 1, 2));
     renderer.autoClear = false;
+    renderer.outputColorSpace = "srgb-linear";  // colours are meant for the screen as they stand
     const ball = new THREE.SphereGeometry(radius, 20, 14);
     const worlds = scene.models.map((model) => {
       const world = new THREE.Scene();
-      const light = new THREE.DirectionalLight(0xffffff, 1.9);
-      world.add(new THREE.AmbientLight(0xffffff, 1.5), light, light.target);
+      const light = new THREE.DirectionalLight(0xffffff, 1.7);
+      world.add(new THREE.AmbientLight(0xffffff, 1.6), light, light.target);
       const geometry = new THREE.BufferGeometry();
       const corners = new Uint32Array(6 * model.quads);
       for (let q = 0; q < model.quads; q++) {
@@ -148,7 +158,7 @@
             const now = hingeNow(hinge, frame);
             part.balls[i].visible = showsHinges(model);
             part.balls[i].position.set(...now.place);
-            part.balls[i].material.color.set(now.colour);
+            part.balls[i].material.color.setRGB(...now.colour, "srgb-linear");
           });
           const left = Math.round(k * w / worlds.length), wide = Math.round(w / worlds.length);
           renderer.setViewport(left, 0, wide, h);
@@ -201,7 +211,7 @@
           if (showsHinges(model)) for (const hinge of model.hinges) {
             const now = hingeNow(hinge, frame);
             point.set(...now.place).project(camera);
-            brush.fillStyle = now.colour;
+            brush.fillStyle = `rgb(${now.colour.map((x) => 255 * x | 0)})`;
             brush.beginPath();
             brush.arc((k + (point.x + 1) / 2) * wide, (1 - point.y) / 2 * h, 7, 0, 7);
             brush.fill();
@@ -212,7 +222,7 @@
     };
   }
 
-  let painter = null, frame = 0, running = 0, wide = 0, tall = 0;
+  let painter = null, running = 0, wide = 0, tall = 0;
   function draw() {
     for (const model of scene.models) shape(model, frame);
     painter.draw(frame, wide, tall);
@@ -247,18 +257,21 @@
   unpack().then((bytes) => {
     decode(bytes);
     reach = extent();
+    frame = scene.times.length - 1;
     reset();
     let webgl = false;
     try { webgl = !!document.createElement("canvas").getContext("webgl2"); } catch { webgl = false; }
     painter = webgl ? gl() : flat();
     slider.max = scene.times.length - 1;
     slider.step = "any";
-    frame = scene.times.length - 1;
     controls.addEventListener("change", draw);
     slider.addEventListener("input", () => { stop(); frame = Number(slider.value); draw(); });
     colour.addEventListener("change", draw);
     play.addEventListener("click", () => { if (running) stop(); else { play.textContent = "Pause"; run(performance.now()); } });
-    root.querySelector("[data-role=reset]").addEventListener("click", () => { reset(); fit(); });
+    scene.models[scene.models.length - 1].hinges.forEach((hinge, i) => look.add(new Option(hinge.name, i)));
+    for (const [element, event] of [[look, "change"], [root.querySelector("[data-role=reset]"), "click"]]) {
+      element.addEventListener(event, () => { reset(); fit(); });
+    }
     new ResizeObserver(fit).observe(canvas);
     fit();
     root.dataset.ready = painter.mode;

@@ -1,8 +1,8 @@
 """The moving picture of a comparison as data for the page: quantised, delta-coded, compressed, bounded.
 
-Per source: walls as point numbers, and at every frame positions of the points on a grid of 65536 steps over the
-box of everything (0.02 mm on a metre), one byte of plastic strain per point, hinge places and states.  Frames after
-the first hold differences; low and high bytes lie apart, which compresses better.
+Per source: walls as point numbers, and at every frame positions of the points on a grid of 65536 steps over
+the box of everything (0.02 mm on a metre), one byte of plastic strain per point, hinge places and states.
+Frames after the first hold differences; low and high bytes lie apart, which compresses better.
 """
 
 from __future__ import annotations
@@ -16,9 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from crumple.comparison import Comparison, HingeMotion, Source
+from crumple.comparison import Comparison, HingeMotion, Source, at_times
 from crumple.comparison.folds import STRAIN
-from crumple.report.comparison_shapes import at_times
 from crumple.report.scales import Floats
 from crumple.report.shape import finite_states, hinge_places
 from crumple.report.view import View, choose_view
@@ -101,7 +100,7 @@ def _times(states: list[States]) -> Floats | None:
     if most < FEWEST_FRAMES or times.size < 2:
         return None
     rows = np.unique(np.round(np.linspace(0, times.size - 1, min(most, times.size))).astype(int))
-    return times[rows]
+    return np.asarray(times[rows])
 
 
 def _strain_scale(shown: list[States]) -> float:
@@ -116,7 +115,11 @@ def _model(
     quads = states.quads.astype("<u4")
     delta = np.diff(grid, axis=0, prepend=np.zeros_like(grid[:1])).astype("<u2")
     coloured = STRAIN in states.cell_data and strain > 0.0
-    parts += [quads.tobytes(), (delta & 0xFF).astype(np.uint8).tobytes(), (delta >> 8).astype(np.uint8).tobytes()]
+    parts += [
+        quads.tobytes(),
+        (delta & 0xFF).astype(np.uint8).tobytes(),
+        (delta >> 8).astype(np.uint8).tobytes(),
+    ]
     if coloured:
         bytes_ = np.round(255 * np.clip(_at_points(states) / strain, 0.0, 1.0)).astype(np.uint8)
         parts.append(np.diff(bytes_, axis=0, prepend=np.zeros_like(bytes_[:1])).tobytes())
