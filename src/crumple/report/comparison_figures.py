@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from crumple.comparison import Comparison, HingeMotion, Source
+from crumple.comparison import Comparison, Source
 from crumple.report.scales import Floats, display_unit, largest, spread, time_unit
 from crumple.report.style import HALF, RULE, WIDTH, Line, add_axes, draw_lines, name_axes, new_figure, to_svg
 
@@ -21,13 +21,11 @@ SAMPLES = 400
 
 def motion_over_time(comparison: Comparison, name: str, figure_name: str) -> str | None:
     """Rotation and angular velocity of one hinge against time, in every source that shows it, as SVG."""
+    unit = _time_factor(comparison)
     turned, turning = [], []
-    for line in _measures(comparison, name):
-        label, motion, values, index = line
-        unit = _time_factor(comparison)
-        turned.append(Line(label, motion.time / unit, motion.sense * values * _DEGREES, index))
-        rate = motion.rotation_rate if values is motion.rotation else np.gradient(values, motion.time)
-        turning.append(Line(label, motion.time / unit, motion.sense * rate, index))
+    for index, (label, time, rotation, rate) in enumerate(_measures(comparison, name)):
+        turned.append(Line(label, time / unit, rotation * _DEGREES, index))
+        turning.append(Line(label, time / unit, rate, index))
     if not turned:
         return None
     figure = new_figure(WIDTH, _HEAD + _PANEL + _FOOT)
@@ -39,17 +37,26 @@ def motion_over_time(comparison: Comparison, name: str, figure_name: str) -> str
     return to_svg(figure, figure_name, f"Rotation and angular velocity of hinge {name} against time.")
 
 
-def _measures(comparison: Comparison, name: str) -> list[tuple[str, HingeMotion, Floats, int]]:
-    """Lines of one hinge, candidate and reference: label, motion, values, colour."""
+def _measures(comparison: Comparison, name: str) -> list[tuple[str, Floats, Floats, Floats]]:
+    """Lines of one hinge in its sense: label, time, rotation, rate; then those of curve files."""
     first, second = comparison.candidate, comparison.reference
-    lines: list[tuple[str, HingeMotion, Floats, int]] = []
+    lines: list[tuple[str, Floats, Floats, Floats]] = []
     a, b = first.hinge(name), second.hinge(name)
     if a is not None:
-        lines.append((first.name, a, a.rotation, 0))
+        lines.append((first.name, a.time, a.sense * a.rotation, a.sense * a.rotation_rate))
     if b is not None:
-        lines.append((f"{second.name}, near", b, b.rotation, 1))
+        lines.append((f"{second.name}, near", b.time, b.sense * b.rotation, b.sense * b.rotation_rate))
         if b.far is not None:
-            lines.append((f"{second.name}, far end", b, b.far, 2))
+            far = b.sense * b.far
+            lines.append((f"{second.name}, far end", b.time, far, np.gradient(far, b.time)))
+    motion = b or a
+    if motion is not None:
+        for curve in comparison.curves:
+            for key in (f"hinge.{name}.rotation", f"member.{motion.member}.chord_rotation"):
+                signal = curve.signals.get(key)
+                if signal is not None:
+                    values = motion.sense * signal.values
+                    lines.append((curve.name, signal.time, values, np.gradient(values, signal.time)))
     return lines
 
 

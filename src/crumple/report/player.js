@@ -126,8 +126,8 @@
     const ball = new THREE.SphereGeometry(radius, 20, 14);
     const worlds = scene.models.map((model) => {
       const world = new THREE.Scene();
-      const light = new THREE.DirectionalLight(0xffffff, 1.7);
-      world.add(new THREE.AmbientLight(0xffffff, 1.6), light, light.target);
+      const light = new THREE.DirectionalLight(0xffffff, 2.2);
+      world.add(new THREE.AmbientLight(0xffffff, 1.25), light, light.target);
       const geometry = new THREE.BufferGeometry();
       const corners = new Uint32Array(6 * model.quads);
       for (let q = 0; q < model.quads; q++) {
@@ -158,6 +158,7 @@
             const now = hingeNow(hinge, frame);
             part.balls[i].visible = showsHinges(model);
             part.balls[i].position.set(...now.place);
+            part.balls[i].scale.setScalar(camera.zoom ** -0.6);
             part.balls[i].material.color.setRGB(...now.colour, "srgb-linear");
           });
           const left = Math.round(k * w / worlds.length), wide = Math.round(w / worlds.length);
