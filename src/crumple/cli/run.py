@@ -79,7 +79,8 @@ def run(
     else:
         _show(result, folder)
         if (folder / RESTART).exists():
-            typer.echo(f"Go on with: crumple run {file} --fidelity shell --restart {folder / RESTART}")
+            again = f"crumple run {file} --fidelity shell --out {folder} --restart {folder / RESTART}"
+            typer.echo(f"Go on with: {again}")
     if not result.status.ok:
         raise typer.Exit(1)
 

@@ -108,9 +108,7 @@ def _finite_states(states: States | None) -> States | None:
     if not keep.any():
         return None
     cells = {name: values[keep] for name, values in states.cell_data.items()}
-    return replace(
-        states, times=states.times[keep], displacement=states.displacement[keep], cell_data=cells
-    )
+    return replace(states, times=states.times[keep], displacement=states.displacement[keep], cell_data=cells)
 
 
 def _description(states: States) -> str:
