@@ -80,8 +80,8 @@ Load make_load(const nb::tuple& t) {
 
 Drive make_drive(const nb::tuple& t) {
     const Load load = make_load(t);
-    return {load.body, load.point, load.direction,
-            {load.value, make_curve(nb::cast<Doubles>(t[3]), nb::cast<Doubles>(t[5]))}};
+    const double start = nb::cast<Doubles>(t[4]).at(0);
+    return {load.body, load.point, load.direction, start, make_curve(nb::cast<Doubles>(t[3]), nb::cast<Doubles>(t[5]))};
 }
 
 Model make_model(const Integers& parent, const Integers& joint, const Array& bodies, const Doubles& q0,

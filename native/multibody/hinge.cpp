@@ -50,6 +50,11 @@ double step_polynomial(double x) {
     return x * x * (3 - 2 * x);
 }
 
+// Weight of the end rate that makes a step over z = h c/I decay by e^-z: 1/(1 - e^-z) - 1/z.
+double end_weight(double z) { return z < 1e-3 ? 0.5 + z / 12 : 1 / (1 - std::exp(-z)) - 1 / z; }
+
+double damper_rate(const FrozenHinge& f, double w) { return (1 - f.damper_weight) * f.w0 + f.damper_weight * w; }
+
 double elastic_moment(const Hinge& hinge, const FrozenHinge& f, double w) {
     return f.m0 + hinge.stiffness * f.h * (f.w0 + w) / 2;
 }
@@ -101,6 +106,7 @@ FrozenHinge freeze(const Hinge& hinge, const HingeState& s, double h, double q0,
     f.w0 = w0;
     f.m0 = s.moment;
     f.width = ramp_width(hinge);
+    if (hinge.damping > 0) f.damper_weight = end_weight(h * hinge.damping / hinge.damped_inertia);
     const double mean_rate = (w0 + w1) / 2, turn = h * mean_rate;
     for (int k = 0; k < 2; k++) f.capacity[k] = present_capacity(hinge, s, k, k == 0 ? s.plastic : -s.plastic, hint[k]);
     double flow = turn;
@@ -170,7 +176,8 @@ Response stop_response(const Hinge& hinge, const FrozenHinge& f, double w) {
 
 Response respond(const Hinge& hinge, const FrozenHinge& f, double w) {
     const Response law = law_response(hinge, f, w), stop = stop_response(hinge, f, w);
-    return {law.impulse + stop.impulse + f.h * hinge.damping * w, law.slope + stop.slope + f.h * hinge.damping};
+    const double damping = f.h * hinge.damping;
+    return {law.impulse + stop.impulse + damping * damper_rate(f, w), law.slope + stop.slope + damping * f.damper_weight};
 }
 
 int kinks(const Hinge& hinge, const FrozenHinge& f, double* rates) {
@@ -197,7 +204,7 @@ int kinks(const Hinge& hinge, const FrozenHinge& f, double* rates) {
     return n;
 }
 
-double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0, double q0, double w1) {
+double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0, double q0, double w1, bool guided) {
     const double mean_rate = (f.w0 + w1) / 2;
     double turn = f.h * mean_rate;
     const double impulse = law_response(hinge, f, w1).impulse, stop = stop_response(hinge, f, w1).impulse;
@@ -225,7 +232,7 @@ double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0
         const bool slid = std::fabs(f.w0) > f.width;
         s.sliding = std::fabs(w1) > f.width;
         flowed = slid || s.sliding;
-        if (slid && !s.sliding && hinge.form == Form::set_valued && stop == 0) {
+        if (slid && !s.sliding && hinge.form == Form::set_valued && stop == 0 && !guided) {
             // it stopped within the step, after the time in which the capacity gives the impulse: C t = |P|
             const double t = std::min(f.h, std::fabs(impulse) / s.capacity);
             arrest = t0 + t;
@@ -239,10 +246,10 @@ double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0
     if (!s.sliding) s.episode = 0;
     s.peak[0] = std::max(s.peak[0], s.plastic);
     s.peak[1] = std::max(s.peak[1], -s.plastic);
-    s.damped += f.h * hinge.damping * w1 * mean_rate;
+    s.damped += f.h * hinge.damping * damper_rate(f, w1) * mean_rate;
     // also where the stop has let go and its spring relaxes into its damper
     s.stop_dissipated += stop * mean_rate - (stop_energy(hinge, q0 + turn) - stop_energy(hinge, q0));
-    s.total_moment = s.moment + hinge.damping * w1 + stop / f.h;
+    s.total_moment = s.moment + hinge.damping * damper_rate(f, w1) + stop / f.h;
     s.rotation_max = std::max(s.rotation_max, std::fabs(q0 + turn));
     s.moment_max = std::max(s.moment_max, std::fabs(s.total_moment));
     return turn;

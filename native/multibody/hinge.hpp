@@ -7,11 +7,12 @@
 //   set-valued       P = h C sign(w), any value up to h C at w = 0 (ramp of half-width `stick_rate`)
 //   elastic-plastic  P = h (M0 + M1)/2,  M1 = M0 + k h (w0 + w)/2 clamped to the capacity
 //   regularised      P = h C HAVSIN(w, -w_reg, -1, w_reg, 1)
-//   damper           P = h c w
+//   damper           P = h c ((1 - s) w0 + s w)
 //   stop             P = h f max(0, k g^e + c w),  g the mean of start and end penetration, neither below zero,
 //                    f the share of the step in which it is touched, frozen
-// The elastic terms use the mean of start and end, so an elastic swing keeps its energy; dampers use the
-// end rate, so stiff ones decay.
+// The elastic terms use the mean of start and end, so an elastic swing keeps its energy; stops' dampers use the end
+// rate, so stiff ones decay.  The hinge's own damper weighs both by s so that its decay is exact for one body: near
+// the mean for a soft damper, which makes it second order, and the end rate for a stiff one.
 #pragma once
 
 #include <cmath>
@@ -61,6 +62,7 @@ struct Hinge {
     double ramp_rate = 0.05;        // regularised form [rad/s]
     double rate_reference = std::numeric_limits<double>::infinity(), rate_exponent = 1;
     double damping = 0;             // [N m s/rad]
+    double damped_inertia = 1;      // inertia felt by the damper [kg m^2]; weighs its rates, no more
     Stop stop[2];                   // positive, negative sense
 };
 
@@ -82,6 +84,7 @@ struct FrozenHinge {
     double h = 0, w0 = 0, m0 = 0;
     double width = 0;               // half-width of the ramp around zero rate [rad/s]; widened while a step is solved
     double capacity[2] = {0, 0};
+    double damper_weight = 1;       // of the end rate in the damper's
     double gap[2] = {0, 0};         // start penetration of each stop (negative: open)
     double stop_damping[2] = {0, 0};
     double touched[2] = {0, 0};     // share of the step in which each stop is touched
@@ -100,8 +103,9 @@ Response stop_response(const Hinge& hinge, const FrozenHinge& f, double w);
 Response respond(const Hinge& hinge, const FrozenHinge& f, double w);
 // rates at which the slope of the response changes; returns how many (at most 9)
 int kinks(const Hinge& hinge, const FrozenHinge& f, double* rates);
-// advances the memory; returns the rotation over the step
-double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& state, double t0, double q0, double w1);
+// advances the memory; returns the rotation over the step.  `guided`: prescribed motion, not the hinge's own moment,
+// may have brought it to rest
+double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& state, double t0, double q0, double w1, bool guided);
 // elastic energy in the law's spring and in both stops at rotation q
 double elastic_energy(const Hinge& hinge, const HingeState& state);
 double stop_energy(const Hinge& hinge, double q);

@@ -36,12 +36,13 @@ Simulation::Simulation(Model model, const Settings& settings)
     : model_(std::move(model)), settings_(settings), stepper_(model_), step_tolerance_(step_tolerance(settings.accuracy)) {
     const std::vector<double> rest(static_cast<size_t>(model_.tree.dofs()), 0.0);
     state_ = stepper_.start(model_.q0.data(), rest.data());
-    set_critical_damping();
+    set_damping();
 }
 
-// A stop without a damper of its own gets the critical one, c = 2 sqrt(k m), m the inertia felt at the start.
-void Simulation::set_critical_damping() {
+// The inertia that a damper feels is taken at the start.  A stop without a damper of its own gets the critical one, c = 2 sqrt(k m), m the inertia felt at the start.
+void Simulation::set_damping() {
     for (Hinge& hinge : model_.hinges) {
+        if (hinge.damping > 0) hinge.damped_inertia = stepper_.effective_inertia(state_, hinge.dof);
         for (Stop& stop : hinge.stop) {
             if (!std::isnan(stop.damping)) continue;
             stop.damping = 2 * std::sqrt(stop.stiffness * stepper_.effective_inertia(state_, hinge.dof));
@@ -191,7 +192,10 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     scale_ = std::max(scale_, std::clamp(expected, settings_.scale_floor, 0.5));
     speed_ = std::max(speed_, kinetic_norm(model_.tree, state_.velocity, nullptr));
     start_energy_ = energies(model_, state_).balance();
-    if (h_ <= 0) h_ = std::clamp(duration / 100, settings_.minimum_step, settings_.maximum_step);
+    if (h_ <= 0) {
+        h_ = std::clamp(duration / 100, settings_.minimum_step, settings_.maximum_step);
+        stepper_.set_drift_time(2 * h_);
+    }
     show_first_moments();
     for (const double t : times) {
         if (t > state_.t && !advance(t, record, poll)) break;

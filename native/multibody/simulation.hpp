@@ -51,7 +51,7 @@ public:
     Record run(const std::vector<double>& times, const std::function<bool(double)>& poll);
 
 private:
-    void set_critical_damping();
+    void set_damping();
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
     double error(const State& coarse, const State& fine) const;
     void show_first_moments();

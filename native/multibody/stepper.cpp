@@ -141,9 +141,8 @@ void Stepper::predict(const State& s, double h) {
         const Vec2 moved = pose.at(drive.point) - drive_origin_[d];
         const double now = drive.direction.w * pose.phi + dot(drive.direction.v, moved);
         int hint = 0;
-        const double error = drive.motion.value.at(s.t, hint) - now;
-        hint = 0;
-        drive_target_[d] = drive.motion.rate.at(s.t + h, hint) + error / (2 * h);
+        const double error = drive.start + drive.rate.integral(s.t, hint) - now;
+        drive_target_[d] = drive.rate.at(s.t + h, hint) + error / std::max(2 * h, drift_time_);
     }
 }
 
@@ -157,11 +156,12 @@ void Stepper::freeze(const State& s, double h) {
 
 void Stepper::commit(State& s, double h) {
     const Tree& tree = model_.tree;
+    const bool guided = !model_.drives.empty();
     for (size_t k = 0; k < w_.size(); k++) dq_[k] = h * (s.w[k] + w_[k]) / 2;
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         const Hinge& hinge = model_.hinges[j];
         const auto dof = static_cast<size_t>(hinge.dof);
-        dq_[dof] = multibody::commit(hinge, frozen_[j], s.hinge[j], s.t, s.q[dof], w_[dof]);
+        dq_[dof] = multibody::commit(hinge, frozen_[j], s.hinge[j], s.t, s.q[dof], w_[dof], guided);
         s.hinge[j].hint[0] = hint_[2 * j];
         s.hinge[j].hint[1] = hint_[2 * j + 1];
     }

@@ -14,11 +14,6 @@
 
 namespace crumple::multibody {
 
-// Piecewise linear function of time with its derivative's table.
-struct TimeTable {
-    Curve value, rate;
-};
-
 // Force or moment on a body: direction (rotation, x, y) fixed in the world, at a point of the body.
 struct Load {
     int body = 0;
@@ -27,12 +22,14 @@ struct Load {
     Curve value;
 };
 
-// Prescribed motion of a point of a body in one direction: displacement and rate as functions of time.
+// Prescribed motion of a point of a body in one direction.  The rate is piecewise linear and the displacement its
+// integral: were both sampled by themselves, their difference over a short step would be a jerk.
 struct Drive {
     int body = 0;
     Vec2 point;
     Twist direction;
-    TimeTable motion;
+    double start = 0;  // displacement at time 0
+    Curve rate;
 };
 
 struct Model {
@@ -73,6 +70,9 @@ public:
     bool step(State& state, double h);
     // inertia that the joint coordinate feels with all other hinges free: 1 / (J M^-1 J^T)
     double effective_inertia(const State& at, int dof);
+    // least time in which drives make up for drift; without it twice the step, so that the drift of a long step
+    // would jerk a short one that follows
+    void set_drift_time(double time) { drift_time_ = time; }
     long solves() const { return solves_; }
 
 private:
@@ -97,6 +97,7 @@ private:
     std::vector<Vec2> drive_origin_;  // driven points at the start
     std::vector<int> hint_;
     bool all_set_valued_ = true;
+    double drift_time_ = 0;
     long solves_ = 0;
 };
 

@@ -1,6 +1,8 @@
 // Co-rotational frame and one-point gradient of a quadrilateral (a triangle repeats its third corner).
 //
-// e3 is normal to both diagonals, e1 lies along side 1-2.  In this frame the corners are
+// e3 is normal to both diagonals, e1 halves the angle between one midline and the normal of the other: so the
+// frame turns with the material.  Tied to a side it would turn by twice the spin of a shear wave along it, which
+// makes the stiffness under shear stress markedly unsymmetric, and short waves grow.  In this frame the corners are
 // x_I = mean + in-plane part, height z_I = z0 (+1, -1, +1, -1): a warped element has z0 != 0.
 // Gradients: d/dx = b_x . v with b_x = (y24, y31, y42, y13) / 2A, so B3 = -B1 and B4 = -B2.
 #pragma once
@@ -31,8 +33,10 @@ CRUMPLE_INLINE Frame frame_of(const Vec (&x)[4]) {
     const Real twice_area = root(dot(normal, normal)), inverse = 1.0 / twice_area;
     f.e3 = inverse * normal;
     f.area = 0.5 * twice_area;
-    const Vec side = x[1] - x[0], in_plane = side - dot(side, f.e3) * f.e3;
-    f.e1 = (1.0 / root(dot(in_plane, in_plane))) * in_plane;
+    // midlines lie in the plane; the mean of their turns is the material's spin
+    const Vec g1 = d31 - d42, g2 = d31 + d42;
+    const Vec both = (1.0 / root(dot(g1, g1))) * g1 + (1.0 / root(dot(g2, g2))) * cross(g2, f.e3);
+    f.e1 = (1.0 / root(dot(both, both))) * both;
     f.e2 = cross(f.e3, f.e1);
     f.bx1 = -dot(d42, f.e2) * inverse;
     f.bx2 = dot(d31, f.e2) * inverse;

@@ -107,8 +107,9 @@ double first_stable_step(const Model& m, std::size_t e) {
     // the kernel's frame and bound, for one element
     const Vec3 d31 = x[2] - x[0], d42 = x[3] - x[1], normal = cross(d31, d42);
     const double inverse = 1.0 / norm(normal);
-    const Vec3 e3 = inverse * normal, side = x[1] - x[0], in_plane = side - dot(side, e3) * e3;
-    const Vec3 e1 = (1.0 / norm(in_plane)) * in_plane, e2 = cross(e3, e1);
+    const Vec3 e3 = inverse * normal, g1 = d31 - d42, g2 = d31 + d42;
+    const Vec3 both = (1.0 / norm(g1)) * g1 + (1.0 / norm(g2)) * cross(g2, e3);
+    const Vec3 e1 = (1.0 / norm(both)) * both, e2 = cross(e3, e1);
     const double bx1 = -dot(d42, e2) * inverse, bx2 = dot(d31, e2) * inverse;
     const double by1 = dot(d42, e1) * inverse, by2 = -dot(d31, e1) * inverse;
     const double tri = m.triangle(e) ? 1.0 : 0.0;

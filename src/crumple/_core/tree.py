@@ -119,7 +119,10 @@ class TreeLoad:
 
 @dataclass(frozen=True)
 class TreeDrive(TreeLoad):
-    """Prescribed displacement of a point of a body in one direction; ``rates`` is its derivative."""
+    """Prescribed displacement of a point of a body in one direction.
+
+    The kernel takes ``rates``, piecewise linear from time 0 on, and their integral from ``values[0]``.
+    """
 
     rates: Floats
 

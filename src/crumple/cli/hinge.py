@@ -21,6 +21,8 @@ ROTATIONS = (0, 1, 2, 5, 10, 15, 20, 25, 30, 40, 50, 60, 75, 90)
 """Rotations of the table [deg]; those up to the largest asked for."""
 LARGEST_CURVE = 2_000_000
 """Bytes of a measured curve."""
+NEEDS_CURVE = frozenset({"file", "table"})
+"""Laws that no section and material alone can give."""
 LARGEST = 3.1416
 """Largest rotation shown [rad]: half a turn, with room for rounding."""
 
@@ -41,6 +43,9 @@ def hinge(
     ] = None,
     to: Annotated[str, typer.Option(help="Largest rotation.")] = "45 deg",
     figure: Annotated[Path | None, typer.Option(help="Write the drawing to this SVG file too.")] = None,
+    save: Annotated[
+        Path | None, typer.Option(help="Write the law to this law file (YAML): one law, by --law or --curve.")
+    ] = None,
 ) -> None:
     """Print and draw collapse laws side by side. Moment against rotation, source and range of each law."""
     import numpy as np
@@ -67,6 +72,9 @@ def hinge(
 
         figure.write_text(law_figure(laws, rotation, title), encoding="utf-8")
         console.print(f"Figure: {figure}", soft_wrap=True, markup=False)
+    if save is not None:
+        save.write_text(_law_file(laws, shape, metal, axis), encoding="utf-8")
+        console.print(f"Law file: {save}", soft_wrap=True, markup=False)
 
 
 def _largest(text: str) -> float:
@@ -93,7 +101,7 @@ def _laws(
     laws: dict[str, HingeLaw] = {}
     left_out = []
     for name in law_types():
-        if name == "table":
+        if name in NEEDS_CURVE:
             continue
         try:
             laws[name] = build_law(name, shape, metal, axis)
@@ -114,6 +122,26 @@ def _measured(shape: Section, metal: Material, axis: Axis, files: list[Path]) ->
         rotation, moment = read_table(file.read_text(encoding="utf-8", errors="replace"), str(file))
         laws[file.name] = build_law("table", shape, metal, axis, rotation=rotation, moment=moment)
     return laws
+
+
+def _law_file(laws: dict[str, HingeLaw], shape: Section, metal: Material, axis: str) -> str:
+    """Text of the law file of the only law that is shown."""
+    from crumple import __version__
+    from crumple.errors import InputError, Problem
+    from crumple.hinge import Trust, stored_law, write_law
+
+    if len(laws) != 1:
+        todo = "name one with --law"
+        raise InputError(Problem("a law file holds one law", ", ".join(laws), "one law", todo, "--save"))
+    ((name, law),) = laws.items()
+    origin = {
+        "method": "measured" if law.source.trust is Trust.MEASURED else "formula",
+        "section": shape.title,
+        "axis": axis,
+        "material": f"yield {metal.yield_stress / 1e6:g} MPa, flow stress {metal.flow_stress / 1e6:g} MPa",
+        "made_by": f"crumple {__version__}, law {name}",
+    }
+    return write_law(stored_law(law, origin))
 
 
 def _show_table(console: Console, laws: dict[str, HingeLaw], largest: float) -> None:

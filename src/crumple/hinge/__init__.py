@@ -1,13 +1,16 @@
 """Section and material to collapse law, with a source and a range, and to the record of the stepper."""
 
 from crumple.hinge.axial_law import AxialLaw, CrushDistance, CrushRate, CrushValidity, absorbed_by
+from crumple.hinge.band import Band, Bound, ScaledLaw, band_of
 from crumple.hinge.energy import absorbed_energy, rotation_absorbing
 from crumple.hinge.jamming import AfterJamming
 from crumple.hinge.law import HingeLaw, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.law_file import read_law, stored_law, write_law
 from crumple.hinge.laws.circular import CircularLaw
 from crumple.hinge.laws.constant import ConstantLaw
 from crumple.hinge.laws.kecman import KecmanLaw, Start
 from crumple.hinge.laws.oblique import ObliqueLaw
+from crumple.hinge.laws.stored import StoredLaw, bounded
 from crumple.hinge.laws.tabulated import TabulatedLaw
 from crumple.hinge.laws.wierzbicki import WierzbickiLaw
 from crumple.hinge.rate import HingeRate
@@ -29,6 +32,8 @@ from crumple.hinge.torsion_law import TorsionLaw
 __all__ = [
     "AfterJamming",
     "AxialLaw",
+    "Band",
+    "Bound",
     "CircularLaw",
     "ConstantLaw",
     "CrushDistance",
@@ -41,10 +46,12 @@ __all__ = [
     "HingeRecord",
     "KecmanLaw",
     "ObliqueLaw",
+    "ScaledLaw",
     "SofteningVariable",
     "Source",
     "Start",
     "Stop",
+    "StoredLaw",
     "TabulatedLaw",
     "TorsionLaw",
     "Trust",
@@ -53,15 +60,20 @@ __all__ = [
     "absorbed_by",
     "absorbed_energy",
     "axial_law_types",
+    "band_of",
+    "bounded",
     "build_axial_law",
     "build_law",
     "build_torsion_law",
     "law_options",
     "law_types",
     "plastic_part",
+    "read_law",
     "read_table",
     "record_of",
     "rotation_absorbing",
+    "stored_law",
     "torsion_law_types",
     "tributary_stiffness",
+    "write_law",
 ]

@@ -6,6 +6,7 @@ import csv
 import math
 import re
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,9 +14,23 @@ from crumple.errors import InputError, Problem
 from crumple.hinge.law import Floats
 from crumple.units import QuantityError, unit_factor
 
-ROTATION_WORDS = ("rotation", "angle", "theta")
-MOMENT_WORDS = ("moment", "capacity", "torque")
 Curve = Sequence[float] | Floats
+
+
+class Column(NamedTuple):
+    """Column of a table: words that name it in the header, and its SI unit."""
+
+    words: tuple[str, ...]
+    unit: str
+
+
+BENDING = (
+    Column(("rotation", "angle", "theta", "twist"), "rad"),
+    Column(("moment", "capacity", "torque"), "N*m"),
+)
+"""Columns of a bending or torsion test."""
+CRUSHING = (Column(("shortening", "displacement", "stroke"), "m"), Column(("force", "load"), "N"))
+"""Columns of a crush test."""
 _HEAD = re.compile(r"(?P<name>[^\[\(]+?)\s*[\[\(](?P<unit>[^\]\)]+)[\]\)]")
 # The elastic line is fitted between these shares of the peak: above the slack of a test, below first yield.
 ELASTIC_SHARES = (0.2, 0.6)
@@ -23,8 +38,8 @@ ELASTIC_SHARES = (0.2, 0.6)
 ON_THE_LINE = 1e-3
 
 
-def read_table(text: str, file: str = "") -> tuple[Floats, Floats]:
-    """Read a moment-rotation curve from CSV text.
+def read_table(text: str, file: str = "", columns: tuple[Column, Column] = BENDING) -> tuple[Floats, Floats]:
+    """Read a measured curve from CSV text.
 
     Parameters
     ----------
@@ -34,11 +49,13 @@ def read_table(text: str, file: str = "") -> tuple[Floats, Floats]:
         left out; further columns are ignored.
     file
         Name for messages.
+    columns
+        `BENDING` (rotation and moment) or `CRUSHING` (shortening and force).
 
     Returns
     -------
     tuple
-        Rotation [rad] and moment [N m], each of shape (n,).
+        Rotation [rad] and moment [N m], or shortening [m] and force [N], each of shape (n,).
 
     Raises
     ------
@@ -55,13 +72,11 @@ def read_table(text: str, file: str = "") -> tuple[Floats, Floats]:
         raise InputError(Problem("the table is empty", todo=todo, file=file))
     head_line, head = lines[0]
     separator = max(",;\t", key=head.count)
-    columns = [
-        _column(head.split(separator), words, file, head_line) for words in (ROTATION_WORDS, MOMENT_WORDS)
-    ]
+    places = [_column(head.split(separator), column, file, head_line) for column in columns]
     rows = csv.reader([line for _, line in lines[1:]], delimiter=separator)
     numbers, problems = [], []
     for (line, _), row in zip(lines[1:], rows, strict=True):
-        values = [_number(row[index]) if index < len(row) else math.nan for index, _ in columns]
+        values = [_number(row[index]) if index < len(row) else math.nan for index, _ in places]
         numbers.append(values)
         if not np.all(np.isfinite(values)):
             came, todo = separator.join(row)[:60], "write plain numbers with a decimal point"
@@ -70,7 +85,7 @@ def read_table(text: str, file: str = "") -> tuple[Floats, Floats]:
         raise InputError(
             problems or Problem("the table has a header but no points", file=file, line=head_line)
         )
-    table = np.array(numbers) * np.array([factor for _, factor in columns])
+    table = np.array(numbers) * np.array([factor for _, factor in places])
     return table[:, 0], table[:, 1]
 
 
@@ -136,9 +151,9 @@ def _elastic_line(rotation: Floats, moment: Floats) -> tuple[float, float]:
     return float(slope), float(-intercept / slope)
 
 
-def _column(head: Sequence[str], words: Sequence[str], file: str, line: int) -> tuple[int, float]:
+def _column(head: Sequence[str], column: Column, file: str, line: int) -> tuple[int, float]:
     """Index and factor to SI of the column that one of the words names."""
-    unit = "rad" if words is ROTATION_WORDS else "N*m"
+    words, unit = column
     for index, cell in enumerate(head):
         match = _HEAD.fullmatch(cell.strip())
         if match is None:
@@ -153,7 +168,8 @@ def _column(head: Sequence[str], words: Sequence[str], file: str, line: int) -> 
                     Problem(problem.what, cell.strip(), problem.allowed, problem.todo, "", file, line)
                 ) from None
     what = f"no column is named {words[0]} with a unit in brackets"
-    todo = "write a header such as 'rotation [deg], moment [kN*m]'"
+    written = {"rad": "deg", "N*m": "kN*m", "m": "mm", "N": "kN"}[unit]
+    todo = f"write a header that names it, for example '{words[0]} [{written}]'"
     raise InputError(Problem(what, ", ".join(head)[:80], " or ".join(words), todo, "", file, line))
 
 

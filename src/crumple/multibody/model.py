@@ -20,6 +20,12 @@ FORMS = {Form.SET_VALUED: 0, Form.ELASTIC_PLASTIC: 1, Form.REGULARISED: 2}
 SOFTENING = {SofteningVariable.PEAK: 0, SofteningVariable.ROTATION: 1, SofteningVariable.ACCUMULATED: 2}
 SAMPLING = 1e-5
 """Error of a sampled function of time, relative to its largest value; far below any accuracy asked for."""
+DRIVE_SAMPLING = 1e-8
+"""The same for driven motion, whose rate is sampled: its straight pieces then add up to the motion within 1e-6."""
+KINK = 0.01
+"""Jump of a driven rate between two samples, relative to the largest rate, that counts as a kink."""
+BRIEF = 1e-9
+"""Time in which a driven rate passes a kink, relative to the duration."""
 ACROSS = 1e-6
 """Share of a driven or initial motion that may point out of the plane: rounding of directions."""
 
@@ -211,8 +217,8 @@ def _drives(structure: Structure, mechanism: Mechanism, duration: float) -> Iter
                         f"supports.{name}.motion",
                     )
                 )
-            times, values = _sampled(function, duration)
-            yield TreeDrive(body, point, row, times, values, rates=np.asarray(function.derivative(times)))
+            times, values, rates = _sampled_motion(function, duration)
+            yield TreeDrive(body, point, row, times, values, rates=rates)
         held = plane.held(structure, support.node)
         if held.pinned:
             continue
@@ -231,9 +237,21 @@ def _point(structure: Structure, mechanism: Mechanism, node: str) -> tuple[float
     return _pair(mechanism.plane.flat(np.asarray(structure.nodes[node], float) - link.position))
 
 
-def _sampled(function: TimeFunction, duration: float) -> tuple[Floats, Floats]:
+def _sampled(function: TimeFunction, duration: float, error: float = SAMPLING) -> tuple[Floats, Floats]:
     coarse = np.abs(function(np.linspace(0.0, duration, 257)))
-    return function.sampled(0.0, duration, max(SAMPLING * float(coarse.max()), 1e-12))
+    return function.sampled(0.0, duration, max(error * float(coarse.max()), 1e-12))
+
+
+def _sampled_motion(function: TimeFunction, duration: float) -> tuple[Floats, Floats, Floats]:
+    """Times, displacements and rates of a driven motion; the rate's straight pieces add up to the motion."""
+    times, values = _sampled(function, duration, DRIVE_SAMPLING)
+    rates = np.asarray(function.derivative(times))
+    # the rate just before each sample that makes its piece end where the motion does; at a kink it differs
+    before = 2.0 * np.diff(values) / np.diff(times) - rates[:-1]
+    kinks = np.flatnonzero(np.abs(before - rates[1:]) > KINK * np.abs(rates).max())
+    brief = np.minimum(BRIEF * duration, np.diff(times)[kinks] / 2)
+    times = np.insert(times, kinks + 1, times[kinks + 1] - brief)
+    return times, np.insert(values, kinks + 1, values[kinks + 1]), np.insert(rates, kinks + 1, before[kinks])
 
 
 def _curve(envelope: Envelope) -> tuple[Floats, Floats]:

@@ -160,18 +160,22 @@ class PlasticInteraction:
         return best
 
     def spread_rates(self, around: int, levels: int, torques: int) -> Floats:
-        """Rates whose points cover the surface, scaled so that N, M and T weigh alike, shape (n, 4).
+        """Rates whose points cover the surface, times `scales` and of length 1, shape (n, 4).
 
-        ``around`` directions of the neutral axis, ``levels`` of its places, ``torques`` shares of the torque.
+        ``around`` directions of the neutral axis, ``levels`` of its places in the section (denser towards its
+        ends), ``torques`` shares of the torque; the pure torque comes last.
         """
         turn = 2.0 * np.pi * np.arange(around) / around
-        lift = np.pi / 2.0 * np.linspace(-1.0, 1.0, levels)
         twist = np.linspace(0.0, np.pi / 2.0, torques + 1)[:-1]
-        turn, lift, twist = (grid.ravel() for grid in np.meshgrid(turn, lift, twist, indexing="ij"))
-        bend = np.cos(lift)
-        direct = np.column_stack([np.sin(lift), bend * np.cos(turn), bend * np.sin(turn)])
-        whole = np.column_stack([direct * np.cos(twist)[:, None], np.sin(twist)])
-        return np.concatenate([whole, [[0.0, 0.0, 0.0, 1.0]]])
+        top, bottom = np.array([self.section.extent(angle) for angle in turn.tolist()]).T
+        share = (1.0 - np.cos(np.pi * (np.arange(levels) + 0.5) / levels)) / 2.0
+        level = share[None, :] * (top + bottom)[:, None] - bottom[:, None]
+        bend = np.broadcast_to(turn[:, None], level.shape)
+        direct = np.stack([-level, np.cos(bend), np.sin(bend)], axis=-1).reshape(-1, 3) * self.scales[:3]
+        # all at yield in one sense: the line lies outside
+        direct = np.concatenate([direct / np.linalg.norm(direct, axis=1)[:, None], [[1, 0, 0], [-1, 0, 0]]])
+        whole = [np.column_stack([direct * np.cos(t), np.full(len(direct), np.sin(t))]) for t in twist]
+        return np.concatenate([*whole, [[0.0, 0.0, 0.0, 1.0]]])
 
     def force_moment_curve(
         self, axis: Axis | float = "y", *, torque: float = 0.0, points: int = 121

@@ -81,7 +81,7 @@ class InteractionFit:
         return g, np.concatenate([slope, about], axis=-1) / self.scales
 
 
-def fitted_interaction(interaction: PlasticInteraction, *, rows: int = 40) -> InteractionFit:
+def fitted_interaction(interaction: PlasticInteraction, *, rows: int = 24) -> InteractionFit:
     """Compact fit of an interaction surface, the best of several exponents.
 
     Parameters

@@ -73,7 +73,7 @@ class Skeleton:
 
     @cached_property
     def stars(self) -> list[list[int]]:
-        """Half-edges that leave each node, counter-clockwise: 2 e from the start of edge e, 2 e + 1 its end."""
+        """Half-edges that leave each node, counter-clockwise: 2 e at the start of edge e, 2 e + 1 the end."""
         stars: list[list[int]] = [[] for _ in self.nodes]
         for half, node in enumerate(self.ends.ravel().tolist()):
             stars[node].append(half)

@@ -10,7 +10,7 @@ import numpy as np
 from crumple.errors import Problem
 from crumple.section.bends import Piece
 from crumple.section.section import Floats, in_mm
-from crumple.section.skeleton import Complexes, Skeleton
+from crumple.section.skeleton import Complexes, Integers, Skeleton
 from crumple.section.wall import Wall, Weld
 
 # Walls that leave a node closer together than this [rad] are folded onto each other, no corner.
@@ -94,20 +94,22 @@ def weld_problems(
     pieces: list[Piece], walls: Sequence[Wall], welds: Sequence[Weld], tolerance: float
 ) -> list[Problem]:
     """Problems of welds that do not lie on two touching walls."""
+    flats = [piece for piece in pieces if not piece.radius]
+    starts, stops = (np.array([getattr(piece, end) for piece in flats]) for end in ("start", "end"))
     problems = []
     for number, weld in enumerate(welds):
         ends = [complex(*point) for point in (weld.first, weld.second)]
         halves = []
         for end, place in zip(ends, ("first", "second"), strict=True):
-            distance = [_to_piece(end, piece) for piece in pieces]
+            distance = _distance(np.array([end]), starts, stops)[0]
             nearest = int(np.argmin(distance))
-            halves.append(pieces[nearest].thickness / 2.0)
+            halves.append(flats[nearest].thickness / 2.0)
             if distance[nearest] > tolerance:
                 came = f"{in_mm(distance[nearest])} from the mid-line of "
                 problems.append(
                     Problem(
                         "the weld is not on a wall",
-                        came + name_of(walls, pieces[nearest].wall),
+                        came + name_of(walls, flats[nearest].wall),
                         "a point on the mid-line of a flat",
                         "move the point onto the mid-line",
                         f"welds[{number}].{place}",
@@ -176,7 +178,7 @@ def _overlaps(skeleton: Skeleton, walls: Sequence[Wall], flats: list[int]) -> li
     thickness = skeleton.thickness[flats]
     near = np.minimum(_distance(start, start, end), _distance(end, start, end))
     near = np.minimum(near, near.T)
-    number = skeleton.ends[flats]
+    number = _across_bends(skeleton)[skeleton.ends[flats]]
     joined = (number[:, None, :, None] == number[None, :, None, :]).any(axis=(2, 3))
     # two corners with a short wall between them: stubs are looked for elsewhere
     neighbours = np.zeros_like(joined)
@@ -197,6 +199,15 @@ def _overlaps(skeleton: Skeleton, walls: Sequence[Wall], flats: list[int]) -> li
     ]
 
 
+def _across_bends(skeleton: Skeleton) -> Integers:
+    """Of each node a number that the two ends of a bend share."""
+    number = np.arange(len(skeleton.nodes))
+    for piece, (start, end) in zip(skeleton.pieces, skeleton.ends.tolist(), strict=True):
+        if piece.radius:
+            number[number == number[end]] = number[start]
+    return number
+
+
 def _distance(points: Complexes, start: Complexes, end: Complexes) -> Floats:
     """Distance of point i to flat j."""
     side = end - start
@@ -205,24 +216,18 @@ def _distance(points: Complexes, start: Complexes, end: Complexes) -> Floats:
     return np.hypot(beyond, local.imag)
 
 
-def _to_piece(point: complex, piece: Piece) -> float:
-    """Distance of a point to a flat; infinite for an arc."""
-    if piece.radius:
-        return math.inf
-    return float(_distance(np.array([point]), np.array([piece.start]), np.array([piece.end]))[0, 0])
-
-
 def _gaps(skeleton: Skeleton, walls: Sequence[Wall], flats: list[int]) -> list[Problem]:
     """Free ends that would run into another wall within a thickness, or stop just beside another end."""
     start, end = _ends(skeleton, flats)
     problems = []
+    shared = _across_bends(skeleton)[skeleton.ends]
     free = [star[0] for star in skeleton.stars if len(star) == 1]
     for half in free:
         edge, point = half >> 1, complex(skeleton.nodes[skeleton.ends[half >> 1, half & 1]])
         own = skeleton.pieces[edge].thickness
         ahead = -skeleton.directions[half]
         for k, other in enumerate(flats):
-            if other == edge:
+            if set(shared[other]) & set(shared[edge]):
                 continue
             reach = (own + skeleton.pieces[other].thickness) / 2.0
             local = np.array([start[k] - point, end[k] - point]) * ahead.conjugate()

@@ -61,5 +61,7 @@ def velocity_of(function: TimeFunction, duration: float) -> tuple[Floats, Floats
     step = np.diff(at)
     left, right = function.derivative(at[:-1]), function.derivative(at[1:] - BEFORE * step)
     shift = np.diff(value) / step - (left + right) / 2
-    times = np.column_stack([at[:-1], at[1:]]).reshape(-1)
+    # a jump takes the least time that a number can tell
+    ends = np.append(np.nextafter(at[1:-1], 0.0), at[-1:])
+    times = np.column_stack([at[:-1], ends]).reshape(-1)
     return times, np.column_stack([left + shift, right + shift]).reshape(-1)

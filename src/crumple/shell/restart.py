@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from pathlib import Path
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -61,11 +62,11 @@ def read_restart(path: Path, state: ShellState, mark: str) -> tuple[Record, floa
         If the file cannot be read, or belongs to another input or instruction set.
     """
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:
             arrays = {name: file[name] for name in file.files}
         head = json.loads(arrays["head"].tobytes())
         found = {key: head[key] for key in ("format", "mark", "isa", "seconds")}
-    except (OSError, KeyError, ValueError, EOFError) as error:
+    except (OSError, KeyError, ValueError, EOFError, BadZipFile) as error:
         what, todo = "the restart file cannot be read", "give the file that an interrupted run wrote"
         raise InputError(
             Problem(what, f"{type(error).__name__}: {str(error)[:200]}", "", todo, file=str(path))

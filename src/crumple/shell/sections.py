@@ -82,11 +82,12 @@ def continuous(vectors: Floats) -> Floats:
     """Rotation vectors over time without the jump at half a turn, (n, 3)."""
     out = vectors.copy()
     for i in range(1, len(out)):
-        angle = float(np.linalg.norm(out[i]))
-        if angle < 1.0:
+        before, angle = out[i - 1], float(np.linalg.norm(out[i]))
+        if np.linalg.norm(before) + angle < np.pi:
             continue
-        axis = out[i] / angle
-        turns = round((float(out[i - 1] @ axis) - angle) / (2 * np.pi))
+        axis = (out[i] if angle > SMALL else before) / max(angle, SMALL)
+        axis = axis / np.linalg.norm(axis)
+        turns = round((float(before @ axis) - float(out[i] @ axis)) / (2 * np.pi))
         out[i] += 2 * np.pi * turns * axis
     return out
 

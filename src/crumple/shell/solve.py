@@ -119,7 +119,8 @@ def solve_shell(
     except InputError as error:
         raise _named(error, lowered) from error
     lowered = replace(lowered, report=replace(lowered.report, time_step=state.first_time_step))
-    stepping = _Stepping(structure, run, lowered, state, long_run or LongRun(), begin, progress, cancel)
+    hooks = _Hooks(begin, progress, cancel, long_run or LongRun())
+    stepping = _Stepping(structure, run, lowered, state, hooks)
     status, reason = stepping.run_to_end()
     return _result(structure, run, stepping, status, reason)
 
@@ -139,32 +140,35 @@ def picture_times(run: ShellRun) -> Floats:
     return np.array(run.outputs.pictures or np.linspace(0.0, run.duration, 6))
 
 
+@dataclass(frozen=True)
+class _Hooks:
+    """Clock at the begin [s], and whom to tell and ask on the way."""
+
+    begin: float
+    progress: Progress | None
+    cancel: Cancel | None
+    long_run: LongRun
+
+
 class _Stepping:
     """One run: the moving state and what was noted of it."""
 
     def __init__(
-        self,
-        structure: Structure,
-        run: ShellRun,
-        lowered: Lowered,
-        state: ShellState,
-        long_run: LongRun,
-        begin: float,
-        progress: Progress | None,
-        cancel: Cancel | None,
+        self, structure: Structure, run: ShellRun, lowered: Lowered, state: ShellState, hooks: _Hooks
     ) -> None:
-        self.run, self.lowered, self.state, self.long_run = run, lowered, state, long_run
-        self.progress, self.cancel = progress, cancel
+        self.run, self.lowered, self.state = run, lowered, state
+        self.begin, self.progress, self.cancel = hooks.begin, hooks.progress, hooks.cancel
+        self.long_run = hooks.long_run
         self.sampler, self.record = Sampler.of(lowered, run.outputs), Record()
         self.mark = fingerprint(structure, run.settings, run.outputs, run.duration, run.every)
         self.times = output_times(run)
         self.pictures = {
             int(np.argmin(np.abs(self.times - t))) for t in picture_times(run) if t <= run.duration
         }
-        self.begin, self.spent_before, self.first_time = begin, 0.0, 0.0
-        self.saved = self.watched = begin
-        if long_run.restart_from is not None:
-            self.record, self.spent_before = read_restart(long_run.restart_from, state, self.mark)
+        self.spent_before = self.first_time = 0.0
+        self.saved = self.watched = self.begin
+        if self.long_run.restart_from is not None:
+            self.record, self.spent_before = read_restart(self.long_run.restart_from, state, self.mark)
             self.first_time = state.time
 
     @property

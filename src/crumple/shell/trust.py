@@ -12,7 +12,7 @@ from crumple.shell.model import Lowered
 from crumple.shell.record import ENERGIES, Record
 from crumple.structure import ShellSettings, Structure
 
-LOST_SHARE = 1e-3
+LOST_SHARE = 5e-3
 """Share of the given energy that may vanish at the start before a warning."""
 HOURGLASS_SHARE = 0.05
 """Hourglass energy over the largest internal energy above which what holds the elements is no physics."""

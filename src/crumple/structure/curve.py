@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from crumple.errors import InputError, Problem
-from crumple.hinge import read_table
+from crumple.hinge import read_law, read_table
 from crumple.structure.quantity import Converted
 from crumple.structure.spec import refuse
 from crumple.units import QuantityError, unit_factor
@@ -73,7 +73,34 @@ def _is_number(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
-def _read(name: str, directory: Path, key: str) -> tuple[list[float], list[float]]:
+def with_law_read(given: dict[str, Any], directory: Path) -> dict[str, Any]:
+    """Replace the name of a law file by its content, checked; without a name the content itself is checked.
+
+    Parameters
+    ----------
+    given
+        Law as the input says it; ``file`` names the file, ``text`` is its content.
+    directory
+        Where relative names start.
+    """
+    name, text = given.get("file"), given.get("text")
+    if name is None and not isinstance(text, str):
+        refuse("a law file is needed", key="file", todo="give the file that `crumple hinge --save` wrote")
+    if name is not None:
+        if not isinstance(name, str):
+            refuse("the name of a file is needed here", key="file", allowed="a text such as hinge.yaml")
+        if text:
+            refuse("the law is given twice", key="file", todo="give the file or the text")
+        text = _content(name, directory, "file", "a law file")
+    try:
+        read_law(str(text), str(name or ""))
+    except InputError as error:
+        refuse("the law file cannot be read", problems=error.problems[:SHOWN_PROBLEMS])
+    return {**{key: value for key, value in given.items() if key != "file"}, "text": text}
+
+
+def _content(name: str, directory: Path, key: str, kind: str) -> str:
+    """Text of a file, or a refusal that says what is wrong with it."""
     if "\0" in name:
         refuse("this is no file name", key=key)
     path = directory / name
@@ -81,14 +108,19 @@ def _read(name: str, directory: Path, key: str) -> tuple[list[float], list[float
         found, size = path.is_file(), path.stat().st_size if path.is_file() else 0
         text = path.read_text(encoding="utf-8-sig") if found and size <= LARGEST_FILE else ""
     except UnicodeDecodeError:
-        refuse("the file is not a text in UTF-8", key=key, allowed="a CSV file")
+        refuse("the file is not a text in UTF-8", key=key, allowed=kind)
     except OSError as error:
-        refuse(f"the file cannot be read: {error.strerror}", key=key, allowed="a CSV file")
+        refuse(f"the file cannot be read: {error.strerror}", key=key, allowed=kind)
     if not found:
         todo = "correct the name or put the file there"
         refuse("there is no such file", key=key, allowed="a file name, relative to the input file", todo=todo)
     if size > LARGEST_FILE:
-        refuse("the file is too large for a curve", key=key, allowed=f"at most {LARGEST_FILE / 1e6:g} MB")
+        refuse("the file is too large", key=key, allowed=f"at most {LARGEST_FILE / 1e6:g} MB")
+    return text
+
+
+def _read(name: str, directory: Path, key: str) -> tuple[list[float], list[float]]:
+    text = _content(name, directory, key, "a CSV file")
     try:
         rotation, moment = read_table(text, name)
     except InputError as error:

@@ -223,7 +223,7 @@ def law_of(structure: Structure, place: HingePlace) -> HingeLaw:
     if "elastic_stiffness" in options and not isinstance(spec.elastic_stiffness, str):
         given["elastic_stiffness"] = spec.elastic_stiffness
     section, material = structure.section_of(place.member), structure.material_of(place.member)
-    return hinge.build_law(kind, section, material, place.axis, **given)
+    return hinge.bounded(hinge.build_law(kind, section, material, place.axis, **given), spec.bound)
 
 
 class _Laws:

@@ -6,12 +6,14 @@ that the formula takes.
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationInfo, model_validator
 
-from crumple.structure.curve import MOST_POINTS, with_curve_read, with_units
+from crumple.hinge.plain_yaml import LARGEST_TEXT
+from crumple.structure.curve import MOST_POINTS, with_curve_read, with_law_read, with_units
 from crumple.structure.quantity import (
     Angle,
     DampingOrCritical,
@@ -83,6 +85,8 @@ class LawKeys(Spec):
     """Whether the material's strain-rate law raises the capacity."""
     viscous_damping: NonNegativeRotationalDamping = 0.0
     """Rotational damper beside the hinge."""
+    bound: Literal["nominal", "lower", "upper"] = "nominal"
+    """Which law of the band that the law states: the middle or an edge."""
 
 
 class ConstantLaw(LawKeys):
@@ -167,11 +171,72 @@ class WierzbickiLaw(LawKeys):
     """What follows when the walls touch: a further fold in series, an elastic stop, or the moment held."""
 
 
+AfterJamming = Literal["second_fold", "stop", "hold"]
+
+
+class ObliqueLaw(LawKeys):
+    """Rectangular tube bent about an axis between its sides: two Kecman-type folds at once."""
+
+    type: Literal["oblique"] = "oblique"
+    """Kind of law."""
+    angle: Angle = math.pi / 4.0
+    """Of the bending axis from the hinge's own axis, 0 deg to 90 deg."""
+    rolling_weight: RollingWeight = 1.0
+    """Weight of the second rolling line of each web."""
+    after_jamming: AfterJamming = "second_fold"
+    """What follows when the walls touch: a further fold in series, an elastic stop, or the moment held."""
+
+
+class CircularLaw(LawKeys):
+    """Circular tube: plastic or ovalisation moment, then a kink scaled from a square tube."""
+
+    type: Literal["circular"] = "circular"
+    """Kind of law."""
+    rolling_weight: RollingWeight = 1.0
+    """Weight of the second rolling line of each web of the square tube."""
+    after_jamming: AfterJamming = "hold"
+    """What follows when the walls touch: a further fold in series, an elastic stop, or the moment held."""
+
+
+class FoldedProfileLaw(LawKeys):
+    """Channel about z, hat or closed hat about y: folding mechanisms of each side, scaled from the tube's."""
+
+    type: Literal["folded_profile"] = "folded_profile"
+    """Kind of law."""
+    rolling_weight: RollingWeight = 1.0
+    """Weight of the second rolling line of each web."""
+    after_jamming: AfterJamming = "hold"
+    """What follows when the walls touch: a further fold in series, an elastic stop, or the moment held."""
+
+
+class FileLaw(LawKeys):
+    """Law of a law file, as `crumple hinge --save` writes it."""
+
+    type: Literal["file"] = "file"
+    """Kind of law."""
+    file: FileName | None = None
+    """Law file (YAML), relative to the input file."""
+    text: Annotated[str, Field(max_length=LARGEST_TEXT)] = ""
+    """Content of a law file, in place of its name."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _embedded(cls, given: Any, info: ValidationInfo) -> Any:
+        """Read and check the file, so that the law carries its curve and not a path."""
+        if not isinstance(given, dict):
+            return given
+        return with_law_read(given, Path((info.context or {}).get("directory", ".")))
+
+
 LawSpec = Annotated[
     Annotated[ConstantLaw, Tag("(type=constant)")]
     | Annotated[TableLaw, Tag("(type=table)")]
     | Annotated[KecmanLaw, Tag("(type=kecman)")]
-    | Annotated[WierzbickiLaw, Tag("(type=wierzbicki)")],
+    | Annotated[WierzbickiLaw, Tag("(type=wierzbicki)")]
+    | Annotated[ObliqueLaw, Tag("(type=oblique)")]
+    | Annotated[CircularLaw, Tag("(type=circular)")]
+    | Annotated[FoldedProfileLaw, Tag("(type=folded_profile)")]
+    | Annotated[FileLaw, Tag("(type=file)")],
     Discriminator(type_tag),
 ]
 """Any law; ``type`` says which."""
@@ -181,6 +246,10 @@ LAW_SPECS: dict[str, type[LawKeys]] = {
     "table": TableLaw,
     "kecman": KecmanLaw,
     "wierzbicki": WierzbickiLaw,
+    "oblique": ObliqueLaw,
+    "circular": CircularLaw,
+    "folded_profile": FoldedProfileLaw,
+    "file": FileLaw,
 }
 """Laws by type; a reference to one of these names means the law with its defaults."""
 
@@ -194,7 +263,11 @@ LawReference = Annotated[
     | Annotated[ConstantLaw, Tag("(type=constant)")]
     | Annotated[TableLaw, Tag("(type=table)")]
     | Annotated[KecmanLaw, Tag("(type=kecman)")]
-    | Annotated[WierzbickiLaw, Tag("(type=wierzbicki)")],
+    | Annotated[WierzbickiLaw, Tag("(type=wierzbicki)")]
+    | Annotated[ObliqueLaw, Tag("(type=oblique)")]
+    | Annotated[CircularLaw, Tag("(type=circular)")]
+    | Annotated[FoldedProfileLaw, Tag("(type=folded_profile)")]
+    | Annotated[FileLaw, Tag("(type=file)")],
     Discriminator(_reference_tag),
 ]
 """A law, or the name of one in ``hinge_laws``, or the name of a law type."""

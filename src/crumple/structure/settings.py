@@ -74,8 +74,9 @@ class ShellSettings(Spec):
     """What holds the modes that an element with one point cannot see."""
     hourglass_coefficient: HourglassCoefficient = 0.01
     """How strongly they are held."""
-    warping_correction: Switch = "on"
-    """Bending terms of elements whose corners do not lie in one plane."""
+    warping_correction: Switch = "off"
+    """Bending terms of elements whose corners do not lie in one plane: right for twisted members, too soft in
+    tight folds."""
     safety_factor: SafetyFactor = 0.9
     """Share of the stable time step that is used."""
     mass_scaling: PositiveTime | None = None

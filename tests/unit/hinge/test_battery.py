@@ -13,13 +13,26 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from crumple.errors import InputError
-from crumple.hinge import HingeLaw, SofteningVariable, Trust, absorbed_energy, build_law, law_types, record_of
+from crumple.hinge import (
+    HingeLaw,
+    SofteningVariable,
+    Trust,
+    absorbed_energy,
+    build_law,
+    law_types,
+    record_of,
+)
+from crumple.hinge.law_file import stored_law, write_law
 from crumple.material import CowperSymonds, Material
 from crumple.section import Channel, CircularTube, ClosedHat, Hat, RectangularTube
 
 ERROR = 1e-4
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 355e6, flow_rate=CowperSymonds(6844.0, 3.91))
+FILE = write_law(
+    stored_law(build_law("kecman", RectangularTube(0.05, 0.025, 0.00265), STEEL), {"method": "formula"})
+)
 OPTIONS = {
+    "file": [{"text": FILE}],
     "table": [
         {"rotation": [0.0, 0.05, 0.3, 1.0], "moment": [900.0, 1000.0, 500.0, 400.0]},
         {

@@ -10,7 +10,16 @@ TUBE = RectangularTube(0.05, 0.025, 0.002)
 
 
 def test_laws_are_found_by_the_files_of_their_folder():
-    assert list(law_types()) == ["constant", "kecman", "table", "wierzbicki"]
+    assert list(law_types()) == [
+        "circular",
+        "constant",
+        "file",
+        "folded_profile",
+        "kecman",
+        "oblique",
+        "table",
+        "wierzbicki",
+    ]
     assert law_types()["kecman"] is KecmanLaw
 
 

@@ -40,6 +40,8 @@ class TabulatedLaw:
         The same for the negative sense, as positive numbers; left out: as in the positive sense.
     elastic_stiffness
         Of the elastic rise [N m/rad], where known.
+    scatter
+        Relative half-width of the band of several specimens [-], where known.
 
     References
     ----------
@@ -58,6 +60,7 @@ class TabulatedLaw:
     softening_variable: SofteningVariable = SofteningVariable.PEAK
     jamming_angle: float | None = None
     stop: Stop | None = None
+    scatter: float | None = None
     validity: Validity = field(init=False)
 
     def __post_init__(self) -> None:
@@ -78,7 +81,7 @@ class TabulatedLaw:
             raise InputError(problems)
         last = min(self._curve(1)[0][-1], self._curve(-1)[0][-1])
         basis = "the table ends there, and its last capacity is held beyond"
-        object.__setattr__(self, "validity", Validity(float(last), basis))
+        object.__setattr__(self, "validity", Validity(float(last), basis, (), self.scatter))
 
     @classmethod
     def of(

@@ -1,0 +1,162 @@
+"""The band of a law travels to the solver as three laws: nominal, lower, upper.
+
+A law whose validity states a relative half-width u stands between itself times 1 - u and 1 + u.  The solver
+needs to know nothing of bands: it runs three times.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crumple.errors import InputError, Problem
+from crumple.hinge.law import Floats, HingeLaw, SofteningVariable, Source, Validity
+from crumple.hinge.options import choice
+from crumple.hinge.rate import HingeRate
+from crumple.hinge.stop import Stop
+
+
+class Bound(Enum):
+    """Which law of a band."""
+
+    LOWER = "lower"
+    NOMINAL = "nominal"
+    UPPER = "upper"
+
+
+@dataclass(frozen=True)
+class Band:
+    """Three laws of one hinge.
+
+    Attributes
+    ----------
+    nominal, lower, upper
+        Ordered at every rotation.
+    """
+
+    nominal: HingeLaw
+    lower: HingeLaw
+    upper: HingeLaw
+
+    def law(self, bound: Bound | str) -> HingeLaw:
+        """Law of a bound, by enum or by its text."""
+        laws = {Bound.LOWER: self.lower, Bound.NOMINAL: self.nominal, Bound.UPPER: self.upper}
+        return laws[choice("bound", bound, Bound)]
+
+
+@dataclass(frozen=True)
+class ScaledLaw:
+    """A law whose capacity is multiplied by a constant; everything else is the law's own.
+
+    Attributes
+    ----------
+    law
+        Any law.
+    factor
+        > 0 [-].
+    reason
+        Why, for the title.
+    """
+
+    law: HingeLaw
+    factor: float
+    reason: str = "scaled"
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.factor) and self.factor > 0.0):
+            what, todo = "the factor on a law must be positive", "a band wider than 100 % has no lower law"
+            raise InputError(Problem(what, f"{self.factor:g}", "> 0", todo, "factor"))
+
+    @property
+    def name(self) -> str:
+        """Key of the law inside."""
+        return self.law.name
+
+    @property
+    def title(self) -> str:
+        """One line for people."""
+        return f"{self.law.title}, {self.reason} (times {self.factor:.3g})"
+
+    @property
+    def source(self) -> Source:
+        """Source of the law inside."""
+        return self.law.source
+
+    @property
+    def softening_variable(self) -> SofteningVariable:
+        """Variable of the law inside."""
+        return self.law.softening_variable
+
+    @property
+    def elastic_stiffness(self) -> float | None:
+        """Stiffness of the law inside [N m/rad]: scatter of strength is not one of stiffness."""
+        return self.law.elastic_stiffness
+
+    @property
+    def jamming_angle(self) -> float | None:
+        """Jamming angle of the law inside [rad]."""
+        return self.law.jamming_angle
+
+    @property
+    def validity(self) -> Validity:
+        """Range of the law inside, without the band: this is one edge of it."""
+        return replace(self.law.validity, uncertainty=None)
+
+    @property
+    def rate(self) -> HingeRate | None:
+        """Rate law of the law inside."""
+        return self.law.rate
+
+    @property
+    def stop(self) -> Stop | None:
+        """Stop of the law inside."""
+        return self.law.stop
+
+    def kinks(self, sense: int = 1) -> tuple[float, ...]:
+        """Kinks of the law inside [rad]."""
+        return self.law.kinks(sense)
+
+    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
+        """Capacity [N m] at a rotation [rad]."""
+        return self.factor * self.law.moment_capacity(rotation, sense)
+
+    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
+        """Factor on the capacity at a rotation rate [rad/s]."""
+        return self.law.rate_factor(rotation_rate)
+
+
+def band_of(law: HingeLaw, uncertainty: float | None = None) -> Band:
+    """Band of a law.
+
+    Parameters
+    ----------
+    law
+        Any law.
+    uncertainty
+        Relative half-width [-], below 1; None: the one that the law states.
+
+    Returns
+    -------
+    Band
+        The law itself in the middle.
+
+    Raises
+    ------
+    InputError
+        If the law states no band and none is given, or it reaches down to zero.
+
+    References
+    ----------
+    docs/theory/measured_curves.md.  Verified in tests/unit/hinge/test_band.py.
+    """
+    width = law.validity.uncertainty if uncertainty is None else uncertainty
+    if width is None:
+        what, todo = "nothing is known of the scatter of this law", "give the relative half-width yourself"
+        raise InputError(Problem(what, law.title, "a law that states a band", todo, "uncertainty"))
+    if not 0.0 <= width < 1.0:
+        what, todo = "the half-width of the band is out of range", "0.1 means 10 % to either side"
+        raise InputError(Problem(what, f"{width:g}", "0 to below 1", todo, "uncertainty"))
+    return Band(law, ScaledLaw(law, 1.0 - width, "lower"), ScaledLaw(law, 1.0 + width, "upper"))

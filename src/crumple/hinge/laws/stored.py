@@ -1,0 +1,193 @@
+"""A law read from a law file: curves of both senses with everything that was known where they were made.
+
+Straight lines between points, the last capacity held.  What it is of (formula, test, shell model) stays
+with it: source, range, band, rate, stop.  See crumple.hinge.law_file for the format.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crumple.errors import InputError, Problem
+from crumple.hinge.band import Band, Bound, band_of
+from crumple.hinge.law import Floats, HingeLaw, SofteningVariable, Source, Validity
+from crumple.hinge.options import choice
+from crumple.hinge.rate import HingeRate, rate_factor
+from crumple.hinge.registry import law_type
+from crumple.hinge.stop import Stop
+from crumple.material import Material
+from crumple.section import Axis, Section
+
+Points = tuple[tuple[float, ...], tuple[float, ...]]
+
+
+@dataclass(frozen=True)
+class StoredCurve:
+    """Capacity of both senses.
+
+    Attributes
+    ----------
+    positive, negative
+        Rotation [rad] strictly increasing from 0, and capacity [N m] > 0.
+    """
+
+    positive: Points
+    negative: Points
+
+    def __post_init__(self) -> None:
+        problems = [*_problems("positive", self.positive), *_problems("negative", self.negative)]
+        if problems:
+            raise InputError(problems)
+
+
+@law_type("file")
+@dataclass(frozen=True)
+class StoredLaw:
+    """Law of a law file.
+
+    Attributes
+    ----------
+    title
+        One line for people.
+    law
+        Name of the law that it was made from, for example ``kecman``.
+    origin
+        Pairs of key and text: method (formula, measured, shell), section, axis, material, made_by, ...
+    curve
+        Nominal capacity.
+    sampling_error
+        Bound of the relative error of the curve against the law it was made from [-].
+    lower, upper
+        Capacities at the edges of the band, where they are not the nominal one times a factor.
+
+    References
+    ----------
+    docs/law_file.md.  Verified in tests/unit/hinge/test_law_file.py.
+    """
+
+    name: ClassVar[str] = "file"
+
+    title: str
+    law: str
+    origin: tuple[tuple[str, str], ...]
+    curve: StoredCurve
+    source: Source
+    validity: Validity
+    softening_variable: SofteningVariable = SofteningVariable.PEAK
+    elastic_stiffness: float | None = None
+    jamming_angle: float | None = None
+    rate: HingeRate | None = None
+    stop: Stop | None = None
+    sampling_error: float = 0.0
+    lower: StoredCurve | None = None
+    upper: StoredCurve | None = None
+
+    @classmethod
+    def of(
+        cls,
+        section: Section,
+        material: Material,
+        axis: Axis = "y",
+        *,
+        text: str,
+    ) -> StoredLaw:
+        """Law of a file's text.
+
+        Parameters
+        ----------
+        section, material, axis
+            Not used: the curve is already that of a section.
+        text
+            Content of a law file.
+
+        Raises
+        ------
+        InputError
+            With lines, if the text is no law file.
+        """
+        from crumple.hinge.law_file import read_law  # noqa: PLC0415  (the reader builds this class)
+
+        return read_law(text)
+
+    def at(self, bound: Bound) -> StoredLaw:
+        """Law of a bound: the stored curve, or the nominal one times 1 -+ the uncertainty."""
+        if bound is Bound.NOMINAL:
+            return self
+        stored = self.lower if bound is Bound.LOWER else self.upper
+        if stored is None:
+            scaled = band_of(self).law(bound)
+            factor = float(scaled.moment_capacity(0.0)) / float(self.moment_capacity(0.0))
+            stored = StoredCurve(*(_times(points, factor) for points in _both(self.curve)))
+        edge = Validity(self.validity.rotation_max, self.validity.basis, self.validity.warnings)
+        return StoredLaw(
+            f"{self.title}, {bound.value}",
+            self.law,
+            self.origin,
+            stored,
+            self.source,
+            edge,
+            self.softening_variable,
+            self.elastic_stiffness,
+            self.jamming_angle,
+            self.rate,
+            self.stop,
+            self.sampling_error,
+        )
+
+    @property
+    def band(self) -> Band:
+        """Nominal, lower and upper law; `InputError` if nothing is known of the scatter."""
+        return Band(self, self.at(Bound.LOWER), self.at(Bound.UPPER))
+
+    def kinks(self, sense: int = 1) -> tuple[float, ...]:
+        """Every point of the curve [rad]."""
+        return _both(self.curve)[0 if sense > 0 else 1][0]
+
+    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
+        """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
+        at, moment = _both(self.curve)[0 if sense > 0 else 1]
+        return np.asarray(np.interp(np.asarray(rotation, np.float64), at, moment), np.float64)
+
+    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
+        """Factor on the capacity at a rotation rate [rad/s]."""
+        return rate_factor(self.rate, rotation_rate)
+
+
+def bounded(law: HingeLaw, bound: Bound | str) -> HingeLaw:
+    """Law of a bound: of a stored law its own edge, of any other the law times 1 -+ its uncertainty.
+
+    Raises
+    ------
+    InputError
+        If an edge is asked for and nothing is known of the scatter.
+    """
+    which = choice("bound", bound, Bound)
+    if which is Bound.NOMINAL:
+        return law
+    return law.at(which) if isinstance(law, StoredLaw) else band_of(law).law(which)
+
+
+def _both(curve: StoredCurve) -> tuple[Points, Points]:
+    return curve.positive, curve.negative
+
+
+def _times(points: Points, factor: float) -> Points:
+    return points[0], tuple(factor * moment for moment in points[1])
+
+
+def _problems(where: str, points: Points) -> list[Problem]:
+    rotation, moment = (np.asarray(values, np.float64) for values in points)
+    if rotation.size != moment.size or rotation.size == 0:
+        return [
+            Problem("the curve needs pairs of rotation and moment", f"{rotation.size} points", where=where)
+        ]
+    problems = []
+    if not np.all(np.isfinite(rotation)) or rotation[0] != 0.0 or np.any(np.diff(rotation) <= 0.0):
+        problems.append(Problem("rotations must increase strictly from 0", where=where))
+    if not np.all(np.isfinite(moment)) or np.any(moment <= 0.0):
+        problems.append(Problem("capacities must be positive", where=where))
+    return problems
