@@ -126,39 +126,20 @@ def _show(found: Comparison, folder: Path) -> None:
     console.print(Text(found.title, style="bold"))
     style = {"good": "green", "caution": "yellow"}.get(found.trust.level, "bold red")
     console.print(Text(found.trust.headline, style=style))
-    table = Table()
     first, second = found.candidate.name, found.reference.name
-    heads = (
-        f"Rotation, {first}",
-        second,
-        "differs",
-        f"Peak moment, {first}",
-        second,
-        "Energy, worst",
-        "Rating",
-    )
+    table = Table()
     table.add_column("Hinge")
-    for head in heads:
+    for head in (f"{first}, deg", f"{second}, deg", "Differs", "Energy differs", "Rating"):
         table.add_column(head, justify="right")
     for hinge in found.hinges[:MOST_HINGES]:
-        a, b = hinge.first, hinge.second
-        turned = [f"{math.degrees(m.rotation_max):.2f} deg" if m else "-" for m in (a, b)]
-        moment = [format_quantity(m.moment_peak, "N*m") if m and m.moment_peak else "-" for m in (a, b)]
         error = hinge.error("rotation_max")
         energy = max((abs(e) for e in hinge.energy_errors() if e is not None), default=None)
-        rated = next(
-            (
-                p.rating
-                for p in found.pairs
-                if p.channel == f"hinge.{hinge.name}.rotation" and p.candidate == first
-            ),
-            None,
-        )
+        channel = f"hinge.{hinge.name}.rotation"
+        rated = next((p.rating for p in found.pairs if (p.channel, p.candidate) == (channel, first)), None)
         table.add_row(
             escape(hinge.name),
-            *turned,
+            *(f"{math.degrees(m.rotation_max):.2f}" if m else "-" for m in (hinge.first, hinge.second)),
             "-" if error is None else f"{100 * error:+.1f} %",
-            *moment,
             "-" if energy is None else f"{100 * energy:.1f} %",
             "-" if rated is None else f"{rated.overall:.2f}",
         )

@@ -80,8 +80,8 @@ class HingeComparison:
     how: str = ""
 
     def error(self, quantity: str) -> float | None:
-        """Relative error of a figure of the candidate; None where it cannot be had."""
-        if self.first is None or self.second is None:
+        """Relative error of a figure of the candidate; None where the reference has no fold or no figure."""
+        if self.first is None or self.second is None or self.fold_station is None:
             return None
         a, b = getattr(self.first, quantity), getattr(self.second, quantity)
         if a is None or b is None or not b:
@@ -90,7 +90,7 @@ class HingeComparison:
 
     def energy_errors(self) -> tuple[float | None, ...]:
         """Relative error of plastic energy at every level."""
-        if self.first is None or self.second is None:
+        if self.first is None or self.second is None or self.fold_station is None:
             return tuple(None for _ in self.levels)
         pairs = zip(self.first.energy_at, self.second.energy_at, strict=True)
         return tuple(a / b - 1.0 if a is not None and b else None for a, b in pairs)

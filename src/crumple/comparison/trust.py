@@ -89,10 +89,11 @@ def _verdict(comparison: Comparison, doubtful: bool) -> tuple[str, str]:
     off = _worst(comparison)
     if off is None:
         return "bad", "No hinge turned in both results: nothing is compared."
-    said = f"largest rotation within {off[0]:.1%}, plastic energy within {off[1]:.1%}"
+    said = f"largest rotation off by {off[0]:.1%}, plastic energy by up to {off[1]:.1%}"
+    if max(off) > FAR_OFF:
+        return "bad", f"The {first} answer is not that of the {second} run: {said}."
     if max(off) > AGREES:
-        level = "bad" if max(off) > FAR_OFF else "caution"
-        return level, f"The {first} answer is only roughly that of the {second} run: {said}."
+        return "caution", f"The {first} answer is only roughly that of the {second} run: {said}."
     if doubtful:
         return "caution", f"Both answers agree, with reservations: {said}."
     return "good", f"Both answers agree: {said}."

@@ -17,8 +17,10 @@ LEAST_TURN = np.radians(2.0)
 """Plastic rotation [rad] from which a law can be read off."""
 INTERVALS = 16
 """Of that law: wide enough that vibration averages out."""
-BARS = 8
-"""Rigid bars that stand for an elastic member: its lowest frequencies are then right within some per cent."""
+BARS = (8, 7, 9, 6, 10, 11)
+"""Numbers of rigid bars that stand for an elastic member; the first whose cuts keep clear of its hinges."""
+CLEAR = 0.15
+"""Least distance of a cut from a hinge over the length of a bar: between them lies a body of its own."""
 
 
 def with_elastic_hinges(structure: Structure) -> Structure | None:
@@ -40,7 +42,7 @@ def with_elastic_members(structure: Structure) -> Structure | None:
     elastic = with_elastic_hinges(structure) or structure
     cut = ConstantLaw(form=ELASTIC)
     members = {
-        name: member.model_copy(update={"bars": Bars(number=BARS, law=cut)})
+        name: member.model_copy(update={"bars": Bars(number=_bars(structure, name), law=cut)})
         if member.bars.number == 1
         else member
         for name, member in elastic.members.items()
@@ -48,6 +50,17 @@ def with_elastic_members(structure: Structure) -> Structure | None:
     if members == dict(elastic.members):
         return None
     return elastic.model_copy(update={"members": members})
+
+
+def _bars(structure: Structure, member: str) -> int:
+    """Number of equal bars of a member whose cuts keep clear of its hinges, as far as one does."""
+    length = structure.frame_of(member).length
+    stations = [place.station / length for place in hinge_places(structure) if place.member == member]
+
+    def clearance(number: int) -> float:
+        return min((abs(s * number - round(s * number)) for s in stations if 0.5 < s * number), default=1.0)
+
+    return next((number for number in BARS if clearance(number) > CLEAR), max(BARS, key=clearance))
 
 
 def with_measured_laws(structure: Structure, motions: Sequence[HingeMotion]) -> Structure | None:
