@@ -1,8 +1,8 @@
 """Rating after ISO/TS 18571:2014 against the published package objective-rating-metrics 1.3.
 
-Six pairs of curves of different lengths, shifts, sizes and oscillations are rated by both.  The figures that the
-package gave are recorded here, since it brings a compiler of its own (numba) along; where it is installed it is
-asked again.  All four parts agree to rounding.
+Six pairs of curves of different lengths, shifts, sizes and oscillations are rated by both.  The figures that
+the package gave are recorded here, since it brings a compiler of its own (numba) along; where it is
+installed it is asked again.  All four parts agree to rounding.
 """
 
 import importlib.util

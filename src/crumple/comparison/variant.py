@@ -58,7 +58,7 @@ def _bars(structure: Structure, member: str) -> int:
     stations = [place.station / length for place in hinge_places(structure) if place.member == member]
 
     def clearance(number: int) -> float:
-        return min((abs(s * number - round(s * number)) for s in stations if 0.5 < s * number), default=1.0)
+        return min((abs(s * number - round(s * number)) for s in stations if s * number > 0.5), default=1.0)
 
     return next((number for number in BARS if clearance(number) > CLEAR), max(BARS, key=clearance))
 

@@ -276,6 +276,9 @@
     new ResizeObserver(fit).observe(canvas);
     fit();
     root.dataset.ready = painter.mode;
-    window.crumplePlayer = { draw, seek(to) { stop(); frame = to; draw(); }, mode: painter.mode, frames: scene.times.length };
+    // for scripts: where a point is drawn now, in metres, and the way to a frame
+    const place = (model, point) => [0, 1, 2].map(
+      (axis) => scene.models[model].position[3 * point + axis] + scene.origin[axis] + scene.size[axis] / 2);
+    window.crumplePlayer = { seek(to) { stop(); frame = to; draw(); }, place, frames: scene.times.length };
   }).catch((error) => { note.textContent = `The moving picture cannot be shown: ${error.message}`; note.hidden = false; });
 })();

@@ -1,7 +1,7 @@
 """A tube of example 01 that folds about -y at a known place by a known angle, as a shell run would tell it.
 
-Rings every 10 mm.  Within the fold the sections turn linearly from 0 to the angle; beyond it they are carried
-rigidly.  Plastic strain lies in the fold alone and grows with the angle; the work is a constant moment times it.
+Rings every 10 mm.  Within the fold the sections turn linearly from 0 to the angle; beyond it they are
+carried rigidly.  Plastic strain lies in the fold alone and grows with the angle; the work is a constant moment times it.
 """
 
 from __future__ import annotations
@@ -30,8 +30,9 @@ def angle_over_time(time, largest=0.6, rest=0.08):
     return largest * (2 * t - t * t)
 
 
-def folded_states(times, folds, turned=np.eye(3)):
+def folded_states(times, folds, turned=None):
     """Shapes with folds (start, end, angles over time); `turned` rotates everything in space."""
+    turned = np.eye(3) if turned is None else turned
     stations = np.linspace(0.0, LENGTH, round(LENGTH / SPACING) + 1)
     points = np.array([[x, y, z] for x in stations for y, z in CORNERS])
     n = len(stations)

@@ -15,7 +15,8 @@ def motion(scale=1.0, sense=1.0, **changes):
     fields = {
         "name": "root", "member": "tube", "station": 0.02, "time": time, "rotation": sense * turned,
         "rotation_rate": np.gradient(sense * turned, time), "plastic_rotation": sense * (turned - 0.01),
-        "moment": sense * np.full_like(time, 1000.0), "plastic_work": 1000 * np.maximum.accumulate(np.maximum(turned - 0.01, 0)), "how": "",
+        "moment": sense * np.full_like(time, 1000.0), "how": "",
+        "plastic_work": 1000 * np.maximum.accumulate(np.maximum(turned - 0.01, 0)),
     }  # fmt: skip
     return HingeMotion(**{**fields, **changes})
 

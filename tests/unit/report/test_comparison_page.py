@@ -16,7 +16,7 @@ from tests.unit.report.browser import Browser, find_browser
 
 import crumple.report
 from crumple.analysis import solve
-from crumple.comparison import CurveFile, Signal, compare, with_frames
+from crumple.comparison import CurveFile, Signal, at_times, compare, with_frames
 from crumple.comparison.variant import with_elastic_hinges
 from crumple.report import ReportInput, write_comparison
 from crumple.report.player import hinge_states, scene_of
@@ -88,7 +88,7 @@ def opened(browser, page):
     raise AssertionError(browser.evaluate("document.querySelector('[data-role=note]').textContent"))
 
 
-def test_both_results_are_drawn_and_move_in_step(browser, page):
+def test_both_results_are_drawn_and_move_in_step(browser, page, found):
     assert opened(browser, page) == browser.wanted
     first, last = browser.evaluate(DRAWN % 0), browser.evaluate(DRAWN % 40)
     for left, right, _ in (first, last):
@@ -96,6 +96,13 @@ def test_both_results_are_drawn_and_move_in_step(browser, page):
         assert right > 500
     assert first[2] != last[2]
     assert browser.evaluate("document.querySelector('#player output').textContent") == "40.0 ms"
+    for model, source in enumerate((found.candidate, found.reference)):
+        states = at_times(source.result.states, np.array([0.04]))
+        moved = states.points + states.displacement[0]
+        for point in (0, len(moved) // 2, len(moved) - 1):
+            assert browser.evaluate(f"crumplePlayer.place({model}, {point})") == pytest.approx(
+                moved[point], abs=2e-4
+            )
     for choice in ("hinge", "plain"):
         browser.evaluate(
             f"(() => {{ const c = document.querySelector('[data-role=colour]'); c.value = '{choice}';"
