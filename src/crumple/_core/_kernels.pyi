@@ -40,3 +40,4 @@ class _Multibody:
         def w(self) -> list[float]: ...
 
 multibody: _Multibody
+shell: Any
