@@ -121,34 +121,35 @@ void Stepper::solve_once() {
     solver_.factor(middle_.data(), impedance_.data());
     solver_.solve(work_.data(), rhs_.data(), next_.data());
     solves_++;
-    if (!model_.drives.empty()) constrain(next_.data());
+    if (!rows_.empty()) constrain(next_.data(), 0);
 }
 
-// Adds to w the response to the drive forces that bring every driven point to its target rate.
-void Stepper::constrain(double* w) {
-    const size_t d = model_.drives.size(), m = w_.size();
-    const std::vector<double> zero(m, 0.0);
+// Adds to w the response to the constraint impulses that bring the constrained directions, from the first on, to
+// their target rates.
+void Stepper::constrain(double* w, size_t first) {
+    const size_t n = rows_.size() - first, m = w_.size();
     auto rates = [&](const double* rate, double* out) {
         model_.tree.twists(middle_.data(), rate, twist_.data());
-        for (size_t k = 0; k < d; k++) {
-            const Drive& drive = model_.drives[k];
-            out[k] = point_rate(drive.direction, twist_[static_cast<size_t>(drive.body)],
-                                arm(drive.body, drive.point, middle_.data()));
-        }
+        for (size_t k = 0; k < n; k++) out[k] = row_rate(rows_[first + k], middle_.data());
     };
-    for (size_t k = 0; k < d; k++) {
-        const Drive& drive = model_.drives[k];
+    for (size_t k = 0; k < n; k++) {
+        const Row& row = rows_[first + k];
         std::fill(work_.begin(), work_.end(), Twist{});
-        const Vec2 a = arm(drive.body, drive.point, middle_.data());
-        work_[static_cast<size_t>(drive.body)] = {drive.direction.w + cross(a, drive.direction.v), drive.direction.v};
-        solver_.solve(work_.data(), zero.data(), &drive_rows_[k * m]);
-        rates(&drive_rows_[k * m], &drive_matrix_[k * d]);
+        auto push = [&](int body, Vec2 point, double sign) {
+            const Vec2 a = arm(body, point, middle_.data());
+            const double moment = row.direction.w + cross(a, row.direction.v);
+            work_[static_cast<size_t>(body)] = {sign * moment, sign * row.direction.v};
+        };
+        push(row.body, row.point, 1);
+        if (row.other >= 0) push(row.other, row.other_point, -1);
+        solver_.solve(work_.data(), zero_.data(), &row_rates_[k * m]);
+        rates(&row_rates_[k * m], &row_matrix_[k * n]);
     }
-    rates(w, drive_force_.data());
-    for (size_t k = 0; k < d; k++) drive_force_[k] = drive_target_[k] - drive_force_[k];
-    solve_symmetric(drive_matrix_.data(), drive_force_.data(), static_cast<int>(d));
-    for (size_t k = 0; k < d; k++) {
-        for (size_t i = 0; i < m; i++) w[i] += drive_force_[k] * drive_rows_[k * m + i];
+    rates(w, row_force_.data());
+    for (size_t k = 0; k < n; k++) row_force_[k] = row_target_[first + k] - row_force_[k];
+    solve_symmetric(row_matrix_.data(), row_force_.data(), static_cast<int>(n));
+    for (size_t k = 0; k < n; k++) {
+        for (size_t i = 0; i < m; i++) w[i] += row_force_[k] * row_rates_[k * m + i];
     }
 }
 

@@ -10,6 +10,8 @@ namespace {
 // Passes over the frozen quantities: the second takes them at the middle of the motion that the first found,
 // which makes the step second order.
 constexpr int passes = 2;
+// Turn [rad] over which a constraint's error is mended to 1/e: short against any rotation of interest.
+constexpr double mending_turn = 0.02;
 
 }  // namespace
 
@@ -34,19 +36,25 @@ Energies energies(const Model& model, const State& s) {
 
 Stepper::Stepper(const Model& model) : model_(model), solver_(model.tree) {
     const auto n = static_cast<size_t>(model.tree.bodies()), m = static_cast<size_t>(model.tree.dofs());
-    const size_t d = model.drives.size();
     frozen_.resize(model.hinges.size());
     for (const Hinge& hinge : model.hinges) all_set_valued_ = all_set_valued_ && hinge.form == Form::set_valued;
     hint_.assign(2 * model.hinges.size(), 0);
     for (auto* v : {&w_, &next_, &direction_, &rhs_, &impedance_, &dq_, &column_, &overload_, &overload_of_children_}) v->assign(m, 0.0);
     for (auto* v : {&middle_, &end_}) v->resize(n);
     for (auto* v : {&twist_, &end_twist_, &bias_, &work_}) v->resize(n);
-    drive_target_.resize(d);
-    drive_force_.resize(d);
-    drive_rows_.resize(d * m);
-    drive_matrix_.resize(d * d);
     model.tree.place(model.q0.data(), middle_.data());
-    for (const Drive& drive : model.drives) drive_origin_.push_back(middle_[static_cast<size_t>(drive.body)].at(drive.point));
+    for (const Drive& d : model.drives) add_row({d.body, -1, d.point, {}, d.direction, 0});
+    for (const Weld& weld : model.welds) {
+        for (const Twist& direction : {Twist{1, {}}, Twist{0, {1, 0}}, Twist{0, {0, 1}}}) {
+            add_row({weld.body, weld.other, weld.point, weld.other_point, direction, 0});
+        }
+    }
+    const size_t d = rows_.size();
+    zero_.assign(m, 0.0);
+    row_target_.resize(d);
+    row_force_.resize(d);
+    row_rates_.resize(d * m);
+    row_matrix_.resize(d * d);
 }
 
 State Stepper::start(const double* q, const double* w) const {
@@ -79,6 +87,15 @@ void Stepper::project(const State& at, const Twist* velocity, const Twist* impul
     }
     solver_.factor(at.pose.data(), impedance_.data());
     solver_.solve(work_.data(), rhs_.data(), w);
+    hold_welds(at, w);
+}
+
+// Takes out of w what would open a weld; drives are left alone, they act from the first step on.
+void Stepper::hold_welds(const State& at, double* w) {
+    if (model_.welds.empty()) return;
+    middle_ = at.pose;
+    std::fill(row_target_.begin(), row_target_.end(), 0.0);
+    constrain(w, model_.drives.size());
 }
 
 double Stepper::effective_inertia(const State& at, int dof) {
@@ -88,6 +105,7 @@ double Stepper::effective_inertia(const State& at, int dof) {
     rhs_[static_cast<size_t>(dof)] = 1;
     solver_.factor(at.pose.data(), impedance_.data());
     solver_.solve(work_.data(), rhs_.data(), column_.data());
+    hold_welds(at, column_.data());
     return 1 / column_[static_cast<size_t>(dof)];
 }
 
@@ -135,15 +153,50 @@ void Stepper::predict(const State& s, double h) {
         b.v = b.v + impulse * load.direction.v;
         b.w += impulse * (load.direction.w + cross(arm(load.body, load.point, middle_.data()), load.direction.v));
     }
-    for (size_t d = 0; d < model_.drives.size(); d++) {
-        const Drive& drive = model_.drives[d];
-        const Pose& pose = s.pose[static_cast<size_t>(drive.body)];
-        const Vec2 moved = pose.at(drive.point) - drive_origin_[d];
-        const double now = drive.direction.w * pose.phi + dot(drive.direction.v, moved);
-        int hint = 0;
-        const double error = drive.start + drive.rate.integral(s.t, hint) - now;
-        drive_target_[d] = drive.rate.at(s.t + h, hint) + error / std::max(2 * h, drift_time_);
+    aim_rows(s, h);
+}
+
+// Rates that the constrained directions must have, told for the middle's positions.  They must be the drive's own
+// (a weld's are zero) at the positions of the end, which the last pass predicts.  What has gone astray is mended
+// while something turns, so that nothing stirs at rest.
+void Stepper::aim_rows(const State& s, double h) {
+    if (rows_.empty()) return;
+    double turning = 0;
+    for (const double w : s.w) turning = std::max(turning, std::fabs(w));
+    const double weld_mending = std::min(turning / mending_turn, 1 / (2 * h));
+    const double drive_mending = 1 / std::max(2 * h, drift_time_);
+    model_.tree.twists(middle_.data(), w_.data(), twist_.data());
+    for (size_t k = 0; k < rows_.size(); k++) row_target_[k] = row_rate(rows_[k], middle_.data());
+    model_.tree.twists(end_.data(), w_.data(), twist_.data());
+    for (size_t k = 0; k < rows_.size(); k++) {
+        double place = 0, rate = 0, mending = weld_mending;
+        if (k < model_.drives.size()) {
+            const Drive& drive = model_.drives[k];
+            int hint = 0;
+            place = drive.start + drive.rate.integral(s.t, hint);
+            rate = drive.rate.at(s.t + h, hint);
+            mending = drive_mending;
+        }
+        const double astray = relative(rows_[k], s.pose.data()) - rows_[k].origin - place;
+        row_target_[k] += rate - row_rate(rows_[k], end_.data()) - astray * mending;
     }
+}
+
+void Stepper::add_row(const Row& row) {
+    rows_.push_back(row);
+    rows_.back().origin = relative(row, middle_.data());
+}
+
+double Stepper::relative(const Row& row, const Pose* pose) const {
+    const Pose ground, &a = pose[row.body], &b = row.other < 0 ? ground : pose[row.other];
+    return row.direction.w * (a.phi - b.phi) + dot(row.direction.v, a.at(row.point) - b.at(row.other_point));
+}
+
+// Relative rate in the constrained direction, for the body twists in twist_.
+double Stepper::row_rate(const Row& row, const Pose* pose) const {
+    double rate = point_rate(row.direction, twist_[static_cast<size_t>(row.body)], arm(row.body, row.point, pose));
+    if (row.other < 0) return rate;
+    return rate - point_rate(row.direction, twist_[static_cast<size_t>(row.other)], arm(row.other, row.other_point, pose));
 }
 
 void Stepper::freeze(const State& s, double h) {
@@ -187,8 +240,8 @@ void Stepper::commit(State& s, double h) {
     }
     for (size_t d = 0; d < model_.drives.size(); d++) {
         const Drive& drive = model_.drives[d];
-        s.external_work += drive_force_[d] * mean_rate(drive.body, drive.point, drive.direction);
-        s.drive_impulse[d] = drive_force_[d] / h;
+        s.external_work += row_force_[d] * mean_rate(drive.body, drive.point, drive.direction);
+        s.drive_impulse[d] = row_force_[d] / h;
     }
     s.pose.swap(end_);
     s.velocity.swap(end_twist_);

@@ -32,11 +32,19 @@ struct Drive {
     Curve rate;
 };
 
+// Two bodies that move as one: what closes a loop.  A body in a loop is cut in two, each half hangs on its own
+// joint, and the weld holds the halves together; so every hinge stays a joint coordinate of the tree.
+struct Weld {
+    int body = 0, other = -1;  // -1: the ground
+    Vec2 point, other_point;   // the same place in the frame of each (in the world for the ground)
+};
+
 struct Model {
     Tree tree;
     std::vector<Hinge> hinges;
     std::vector<Load> loads;
     std::vector<Drive> drives;
+    std::vector<Weld> welds;
     Vec2 gravity;
     std::vector<double> q0;  // reference joint coordinates
 };
@@ -82,7 +90,19 @@ private:
     bool descend(int limit, bool bold);
     void take_whole_step();
     void solve_once();
-    void constrain(double* w);
+    // one constrained direction: motion of a point of a body, relative to one of another body or the ground
+    struct Row {
+        int body = 0, other = -1;
+        Vec2 point, other_point;
+        Twist direction;
+        double origin = 0;  // of the relative displacement at the start
+    };
+    void add_row(const Row& row);
+    double relative(const Row& row, const Pose* pose) const;
+    double row_rate(const Row& row, const Pose* pose) const;
+    void aim_rows(const State& s, double h);
+    void constrain(double* w, size_t first);
+    void hold_welds(const State& at, double* w);
     double search(double slope_end);
     void commit(State& s, double h);
     Vec2 arm(int body, Vec2 point, const Pose* pose) const { return pose[body].turned(point); }
@@ -93,8 +113,8 @@ private:
     std::vector<double> w_, next_, direction_, rhs_, impedance_, dq_, column_, breakpoints_, overload_, overload_of_children_;
     std::vector<Pose> middle_, end_;
     std::vector<Twist> twist_, end_twist_, bias_, work_;
-    std::vector<double> drive_target_, drive_rows_, drive_matrix_, drive_force_;
-    std::vector<Vec2> drive_origin_;  // driven points at the start
+    std::vector<Row> rows_;  // the drives, then three per weld
+    std::vector<double> row_target_, row_rates_, row_matrix_, row_force_, zero_;
     std::vector<int> hint_;
     bool all_set_valued_ = true;
     double drift_time_ = 0;

@@ -17,6 +17,7 @@ class _Multibody:
             hinges: list[dict[str, Any]],
             loads: list[tuple[Any, ...]],
             drives: list[tuple[Any, ...]],
+            welds: list[tuple[Any, ...]],
             gravity: Sequence[float],
             accuracy: float,
             minimum_step: float,
@@ -39,3 +40,4 @@ class _Multibody:
         def w(self) -> list[float]: ...
 
 multibody: _Multibody
+shell: Any

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crumple._core import _kernels  # type: ignore[attr-defined]
+from crumple._core import _kernels
 from crumple._core.shell_model import Floats, Hourglass, Indices, ShellMaterial, ShellModel, ShellSettings
 
 kernel: Any = _kernels.shell

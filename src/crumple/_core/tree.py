@@ -128,6 +128,19 @@ class TreeDrive(TreeLoad):
 
 
 @dataclass(frozen=True)
+class TreeWeld:
+    """Two bodies that move as one, closing a loop; ``other`` -1 is the ground.
+
+    ``point`` and ``other_point`` are the same place, in the frame of each (in the world for the ground).
+    """
+
+    body: int
+    other: int
+    point: tuple[float, float]
+    other_point: tuple[float, float]
+
+
+@dataclass(frozen=True)
 class TreeModel:
     """Constants of a planar model; frozen."""
 
@@ -135,6 +148,7 @@ class TreeModel:
     hinges: tuple[TreeHinge, ...]
     loads: tuple[TreeLoad, ...] = ()
     drives: tuple[TreeDrive, ...] = ()
+    welds: tuple[TreeWeld, ...] = ()
     gravity: tuple[float, float] = (0.0, 0.0)
     length: float = 1.0
     """Turns translations of free bodies into angles for the error measure [m]."""
@@ -215,6 +229,7 @@ class Simulation:
             [hinge.as_dict() for hinge in model.hinges],
             [_load(load) for load in model.loads],
             [(*_load(drive), drive.rates.tolist()) for drive in model.drives],
+            [(weld.body, weld.other, list(weld.point), list(weld.other_point)) for weld in model.welds],
             list(model.gravity),
             accuracy,
             minimum_step,

@@ -2,7 +2,9 @@
 
 Members are cut at their hinges.  Pieces that meet at a node are one rigid body; a body that holds a clamped
 node is the ground.  What is left is a graph of bodies and hinges, walked breadth first from the ground (a
-structure that floats from its heaviest body) so that parents come before children.
+structure that floats from its heaviest body) so that parents come before children.  A hinge that leads back
+to a body already met closes a loop: that body is cut in equal parts, one for each of its hinges to hang on,
+and welds hold the parts together.
 """
 
 from __future__ import annotations
@@ -73,6 +75,10 @@ class Mechanism:
         Where every part of every member went, by member, along the member.
     node_body
         Body of every node.
+    welds
+        Further parts of cut bodies: (part, body that it belongs to, -1 for the ground).
+    pin_joints
+        Pinned nodes whose pin is a joint of the tree; the other pins are constraints.
     """
 
     plane: Plane
@@ -80,6 +86,12 @@ class Mechanism:
     links: tuple[Link, ...]
     pieces: dict[str, tuple[Piece, ...]]
     node_body: dict[str, int]
+    welds: tuple[tuple[int, int], ...] = ()
+    pin_joints: frozenset[str] = frozenset()
+
+    def parts_of(self, body: int) -> int:
+        """Into how many equal parts a body is cut; its mass here is that of one."""
+        return 1 + sum(whole == body for _, whole in self.welds)
 
     def piece_at(self, member: str, station: float) -> Piece:
         """Piece that holds a station [m] of a member; at a cut the one before it."""
@@ -117,7 +129,7 @@ def lower(structure: Structure) -> Mechanism:
     Raises
     ------
     InputError
-        If hinges close a loop, their axes are not parallel, a body has no inertia, or nothing can move.
+        If hinges' axes are not parallel, a hinge cannot turn, or a body has no inertia.
     """
     hinges = placed_hinges(structure)
     plane = plane_of(structure, hinges)
@@ -158,10 +170,15 @@ def _walk(assembly: _Assembly, plane: Plane, ground: int, pins: dict[int, str]) 
     number: dict[int, int] = {root(ground): GROUND}
     links: list[Link] = []
     order: list[int] = []
+    welds: list[tuple[int, int]] = []
     used: set[str] = set()
+    jointed: set[str] = set()
 
     def enter(cluster: int, link: Link) -> None:
-        number[cluster] = len(links)
+        if cluster in number:
+            welds.append((len(links), number[cluster]))
+        else:
+            number[cluster] = len(links)
         links.append(link)
         order.append(cluster)
 
@@ -174,30 +191,42 @@ def _walk(assembly: _Assembly, plane: Plane, ground: int, pins: dict[int, str]) 
                     continue
                 used.add(hinge.name)
                 there = second if here == first else first
-                if there in number:
-                    raise _loop(hinge)
                 sign = float(np.sign(hinge.direction @ plane.normal)) * (1.0 if there == second else -1.0)
+                if there not in number:
+                    queue.append(there)
                 enter(there, Link(number[here], hinge.position, hinge, sign=sign))
-                queue.append(there)
 
     spread([root(ground)])
     for cluster, node in pins.items():
         if root(cluster) in number:
-            raise _pin_loop(node)
+            continue
+        jointed.add(node)
         enter(root(cluster), Link(GROUND, np.asarray(structure.nodes[node], float)))
         spread([root(cluster)])
     for cluster in sorted(masses, key=lambda c: -masses[c].mass):
         if cluster not in number and masses[cluster].mass > 0.0:
             enter(cluster, Link(GROUND, masses[cluster].centre, free=True))
             spread([cluster])
-    bodies = tuple(masses[cluster] for cluster in order)
+    bodies = tuple(_part(masses, order, links, root(ground), i) for i in range(len(order)))
     _check_inertia(bodies, links, plane)
     pieces = {
         name: tuple(Piece(name, a, b, number.get(root(i), GROUND)) for a, b, i in cuts)
         for name, cuts in assembly.cuts.items()
     }
     node_body = {node: number.get(root(i), GROUND) for node, i in assembly.node.items()}
-    return Mechanism(plane, bodies, tuple(links), pieces, node_body)
+    return Mechanism(
+        plane, bodies, tuple(links), pieces, node_body, welds=tuple(welds), pin_joints=frozenset(jointed)
+    )
+
+
+def _part(
+    masses: dict[int, RigidMass], order: list[int], links: list[Link], ground: int, i: int
+) -> RigidMass:
+    """Mass of body i: its share of a cut body.  A part of the ground never moves; any mass serves."""
+    if order[i] == ground:
+        return masses[order[links[i].parent]]
+    whole, parts = masses[order[i]], order.count(order[i])
+    return RigidMass(whole.mass / parts, whole.centre, whole.inertia / parts)
 
 
 def _cluster_masses(assembly: _Assembly) -> dict[int, RigidMass]:
@@ -218,7 +247,7 @@ def _edges(assembly: _Assembly) -> dict[int, list[tuple[PlacedHinge, int, int]]]
         place[hinge.member] += 1
         first, second = assembly.root(cuts[k][2]), assembly.root(cuts[k + 1][2])
         if first == second:
-            raise _loop(hinge)
+            raise _idle(hinge)
         edges[first].append((hinge, first, second))
         edges[second].append((hinge, first, second))
     return edges
@@ -243,25 +272,13 @@ def _check_inertia(bodies: tuple[RigidMass, ...], links: list[Link], plane: Plan
         raise InputError(problems)
 
 
-def _loop(hinge: PlacedHinge) -> InputError:
+def _idle(hinge: PlacedHinge) -> InputError:
     return InputError(
         Problem(
-            "this hinge closes a loop of members; the multibody engine solves chains and trees so far",
+            "both sides of this hinge are joined rigidly elsewhere, so it cannot turn",
             f"hinge {hinge.name} of member {hinge.member}",
-            "hinges that leave the structure a tree",
-            "take one support or hinge of the loop away",
+            "hinges between parts that can move against each other",
+            "take the hinge away, or put hinges on the way around it",
             f"members.{hinge.member}.hinges",
-        )
-    )
-
-
-def _pin_loop(node: str) -> InputError:
-    return InputError(
-        Problem(
-            "this pin closes a loop of members; the multibody engine solves chains and trees so far",
-            f"a support of node {node}",
-            "one clamp or pin per connected part",
-            "release one of the supports",
-            "supports",
         )
     )

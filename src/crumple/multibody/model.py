@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crumple._core.tree import JointKind, TreeBody, TreeDrive, TreeHinge, TreeLoad, TreeModel
+from crumple._core.tree import JointKind, TreeBody, TreeDrive, TreeHinge, TreeLoad, TreeModel, TreeWeld
 from crumple.errors import InputError, Problem
 from crumple.function import TimeFunction
 from crumple.hinge import Envelope, Form, HingeRecord, SofteningVariable, Stop
@@ -21,7 +21,7 @@ SOFTENING = {SofteningVariable.PEAK: 0, SofteningVariable.ROTATION: 1, Softening
 SAMPLING = 1e-5
 """Error of a sampled function of time, relative to its largest value; far below any accuracy asked for."""
 DRIVE_SAMPLING = 1e-8
-"""The same for driven motion, whose rate is sampled: its straight pieces then add up to the motion within 1e-6."""
+"""The same for driven motion, whose rate is sampled: its pieces then add up to the motion within 1e-6."""
 KINK = 0.01
 """Jump of a driven rate between two samples, relative to the largest rate, that counts as a kink."""
 BRIEF = 1e-9
@@ -76,6 +76,7 @@ def tree_model(structure: Structure, mechanism: Mechanism, duration: float) -> T
         hinges=tuple(hinges),
         loads=tuple(_loads(structure, mechanism, duration)),
         drives=tuple(_drives(structure, mechanism, duration)),
+        welds=tuple(_welds(mechanism)),
         gravity=_pair(plane.flat(np.asarray(structure.gravity, float))),
         length=max(structure.frame_of(name).length for name in structure.members),
     )
@@ -131,7 +132,13 @@ def start_of(structure: Structure, mechanism: Mechanism) -> Start:
             *linear,
         )
     inertia = np.array([[plane.normal @ b.inertia @ plane.normal, b.mass, b.mass] for b in mechanism.bodies])
-    return Start(momentum / inertia.reshape(n, 3), impulse, energy)
+    parts = np.array([mechanism.parts_of(body) for body in range(n)])
+    velocity = momentum / (parts[:, None] * inertia.reshape(n, 3))
+    impulse /= parts[:, None]
+    for twin, whole in mechanism.welds:
+        velocity[twin] = velocity[whole] if whole != GROUND else 0.0
+        impulse[twin] = impulse[whole] if whole != GROUND else 0.0
+    return Start(velocity, impulse, energy)
 
 
 def _moving_parts(
@@ -220,7 +227,7 @@ def _drives(structure: Structure, mechanism: Mechanism, duration: float) -> Iter
             times, values, rates = _sampled_motion(function, duration)
             yield TreeDrive(body, point, row, times, values, rates=rates)
         held = plane.held(structure, support.node)
-        if held.pinned:
+        if held.pinned and support.node in mechanism.pin_joints:
             continue
         for freedom in support.held:
             row = plane.row(freedom)
@@ -229,6 +236,15 @@ def _drives(structure: Structure, mechanism: Mechanism, duration: float) -> Iter
                 unit = (row[0] / size, row[1] / size, row[2] / size)
                 still = np.zeros(1)
                 yield TreeDrive(body, point, unit, still, still, rates=still)
+
+
+def _welds(mechanism: Mechanism) -> Iterator[TreeWeld]:
+    """Parts of cut bodies, each held to its body where it hangs: at its own joint."""
+    flat = mechanism.plane.flat
+    for part, whole in mechanism.welds:
+        joint = mechanism.links[part].position
+        origin = mechanism.links[whole].position if whole != GROUND else np.zeros(3)
+        yield TreeWeld(part, whole, (0.0, 0.0), _pair(flat(joint - origin)))
 
 
 def _point(structure: Structure, mechanism: Mechanism, node: str) -> tuple[float, float]:

@@ -135,7 +135,8 @@ def _moment_figures(result: Result, draw: Any) -> list[tuple[str, str | None, st
     figures = []
     for i, hinge in enumerate(ranked_hinges(result)[:MAX_MOMENT_FIGURES]):
         summary = result.hinges[hinge]
-        parts = [f"Moment in hinge {hinge}: the path it took, and its law."]
+        law = ", and its law" if summary.law else ""
+        parts = [f"Moment in hinge {hinge}: the path it took{law}."]
         named = (("Law", summary.law), ("Source", summary.source))
         parts += [sentence_case(f"{name}: {text}") for name, text in named if text]
         if summary.validity_rotation is not None and isfinite(summary.validity_rotation):
@@ -149,9 +150,16 @@ def _ledger_caption(result: Result) -> str:
     if "energy.residual" not in result.channels:
         return f"{shown}."
     return (
-        f"{shown} and, on the right, the residual of their balance: kinetic, elastic and dissipated energy "
-        "less external work and the energy at the start. Dissipation is integrated by itself."
+        f"{shown} and, on the right, the residual of their balance: kinetic, elastic and dissipated energy"
+        f"{_further_energies(result)} less external work and the energy at the start. "
+        "Dissipation is integrated by itself."
     )
+
+
+def _further_energies(result: Result) -> str:
+    """Terms that only some solvers have."""
+    named = [name for name in ("hourglass", "contact", "damping") if f"energy.{name}" in result.channels]
+    return f", that of {' and '.join(named)}," if named else ""
 
 
 def _render(

@@ -132,9 +132,6 @@ def summaries(sampler: Sampler, record: Record) -> dict[str, HingeSummary]:
             time_of_rest=_rest(record["time"], energy),
             energy=float(energy[-1]),
             moment_max=float(np.abs(moment).max()),
-            law="measured on the shell mesh",
-            source=f"sections {1e3 * zone.length:.3g} mm apart, best-fit planes",
-            form="",
             position=tuple(float(value) for value in zone.position),  # type: ignore[arg-type]
         )
     return found

@@ -1,4 +1,6 @@
 import math
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -170,6 +172,16 @@ def test_walls_may_be_of_other_metals():
     names = [metal.name for metal in section.metals(heavy)]
     assert names == ["heavy", "light"]
     assert section.transformed(heavy).centroid[1] < section.properties.centroid[1]
+
+
+def test_walls_stay_light_to_import():
+    heavy = "{'pydantic', 'pint', 'scipy', 'matplotlib', 'h5py', 'pandas', 'ruamel'}"
+    code = (
+        "import sys, crumple.section as s; [getattr(s, name) for name in s.__all__]; "
+        f"print(sorted({heavy} & set(sys.modules)))"
+    )
+    answer = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert answer.stdout.strip() == "[]"
 
 
 # what cannot be a section

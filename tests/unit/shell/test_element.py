@@ -193,10 +193,10 @@ def test_bad_models_are_refused_by_name(change, words):
 
 
 def test_frame_prefers_no_side():
-    """Under shear stress the stiffness is unsymmetric by what elastic change of volume leaves, alike for both sides.
+    """Under shear stress the stiffness is unsymmetric by what elastic volume change leaves, alike for both.
 
-    A frame tied to side 1-2 gives 0.60 for one side and -0.17 for the other, in units of stress times volume, and
-    then short waves gain energy from nothing.
+    A frame tied to side 1-2 gives 0.60 for one side and -0.17 for the other, in units of stress times volume,
+    and then short waves gain energy from nothing.
     """
     x, quads = grid(1, 1, 0.01, 0.01)
     x -= x.mean(axis=0)
