@@ -1,7 +1,8 @@
 """A tube of example 01 that folds about -y at a known place by a known angle, as a shell run would tell it.
 
 Rings every 10 mm.  Within the fold the sections turn linearly from 0 to the angle; beyond it they are
-carried rigidly.  Plastic strain lies in the fold alone and grows with the angle; the work is a constant moment times it.
+carried rigidly.  Plastic strain lies in the fold alone and grows with the angle; the work is a constant
+moment times it.
 """
 
 from __future__ import annotations
