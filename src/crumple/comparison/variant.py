@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -63,7 +64,9 @@ def _bars(structure: Structure, member: str) -> int:
     return next((number for number in BARS if clearance(number) > CLEAR), max(BARS, key=clearance))
 
 
-def with_measured_laws(structure: Structure, motions: Sequence[HingeMotion]) -> Structure | None:
+def with_measured_laws(
+    structure: Structure, motions: Sequence[HingeMotion], total: float | None = None
+) -> Structure | None:
     """The structure with elastic members, and hinges that carry the moments measured in another result.
 
     Parameters
@@ -72,6 +75,9 @@ def with_measured_laws(structure: Structure, motions: Sequence[HingeMotion]) -> 
         Any.
     motions
         Hinges measured in that result; a hinge without a fold keeps its law.
+    total
+        Plastic work of the whole structure at the end [J]: what falls outside all folds is given to
+        them in proportion to their own, since the model can take it up nowhere else.
 
     Returns
     -------
@@ -79,7 +85,12 @@ def with_measured_laws(structure: Structure, motions: Sequence[HingeMotion]) -> 
         None where no hinge folded.  The law is the moment conjugate to plastic work against plastic rotation,
         so a run with it is no prediction: it shows what is left of the difference once the law is right.
     """
-    laws = {m.name: law for m in motions if m.fold and (law := measured_law(m)) is not None}
+    folds = [m for m in motions if m.fold]
+    if total is not None and folds:
+        inside = sum(float(m.plastic_work[-1]) for m in folds)
+        factor = total / inside if inside > 0.0 else 1.0
+        folds = [replace(m, plastic_work=m.plastic_work * factor) for m in folds]
+    laws = {m.name: law for m in folds if (law := measured_law(m)) is not None}
     if not laws:
         return None
     base = with_elastic_members(structure) or structure
@@ -102,7 +113,8 @@ def measured_law(motion: HingeMotion) -> TableLaw | None:
     if not plastic[-1] > LEAST_TURN:
         return None
     grid, first = np.unique(plastic, return_index=True)
-    done = motion.plastic_work[np.append(first[1:] - 1, len(plastic) - 1)]
+    grown = np.maximum.accumulate(motion.plastic_work)
+    done = grown[np.append(first[1:] - 1, len(plastic) - 1)]
     edges = np.linspace(0.0, plastic[-1], INTERVALS + 1)
     moment = np.diff(np.interp(edges, grid, done)) / np.diff(edges)
     keep = moment > 0.0
