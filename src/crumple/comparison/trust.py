@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from crumple.comparison.metrics import HingeComparison
 from crumple.comparison.motion import HingeMotion, largest_side
 from crumple.hinge import Form
 from crumple.result import Result
@@ -30,7 +31,7 @@ HOURGLASS = 0.05
 TOUCHED = 0.005
 """Contact energy over the energy put in from which walls count as having touched."""
 SMALL = 0.1
-"""Share of the largest plastic energy below which a hinge's own errors decide nothing."""
+"""Share of the largest plastic energy, in either result, below which a hinge's own errors decide nothing."""
 
 
 @dataclass(frozen=True)
@@ -110,11 +111,11 @@ def _missed(comparison: Comparison) -> str:
 
 def _worst(comparison: Comparison) -> tuple[float, float] | None:
     """Largest relative errors of rotation and of plastic energy among the hinges that matter."""
-    most = max((h.second.plastic_energy for h in comparison.hinges if h.second is not None), default=0.0)
+    most = max(map(_absorbed, comparison.hinges), default=0.0)
     found = []
     for hinge in comparison.hinges:
         rotation = hinge.error("rotation_max")
-        if rotation is not None and hinge.second is not None and hinge.second.plastic_energy > SMALL * most:
+        if rotation is not None and _absorbed(hinge) > SMALL * most:
             found.append((abs(rotation), abs(worst(hinge.energy_errors()) or 0.0)))
     return (max(r for r, _ in found), max(e for _, e in found)) if found else None
 
@@ -122,12 +123,12 @@ def _worst(comparison: Comparison) -> tuple[float, float] | None:
 def _agreement(comparison: Comparison) -> Iterator[tuple[str, bool]]:
     """Errors of rotation and energy of every hinge that matters."""
     first, second = comparison.candidate.name, comparison.reference.name
-    most = max((h.second.plastic_energy for h in comparison.hinges if h.second is not None), default=0.0)
+    most = max(map(_absorbed, comparison.hinges), default=0.0)
     for hinge in comparison.hinges:
         rotation, energy = hinge.error("rotation_max"), worst(hinge.energy_errors())
         if rotation is None or hinge.first is None or hinge.second is None:
             continue
-        matters = hinge.second.plastic_energy > SMALL * most
+        matters = _absorbed(hinge) > SMALL * most
         off = abs(rotation) > AGREES or (energy is not None and abs(energy) > AGREES)
         text = (
             f"Hinge {hinge.name}: largest rotation {_deg(hinge.first.rotation_max)} {first}, "
@@ -136,6 +137,11 @@ def _agreement(comparison: Comparison) -> Iterator[tuple[str, bool]]:
         if energy is not None:
             text += f"; plastic energy at equal plastic rotation differs by at most {abs(energy):.1%}"
         yield text + ".", off and matters
+
+
+def _absorbed(hinge: HingeComparison) -> float:
+    """Plastic energy of a hinge in that result in which it is larger [J]."""
+    return max((m.plastic_energy for m in (hinge.first, hinge.second) if m is not None), default=0.0)
 
 
 def worst(errors: tuple[float | None, ...]) -> float | None:
