@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crumple.comparison.metrics import HingeComparison
-from crumple.comparison.motion import HingeMotion, largest_side
+from crumple.comparison.motion import REACH, HingeMotion, largest_side
 from crumple.hinge import Form
 from crumple.result import Result
 from crumple.structure import PlacedHinge, Structure, placed_hinges
@@ -70,7 +70,7 @@ def trust_of(comparison: Comparison, structure: Structure) -> Trust:
         *_reference(comparison.reference),
     ):
         (cautions if serious else facts).append(text)
-    level, headline = _verdict(comparison, bool(cautions))
+    level, headline = _verdict(comparison, structure, hinges, bool(cautions))
     if failed:
         ends = (f"The {s.name} run: {s.result.status.value}. {s.result.reason}".strip() for s in failed)
         cautions = [*ends, *cautions]
@@ -78,10 +78,12 @@ def trust_of(comparison: Comparison, structure: Structure) -> Trust:
     return Trust(level, headline, tuple(facts), tuple(cautions))
 
 
-def _verdict(comparison: Comparison, doubtful: bool) -> tuple[str, str]:
+def _verdict(
+    comparison: Comparison, structure: Structure, hinges: dict[str, PlacedHinge], doubtful: bool
+) -> tuple[str, str]:
     """Level and headline of two runs that ended well."""
     first, second = comparison.candidate.name, comparison.reference.name
-    missed = _missed(comparison)
+    missed = _missed(comparison, structure, hinges)
     if missed:
         return (
             "bad",
@@ -100,12 +102,16 @@ def _verdict(comparison: Comparison, doubtful: bool) -> tuple[str, str]:
     return "good", f"Both answers agree: {said}."
 
 
-def _missed(comparison: Comparison) -> str:
+def _missed(comparison: Comparison, structure: Structure, hinges: dict[str, PlacedHinge]) -> str:
     """Members in which folds without a hinge took up much of the plastic work; empty without any."""
     motions = (*comparison.reference.hinges, *comparison.reference.extra)
     work = {m.name: float(m.plastic_work[-1]) if m.plastic_work.size else 0.0 for m in motions}
     most = max(work.values(), default=0.0)
-    extra = [m for m in comparison.reference.extra if work[m.name] > SMALL * most]
+    extra = [
+        m
+        for m in comparison.reference.extra
+        if work[m.name] > SMALL * most and not _across_joint(structure, m, hinges)
+    ]
     return ", ".join(dict.fromkeys(f"{m.member} at {_mm(m.station)}" for m in extra))
 
 
@@ -190,12 +196,21 @@ def _folds(
     """Folds without hinges, hinges without folds, folds away from their hinges."""
     first, second = comparison.candidate.name, comparison.reference.name
     for motion in comparison.reference.extra:
+        where = f"member {motion.member} at {_mm(motion.station)}"
+        place = f"The {second} result folds in {where} (by {_deg(_most(motion))})"
+        near = _across_joint(structure, motion, hinges)
+        if near:
+            yield (
+                f"{place}, at the joint beside hinge {near} of another member: both members share the "
+                "rotation of this "
+                "corner, and figures of that hinge alone cannot be compared.",
+                True,
+            )
+            continue
         yield (
-            f"The {second} result folds in member {motion.member} at {_mm(motion.station)} (by "
-            f"{_deg(_most(motion))}), "
-            f"where no hinge was put: the {first} model cannot fold there, and its answer is wrong by what "
-            "this fold "
-            "takes up.",
+            f"{place}, where no hinge was put: the {first} model cannot fold there, and its answer is wrong "
+            "by what "
+            "this fold takes up.",
             True,
         )
     opened = {source: {o.name for o in found} for source, found in comparison.opened.items()}
@@ -218,6 +233,19 @@ def _folds(
                 f"the hinge at {_mm(hinge.station)}."
             )
             yield text, abs(away) > largest_side(structure, hinge.member)
+
+
+def _across_joint(structure: Structure, motion: HingeMotion, hinges: dict[str, PlacedHinge]) -> str:
+    """Hinge of another member that lies beside a fold, as at a joint; empty where there is none."""
+    place = structure.frame_of(motion.member).position(motion.station)
+    reach = REACH * largest_side(structure, motion.member)
+    near = [
+        (float(np.linalg.norm(hinge.position - place)), name)
+        for name, hinge in hinges.items()
+        if hinge.member != motion.member
+    ]
+    distance, name = min(near, default=(np.inf, ""))
+    return name if distance <= reach else ""
 
 
 def _order(comparison: Comparison) -> Iterator[tuple[str, bool]]:

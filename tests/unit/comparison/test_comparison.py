@@ -5,11 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.unit.comparison.folded_tube import analysis, angle_over_time, folded_result
+from tests.unit.comparison.folded_tube import EXAMPLE, analysis, angle_over_time, folded_result
 
-from crumple.analysis import solve
+from crumple.analysis import load, solve
 from crumple.comparison import CurveFile, Signal, compare, with_frames, with_pictures
+from crumple.comparison.motion import HingeMotion
 from crumple.comparison.pairing import pairs_of
+from crumple.comparison.trust import _across_joint
 from crumple.comparison.variant import (
     measured_law,
     with_elastic_hinges,
@@ -110,6 +112,14 @@ def test_a_fold_without_a_hinge_is_said(case, multibody):
     assert "folds where no hinge was put (tube at 615 mm)" in found.trust.headline
     assert [h.name for h in found.hinges] == ["root", "tube at 615 mm"]
     assert found.hinges[1].first is None
+
+
+@pytest.mark.parametrize(("station", "beside"), [(0.48, "knee"), (0.25, "")])
+def test_a_fold_across_a_joint_is_told_from_one_without_a_hinge(station, beside):
+    structure = load(EXAMPLE.parent / "06_two_bars.yaml").structure
+    hinges = {hinge.name: hinge for hinge in placed_hinges(structure)}
+    motion = HingeMotion("first at", "first", station, *[np.zeros(1)] * 6, how="")
+    assert _across_joint(structure, motion, hinges) == beside
 
 
 def test_jamming_and_contact_are_said(case, multibody):
