@@ -2,14 +2,21 @@
 
 rectangular_tube 50x25x2.65 mm                     width x depth x thickness, outer dimensions
 rectangular_tube 50x25x2.65 mm, corner radius 5 mm
-circular_tube 60x2 mm                              outer diameter x thickness
+square_tube 40x2 mm, circular_tube 60x2 mm         outer side or diameter x thickness
+channel 40x80x2 mm, lip 15 mm, corner radius 4 mm
+angle 40x60x3 mm
+hat 60x50x1.5 mm, flange 20 mm                     crown width x depth x thickness
+closed_hat 60x50x1.5 mm, flange 20 mm, plate 1 mm  plate: its thickness
+multi_cell_tube 90x60x3 mm, cells 3x2, inner walls 2 mm
 yield 488 MPa, E 210 GPa, nu 0.3                   a material
+S355, yield 400 MPa                                a named grade, with a value of its own
 model.yaml:tube                                    the section or material of this name in an input file
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -22,18 +29,44 @@ if TYPE_CHECKING:
     from crumple.section import Section
 
 SECTION_HELP = (
-    "'rectangular_tube 50x25x2.65 mm' (outer width x depth x thickness; add ', corner radius 5 mm' for the "
-    "outer radius), 'circular_tube 60x2 mm' (outer diameter x thickness), or 'model.yaml:tube' for a section "
-    "of an input file."
+    "A shape, its outer width x depth x thickness and its details, as 'rectangular_tube 50x25x2.65 mm, "
+    "corner radius 5 mm' or 'hat 60x50x1.5 mm, flange 20 mm'; the shapes are rectangular_tube, square_tube, "
+    "circular_tube, channel (lip), angle, hat, closed_hat (flange, plate), multi_cell_tube (cells 3x2, inner "
+    "walls). Or 'model.yaml:tube' for a section of an input file, where walls of any shape can be described."
 )
 MATERIAL_HELP = (
-    "'yield 488 MPa, E 210 GPa' (also nu, density, ultimate, flow), or 'model.yaml:steel' for a material of "
-    "an input file."
+    "'yield 488 MPa, E 210 GPa' (also nu, density, ultimate, flow), a grade such as 'S355', or "
+    "'model.yaml:steel' for a material of an input file."
 )
 
+
+class _Shape(NamedTuple):
+    """A section written in one line: its name in the section room, count of sizes, details by their words."""
+
+    factory: str
+    sizes: int
+    details: Mapping[str, str] = {}
+    needed: tuple[str, ...] = ()
+
+
+_RADIUS = {"corner radius": "corner_radius"}
+_FLANGE = {"flange": "flange", "flanges": "flange"}
+_SHAPES = {
+    "rectangular_tube": _Shape("RectangularTube", 3, _RADIUS),
+    "square_tube": _Shape("square_tube", 2, _RADIUS),
+    "circular_tube": _Shape("CircularTube", 2),
+    "channel": _Shape("Channel", 3, {**_RADIUS, "lip": "lip", "lips": "lip"}),
+    "angle": _Shape("Angle", 3, _RADIUS),
+    "hat": _Shape("Hat", 3, {**_RADIUS, **_FLANGE}, ("flange",)),
+    "closed_hat": _Shape("ClosedHat", 3, {**_RADIUS, **_FLANGE, "plate": "plate_thickness"}, ("flange",)),
+    "multi_cell_tube": _Shape("MultiCellTube", 3, {**_RADIUS, "inner walls": "inner_thickness"}),
+}
+
 _DIMENSIONS = re.compile(
-    r"(?P<kind>[A-Za-z]+[ _-]?[A-Za-z]*)\s+(?P<numbers>[0-9.eE+x×-]+)\s*(?P<unit>[A-Za-z]+)"
+    r"(?P<kind>[A-Za-z]+(?:[ _-][A-Za-z]+){0,2})\s+(?P<numbers>[0-9.eE+x×-]+)\s*(?P<unit>[A-Za-z]+)"
 )
+_DETAIL = re.compile(r"(?P<words>[A-Za-z]+(?:[ _-][A-Za-z]+)?)\s+(?P<value>[0-9.].{0,40})")
+_CELLS = re.compile(r"cells\s+(?P<columns>[0-9]{1,3})\s*[x×]\s*(?P<rows>[0-9]{1,3})")
 _NAMED = re.compile(r"(?P<path>.+\.(?:ya?ml|json)):(?P<name>.+)", re.IGNORECASE)
 
 
@@ -67,24 +100,27 @@ def section_of(text: str) -> Section:
     named = _NAMED.fullmatch(text.strip())
     if named:
         structure = _loaded(named["path"]).structure
-        return structure.sections[_known(named["name"], structure.sections, text, "section")].section()
-    from crumple.section import CircularTube, RectangularTube
+        return structure.sections[_known(named["name"], structure.sections, text, "section")].section(
+            structure.materials
+        )
+    from crumple import section
 
     head, *extras = (part.strip() for part in text.split(","))
     match = _DIMENSIONS.fullmatch(head)
     kind = re.sub(r"[ -]", "_", match["kind"]).lower() if match else ""
-    wanted = {"rectangular_tube": 3, "circular_tube": 2}.get(kind)
-    if match is None or wanted is None:
+    shape = _SHAPES.get(kind)
+    if match is None or shape is None:
         raise _refused("this is not a section", text, SECTION_HELP)
     numbers = re.split("[x×]", match["numbers"])
-    if len(numbers) != wanted:
-        raise _refused(f"a {kind} has {wanted} dimensions, not {len(numbers)}", text, SECTION_HELP)
+    if len(numbers) != shape.sizes:
+        raise _refused(f"{_one(kind)} has {shape.sizes} dimensions, not {len(numbers)}", text, SECTION_HELP)
     lengths = [parse_quantity(f"{number} {match['unit']}", "m") for number in numbers]
-    radius = _corner_radius(extras, text, kind)
-    if kind == "circular_tube":
-        return CircularTube(*lengths)
-    width, depth, thickness = lengths
-    return RectangularTube(width, depth, thickness, radius)
+    details = _details(extras, text, kind, shape)
+    missing = [word for word in shape.needed if word not in details]
+    if missing:
+        raise _refused(f"{_one(kind)} needs its {', '.join(missing)}", text, SECTION_HELP)
+    made: Section = getattr(section, shape.factory)(*lengths, **details)
+    return made
 
 
 def material_of(text: str) -> tuple[Material, list[str]]:
@@ -99,18 +135,15 @@ def material_of(text: str) -> tuple[Material, list[str]]:
     if named:
         structure = _loaded(named["path"]).structure
         name = _known(named["name"], structure.materials, text, "material")
-        return structure.materials[name].material(name), []
+        spec = structure.materials[name]
+        return spec.material(name), [spec.statement] if spec.statement else []
     from crumple.material import Material
 
-    values: dict[str, float] = {}
-    for part in text.split(","):
-        word, _, quantity = part.strip().partition(" ")
-        key = _MATERIAL_KEYS.get(word)
-        if key is None or not quantity.strip():
-            raise _refused(f"{part.strip()!r} is not a property of a material", text, MATERIAL_HELP)
-        if key.field in values:
-            raise _refused(f"{word} is given twice", text, MATERIAL_HELP)
-        values[key.field] = parse_quantity(quantity.strip(), key.unit)
+    first, *rest = (part.strip() for part in text.split(","))
+    grade = _grade_of(first)
+    values = _material_values(rest if grade else [first, *rest], text)
+    if grade:
+        return _graded(grade, values)
     missing = [word for word, key in _MATERIAL_KEYS.items() if key.needed and key.field not in values]
     if missing:
         raise _refused(f"missing: {', '.join(missing)}", text, MATERIAL_HELP)
@@ -127,13 +160,60 @@ def material_of(text: str) -> tuple[Material, list[str]]:
     return Material(name="command line", **(defaults | values)), assumed  # type: ignore[arg-type]
 
 
-def _corner_radius(extras: list[str], text: str, kind: str) -> float:
-    if not extras:
-        return 0.0
-    match = re.fullmatch(r"corner[ _-]radius\s+(.+)", extras[0])
-    if match is None or len(extras) > 1 or kind != "rectangular_tube":
-        raise _refused(f"{', '.join(extras)!r} does not belong to a {kind}", text, SECTION_HELP)
-    return parse_quantity(match[1], "m")
+def _one(kind: str) -> str:
+    return f"{'an' if kind.startswith('a') else 'a'} {kind}"
+
+
+def _material_values(parts: list[str], text: str) -> dict[str, float]:
+    """Given properties by the field of the material."""
+    values: dict[str, float] = {}
+    for part in parts:
+        word, _, quantity = part.partition(" ")
+        key = _MATERIAL_KEYS.get(word)
+        if key is None or not quantity.strip():
+            raise _refused(f"{part!r} is not a property of a material", text, MATERIAL_HELP)
+        if key.field in values:
+            raise _refused(f"{word} is given twice", text, MATERIAL_HELP)
+        values[key.field] = parse_quantity(quantity.strip(), key.unit)
+    return values
+
+
+def _grade_of(text: str) -> str:
+    """Name of the grade that a text such as "S355" or "grade S355" names; empty if it names none."""
+    from crumple.material import grade
+
+    try:
+        return grade(text.removeprefix("grade ").strip()).name
+    except InputError:
+        return ""
+
+
+def _graded(name: str, values: dict[str, float]) -> tuple[Material, list[str]]:
+    """Material of a grade with some values of its own, and what the grade's numbers are."""
+    from crumple.structure import MaterialSpec
+
+    given = {{"given_flow_stress": "flow_stress"}.get(key, key): value for key, value in values.items()}
+    spec = MaterialSpec.model_validate({"grade": name, **given})
+    return spec.material(name), [spec.statement]
+
+
+def _details(extras: list[str], text: str, kind: str, shape: _Shape) -> dict[str, float]:
+    """What follows the outer dimensions, as keywords of the section."""
+    details: dict[str, float] = {}
+    for extra in extras:
+        cells = _CELLS.fullmatch(extra) if kind == "multi_cell_tube" else None
+        match = _DETAIL.fullmatch(extra)
+        field = shape.details.get(re.sub("[_-]", " ", match["words"]).lower()) if match else None
+        if cells is not None:
+            found: dict[str, float] = {"columns": int(cells["columns"]), "rows": int(cells["rows"])}
+        elif match is not None and field is not None:
+            found = {field: parse_quantity(match["value"], "m")}
+        else:
+            raise _refused(f"{extra!r} does not belong to {_one(kind)}", text, SECTION_HELP)
+        if found.keys() & details.keys():
+            raise _refused(f"{extra!r} is given twice", text, SECTION_HELP)
+        details |= found
+    return details
 
 
 def _loaded(path: str) -> Analysis:

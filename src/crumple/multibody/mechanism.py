@@ -94,9 +94,9 @@ class Mechanism:
         return 1 + sum(whole == body for _, whole in self.welds)
 
     def piece_at(self, member: str, station: float) -> Piece:
-        """Piece that holds a station [m] of a member; at a cut the one before it."""
-        pieces = self.pieces[member]
-        return next((piece for piece in pieces if station <= piece.end), pieces[-1])
+        """Piece that holds a station [m] of a member; at a cut the one before it, at the end the last."""
+        *inner, last = self.pieces[member]
+        return next((piece for piece in inner if station <= piece.end and station < last.end), last)
 
 
 @dataclass

@@ -72,6 +72,9 @@ def warnings(
         for text in _of_hinge(hinge, hinges[hinge.name], largest):
             by_text.setdefault(text, []).append(hinge.name)
     found += [f"{_named(names)}: {text}" for text, names in by_text.items()]
+    found += [
+        f"Material {name}: {spec.statement}" for name, spec in structure.materials.items() if spec.statement
+    ]
     kinetic = float(record.energy[0, 0])
     vanished = max(start.given_energy - kinetic, lost)
     # of an impulse only what the joints let through ever becomes energy

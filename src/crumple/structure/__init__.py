@@ -30,21 +30,35 @@ from crumple.structure.material import MaterialSpec, RateSpec
 from crumple.structure.member import Bars, Hinge, Member
 from crumple.structure.motion import FREEDOMS, InitialVelocity, Motion, Support
 from crumple.structure.outputs import Filter, Outputs, SectionRotation
-from crumple.structure.section import CircularTubeSpec, RectangularTubeSpec
+from crumple.structure.section import (
+    AngleSpec,
+    ChannelSpec,
+    CircularTubeSpec,
+    ClosedHatSpec,
+    HatSpec,
+    MultiCellTubeSpec,
+    RectangularTubeSpec,
+    SquareTubeSpec,
+)
 from crumple.structure.settings import FinePlace, MultibodySettings, ShellSettings
 from crumple.structure.structure import Structure
+from crumple.structure.walls import WallSectionSpec, WallSpec, WeldSpec
 
 __all__ = [
     "FREEDOMS",
     "LAW_SPECS",
+    "AngleSpec",
     "Bars",
+    "ChannelSpec",
     "CircularTubeSpec",
+    "ClosedHatSpec",
     "ConstantLaw",
     "Filter",
     "FinePlace",
     "ForceComponents",
     "Frame",
     "FrozenMapping",
+    "HatSpec",
     "Hinge",
     "HingePlace",
     "InitialVelocity",
@@ -56,6 +70,7 @@ __all__ = [
     "Member",
     "MomentComponents",
     "Motion",
+    "MultiCellTubeSpec",
     "MultibodySettings",
     "NodalImpulse",
     "Outputs",
@@ -65,10 +80,14 @@ __all__ = [
     "Regularisation",
     "SectionRotation",
     "ShellSettings",
+    "SquareTubeSpec",
     "Stops",
     "Structure",
     "Support",
     "TableLaw",
+    "WallSectionSpec",
+    "WallSpec",
+    "WeldSpec",
     "WierzbickiLaw",
     "frame_of",
     "hinge_places",

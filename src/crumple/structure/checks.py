@@ -109,6 +109,13 @@ def _names(structure: Structure, known: Known) -> Iterator[Problem]:
                 )
 
 
+def _metals(structure: Structure, known: Known) -> Iterator[Problem]:
+    """Materials that sections name."""
+    for name, section in structure.sections.items():
+        for key, material in section.named_materials().items():
+            yield from _unknown("material", material, known["materials"], f"sections.{name}.{key}")
+
+
 def _carried_names(structure: Structure, known: Known) -> Iterator[Problem]:
     """Names that supports, masses, loads and initial motion refer to."""
     for where, node, _ in _carriers(structure):
@@ -194,6 +201,7 @@ def _supports(structure: Structure, known: Known) -> Iterator[Problem]:
 
 _CHECKS: tuple[Callable[[Structure, Known], Iterator[Problem]], ...] = (
     _names,
+    _metals,
     _carried_names,
     _members,
     _coincident,

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Annotated, Any
 
-from pydantic import model_validator
+from pydantic import ConfigDict, Field, model_validator
 
 from crumple import material
 from crumple.errors import InputError
+from crumple.structure.problems import suggestion
 from crumple.structure.quantity import (
+    Converted,
     PoissonsRatio,
     PositiveDensity,
     PositiveRate,
@@ -27,21 +31,30 @@ class RateSpec(Spec):
     """Exponent."""
 
 
-class MaterialSpec(Spec):
-    """Isotropic elastic-plastic metal."""
+def _grade_or_values(schema: dict[str, Any]) -> None:
+    """A grade brings every value that is not given."""
+    schema["anyOf"] = [{"required": ["grade"]}, {"required": schema.pop("required")}]
 
+
+class MaterialSpec(Spec):
+    """Isotropic elastic-plastic metal, by its values or by a named grade."""
+
+    model_config = ConfigDict(json_schema_extra=_grade_or_values)
+
+    grade: Annotated[str, Field(max_length=40)] | None = None
+    """Named grade such as S355: typical, not design values; the other keys override it."""
     youngs_modulus: PositiveStress
-    """Young's modulus."""
+    """Young's modulus; a grade has its own."""
     poissons_ratio: PoissonsRatio
-    """Poisson's ratio."""
+    """Poisson's ratio; a grade has its own."""
     density: PositiveDensity
-    """Density."""
+    """Density; a grade has its own."""
     yield_stress: PositiveStress
-    """Yield stress."""
+    """Yield stress; a grade has its own."""
     ultimate_stress: PositiveStress | None = None
-    """Nominal ultimate strength, where known."""
+    """Nominal ultimate strength, where known; a grade has its own."""
     flow_stress: PositiveStress | None = None
-    """Mean stress in a fold at large strain; without it the yield stress."""
+    """Mean stress in a fold at large strain; without it the yield stress, of a grade (yield + ultimate)/2."""
     yield_rate: RateSpec | None = None
     """Strain-rate law at yield; without it no rate effect."""
     flow_rate: RateSpec | None = None
@@ -64,6 +77,34 @@ class MaterialSpec(Spec):
             **{key: _keys(rate) for key, rate in rates.items() if rate is not None},
         }
 
+    @model_validator(mode="before")
+    @classmethod
+    def _from_grade(cls, given: Any) -> Any:
+        """Fill in what the grade knows and the description does not give."""
+        if not isinstance(given, Mapping) or not isinstance(given.get("grade"), str):
+            return given
+        try:
+            found = material.grade(given["grade"])
+        except InputError as error:
+            meant = suggestion(given["grade"], material.grades())
+            refuse(
+                "unknown grade",
+                problems=[
+                    replace(problem, todo=meant or "choose one of these, or give values")
+                    for problem in error.problems
+                ],
+            )
+        metal = found.material
+        values = {
+            "youngs_modulus": metal.youngs_modulus,
+            "poissons_ratio": metal.poissons_ratio,
+            "density": metal.density,
+            "yield_stress": metal.yield_stress,
+            "ultimate_stress": metal.ultimate_stress,
+        }
+        known = {key: Converted(value) for key, value in values.items() if value is not None}
+        return {**known, **given, "grade": found.name}
+
     @model_validator(mode="after")
     def _consistent(self) -> MaterialSpec:
         try:
@@ -81,10 +122,21 @@ class MaterialSpec(Spec):
             density=self.density,
             yield_stress=self.yield_stress,
             ultimate_stress=self.ultimate_stress,
-            given_flow_stress=self.flow_stress,
+            given_flow_stress=self._flow_stress,
             yield_rate=_rate(self.yield_rate),
             flow_rate=_rate(self.flow_rate),
         )
+
+    @property
+    def _flow_stress(self) -> float | None:
+        if self.flow_stress is None and self.grade is not None and self.ultimate_stress is not None:
+            return material.mean_flow_stress(self.yield_stress, self.ultimate_stress)
+        return self.flow_stress
+
+    @property
+    def statement(self) -> str:
+        """What the numbers of its grade are and are not; empty without a grade."""
+        return "" if self.grade is None else material.grade(self.grade).statement
 
 
 def _keys(rate: object) -> dict[str, float]:

@@ -61,7 +61,7 @@ class Structure(Spec):
 
     def section_of(self, member: str) -> Section:
         """Cross-section of a member."""
-        return self.sections[self.members[member].section].section()
+        return self.sections[self.members[member].section].section(self.materials)
 
     def material_of(self, member: str) -> Material:
         """Material of a member."""

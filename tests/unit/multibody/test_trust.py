@@ -74,3 +74,24 @@ def test_every_assumption_names_its_hinge_and_place(form: str) -> None:
         text for text in result.assumptions if text.startswith("Hinge root lies 23.11 mm from node root")
     ]
     assert {"set-valued": "rigid until", "elastic-plastic": "kN m/rad", "regularised": "HAVSIN"}[form] in text
+
+
+def test_a_grade_is_typical_and_no_design_value() -> None:
+    keys: dict[str, Any] = {
+        "materials": {"steel": {"grade": "S355"}, "other": STEEL},
+        "sections": {"tube": TUBE},
+        "nodes": {"root": (0, 0, 0), "tip": (1, 0, 0)},
+        "members": {
+            "arm": {
+                "nodes": ("root", "tip"),
+                "section": "tube",
+                "material": "steel",
+                "hinges": [{"name": "fold", "at": "root"}],
+            }
+        },
+        "supports": {"clamp": {"node": "root", "fix": "all"}},
+        "initial_velocity": [{"rotation": 1.0, "axis": (0, -1, 0)}],
+    }
+    result = solve_multibody(Structure(**keys), Run(duration=0.01, every=1e-3))
+    (warning,) = about(result, "typical")
+    assert warning.startswith("Material steel: S355: typical, not design values")
