@@ -16,6 +16,8 @@ constexpr double loosest_share = 1e-3;
 
 double step_tolerance(double accuracy) { return accuracy * std::min(1.0, std::sqrt(accuracy / loosest_share)); }
 
+// Turn [rad] by which a locked hinge may creep; the strongest hinge's work over it is no energy worth balancing.
+constexpr double negligible_turn = 1e-9;
 constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
 constexpr long poll_interval = 100'000;  // solves times bodies between calls of `poll`: some 10 ms
 
@@ -145,8 +147,9 @@ void Simulation::watch(Record& record) {
     speed_ = std::max(speed_, kinetic_norm(model_.tree, state_.velocity, nullptr));
     const Energies e = energies(model_, state_);
     work_max_ = std::max(work_max_, std::fabs(e.external_work));
-    const double reference = start_energy_ + work_max_;
-    if (reference > 0) record.residual = std::max(record.residual, std::fabs(e.balance() - start_energy_) / reference);
+    const double reference = std::max(start_energy_ + work_max_, negligible_energy_);
+    residual_max_ = std::max(residual_max_, std::fabs(e.balance() - start_energy_));
+    if (reference > 0) record.residual = residual_max_ / reference;
 }
 
 void Simulation::store(Record& r) const {
@@ -188,6 +191,7 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     // the rotation that the strongest hinge would need for all energy: what counts as large before anything has turned
     double strongest = 0;
     for (const HingeState& h : state_.hinge) strongest = std::max(strongest, h.capacity);
+    negligible_energy_ = negligible_turn * strongest;
     const double expected = strongest > 0 ? energies(model_, state_).kinetic / strongest / 2 : 0;
     scale_ = std::max(scale_, std::clamp(expected, settings_.scale_floor, 0.5));
     speed_ = std::max(speed_, kinetic_norm(model_.tree, state_.velocity, nullptr));

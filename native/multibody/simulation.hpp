@@ -63,7 +63,7 @@ private:
     Stepper stepper_;
     State state_, coarse_, fine_;
     double step_tolerance_;  // of the error measure
-    double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, work_max_ = 0;
+    double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, work_max_ = 0, residual_max_ = 0, negligible_energy_ = 0;
     long poll_at_ = 0;  // work at which `poll` is asked next
 };
 

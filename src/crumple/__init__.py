@@ -14,20 +14,40 @@ if TYPE_CHECKING:
     from crumple.analysis import Analysis, check, load, loads
     from crumple.analysis.solve import solve
     from crumple.errors import CrumpleError, InputError, Problem, Status
-    from crumple.hinge import build_law
-    from crumple.material import Material
+    from crumple.hinge import build_axial_law, build_law, build_torsion_law, read_law, write_law
+    from crumple.material import Material, grade, grade_material, grades
     from crumple.report import write_report
     from crumple.result import Result
-    from crumple.section import CircularTube, RectangularTube
+    from crumple.section import (
+        Angle,
+        Channel,
+        CircularTube,
+        ClosedHat,
+        Hat,
+        MultiCellTube,
+        RectangularTube,
+        Wall,
+        WallSection,
+        Weld,
+        fitted_interaction,
+        moment_capacity,
+        plastic_interaction,
+        square_tube,
+    )
     from crumple.structure import MultibodySettings, Outputs, Structure
     from crumple.units import format_quantity, parse_quantity
 
 _ROOMS = {
     "Analysis": "analysis",
+    "Angle": "section",
+    "Channel": "section",
     "CircularTube": "section",
+    "ClosedHat": "section",
     "CrumpleError": "errors",
+    "Hat": "section",
     "InputError": "errors",
     "Material": "material",
+    "MultiCellTube": "section",
     "MultibodySettings": "structure",
     "Outputs": "structure",
     "Problem": "errors",
@@ -35,22 +55,41 @@ _ROOMS = {
     "Result": "result",
     "Status": "errors",
     "Structure": "structure",
+    "Wall": "section",
+    "WallSection": "section",
+    "Weld": "section",
+    "build_axial_law": "hinge",
     "build_law": "hinge",
+    "build_torsion_law": "hinge",
     "check": "analysis",
+    "fitted_interaction": "section",
     "format_quantity": "units",
+    "grade": "material",
+    "grade_material": "material",
+    "grades": "material",
     "load": "analysis",
     "loads": "analysis",
+    "moment_capacity": "section",
     "parse_quantity": "units",
+    "plastic_interaction": "section",
+    "read_law": "hinge",
     "solve": "analysis",
+    "square_tube": "section",
+    "write_law": "hinge",
     "write_report": "report",
 }
 
 __all__ = [
     "Analysis",
+    "Angle",
+    "Channel",
     "CircularTube",
+    "ClosedHat",
     "CrumpleError",
+    "Hat",
     "InputError",
     "Material",
+    "MultiCellTube",
     "MultibodySettings",
     "Outputs",
     "Problem",
@@ -58,14 +97,28 @@ __all__ = [
     "Result",
     "Status",
     "Structure",
+    "Wall",
+    "WallSection",
+    "Weld",
     "__version__",
+    "build_axial_law",
     "build_law",
+    "build_torsion_law",
     "check",
+    "fitted_interaction",
     "format_quantity",
+    "grade",
+    "grade_material",
+    "grades",
     "load",
     "loads",
+    "moment_capacity",
     "parse_quantity",
+    "plastic_interaction",
+    "read_law",
     "solve",
+    "square_tube",
+    "write_law",
     "write_report",
 ]
 

@@ -43,9 +43,10 @@ def run(
     ] = False,
 ) -> None:
     """Solve an input file and report. Writes summary, histories, shapes, figures and a page to a folder."""
-    from crumple.analysis import canonical, load, solve
+    from crumple.analysis import canonical, load, solve, with_lines
     from crumple.cli.progress import progress_bar, stop_on_interrupt
     from crumple.cli.shell_run import RESTART, available_threads, long_run_of
+    from crumple.errors import InputError
     from crumple.report import ReportInput, write_report
     from crumple.result import summary_json, write
 
@@ -56,14 +57,17 @@ def run(
     if restart is not None and not is_shell:
         raise typer.BadParameter("only shell runs are long enough to be restarted", param_hint="--restart")
     with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
-        result = solve(
-            analysis,
-            fidelity=fidelity.value,
-            threads=threads or (available_threads() if is_shell else 1),
-            progress=progress,
-            cancel=cancel,
-            long_run=long_run_of(folder, restart, progress) if is_shell else None,
-        )
+        try:
+            result = solve(
+                analysis,
+                fidelity=fidelity.value,
+                threads=threads or (available_threads() if is_shell else 1),
+                progress=progress,
+                cancel=cancel,
+                long_run=long_run_of(folder, restart, progress) if is_shell else None,
+            )
+        except InputError as error:
+            raise with_lines(error, file, analysis.structure) from None
     write(result, folder)
     source = ReportInput(
         title=analysis.title,

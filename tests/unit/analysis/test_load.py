@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from crumple.analysis import Analysis, check, input_hash, load, loads
-from crumple.errors import InputError
+from crumple.analysis import Analysis, check, input_hash, load, loads, with_lines
+from crumple.errors import InputError, Problem
 
 EXAMPLE = Path("examples/01_tube_bending.yaml")
 
@@ -135,3 +135,32 @@ def test_more_problems_than_anyone_mends_at_once_are_counted(text):
     problems = refused(text.replace("nodes:\n", "nodes:\n" + nodes, 1))
     assert len(problems) == 101
     assert problems[-1].what == "and 100 more problems"
+
+
+def test_what_the_solver_refuses_is_found_by_check_with_its_line(text, tmp_path):
+    hinges = text.index("    hinges:")
+    held = text[:hinges] + text[text.index("\nsupports:") :]
+    turned = text.replace(
+        "law: kecman}", "law: kecman}\n      - {name: second, at: 500 mm, law: kecman, axis: z}"
+    )
+    for name, content, where, what in (
+        ("held.yaml", held, "members", "nothing can move"),
+        ("turned.yaml", turned, "members.tube.hinges", "different axes"),
+    ):
+        file = tmp_path / name
+        file.write_text(content)
+        [problem] = check(file)
+        assert what in problem.what
+        assert problem.where.startswith(where)
+        key = where.rpartition(".")[2]
+        assert content.splitlines()[problem.line - 1].strip().startswith(key)
+        assert problem.file == str(file)
+
+
+def test_a_hinge_that_the_solver_names_is_found_in_its_member(text, tmp_path):
+    file = tmp_path / "a.yaml"
+    file.write_text(text)
+    refusal = InputError([Problem("idle", where="hinges.root"), Problem("idle", where="hinges.of a support")])
+    problems = with_lines(refusal, file, loads(text).structure).problems
+    assert {problem.where for problem in problems} == {"members", "members.tube.hinges[0]"}
+    assert "name: root" in text.splitlines()[max(problem.line for problem in problems) - 1]

@@ -32,6 +32,16 @@ def test_every_key_of_every_part_has_a_row():
     assert tables.count("### ") >= len(models_of(InputFile))
 
 
-def test_the_example_of_the_document_is_sound():
-    (example,) = re.findall(r"```yaml\n(.*?)```", DOCUMENT.read_text(encoding="utf-8"), re.DOTALL)
+def test_the_examples_of_the_document_are_sound():
+    example, more = re.findall(r"```yaml\n(.*?)```", DOCUMENT.read_text(encoding="utf-8"), re.DOTALL)
     assert loads(example).structure.members["arm"].hinges[0].name == "fold"
+    # the second shows materials and sections alone: it replaces those of the first
+    end = example.index("nodes:")
+    whole = example[: example.index("materials:")] + more + example[end:]
+    for name in ("rail", "sill"):
+        law = "folded_profile" if name == "rail" else "constant"
+        text = whole.replace("section: tube", f"section: {name}").replace("material: steel", "material: mild")
+        structure = loads(text.replace("at: root", f"at: root, law: {law}")).structure
+        assert {wall.material.name for wall in structure.section_of("arm").walls if wall.material} == {
+            "strong"
+        }
