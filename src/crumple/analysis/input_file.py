@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ValidationError
 
-from crumple.analysis.analysis import DEFAULT_INTERVALS, Analysis, Settings, Title
+from crumple.analysis.analysis import DEFAULT_INTERVALS, Analysis, Settings, Title, run_problems
 from crumple.analysis.filters import filter_problems
 from crumple.analysis.reading import Document, read_file, read_text
 from crumple.analysis.solve import solve
@@ -139,6 +139,7 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
     if isinstance(outputs, Outputs):
         cross += output_problems(outputs, structure, defined)
     if whole:
+        cross += run_problems(whole.outputs, whole.analysis.duration)
         cross += shell_problems(whole.analysis.shell, structure, defined)
     if whole and not cross:
         interval = whole.outputs.every or whole.analysis.duration / DEFAULT_INTERVALS

@@ -28,7 +28,10 @@ def run(
     file: Annotated[Path, typer.Argument(help="Input file (YAML).", show_default=False)],
     *,
     out: Annotated[
-        Path | None, typer.Option(help="Folder for the results; by default out/ and the input file's name.")
+        str | None,
+        typer.Option(
+            metavar="FOLDER", help="Folder for the results; by default out/ and the input file's name."
+        ),
     ] = None,
     fidelity: Annotated[Fidelity, typer.Option(help="Which solver.")] = Fidelity.MULTIBODY,
     threads: Annotated[
@@ -44,6 +47,7 @@ def run(
 ) -> None:
     """Solve an input file and report. Writes summary, histories, shapes, figures and a page to a folder."""
     from crumple.analysis import canonical, load, solve, with_lines
+    from crumple.cli.folder import results_errors, results_folder
     from crumple.cli.progress import progress_bar, stop_on_interrupt
     from crumple.cli.shell_run import RESTART, available_threads, long_run_of
     from crumple.errors import InputError
@@ -51,11 +55,10 @@ def run(
     from crumple.result import summary_json, write
 
     analysis = load(file)
-    folder = out if out is not None else Path("out") / file.stem
-    folder.mkdir(parents=True, exist_ok=True)
     is_shell = fidelity is Fidelity.SHELL
     if restart is not None and not is_shell:
         raise typer.BadParameter("only shell runs are long enough to be restarted", param_hint="--restart")
+    folder = results_folder(out, file)
     with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
         try:
             result = solve(
@@ -68,7 +71,6 @@ def run(
             )
         except InputError as error:
             raise with_lines(error, file, analysis.structure) from None
-    write(result, folder)
     source = ReportInput(
         title=analysis.title,
         text=file.read_text(encoding="utf-8-sig"),
@@ -77,7 +79,9 @@ def run(
         residual_bound=(analysis.shell if is_shell else analysis.multibody).energy_residual_bound,
         accuracy=None if is_shell else analysis.multibody.accuracy,
     )
-    write_report(result, source, folder)
+    with results_errors(folder):
+        write(result, folder)
+        write_report(result, source, folder)
     if as_json:
         typer.echo(summary_json(result), nl=False)
     else:
