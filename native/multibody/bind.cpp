@@ -84,24 +84,32 @@ Drive make_drive(const nb::tuple& t) {
     return {load.body, load.point, load.direction, start, make_curve(nb::cast<Doubles>(t[3]), nb::cast<Doubles>(t[5]))};
 }
 
+Hold make_hold(const nb::tuple& t) {
+    const Doubles at = nb::cast<Doubles>(t[1]), along = nb::cast<Doubles>(t[2]);
+    return {nb::cast<int>(t[0]), {at.at(0), at.at(1)}, {along.at(0), {along.at(1), along.at(2)}}};
+}
+
 Weld make_weld(const nb::tuple& t) {
     const Doubles a = nb::cast<Doubles>(t[2]), b = nb::cast<Doubles>(t[3]);
     return {nb::cast<int>(t[0]), nb::cast<int>(t[1]), {a.at(0), a.at(1)}, {b.at(0), b.at(1)}};
 }
 
 Model make_model(const Integers& parent, const Integers& joint, const Array& bodies, const Doubles& q0,
-                 const nb::list& hinges, const nb::list& loads, const nb::list& drives, const nb::list& welds,
+                 const nb::list& hinges, const nb::list& loads, const nb::list& drives, const nb::list& holds,
+                 const nb::list& welds,
                  const Doubles& gravity) {
-    Model model{make_tree(parent, joint, bodies), {}, {}, {}, {}, {gravity.at(0), gravity.at(1)}, q0};
+    Model model{make_tree(parent, joint, bodies), {}, {}, {}, {}, {}, {gravity.at(0), gravity.at(1)}, q0};
     require(q0.size() == static_cast<size_t>(model.tree.dofs()), "q0 must have one entry per joint coordinate");
     for (nb::handle h : hinges) model.hinges.push_back(make_hinge(nb::cast<nb::dict>(h)));
     for (nb::handle l : loads) model.loads.push_back(make_load(nb::cast<nb::tuple>(l)));
     for (nb::handle d : drives) model.drives.push_back(make_drive(nb::cast<nb::tuple>(d)));
+    for (nb::handle d : holds) model.holds.push_back(make_hold(nb::cast<nb::tuple>(d)));
     for (nb::handle w : welds) model.welds.push_back(make_weld(nb::cast<nb::tuple>(w)));
     auto known = [&](int body) { return body >= 0 && body < model.tree.bodies(); };
     for (const Hinge& h : model.hinges) require(h.dof >= 0 && h.dof < model.tree.dofs(), "a hinge names an unknown coordinate");
     for (const Load& l : model.loads) require(known(l.body), "a load names an unknown body");
     for (const Drive& d : model.drives) require(known(d.body), "a drive names an unknown body");
+    for (const Hold& d : model.holds) require(known(d.body), "a hold names an unknown body");
     for (const Weld& w : model.welds) {
         require(known(w.body) && (w.other == -1 || known(w.other)), "a weld names an unknown body");
     }
@@ -178,17 +186,20 @@ void bind(nb::module_& m) {
     nb::class_<Simulation>(m, "Simulation", "One run: a frozen model, its state, and the adaptive stepper.")
         .def("__init__",
              [](Simulation* self, const Integers& parent, const Integers& joint, const Array& bodies, const Doubles& q0,
-                const nb::list& hinges, const nb::list& loads, const nb::list& drives, const nb::list& welds,
+                const nb::list& hinges, const nb::list& loads, const nb::list& drives, const nb::list& holds,
+                 const nb::list& welds,
                 const Doubles& gravity, double accuracy, double minimum_step, double maximum_step, double length) {
                  Settings settings;
                  settings.accuracy = accuracy;
                  settings.minimum_step = minimum_step;
                  settings.maximum_step = maximum_step;
                  settings.length = length;
-                 new (self) Simulation(make_model(parent, joint, bodies, q0, hinges, loads, drives, welds, gravity), settings);
+                 new (self) Simulation(make_model(parent, joint, bodies, q0, hinges, loads, drives, holds, welds,
+                                                  gravity),
+                                       settings);
              },
              nb::arg("parent"), nb::arg("joint"), nb::arg("bodies"), nb::arg("q0"), nb::arg("hinges"), nb::arg("loads"),
-             nb::arg("drives"), nb::arg("welds"), nb::arg("gravity"), nb::arg("accuracy"), nb::arg("minimum_step"),
+             nb::arg("drives"), nb::arg("holds"), nb::arg("welds"), nb::arg("gravity"), nb::arg("accuracy"), nb::arg("minimum_step"),
              nb::arg("maximum_step"), nb::arg("length"))
         .def("set_motion",
              [](Simulation& s, const Array& velocity, const Array& impulse) {

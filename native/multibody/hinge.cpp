@@ -69,6 +69,22 @@ bool counts(const Hinge& hinge, const HingeState& s) {
 
 double clamped(const FrozenHinge& f, double m) { return std::min(std::max(m, -f.capacity[1]), f.capacity[0]); }
 
+// HAVSIN ramp and its integral, for a rate of x > 0 half-widths.
+double ramp(double x) { return x < 1 ? std::sin(half_pi * x) : 1; }
+double ramp_integral(double x) { return x < 1 ? (1 - std::cos(half_pi * x)) / half_pi : 1 / half_pi + x - 1; }
+
+// The regularised form takes the ramp at the end rate while it slows down, which decays however stiff the ramp is.
+// While it speeds up it takes the mean over the rates passed: a step may leap over the whole ramp.
+Response ramp_response(const FrozenHinge& f, double w, double capacity) {
+    const double x = std::fabs(w) / f.width, x0 = std::fabs(f.w0) / f.width, sign = w < 0 ? -1 : 1;
+    const double most = f.h * capacity;
+    if (w * f.w0 < 0 || x - x0 < 1e-6) {
+        return {sign * most * ramp(x), x < 1 ? most * half_pi / f.width * std::cos(half_pi * x) : 0};
+    }
+    const double mean = (ramp_integral(x) - ramp_integral(x0)) / (x - x0);
+    return {sign * most * mean, most * (ramp(x) - mean) / (x - x0) / f.width};
+}
+
 }  // namespace
 
 double ramp_width(const Hinge& hinge) { return hinge.form == Form::regularised ? hinge.ramp_rate : stick_rate; }
@@ -151,10 +167,10 @@ Response law_response(const Hinge& hinge, const FrozenHinge& f, double w) {
         const double trial = elastic_moment(hinge, f, w), m1 = clamped(f, trial);
         return {f.h * (f.m0 + m1) / 2, m1 == trial ? f.h * f.h * hinge.stiffness / 4 : 0};
     }
+    if (hinge.form == Form::regularised) return ramp_response(f, w, c);
     const double x = w / f.width;
     if (std::fabs(x) >= 1) return {w > 0 ? f.h * c : -f.h * c, 0};
-    if (hinge.form == Form::set_valued) return {f.h * c * x, f.h * c / f.width};
-    return {f.h * c * std::sin(half_pi * x), f.h * c * half_pi / f.width * std::cos(half_pi * x)};
+    return {f.h * c * x, f.h * c / f.width};
 }
 
 Response stop_response(const Hinge& hinge, const FrozenHinge& f, double w) {
@@ -190,6 +206,7 @@ int kinks(const Hinge& hinge, const FrozenHinge& f, double* rates) {
         rates[n++] = -f.width;
         rates[n++] = 0;
         rates[n++] = f.width;
+        if (hinge.form == Form::regularised) rates[n++] = f.w0;
     }
     for (int k = 0; k < 2; k++) {
         if (f.touched[k] == 0) continue;

@@ -6,7 +6,7 @@
 // non-decreasing impulse P(w), the derivative of a convex potential:
 //   set-valued       P = h C sign(w), any value up to h C at w = 0 (ramp of half-width `stick_rate`)
 //   elastic-plastic  P = h (M0 + M1)/2,  M1 = M0 + k h (w0 + w)/2 clamped to the capacity
-//   regularised      P = h C HAVSIN(w, -w_reg, -1, w_reg, 1)
+//   regularised      P = h C HAVSIN(w, -w_reg, -1, w_reg, 1), its mean from w0 to w while it speeds up
 //   damper           P = h c ((1 - s) w0 + s w)
 //   stop             P = h f max(0, k g^e + c w),  g the mean of start and end penetration, neither below zero,
 //                    f the share of the step in which it is touched, frozen
@@ -101,7 +101,7 @@ FrozenHinge freeze(const Hinge& hinge, const HingeState& state, double h, double
 Response law_response(const Hinge& hinge, const FrozenHinge& f, double w);
 Response stop_response(const Hinge& hinge, const FrozenHinge& f, double w);
 Response respond(const Hinge& hinge, const FrozenHinge& f, double w);
-// rates at which the slope of the response changes; returns how many (at most 9)
+// rates at which the slope of the response changes; returns how many (at most 10)
 int kinks(const Hinge& hinge, const FrozenHinge& f, double* rates);
 // advances the memory; returns the rotation over the step.  `guided`: prescribed motion, not the hinge's own moment,
 // may have brought it to rest

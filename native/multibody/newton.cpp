@@ -169,7 +169,7 @@ double Stepper::search(double slope_end) {
         const auto dof = static_cast<size_t>(model_.hinges[j].dof);
         const double d = direction_[dof];
         linear_end += (rhs_[dof] - impedance_[dof] * next_[dof]) * d;
-        double rates[9];
+        double rates[10];
         const int n = kinks(model_.hinges[j], frozen_[j], rates);
         for (int k = 0; k < n; k++) {
             const double a = (rates[k] - w_[dof]) / d;

@@ -44,6 +44,7 @@ Stepper::Stepper(const Model& model) : model_(model), solver_(model.tree) {
     for (auto* v : {&twist_, &end_twist_, &bias_, &work_}) v->resize(n);
     model.tree.place(model.q0.data(), middle_.data());
     for (const Drive& d : model.drives) add_row({d.body, -1, d.point, {}, d.direction, 0});
+    for (const Hold& hold : model.holds) add_row({hold.body, -1, hold.point, {}, hold.direction, 0});
     for (const Weld& weld : model.welds) {
         for (const Twist& direction : {Twist{1, {}}, Twist{0, {1, 0}}, Twist{0, {0, 1}}}) {
             add_row({weld.body, weld.other, weld.point, weld.other_point, direction, 0});
@@ -87,12 +88,12 @@ void Stepper::project(const State& at, const Twist* velocity, const Twist* impul
     }
     solver_.factor(at.pose.data(), impedance_.data());
     solver_.solve(work_.data(), rhs_.data(), w);
-    hold_welds(at, w);
+    keep_joined(at, w);
 }
 
-// Takes out of w what would open a weld; drives are left alone, they act from the first step on.
-void Stepper::hold_welds(const State& at, double* w) {
-    if (model_.welds.empty()) return;
+// Takes out of w what would move a held point or open a weld; drives act from the first step on.
+void Stepper::keep_joined(const State& at, double* w) {
+    if (rows_.size() == model_.drives.size()) return;
     middle_ = at.pose;
     std::fill(row_target_.begin(), row_target_.end(), 0.0);
     constrain(w, model_.drives.size());
@@ -105,7 +106,7 @@ double Stepper::effective_inertia(const State& at, int dof) {
     rhs_[static_cast<size_t>(dof)] = 1;
     solver_.factor(at.pose.data(), impedance_.data());
     solver_.solve(work_.data(), rhs_.data(), column_.data());
-    hold_welds(at, column_.data());
+    keep_joined(at, column_.data());
     return 1 / column_[static_cast<size_t>(dof)];
 }
 
@@ -157,19 +158,19 @@ void Stepper::predict(const State& s, double h) {
 }
 
 // Rates that the constrained directions must have, told for the middle's positions.  They must be the drive's own
-// (a weld's are zero) at the positions of the end, which the last pass predicts.  What has gone astray is mended
+// (a hold's and a weld's are zero) at the positions of the end, which the last pass predicts.  What has gone astray is mended
 // while something turns, so that nothing stirs at rest.
 void Stepper::aim_rows(const State& s, double h) {
     if (rows_.empty()) return;
     double turning = 0;
     for (const double w : s.w) turning = std::max(turning, std::fabs(w));
-    const double weld_mending = std::min(turning / mending_turn, 1 / (2 * h));
+    const double joint_mending = std::min(turning / mending_turn, 1 / (2 * h));
     const double drive_mending = 1 / std::max(2 * h, drift_time_);
     model_.tree.twists(middle_.data(), w_.data(), twist_.data());
     for (size_t k = 0; k < rows_.size(); k++) row_target_[k] = row_rate(rows_[k], middle_.data());
     model_.tree.twists(end_.data(), w_.data(), twist_.data());
     for (size_t k = 0; k < rows_.size(); k++) {
-        double place = 0, rate = 0, mending = weld_mending;
+        double place = 0, rate = 0, mending = joint_mending;
         if (k < model_.drives.size()) {
             const Drive& drive = model_.drives[k];
             int hint = 0;

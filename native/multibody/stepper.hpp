@@ -39,11 +39,19 @@ struct Weld {
     Vec2 point, other_point;   // the same place in the frame of each (in the world for the ground)
 };
 
+// A point of a body that is held in one direction by a support.
+struct Hold {
+    int body = 0;
+    Vec2 point;
+    Twist direction;
+};
+
 struct Model {
     Tree tree;
     std::vector<Hinge> hinges;
     std::vector<Load> loads;
     std::vector<Drive> drives;
+    std::vector<Hold> holds;
     std::vector<Weld> welds;
     Vec2 gravity;
     std::vector<double> q0;  // reference joint coordinates
@@ -102,7 +110,7 @@ private:
     double row_rate(const Row& row, const Pose* pose) const;
     void aim_rows(const State& s, double h);
     void constrain(double* w, size_t first);
-    void hold_welds(const State& at, double* w);
+    void keep_joined(const State& at, double* w);
     double search(double slope_end);
     void commit(State& s, double h);
     Vec2 arm(int body, Vec2 point, const Pose* pose) const { return pose[body].turned(point); }
@@ -113,7 +121,7 @@ private:
     std::vector<double> w_, next_, direction_, rhs_, impedance_, dq_, column_, breakpoints_, overload_, overload_of_children_;
     std::vector<Pose> middle_, end_;
     std::vector<Twist> twist_, end_twist_, bias_, work_;
-    std::vector<Row> rows_;  // the drives, then three per weld
+    std::vector<Row> rows_;  // the drives, the holds, then three per weld
     std::vector<double> row_target_, row_rates_, row_matrix_, row_force_, zero_;
     std::vector<int> hint_;
     bool all_set_valued_ = true;

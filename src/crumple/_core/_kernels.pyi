@@ -17,6 +17,7 @@ class _Multibody:
             hinges: list[dict[str, Any]],
             loads: list[tuple[Any, ...]],
             drives: list[tuple[Any, ...]],
+            holds: list[tuple[Any, ...]],
             welds: list[tuple[Any, ...]],
             gravity: Sequence[float],
             accuracy: float,

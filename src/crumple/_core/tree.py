@@ -128,6 +128,15 @@ class TreeDrive(TreeLoad):
 
 
 @dataclass(frozen=True)
+class TreeHold:
+    """A point of a body that a support holds in one direction of the plane."""
+
+    body: int
+    point: tuple[float, float]
+    direction: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
 class TreeWeld:
     """Two bodies that move as one, closing a loop; ``other`` -1 is the ground.
 
@@ -148,6 +157,7 @@ class TreeModel:
     hinges: tuple[TreeHinge, ...]
     loads: tuple[TreeLoad, ...] = ()
     drives: tuple[TreeDrive, ...] = ()
+    holds: tuple[TreeHold, ...] = ()
     welds: tuple[TreeWeld, ...] = ()
     gravity: tuple[float, float] = (0.0, 0.0)
     length: float = 1.0
@@ -229,6 +239,7 @@ class Simulation:
             [hinge.as_dict() for hinge in model.hinges],
             [_load(load) for load in model.loads],
             [(*_load(drive), drive.rates.tolist()) for drive in model.drives],
+            [(hold.body, list(hold.point), list(hold.direction)) for hold in model.holds],
             [(weld.body, weld.other, list(weld.point), list(weld.other_point)) for weld in model.welds],
             list(model.gravity),
             accuracy,

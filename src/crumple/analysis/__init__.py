@@ -7,7 +7,7 @@ form and SHA-256.  An `Analysis` has ``structure``, ``duration`` [s], ``title``,
 
 from crumple.analysis.analysis import Analysis
 from crumple.analysis.canonical import canonical, input_hash
-from crumple.analysis.input_file import FORMAT, InputFile, check, load, loads
+from crumple.analysis.input_file import FORMAT, InputFile, check, load, loads, with_lines
 from crumple.analysis.schema import json_schema
 from crumple.analysis.solve import FIDELITIES, solve
 
@@ -23,4 +23,5 @@ __all__ = [
     "load",
     "loads",
     "solve",
+    "with_lines",
 ]

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
+from crumple.errors import Problem
 from crumple.structure import (
     MultibodySettings,
     Outputs,
@@ -15,11 +17,14 @@ from crumple.structure import (
     shell_problems,
 )
 from crumple.structure.quantity import PositiveTime
-from crumple.structure.spec import Spec, raise_all
+from crumple.structure.spec import Spec, raise_all, refuse
+from crumple.units import format_quantity
 
 LONGEST_TITLE = 200
 DEFAULT_INTERVALS = 200
 """Intervals of the histories where the input gives none: enough for a smooth figure."""
+MOST_SAMPLES = 1_000_000
+"""Samples of every channel: far more than any figure needs, little enough to store."""
 
 
 class Settings(Spec):
@@ -33,7 +38,46 @@ class Settings(Spec):
     """Settings of the shell solver."""
 
 
-Title = Annotated[str, Field(max_length=LONGEST_TITLE)]
+def _printable(title: str) -> str:
+    """Refuse control characters: a title is printed on terminals."""
+    if not title.isprintable():
+        refuse(
+            "the title holds a character that cannot be printed",
+            allowed="one line of printable text",
+            todo="remove it",
+        )
+    return title
+
+
+Title = Annotated[str, Field(max_length=LONGEST_TITLE), AfterValidator(_printable)]
+
+
+def run_problems(outputs: Outputs, duration: float) -> list[Problem]:
+    """More samples than a run may store, and pictures after its end.
+
+    Parameters
+    ----------
+    outputs
+        What is reported.
+    duration
+        Of the run [s].
+    """
+    problems = []
+    samples = duration / (outputs.every or duration / DEFAULT_INTERVALS)
+    if samples > MOST_SAMPLES * (1.0 + 1e-9):
+        # rounded up to two digits, so that what is suggested is accepted
+        step = 10.0 ** (math.floor(math.log10(duration / MOST_SAMPLES)) - 1)
+        shortest = math.ceil(duration / MOST_SAMPLES / step) * step
+        what = f"this interval gives {samples:.3g} samples of every channel"
+        todo = f"write at least {format_quantity(shortest, 's', 3)}, or a shorter duration"
+        came = f"{outputs.every:g} s"
+        problems.append(Problem(what, came, f"at most {MOST_SAMPLES} samples", todo, "outputs.every"))
+    for i, time in enumerate(outputs.pictures):
+        if time > duration * (1.0 + 1e-9):
+            what, todo = "this picture lies after the end of the run", "correct the time or the duration"
+            allowed = f"at most {duration:g} s, the duration"
+            problems.append(Problem(what, f"{time:g} s", allowed, todo, f"outputs.pictures[{i}]"))
+    return problems
 
 
 class Analysis(Spec):
@@ -67,6 +111,7 @@ class Analysis(Spec):
         from crumple.analysis.filters import filter_problems  # noqa: PLC0415  (filters know this class)
 
         problems = output_problems(self.outputs, self.structure)
+        problems += run_problems(self.outputs, self.duration)
         problems += shell_problems(self.shell, self.structure)
         interval = self.output_interval
         raise_all(problems or filter_problems(self.structure, self.outputs, self.duration, interval))

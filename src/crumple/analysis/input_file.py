@@ -9,11 +9,19 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ValidationError
 
-from crumple.analysis.analysis import DEFAULT_INTERVALS, Analysis, Settings, Title
+from crumple.analysis.analysis import DEFAULT_INTERVALS, Analysis, Settings, Title, run_problems
 from crumple.analysis.filters import filter_problems
 from crumple.analysis.reading import Document, read_file, read_text
+from crumple.analysis.solve import solve
 from crumple.errors import InputError, Problem
-from crumple.structure import Outputs, Structure, output_problems, problems_in, shell_problems
+from crumple.structure import (
+    Outputs,
+    Structure,
+    hinge_places,
+    output_problems,
+    problems_in,
+    shell_problems,
+)
 from crumple.structure.problems import Place, path_of, placed_problems, shown
 
 FORMAT = 1
@@ -66,13 +74,51 @@ def loads(text: str, *, file: str = "", directory: str | Path = ".") -> Analysis
     return _analysis(read_text(text, file), file, Path(directory))
 
 
-def check(path: str | Path) -> list[Problem]:
-    """Every mistake of an input file; empty when it can be run."""
+def check(path: str | Path, fidelity: str = "multibody") -> list[Problem]:
+    """Every mistake of an input file; empty when a solver takes it.
+
+    Parameters
+    ----------
+    path
+        YAML file.
+    fidelity
+        The solver that is asked; it starts, but takes no step beyond the first.
+    """
     try:
-        load(path)
+        analysis = load(path)
     except InputError as error:
         return error.problems
+    try:
+        solve(analysis, fidelity, cancel=lambda: True)
+    except InputError as error:
+        return with_lines(error, path, analysis.structure).problems
     return []
+
+
+def with_lines(error: InputError, path: str | Path, structure: Structure) -> InputError:
+    """A solver's refusal with the lines of the input file.
+
+    Parameters
+    ----------
+    error
+        What the solver raised.
+    path
+        File that the analysis was loaded from.
+    structure
+        Of that analysis.
+    """
+    problems = [_where_written(problem, structure) for problem in error.problems]
+    placed = [(path_of(problem.where), problem) for problem in problems]
+    return InputError(_placed(placed, read_file(Path(path)), str(path)))
+
+
+def _where_written(problem: Problem, structure: Structure) -> Problem:
+    """Problem of a hinge, which a solver knows by its name, with the hinge's place in the input."""
+    kind, _, name = problem.where.partition(".")
+    if kind != "hinges":
+        return problem
+    written = {place.name: place.where for place in hinge_places(structure)}
+    return replace(problem, where=written.get(name, "members"))
 
 
 def _analysis(document: Document, file: str, directory: Path) -> Analysis:
@@ -93,6 +139,7 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
     if isinstance(outputs, Outputs):
         cross += output_problems(outputs, structure, defined)
     if whole:
+        cross += run_problems(whole.outputs, whole.analysis.duration)
         cross += shell_problems(whole.analysis.shell, structure, defined)
     if whole and not cross:
         interval = whole.outputs.every or whole.analysis.duration / DEFAULT_INTERVALS

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 from crumple.analysis.analysis import Analysis
 from crumple.analysis.canonical import canonical, input_hash
 from crumple.analysis.filters import with_filters
-from crumple.errors import InputError, Problem
+from crumple.errors import InputError, Problem, Status
+from crumple.units import format_quantity
 
 if TYPE_CHECKING:
     from crumple.result import Result
@@ -74,7 +75,13 @@ def solve(
         threads=threads,
         settings=settings,
     )
-    return replace(result, provenance=provenance)
+    reason = result.reason
+    if result.status is Status.CANCELLED and not reason:
+        reached = format_quantity(float(result.time[-1]), "s", 3)
+        reason = (
+            f"asked to stop; the last output is at {reached} of {format_quantity(analysis.duration, 's', 3)}"
+        )
+    return replace(result, provenance=provenance, reason=reason)
 
 
 # the solvers need the compiled kernels; reading and checking input does not

@@ -45,28 +45,34 @@ def compare(
     ] = True,
 ) -> None:
     """Solve with both engines and compare. Writes multibody/, shell/ and report.html to a folder."""
-    from crumple.analysis import load
+    from crumple.analysis import load, with_lines
+    from crumple.cli.folder import results_errors, results_folder
     from crumple.cli.progress import progress_bar, stop_on_interrupt
     from crumple.cli.shell_run import available_threads, long_run_of
     from crumple.comparison import picture_times, solve_and_compare
+    from crumple.errors import InputError
     from crumple.report import write_comparison
 
     analysis = load(file)
     curves = [_curve(text, pair or []) for text in curve or []]
-    folder = out if out is not None else Path("out") / file.stem
-    (folder / "shell").mkdir(parents=True, exist_ok=True)
+    folder = results_folder(out, file)
+    results_folder(folder / "shell", file)
     with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
-        found = solve_and_compare(
-            analysis,
-            threads=threads or available_threads(),
-            curves=curves,
-            variants=variants,
-            progress=progress,
-            cancel=cancel,
-            long_run=long_run_of(folder / "shell", None, progress),
-        )
-    source = write_both(found, analysis, file, folder)
-    write_comparison(found, source, folder, pictures=picture_times(analysis))
+        try:
+            found = solve_and_compare(
+                analysis,
+                threads=threads or available_threads(),
+                curves=curves,
+                variants=variants,
+                progress=progress,
+                cancel=cancel,
+                long_run=long_run_of(folder / "shell", None, progress),
+            )
+        except InputError as error:
+            raise with_lines(error, file, analysis.structure) from None
+    with results_errors(folder):
+        source = write_both(found, analysis, file, folder)
+        write_comparison(found, source, folder, pictures=picture_times(analysis))
     _show(found, folder)
     if not all(s.result.status.ok for s in (found.candidate, found.reference)):
         raise typer.Exit(1)

@@ -23,7 +23,8 @@ from crumple.errors import InputError
 app = typer.Typer(
     name="crumple",
     help="Crash analysis at the concept stage for thin-walled structures.",
-    epilog="Exit codes: 0 done; 1 a run ended without a result to trust; 2 the input cannot be accepted.",
+    epilog="Exit codes: 0 done; 1 a run ended without a result to trust; 2 the input, or the "
+    "folder for the results, cannot be accepted; 130 ended by Ctrl-C, where no result was kept.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,

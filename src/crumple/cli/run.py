@@ -30,7 +30,10 @@ def run(
     file: Annotated[Path, typer.Argument(help="Input file (YAML).", show_default=False)],
     *,
     out: Annotated[
-        Path | None, typer.Option(help="Folder for the results; by default out/ and the input file's name.")
+        str | None,
+        typer.Option(
+            metavar="FOLDER", help="Folder for the results; by default out/ and the input file's name."
+        ),
     ] = None,
     fidelity: Annotated[Fidelity, typer.Option(help="Which solver.")] = Fidelity.MULTIBODY,
     threads: Annotated[
@@ -46,15 +49,16 @@ def run(
 ) -> None:
     """Solve an input file and report. Writes summary, histories, shapes, figures and a page to a folder."""
     from crumple.analysis import load
+    from crumple.cli.folder import results_folder
 
     analysis = load(file)
-    folder = out if out is not None else Path("out") / file.stem
     if restart is not None and fidelity is not Fidelity.SHELL:
         raise typer.BadParameter("only shell runs are long enough to be restarted", param_hint="--restart")
+    folder = results_folder(out, file)
     both = fidelity is Fidelity.BOTH
     summaries, good = {}, True
     for one in (Fidelity.MULTIBODY, Fidelity.SHELL) if both else (fidelity,):
-        place = folder / one.value if both else folder
+        place = results_folder(folder / one.value, file) if both else folder
         result = _solve(analysis, file, place, (one, threads, restart))
         good = good and result.status.ok
         if as_json:
@@ -75,25 +79,28 @@ def _solve(
     analysis: Analysis, file: Path, folder: Path, how: tuple[Fidelity, int | None, Path | None]
 ) -> Result:
     """Solve with one engine and write its files; `how`: which, threads, restart file."""
-    from crumple.analysis import canonical, solve
+    from crumple.analysis import canonical, solve, with_lines
+    from crumple.cli.folder import results_errors
     from crumple.cli.progress import progress_bar, stop_on_interrupt
     from crumple.cli.shell_run import available_threads, long_run_of
+    from crumple.errors import InputError
     from crumple.report import ReportInput, write_report
     from crumple.result import write
 
     fidelity, threads, restart = how
     is_shell = fidelity is Fidelity.SHELL
-    folder.mkdir(parents=True, exist_ok=True)
     with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
-        result = solve(
-            analysis,
-            fidelity=fidelity.value,
-            threads=threads or (available_threads() if is_shell else 1),
-            progress=progress,
-            cancel=cancel,
-            long_run=long_run_of(folder, restart, progress) if is_shell else None,
-        )
-    write(result, folder)
+        try:
+            result = solve(
+                analysis,
+                fidelity=fidelity.value,
+                threads=threads or (available_threads() if is_shell else 1),
+                progress=progress,
+                cancel=cancel,
+                long_run=long_run_of(folder, restart, progress) if is_shell else None,
+            )
+        except InputError as error:
+            raise with_lines(error, file, analysis.structure) from None
     source = ReportInput(
         title=analysis.title,
         text=file.read_text(encoding="utf-8-sig"),
@@ -102,7 +109,9 @@ def _solve(
         residual_bound=(analysis.shell if is_shell else analysis.multibody).energy_residual_bound,
         accuracy=None if is_shell else analysis.multibody.accuracy,
     )
-    write_report(result, source, folder)
+    with results_errors(folder):
+        write(result, folder)
+        write_report(result, source, folder)
     return result
 
 

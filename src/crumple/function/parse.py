@@ -16,6 +16,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from numbers import Real
 from typing import Any, ClassVar
 
 from crumple.errors import InputError, Problem
@@ -148,7 +149,7 @@ class _Reader:
     def number(self, value: object, unit: str, where: str) -> float:
         """SI value; NaN where a problem was noted."""
         with self._placed(where):
-            if isinstance(value, (int, float)) and not isinstance(value, bool):
+            if isinstance(value, Real) and not isinstance(value, bool):
                 if (self.plain_numbers or unit == "1" or value == 0) and math.isfinite(value):
                     return float(value)
                 return parse_quantity(str(value), unit)

@@ -13,6 +13,7 @@ import numpy as np
 from crumple.hinge.capacity import PeakMoment, Regime
 from crumple.hinge.law import Validity
 from crumple.hinge.mechanism import FoldMechanism
+from crumple.hinge.rate import rate_warnings
 from crumple.material import Material
 from crumple.section import Axis, RectangularTube
 
@@ -82,8 +83,4 @@ def _other_warnings(section: RectangularTube, material: Material, peak: PeakMome
         )
     if section.corner_radius > 0.0:
         warnings.append("rounded corners enter the plastic moment alone: the mechanism folds sharp corners")
-    if material.yield_rate is not None and material.flow_rate is None:
-        warnings.append(
-            "a rate law at yield alone overstates the effect in a fold and is not used: give one at flow"
-        )
-    return warnings
+    return [*warnings, *rate_warnings(material)]

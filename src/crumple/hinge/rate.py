@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from crumple.errors import InputError, Problem
-from crumple.material import CowperSymonds, RateLaw
+from crumple.material import CowperSymonds, Material, RateLaw
 
 FOLDS_PER_HINGE = 3.0
 """Folds that share the rotation; more would lower the strain rate in proportion."""
@@ -74,3 +74,10 @@ def rate_factor(rate: HingeRate | None, rotation_rate: ArrayLike) -> NDArray[np.
     if rate is None:
         return np.ones_like(rotation_rate)
     return np.asarray(1.0 + (rotation_rate / rate.reference) ** (1.0 / rate.exponent), np.float64)
+
+
+def rate_warnings(material: Material) -> tuple[str, ...]:
+    """What to say of a material whose rate law holds at yield alone, where folds do not work."""
+    if material.yield_rate is None or material.flow_rate is not None:
+        return ()
+    return ("a rate law at yield alone overstates the effect in a fold and is not used: give one at flow",)

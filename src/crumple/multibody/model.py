@@ -8,7 +8,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crumple._core.tree import JointKind, TreeBody, TreeDrive, TreeHinge, TreeLoad, TreeModel, TreeWeld
+from crumple._core.tree import (
+    JointKind,
+    TreeBody,
+    TreeDrive,
+    TreeHinge,
+    TreeHold,
+    TreeLoad,
+    TreeModel,
+    TreeWeld,
+)
 from crumple.errors import InputError, Problem
 from crumple.function import TimeFunction
 from crumple.hinge import Envelope, Form, HingeRecord, SofteningVariable, Stop
@@ -76,6 +85,7 @@ def tree_model(structure: Structure, mechanism: Mechanism, duration: float) -> T
         hinges=tuple(hinges),
         loads=tuple(_loads(structure, mechanism, duration)),
         drives=tuple(_drives(structure, mechanism, duration)),
+        holds=tuple(_holds(structure, mechanism)),
         welds=tuple(_welds(mechanism)),
         gravity=_pair(plane.flat(np.asarray(structure.gravity, float))),
         length=max(structure.frame_of(name).length for name in structure.members),
@@ -203,7 +213,7 @@ def _loads(structure: Structure, mechanism: Mechanism, duration: float) -> Itera
 
 
 def _drives(structure: Structure, mechanism: Mechanism, duration: float) -> Iterator[TreeDrive]:
-    """Driven freedoms, and held ones that neither clamp nor pin their node."""
+    """Driven freedoms of supports."""
     plane = mechanism.plane
     for name, support in structure.supports.items():
         body = mechanism.node_body[support.node]
@@ -226,16 +236,21 @@ def _drives(structure: Structure, mechanism: Mechanism, duration: float) -> Iter
                 )
             times, values, rates = _sampled_motion(function, duration)
             yield TreeDrive(body, point, row, times, values, rates=rates)
-        held = plane.held(structure, support.node)
-        if held.pinned and support.node in mechanism.pin_joints:
+
+
+def _holds(structure: Structure, mechanism: Mechanism) -> Iterator[TreeHold]:
+    """Held freedoms of nodes that no clamp and no pin joint holds already."""
+    plane = mechanism.plane
+    for support in structure.supports.values():
+        body = mechanism.node_body[support.node]
+        if body == GROUND or support.node in mechanism.pin_joints:
             continue
         for freedom in support.held:
             row = plane.row(freedom)
-            if any(row):
-                size = math.hypot(*row)
+            size = math.hypot(*row)
+            if size > 0.0:
                 unit = (row[0] / size, row[1] / size, row[2] / size)
-                still = np.zeros(1)
-                yield TreeDrive(body, point, unit, still, still, rates=still)
+                yield TreeHold(body, _point(structure, mechanism, support.node), unit)
 
 
 def _welds(mechanism: Mechanism) -> Iterator[TreeWeld]:

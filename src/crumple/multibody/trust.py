@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from crumple._core.tree import TreeRecord
 from crumple.hinge import Form, SofteningVariable, tributary_stiffness
 from crumple.multibody.mechanism import Mechanism
@@ -17,6 +19,10 @@ ELASTIC_SHARE = 0.05
 """Share of elastic energy above which rigid bars are worth a warning: as large as the laws' own scatter."""
 ERROR_SHARE = 0.01
 """Estimated error of a rotation over the largest rotation above which an engineer must know."""
+SMALL_ERROR = 1e-5
+"""Estimated error [rad] that matters to nobody, however small the rotations are."""
+OFF_AXIS = 0.5
+"""Angle [deg] between a hinge's axis and the plane's normal above which the bending across it counts."""
 MOST_NAMES = 6
 """Hinges that a warning names one by one."""
 SOFTENING = {
@@ -69,9 +75,10 @@ def warnings(
     largest = max((summary.rotation_max for summary in hinges.values()), default=0.0)
     by_text: dict[str, list[str]] = {}
     for hinge in placed:
-        for text in _of_hinge(hinge, hinges[hinge.name], largest):
+        for text in _of_hinge(structure, hinge, hinges[hinge.name]):
             by_text.setdefault(text, []).append(hinge.name)
     found += [f"{_named(names)}: {text}" for text, names in by_text.items()]
+    found += _inaccurate(hinges, largest)
     found += [
         f"Material {name}: {spec.statement}" for name, spec in structure.materials.items() if spec.statement
     ]
@@ -96,7 +103,7 @@ def warnings(
     return tuple(found)
 
 
-def _of_hinge(hinge: PlacedHinge, summary: HingeSummary, largest: float) -> list[str]:
+def _of_hinge(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -> list[str]:
     """Sentences about one hinge; those that many hinges share read the same."""
     law, found = hinge.law, list(hinge.law.validity.warnings)
     turned = f"turned by {math.degrees(summary.rotation_max):.1f} deg"
@@ -106,10 +113,27 @@ def _of_hinge(hinge: PlacedHinge, summary: HingeSummary, largest: float) -> list
     elif summary.rotation_max > law.validity.rotation_max:
         backed = math.degrees(law.validity.rotation_max)
         found.append(f"{turned}; its law is backed up to {backed:.1f} deg only ({law.validity.basis})")
-    if summary.rotation_error is not None and summary.rotation_error > ERROR_SHARE * largest:
-        error = math.degrees(summary.rotation_error)
-        found.append(f"its rotation errs by about {error:.2g} deg; ask for a tighter accuracy")
+    normal = structure.bending_normal
+    if normal is not None:
+        off = math.degrees(math.acos(min(1.0, abs(float(hinge.direction @ np.asarray(normal))))))
+        if off > OFF_AXIS:
+            found.append(
+                f"turns about the section's {hinge.axis} axis, {off:.3g} deg off the normal of the plane of "
+                "bending; what bends it across is carried rigidly: set up, roll or axis of the member"
+            )
     return found
+
+
+def _inaccurate(hinges: dict[str, HingeSummary], largest: float) -> list[str]:
+    """One sentence for all rotations whose estimated error matters."""
+    errors = [summary.rotation_error or 0.0 for summary in hinges.values()]
+    worst, number = max(errors, default=0.0), sum(error > ERROR_SHARE * largest for error in errors)
+    if worst <= max(ERROR_SHARE * largest, SMALL_ERROR):
+        return []
+    return [
+        f"The rotations of {number} of {len(errors)} hinges err by up to {math.degrees(worst):.2g} deg "
+        "(estimated): ask for a tighter accuracy."
+    ]
 
 
 def _named(names: list[str]) -> str:
@@ -128,9 +152,8 @@ def _elastic_limit(structure: Structure, hinge: PlacedHinge, summary: HingeSumma
     """Energy [J] that the elastic part left out by a rigid hinge could store, at its capacity."""
     if hinge.record.form is Form.ELASTIC_PLASTIC:
         return 0.0
-    section, material = structure.section_of(hinge.member), structure.material_of(hinge.member)
     stiffness = tributary_stiffness(
-        material.youngs_modulus * section.second_moment(hinge.axis), hinge.tributary_length
+        structure.flexural_rigidity(hinge.member, hinge.axis), hinge.tributary_length
     )
     capacity = max(float(hinge.record.positive.moment.max()), float(hinge.record.negative.moment.max()))
     return min(summary.moment_max, capacity) ** 2 / (2.0 * stiffness)

@@ -6,53 +6,24 @@ of sides, so that a row of nodes runs along its middle, where a folding flange h
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from crumple.section import Section
+from crumple.section.walled import WalledSection
+from crumple.shell.profile import SHORTEST_BEND, Contour, Floats, Integers, number_of_sides
+from crumple.shell.walls import walled_contour
 
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
+__all__ = ["Contour", "Floats", "Integers", "contour_of", "outline_points"]
 
 SHARP_TURN = np.radians(25.0)
 """Turn between two chords from which a corner is a corner; arcs of outlines turn by 11.25 degrees a chord."""
 UNEQUAL_CHORDS = 1.5
 """Ratio of neighbouring chords from which one is a wall and the other part of a bend."""
-SHORTEST_BEND = 0.3
-"""Length of a bend over the element size below which it is drawn as a sharp corner: a shorter side would cost
-more than three times the time steps, and a bend that small has next to no length to fold in."""
-ONE_SIDE = 1.2
-"""Length of a wall over the element size up to which it is one side, not two."""
 LEAST_AROUND_CIRCLE = 8
 """Sides around a closed curve, at least: fewer are no longer round."""
-
-
-@dataclass(frozen=True, eq=False)
-class Contour:
-    """A section as the mesh takes it.
-
-    Attributes
-    ----------
-    points
-        (y, z) [m] on the mid-lines, (n, 2).
-    sides
-        Pairs of points that a wall joins, (k, 2); around a closed section counter-clockwise.
-    thickness
-        Of every side [m], (k,).
-    """
-
-    points: Floats
-    sides: Integers
-    thickness: Floats
-
-    @property
-    def area(self) -> float:
-        """Area of the metal [m^2]."""
-        ends = self.points[self.sides]
-        return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) @ self.thickness)
 
 
 def contour_of(section: Section, size: float) -> Contour:
@@ -61,10 +32,17 @@ def contour_of(section: Section, size: float) -> Contour:
     Parameters
     ----------
     section
-        Closed, of one thickness.
+        A tube, or walls of one metal without spot welds.
     size
         Wished length of a side [m].
+
+    Raises
+    ------
+    InputError
+        If the section has spot welds or walls of other metals.
     """
+    if isinstance(section, WalledSection):
+        return walled_contour(section, size)
     points = outline_points(section, size)
     numbers = np.arange(len(points))
     sides = np.column_stack([numbers, np.roll(numbers, -1)])
@@ -131,12 +109,7 @@ def _without_small_bends(paths: list[Floats], size: float) -> list[Floats]:
 
 def _number(path: Floats, size: float) -> int:
     """Sides of one wall or bend."""
-    length = float(_along(path)[-1])
-    if len(path) > 2:
-        return max(1, round(length / size))
-    if length < ONE_SIDE * size:
-        return 1
-    return 2 * max(1, round(length / (2.0 * size)))
+    return number_of_sides(float(_along(path)[-1]), size, bend=len(path) > 2)
 
 
 def _along(path: Floats) -> Floats:

@@ -40,7 +40,8 @@ from crumple.structure.section import (
     RectangularTubeSpec,
     SquareTubeSpec,
 )
-from crumple.structure.settings import FinePlace, MultibodySettings, ShellSettings
+from crumple.structure.settings import MultibodySettings
+from crumple.structure.shell_settings import FinePlace, ShellSettings
 from crumple.structure.structure import Structure
 from crumple.structure.walls import WallSectionSpec, WallSpec, WeldSpec
 

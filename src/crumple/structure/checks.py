@@ -17,7 +17,7 @@ from crumple.structure.hinge_checks import inertia_problems, place_problems
 from crumple.structure.law import LAW_SPECS, LawReference
 from crumple.structure.outputs import Outputs
 from crumple.structure.problems import one_of, outside, shown, suggestion
-from crumple.structure.settings import ShellSettings
+from crumple.structure.shell_settings import ShellSettings
 from crumple.structure.structure import Structure
 
 COINCIDENT = 1e-6

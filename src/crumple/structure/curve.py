@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Mapping
+from numbers import Integral, Real
 from pathlib import Path
 from typing import Any
 
@@ -65,12 +66,17 @@ def with_units(given: dict[str, Any]) -> dict[str, Any]:
         for column in (name, f"negative_{name}"):
             values = given.get(column)
             if isinstance(values, list | tuple):
-                changed[column] = [f"{v!r} {unit}" if _is_number(v) else v for v in values]
+                changed[column] = [f"{_digits(v)} {unit}" if _is_number(v) else v for v in values]
     return changed
 
 
 def _is_number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
+    return isinstance(value, Real) and not isinstance(value, bool)
+
+
+def _digits(value: Any) -> str:
+    """Every digit of a number; NumPy's scalars write their type too."""
+    return str(value) if isinstance(value, Integral) else repr(float(value))
 
 
 def with_law_read(given: dict[str, Any], directory: Path) -> dict[str, Any]:

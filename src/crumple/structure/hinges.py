@@ -26,6 +26,8 @@ from crumple.structure.structure import Structure
 
 DEFAULT_LAW = {"rectangular_tube": "kecman"}
 """Law type of a hinge that names none, by kind of section."""
+NEARER = np.sqrt(0.5)
+"""Cosine of 45 degrees: of two axes across a member the nearer one is within it."""
 SAME_DIRECTION = 1e-9
 """Component of a unit vector below which it does not point along an axis."""
 
@@ -236,9 +238,7 @@ class _Laws:
     def of(self, place: HingePlace, tributary_length: float) -> tuple[HingeLaw, HingeRecord]:
         """Law and record of a hinge that stands for a length of its member [m]."""
         member, spec = self._structure.members[place.member], law_spec(self._structure, place)
-        section = self._structure.section_of(place.member)
-        modulus = self._structure.material_of(place.member).youngs_modulus
-        rigidity = modulus * section.second_moment(place.axis)
+        rigidity = self._structure.flexural_rigidity(place.member, place.axis)
         key = (member.section, member.material, place.axis, spec)
         if key not in self._made:
             law = law_of(self._structure, place)
@@ -261,11 +261,22 @@ def _placed(structure: Structure, place: HingePlace, share: float, laws: _Laws) 
         station=place.station,
         axis=place.axis,
         position=frame.position(place.station),
-        direction=frame.axis(place.axis),
+        direction=_direction(structure, place),
         tributary_length=share,
         law=law,
         record=record,
     )
+
+
+def _direction(structure: Structure, place: HingePlace) -> Floats:
+    """Axis of a hinge at the start; a round section has none of its own and takes the plane of bending's."""
+    axis = structure.frame_of(place.member).axis(place.axis)
+    normal = structure.bending_normal
+    if normal is None or structure.section_of(place.member).kind != "circular_tube":
+        return axis
+    along = float(np.asarray(normal) @ axis)
+    # the given axis still says about which of the two it turns, and in which sense
+    return np.sign(along) * np.asarray(normal) if abs(along) > NEARER else axis
 
 
 def _record(law: HingeLaw, spec: LawKeys, rigidity: float, tributary_length: float) -> HingeRecord:

@@ -7,6 +7,7 @@ that the formula takes.
 from __future__ import annotations
 
 import math
+from numbers import Integral
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -255,7 +256,7 @@ LAW_SPECS: dict[str, type[LawKeys]] = {
 
 
 def _reference_tag(given: Any) -> str:
-    return "(name)" if isinstance(given, str | int) else type_tag(given)
+    return "(name)" if isinstance(given, str | Integral) else type_tag(given)
 
 
 LawReference = Annotated[

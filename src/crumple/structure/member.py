@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from numbers import Integral
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema, field_validator
@@ -61,10 +62,15 @@ class Hinge(Spec):
     rectangular tubes)."""
 
 
+def _plain(given: Any) -> Any:
+    """An integer of NumPy as a plain one."""
+    return int(given) if isinstance(given, Integral) and not isinstance(given, bool) else given
+
+
 class Bars(Spec):
     """Division of a member into equal rigid bars, with a hinge between neighbours."""
 
-    number: Annotated[int, Field(ge=1, le=MOST_BARS, strict=True)] = 1
+    number: Annotated[int, Field(ge=1, le=MOST_BARS, strict=True), BeforeValidator(_plain)] = 1
     """How many bars; the hinge after bar i is named MEMBER-i."""
     axis: BendingAxis | None = None
     """Section axis of these hinges' moment vector; without it the one across the plane of bending."""
@@ -73,7 +79,7 @@ class Bars(Spec):
 
 
 def _number_of_bars(given: Any) -> Any:
-    return {"number": given} if isinstance(given, int) and not isinstance(given, bool) else given
+    return {"number": given} if isinstance(given, Integral) and not isinstance(given, bool) else given
 
 
 class Member(Spec):

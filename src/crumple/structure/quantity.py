@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from numbers import Real
 from typing import Annotated, Any, Literal
 
 from pydantic import GetJsonSchemaHandler, ValidationInfo
@@ -99,7 +100,8 @@ class Dimension:
                 problem = error.problems[0]
                 todo = f"write {self.noun} with its unit, for example {self.example}"
                 refuse(problem.what, allowed=problem.allowed, todo=todo)
-        if isinstance(given, bool) or not isinstance(given, int | float):
+        # Real: the scalars of NumPy are numbers too
+        if isinstance(given, bool) or not isinstance(given, Real):
             refuse(f"{self.noun} is needed here", allowed=self.allowed())
         try:
             value = float(given)

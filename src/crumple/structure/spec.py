@@ -8,6 +8,7 @@ without a unit is refused.  Either way a refusal is one `InputError` that holds 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from numbers import Integral
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn, Self, TypeVar, cast
 
 from pydantic import (
@@ -81,7 +82,7 @@ def type_tag(given: Any) -> str:
 
 def _text_of_number(value: Any) -> Any:
     """Names may be numbers in a file: node 12 is the node named "12"."""
-    return str(value) if isinstance(value, int) and not isinstance(value, bool) else value
+    return str(value) if isinstance(value, Integral) and not isinstance(value, bool) else value
 
 
 def _name(value: Any) -> Any:

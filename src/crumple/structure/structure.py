@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from functools import cached_property
 
 from pydantic import ValidationInfo, model_validator
 
 from crumple.material import Material
-from crumple.section import Section
+from crumple.section import Axis, Section
 from crumple.structure.bending import bending_normal
 from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.law import LawSpec
@@ -67,6 +68,16 @@ class Structure(Spec):
         """Material of a member."""
         name = self.members[member].material
         return self.materials[name].material(name)
+
+    def flexural_rigidity(self, member: str, axis: Axis) -> float:
+        """Bending stiffness E I of a member about a section axis [N m^2], walls of other metals by theirs."""
+        section, material = self.section_of(member), self.material_of(member)
+        if any(wall.material is not None for wall in getattr(section, "walls", ())):
+            from crumple.section import walls_of  # noqa: PLC0415  (tubes need none of it)
+
+            angle = 0.0 if axis == "y" else math.pi / 2.0
+            return material.youngs_modulus * walls_of(section).transformed(material).second_moment(angle)
+        return material.youngs_modulus * section.second_moment(axis)
 
     def has_line(self, member: str) -> bool:
         """Whether a member's nodes exist and its axes are defined; always so in a sound structure."""

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from crumple.analysis import Analysis, check, input_hash, load, loads
-from crumple.errors import InputError
+from crumple.analysis import Analysis, check, input_hash, load, loads, with_lines
+from crumple.errors import InputError, Problem
 
 EXAMPLE = Path("examples/01_tube_bending.yaml")
 
@@ -135,3 +135,75 @@ def test_more_problems_than_anyone_mends_at_once_are_counted(text):
     problems = refused(text.replace("nodes:\n", "nodes:\n" + nodes, 1))
     assert len(problems) == 101
     assert problems[-1].what == "and 100 more problems"
+
+
+def test_what_the_solver_refuses_is_found_by_check_with_its_line(text, tmp_path):
+    hinges = text.index("    hinges:")
+    held = text[:hinges] + text[text.index("\nsupports:") :]
+    turned = text.replace(
+        "law: kecman}", "law: kecman}\n      - {name: second, at: 500 mm, law: kecman, axis: z}"
+    )
+    for name, content, where, what in (
+        ("held.yaml", held, "members", "nothing can move"),
+        ("turned.yaml", turned, "members.tube.hinges", "different axes"),
+    ):
+        file = tmp_path / name
+        file.write_text(content)
+        [problem] = check(file)
+        assert what in problem.what
+        assert problem.where.startswith(where)
+        key = where.rpartition(".")[2]
+        assert content.splitlines()[problem.line - 1].strip().startswith(key)
+        assert problem.file == str(file)
+
+
+def test_a_hinge_that_the_solver_names_is_found_in_its_member(text, tmp_path):
+    file = tmp_path / "a.yaml"
+    file.write_text(text)
+    refusal = InputError([Problem("idle", where="hinges.root"), Problem("idle", where="hinges.of a support")])
+    problems = with_lines(refusal, file, loads(text).structure).problems
+    assert {problem.where for problem in problems} == {"members", "members.tube.hinges[0]"}
+    assert "name: root" in text.splitlines()[max(problem.line for problem in problems) - 1]
+
+
+def test_too_many_samples_are_refused_with_the_number_and_what_to_write(text):
+    [problem] = refused(text.replace("every: 0.5 ms", "every: 3 ns"))
+    assert problem.where == "outputs.every"
+    assert "3.33e+07 samples" in problem.what
+    shortest = problem.todo.split("at least ")[1].split(",")[0]
+    assert loads(text.replace("every: 0.5 ms", f"every: {shortest}")).output_interval == 1e-7
+    for duration in ("3.3333 s", "99.99 ms", "1.01 ms"):
+        short = text.replace("duration: 100 ms", f"duration: {duration}")
+        short = short[: short.index("  pictures:")]
+        [problem] = refused(short.replace("every: 0.5 ms", "every: 1 ns"))
+        shortest = problem.todo.split("at least ")[1].split(",")[0]
+        assert loads(short.replace("every: 0.5 ms", f"every: {shortest}"))
+
+
+def test_pictures_after_the_end_are_refused(text):
+    [problem] = refused(text.replace("duration: 100 ms", "duration: 99 ms"))
+    assert problem.where == "outputs.pictures[5]"
+    assert "after the end" in problem.what
+    analysis = loads(text)
+    with pytest.raises(InputError, match="after the end"):
+        analysis.model_copy(update={"duration": 0.099})
+
+
+@pytest.mark.parametrize("title", ["\\e[31mred", "bell \\a", "two\\nlines", "\\u202e", "\\x9b31m"])
+def test_a_title_is_one_line_of_printable_text(text, title):
+    lines = text.splitlines()
+    at = next(i for i, line in enumerate(lines) if line.startswith("title:"))
+    [problem] = refused("\n".join([*lines[:at], f'title: "{title}"', *lines[at + 1 :]]))
+    assert (problem.where, problem.line) == ("title", at + 1)
+    assert "\x1b" not in str(problem)
+
+
+def test_a_title_may_be_in_any_language(text):
+    assert loads(text.replace("title: ", "title: Träger 梁 – ", 1)).title.startswith("Träger 梁 –")
+
+
+@pytest.mark.parametrize("name", ["\\e[31m", "a\\u202e", "a b"])
+def test_a_name_has_no_control_characters(text, name):
+    problems = refused(text.replace("  payload: {", f'  "{name}": {{', 1))
+    assert any("not a name" in problem.what for problem in problems)
+    assert not any("\x1b" in str(problem) or "\u202e" in str(problem) for problem in problems)

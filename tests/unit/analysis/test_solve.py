@@ -55,7 +55,9 @@ def test_progress_is_told_and_a_cancelled_run_keeps_what_it_has():
     assert result.status is Status.COMPLETE
     assert told == sorted(told)
     assert 0.0 <= told[0] <= told[-1] <= 1.0
-    assert solve(loads(TEXT), cancel=lambda: True).status is Status.CANCELLED
+    cancelled = solve(loads(TEXT), cancel=lambda: True)
+    assert cancelled.status is Status.CANCELLED
+    assert cancelled.reason == "asked to stop; the last output is at 0 s of 100 ms"
 
 
 def test_a_filtered_channel_is_that_of_the_equally_spaced_samples():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import errno
 import json
 import os
 import signal
@@ -231,3 +232,59 @@ def test_run_imports_nothing_slow(tmp_path: Path) -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
     assert done.stdout.splitlines()[-1] == "[]"
+
+
+def test_a_results_folder_that_cannot_be_used_is_refused_by_its_own_name(run_command, tmp_path: Path) -> None:
+    file = tmp_path / "file"
+    file.write_text("mine")
+    for place in (file, file / "deeper"):
+        code, out, err = run_command("run", EXAMPLE, "--out", place)
+        assert (code, out) == (2, "")
+        assert f"cannot be written to {place}: a file of this name, or above it, is in the way" in err
+    assert file.read_text() == "mine"
+    for nothing in ("", "  "):
+        code, _, err = run_command("run", EXAMPLE, "--out", nothing)
+        assert code == 2
+        assert "the name of the results' folder is empty" in err
+
+
+@pytest.mark.parametrize("name", ["summary.json", "histories.csv", "result.vtkhdf", "report.html", "figures"])
+def test_what_is_in_the_way_of_a_result_is_found_before_the_run(
+    run_command, tmp_path: Path, monkeypatch, name: str
+) -> None:
+    import crumple.analysis
+
+    monkeypatch.setattr(crumple.analysis, "solve", None)
+    if name == "figures":
+        (tmp_path / name).write_text("mine")
+    else:
+        (tmp_path / name).mkdir()
+    code, _, err = run_command("run", EXAMPLE, "--out", tmp_path)
+    assert code == 2
+    assert f"{tmp_path / name} is in the way" in err
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+
+
+def test_a_full_disk_is_told_without_private_names(run_command, tmp_path: Path, monkeypatch) -> None:
+    import crumple.result
+
+    def full(result, folder):
+        raise OSError(errno.ENOSPC, "Can't write data", str(folder / ".histories.csv.private"))
+
+    monkeypatch.setattr(crumple.result, "write", full)
+    code, _, err = run_command("run", EXAMPLE, "--out", tmp_path)
+    assert code == 2
+    assert f"cannot be written to {tmp_path}: {os.strerror(errno.ENOSPC)}" in err
+    assert "private" not in err
+
+
+def test_a_place_where_no_folder_can_be_made_is_told(run_command) -> None:
+    code, _, err = run_command("run", EXAMPLE, "--out", "/proc/results")
+    assert code == 2
+    assert "cannot be written to /proc/results: No such file or directory" in err
+
+
+def test_help_tells_every_exit_code(run_command) -> None:
+    _, out, _ = run_command("--help")
+    told = " ".join(out.split())
+    assert all(text in told for text in ("0 done", "1 a run", "2 the input, or the folder", "130 ended by"))

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from crumple.errors import InputError
-from crumple.hinge import HingeRate, KecmanLaw
+from crumple.hinge import ConstantLaw, HingeRate, KecmanLaw, TabulatedLaw
 from crumple.hinge.rate import hinge_rate, rate_factor
 from crumple.material import CowperSymonds, Material
 from crumple.section import RectangularTube
@@ -34,6 +34,21 @@ def test_a_fold_takes_the_flow_pair_and_says_so_when_it_is_missing():
     without = KecmanLaw.of(TUBE, steel(yield_rate=yielding))
     assert without.rate is None
     assert any("rate law at yield" in warning for warning in without.validity.warnings)
+
+
+def test_given_moments_and_slow_tests_warn_of_a_rate_at_yield_alone_too():
+    yielding, curve = CowperSymonds(40.4, 5.0), {"rotation": (0.0, 1.0), "moment": (900.0, 500.0)}
+
+    def warned(law):
+        return any("rate law at yield" in warning for warning in law.validity.warnings)
+
+    metal = steel(yield_rate=yielding)
+    assert warned(ConstantLaw.of(TUBE, metal))
+    assert warned(ConstantLaw.of(TUBE, metal, moment=1000.0))
+    assert warned(TabulatedLaw.of(TUBE, metal, **curve))
+    # a fast test holds its rate effect already
+    assert not warned(TabulatedLaw.of(TUBE, metal, **curve, static=False))
+    assert not warned(ConstantLaw.of(TUBE, steel(), moment=1000.0))
 
 
 @pytest.mark.parametrize(

@@ -63,12 +63,13 @@ def test_loads_on_the_ground_and_across_the_plane_are_left_out():
     assert turning.direction == pytest.approx((1.0, 0.0, 0.0))
 
 
-def test_roller_and_motion_become_drives():
+def test_a_roller_is_held_and_a_motion_driven():
     supports = CLAMP | {"roller": {"node": "b", "fix": ["x"], "motion": {"z": {"constant": 0.0}}}}
     model = modelled(structure(supports=supports, members={"bar": member("a", "b", ("h", 0.1), ("k", 0.5))}))
-    assert len(model.drives) == 2
-    assert all(not drive.rates.any() for drive in model.drives)
-    np.testing.assert_allclose([np.hypot(*d.direction[1:]) for d in model.drives], 1.0)
+    (drive,), (hold,) = model.drives, model.holds
+    assert not drive.rates.any()
+    np.testing.assert_allclose(np.abs(drive.direction), (0.0, 1.0, 0.0), atol=1e-12)
+    np.testing.assert_allclose(np.abs(hold.direction), (0.0, 0.0, 1.0), atol=1e-12)
 
 
 def test_driven_rates_add_up_to_the_motion():

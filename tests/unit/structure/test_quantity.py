@@ -1,5 +1,6 @@
 """Quantities: SI floats inside, units at the door, bounds with a reason."""
 
+import numpy as np
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
@@ -55,3 +56,13 @@ def test_words_stand_in_for_numbers_only_where_allowed():
 def test_plain_numbers_are_not_texts():
     with pytest.raises(ValidationError, match="not a text"):
         accepted(quantity.Number, "0.3")
+
+
+@pytest.mark.parametrize("kind", [np.int32, np.int64, np.float32, np.float64])
+def test_numbers_of_numpy_are_numbers(kind):
+    value = accepted(quantity.Length, kind(2))
+    assert (type(value), value) == (float, 2.0)
+    with pytest.raises(ValidationError, match="the unit is missing"):
+        accepted(quantity.Length, kind(2), context=FILE)
+    with pytest.raises(ValidationError):
+        accepted(quantity.Length, np.bool_(True))

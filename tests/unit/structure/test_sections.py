@@ -124,6 +124,33 @@ def test_metals_of_walls_are_those_of_the_structure(keys):
     assert stronger.section_of("arm").walls[1].material.yield_stress == 700e6
 
 
+def test_a_hinge_knows_the_metals_of_the_walls(keys):
+    # a box bent about y with none, either or all of its walls of a soft metal; first and third are its webs
+    soft = Material("soft", 70e9, 0.3, 2700.0, 200e6)
+    sheets = [
+        {"points": [[0, 0], [0, 0.05]], "thickness": 0.002, "material": soft},
+        {"points": [[0, 0.05], [0.03, 0.05]], "thickness": 0.002},
+        {"points": [[0.03, 0.05], [0.03, 0]], "thickness": 0.002},
+        {"points": [[0.03, 0], [0, 0]], "thickness": 0.002},
+    ]
+    structures = []
+    for metals in ((soft, None, None, None), (None, None, soft, None), (soft,) * 4, (None,) * 4):
+        walls = [{**sheet, "material": metal} for sheet, metal in zip(sheets, metals, strict=True)]
+        keys["sections"]["tube"] = {"type": "walls", "walls": walls}
+        keys["members"]["arm"]["hinges"][0] |= {"law": "constant", "axis": "y"}
+        structures.append(Structure(**keys))
+    moments = [placed_hinges(one)[0].record.positive.moment[0] for one in structures]
+    rigidities = [one.flexural_rigidity("arm", "y") for one in structures]
+    assert moments[0] == pytest.approx(moments[1])
+    assert moments[2] / moments[3] == pytest.approx(200.0 / 488.0)
+    assert rigidities[2] / rigidities[3] == pytest.approx(70.0 / 210.0)
+    # one web of the box of 30 x 50 mm mid-lines, within what its mitred corners add
+    web = 0.002 * 0.05**2 / 4.0
+    assert moments[3] - moments[0] == pytest.approx(web * (488e6 - 200e6), rel=0.05)
+    web = 0.002 * 0.05**3 / 12.0
+    assert rigidities[3] - rigidities[0] == pytest.approx(web * (210e9 - 70e9), rel=0.05)
+
+
 def test_metals_in_place_come_back_from_python():
     for meant in (
         section.ClosedHat(0.06, 0.05, 0.0015, 0.02, plate_material=STRONG),

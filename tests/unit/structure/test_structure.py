@@ -2,13 +2,14 @@
 
 import pickle
 
+import numpy as np
 import pytest
 from pydantic import ValidationError
 
 from crumple.errors import InputError
 from crumple.material import CowperSymonds, Material
 from crumple.section import CircularTube, RectangularTube
-from crumple.structure import FrozenMapping, Hinge, Member, Structure, Support
+from crumple.structure import FrozenMapping, Hinge, Member, MultibodySettings, Structure, Support
 
 
 def test_quantities_with_units_and_plain_si_numbers_are_one(keys):
@@ -110,3 +111,26 @@ def test_names_are_words(name):
 
 def test_numbers_are_names_too():
     assert Member(nodes=(1, "2"), section="s", material="m").nodes == ("1", "2")
+
+
+def test_a_structure_takes_the_numbers_of_numpy(keys):
+    one, two = np.int64(1), np.float32(2.0)
+    keys["nodes"] = {"root": (np.int64(0), 0, 0), "tip": (one, 0, 0)}
+    keys["members"]["arm"]["bars"] = np.int64(3)
+    curve = {"rotation": [np.int64(0), np.float64(0.5)], "moment": [two, two], "units": {"moment": "kN*m"}}
+    keys["members"]["arm"]["hinges"][0]["law"] = {"type": "table", **curve}
+    keys["loads"] = [{"node": "tip", "force": {"z": two}}]
+    structure = Structure(**keys)
+    assert structure.nodes["tip"] == (1.0, 0.0, 0.0)
+    assert structure.members["arm"].bars.number == 3
+    assert structure.members["arm"].hinges[0].law.moment == (2e3, 2e3)
+    assert float(structure.loads[0].force.z(0.0)) == 2.0
+    keys["members"]["arm"]["bars"] = {"number": np.int64(3)}
+    assert Structure(**keys) == structure
+    assert Structure.model_validate_json(structure.model_dump_json()) == structure
+
+
+def test_the_smallest_step_is_below_the_largest():
+    with pytest.raises(InputError, match="the smallest time step is above the largest"):
+        MultibodySettings(minimum_time_step=1e-2)
+    assert MultibodySettings(minimum_time_step=1e-4, maximum_time_step=1e-4).maximum_time_step == 1e-4

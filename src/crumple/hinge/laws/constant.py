@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
-from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
+from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor, rate_warnings
 from crumple.hinge.registry import law_type
 from crumple.hinge.stop import Stop
 from crumple.material import Material
@@ -69,17 +69,19 @@ class ConstantLaw:
         cls, section: Section, material: Material, axis: Axis = "y", *, moment: float | None = None
     ) -> ConstantLaw:
         """Law of a section: the given moment [N m], else the section's plastic moment."""
-        rate = hinge_rate(material.flow_rate)
+        rate, warnings = hinge_rate(material.flow_rate), rate_warnings(material)
         if moment is not None:
-            return replace(cls(moment), rate=rate)
+            given = cls(moment, rate=rate)
+            return replace(given, validity=replace(given.validity, warnings=warnings))
         validity = Validity(
             math.inf,
             "plastic moment of the section, held at every rotation",
-            ("walls that fold lose moment: a constant capacity then overstates the energy absorbed",),
+            (
+                "walls that fold lose moment: a constant capacity then overstates the energy absorbed",
+                *warnings,
+            ),
         )
-        return cls(
-            material.yield_stress * section.plastic_section_modulus(axis), PLASTIC_MOMENT, validity, rate
-        )
+        return cls(_plastic_moment(section, material, axis), PLASTIC_MOMENT, validity, rate)
 
     @property
     def title(self) -> str:
@@ -97,3 +99,12 @@ class ConstantLaw:
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
         """Factor on the capacity at a rotation rate [rad/s]."""
         return rate_factor(self.rate, rotation_rate)
+
+
+def _plastic_moment(section: Section, material: Material, axis: Axis) -> float:
+    """Plastic moment [N m]; walls of metals of their own count with their own yield stress."""
+    if any(wall.material is not None for wall in getattr(section, "walls", ())):
+        from crumple.section import moment_capacity  # noqa: PLC0415  (tubes need none of it)
+
+        return moment_capacity(section, material, axis).plastic_moment
+    return material.yield_stress * section.plastic_section_modulus(axis)

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
-from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
+from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor, rate_warnings
 from crumple.hinge.registry import law_type
 from crumple.hinge.stop import Stop
 from crumple.hinge.table import Curve, plastic_part
@@ -42,6 +42,8 @@ class TabulatedLaw:
         Of the elastic rise [N m/rad], where known.
     scatter
         Relative half-width of the band of several specimens [-], where known.
+    warnings
+        Sentences on the material, for ``validity``.
 
     References
     ----------
@@ -61,6 +63,7 @@ class TabulatedLaw:
     jamming_angle: float | None = None
     stop: Stop | None = None
     scatter: float | None = None
+    warnings: tuple[str, ...] = ()
     validity: Validity = field(init=False)
 
     def __post_init__(self) -> None:
@@ -81,7 +84,7 @@ class TabulatedLaw:
             raise InputError(problems)
         last = min(self._curve(1)[0][-1], self._curve(-1)[0][-1])
         basis = "the table ends there, and its last capacity is held beyond"
-        object.__setattr__(self, "validity", Validity(float(last), basis, (), self.scatter))
+        object.__setattr__(self, "validity", Validity(float(last), basis, self.warnings, self.scatter))
 
     @classmethod
     def of(
@@ -134,8 +137,10 @@ class TabulatedLaw:
                 negative_rotation, negative_moment, _ = plastic_part(
                     negative_rotation, negative_moment, given
                 )
-        rate = hinge_rate(material.flow_rate) if static else None
-        return cls(rotation, moment, negative_rotation, negative_moment, elastic_stiffness, rate)
+        rate, warnings = (hinge_rate(material.flow_rate), rate_warnings(material)) if static else (None, ())
+        return cls(
+            rotation, moment, negative_rotation, negative_moment, elastic_stiffness, rate, warnings=warnings
+        )
 
     @property
     def title(self) -> str:
