@@ -1,6 +1,6 @@
 # Everything a fresh clone needs is Python >= 3.11 with its headers and venv, a C++17 compiler and make.
 #
-#   make demo     run the first example and say where its report is
+#   make demo     solve the first example with both engines, compare, and say where the report is (AXIS=strong)
 #   make test     unit, verification and regression tests
 #   make check    format, lint, types, import contract, sizes
 #   make verify   slow verification too, the native code under sanitizers, and docs/verification.md anew
@@ -13,13 +13,19 @@ PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 pytho
 BIN := $(VENV)/bin
 NATIVE := $(shell find native -type f -name '*.[ch]pp') CMakeLists.txt pyproject.toml
 DEMO := out/demo
+# AXIS=strong turns the section of the tube upright
+TUBE := $(if $(filter strong,$(AXIS)),out/tube_upright.yaml,examples/01_tube_bending.yaml)
 SANITIZED := build/sanitized
 
 .PHONY: demo test check verify bench clean install
 
-demo: $(VENV)/installed
-	$(BIN)/crumple run examples/01_tube_bending.yaml --out $(DEMO)
+demo: $(VENV)/installed $(TUBE)
+	$(BIN)/crumple compare $(TUBE) --out $(DEMO)
 	@echo "Report: $(CURDIR)/$(DEMO)/report.html"
+
+out/tube_upright.yaml: examples/01_tube_bending.yaml
+	@mkdir -p out
+	sed -e 's/roll: 0 deg /roll: 90 deg/' -e 's/weak axis/strong axis/' $< > $@
 
 test: $(VENV)/installed-test
 	$(BIN)/python -m pytest -m "not slow"

@@ -6,9 +6,14 @@ namespace nb = nanobind;
 namespace crumple::multibody {
 void bind(nb::module_& m);
 }
+namespace crumple::shell {
+void bind(nb::module_& m);
+}
 
 NB_MODULE(_kernels, m) {
     m.doc() = "Compiled kernels of Crumple; use them through crumple.multibody and crumple.shell.";
     auto multibody = m.def_submodule("multibody", "Implicit convex stepper for trees of rigid bodies with plastic hinges.");
     crumple::multibody::bind(multibody);
+    auto shell = m.def_submodule("shell", "Explicit stepper for thin shells.");
+    crumple::shell::bind(shell);
 }

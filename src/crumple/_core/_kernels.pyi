@@ -41,3 +41,4 @@ class _Multibody:
         def w(self) -> list[float]: ...
 
 multibody: _Multibody
+shell: Any

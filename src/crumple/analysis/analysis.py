@@ -8,7 +8,14 @@ from typing import Annotated
 from pydantic import AfterValidator, Field, model_validator
 
 from crumple.errors import Problem
-from crumple.structure import MultibodySettings, Outputs, Structure, output_problems
+from crumple.structure import (
+    MultibodySettings,
+    Outputs,
+    ShellSettings,
+    Structure,
+    output_problems,
+    shell_problems,
+)
 from crumple.structure.quantity import PositiveTime
 from crumple.structure.spec import Spec, raise_all, refuse
 from crumple.units import format_quantity
@@ -27,6 +34,8 @@ class Settings(Spec):
     """Time to simulate."""
     multibody: MultibodySettings = MultibodySettings()
     """Settings of the multibody solver."""
+    shell: ShellSettings = ShellSettings()
+    """Settings of the shell solver."""
 
 
 def _printable(title: str) -> str:
@@ -84,8 +93,8 @@ class Analysis(Spec):
         [s].
     title
         One line for people.
-    multibody
-        Settings of the multibody solver.
+    multibody, shell
+        Settings of the solvers.
     outputs
         What is reported.
     """
@@ -94,6 +103,7 @@ class Analysis(Spec):
     duration: PositiveTime
     title: Title = ""
     multibody: MultibodySettings = MultibodySettings()
+    shell: ShellSettings = ShellSettings()
     outputs: Outputs = Outputs()
 
     @model_validator(mode="after")
@@ -102,6 +112,7 @@ class Analysis(Spec):
 
         problems = output_problems(self.outputs, self.structure)
         problems += run_problems(self.outputs, self.duration)
+        problems += shell_problems(self.shell, self.structure)
         interval = self.output_interval
         raise_all(problems or filter_problems(self.structure, self.outputs, self.duration, interval))
         return self

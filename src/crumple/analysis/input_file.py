@@ -14,7 +14,14 @@ from crumple.analysis.filters import filter_problems
 from crumple.analysis.reading import Document, read_file, read_text
 from crumple.analysis.solve import solve
 from crumple.errors import InputError, Problem
-from crumple.structure import Outputs, Structure, hinge_places, output_problems, problems_in
+from crumple.structure import (
+    Outputs,
+    Structure,
+    hinge_places,
+    output_problems,
+    problems_in,
+    shell_problems,
+)
 from crumple.structure.problems import Place, path_of, placed_problems, shown
 
 FORMAT = 1
@@ -133,6 +140,7 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
         cross += output_problems(outputs, structure, defined)
     if whole:
         cross += run_problems(whole.outputs, whole.analysis.duration)
+        cross += shell_problems(whole.analysis.shell, structure, defined)
     if whole and not cross:
         interval = whole.outputs.every or whole.analysis.duration / DEFAULT_INTERVALS
         cross += filter_problems(structure, whole.outputs, whole.analysis.duration, interval)
@@ -147,6 +155,7 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
             "duration": whole.analysis.duration,
             "title": whole.title,
             "multibody": whole.analysis.multibody,
+            "shell": whole.analysis.shell,
             "outputs": whole.outputs,
         }
     )

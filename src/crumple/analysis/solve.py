@@ -15,8 +15,9 @@ from crumple.units import format_quantity
 
 if TYPE_CHECKING:
     from crumple.result import Result
+    from crumple.shell import LongRun
 
-FIDELITIES = ("multibody",)
+FIDELITIES = ("multibody", "shell")
 """Solvers by name."""
 
 
@@ -26,6 +27,8 @@ def solve(
     threads: int = 1,
     progress: Callable[[float], None] | None = None,
     cancel: Callable[[], bool] | None = None,
+    *,
+    long_run: LongRun | None = None,
 ) -> Result:
     """Answer of one solver to an analysis.
 
@@ -34,13 +37,15 @@ def solve(
     analysis
         What to solve; not changed.
     fidelity
-        Which solver: ``multibody``.
+        Which solver: ``multibody`` or ``shell``.
     threads
         Threads to use, at least 1; the answer's bits do not depend on it.
     progress
         Called with the simulated share of the duration, 0 to 1.
     cancel
         Asked now and then; True ends the run with a status and what it has.
+    long_run
+        Restart files and a watcher of the shell solver; the other needs none.
 
     Returns
     -------
@@ -60,18 +65,12 @@ def solve(
         raise InputError(Problem("unknown fidelity", fidelity, allowed, "choose one of these", "fidelity"))
     if threads < 1:
         raise InputError(Problem("no thread to run on", str(threads), "at least 1", "", "threads"))
-    # the solver needs the compiled kernels; reading and checking input does not
-    from crumple.multibody import Run, solve_multibody  # noqa: PLC0415
-
-    run = Run(
-        duration=analysis.duration,
-        every=analysis.output_interval,
-        settings=analysis.multibody,
-        outputs=analysis.outputs,
-        title=analysis.title,
-    )
-    result = with_filters(solve_multibody(analysis.structure, run, progress, cancel), analysis)
-    settings = {**canonical(analysis)["multibody"], **result.provenance.settings}
+    if fidelity == "shell":
+        solved = _shell(analysis, threads, progress, cancel, long_run)
+    else:
+        solved = _multibody(analysis, progress, cancel)
+    result = with_filters(solved, analysis)
+    settings = {**canonical(analysis)[fidelity], **result.provenance.settings}
     provenance = replace(
         result.provenance,
         version=version("crumple"),
@@ -86,3 +85,41 @@ def solve(
             f"asked to stop; the last output is at {reached} of {format_quantity(analysis.duration, 's', 3)}"
         )
     return replace(result, provenance=provenance, reason=reason)
+
+
+# the solvers need the compiled kernels; reading and checking input does not
+
+
+def _multibody(
+    analysis: Analysis, progress: Callable[[float], None] | None, cancel: Callable[[], bool] | None
+) -> Result:
+    from crumple.multibody import Run, solve_multibody  # noqa: PLC0415
+
+    run = Run(
+        duration=analysis.duration,
+        every=analysis.output_interval,
+        settings=analysis.multibody,
+        outputs=analysis.outputs,
+        title=analysis.title,
+    )
+    return solve_multibody(analysis.structure, run, progress, cancel)
+
+
+def _shell(
+    analysis: Analysis,
+    threads: int,
+    progress: Callable[[float], None] | None,
+    cancel: Callable[[], bool] | None,
+    long_run: LongRun | None,
+) -> Result:
+    from crumple.shell import ShellRun, solve_shell  # noqa: PLC0415
+
+    run = ShellRun(
+        duration=analysis.duration,
+        every=analysis.output_interval,
+        settings=analysis.shell,
+        outputs=analysis.outputs,
+        title=analysis.title,
+        threads=threads,
+    )
+    return solve_shell(analysis.structure, run, progress, cancel, long_run)

@@ -12,6 +12,7 @@ import typer
 
 from crumple import __version__
 from crumple.cli.check import check
+from crumple.cli.compare import compare
 from crumple.cli.hinge import hinge
 from crumple.cli.refusal import show_refusal
 from crumple.cli.run import run
@@ -29,7 +30,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,  # rich takes 60 ms to import: a third of what help may take
 )
-for verb in (run, check, schema, hinge, section):
+for verb in (run, compare, check, schema, hinge, section):
     app.command()(verb)
 
 

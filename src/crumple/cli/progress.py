@@ -21,44 +21,68 @@ PATIENCE = 0.4
 """Seconds of silence before the bar: shorter work would only flicker."""
 
 
-@contextmanager
-def progress_bar(title: str) -> Iterator[Callable[[float], None]]:
-    """Give a function to call with the fraction done, 0 to 1."""
-    started = time.monotonic()
-    bar: Progress | None = None
+class Bar:
+    """Call it with the fraction done, 0 to 1."""
 
-    def advance(fraction: float) -> None:
-        nonlocal bar
-        if bar is None:
-            if time.monotonic() - started < PATIENCE or not sys.stderr.isatty():
+    def __init__(self, title: str) -> None:
+        self._title, self._started = title, time.monotonic()
+        self._bar: Progress | None = None
+
+    def __call__(self, fraction: float) -> None:
+        if self._bar is None:
+            if time.monotonic() - self._started < PATIENCE or not sys.stderr.isatty():
                 return
             from rich.console import Console
             from rich.progress import Progress
 
-            bar = Progress(console=Console(stderr=True), transient=True)
-            bar.add_task(title, total=1.0)
-            bar.start()
-        bar.update(bar.task_ids[0], completed=fraction)
+            self._bar = Progress(console=Console(stderr=True), transient=True)
+            self._bar.add_task(self._title, total=1.0)
+            self._bar.start()
+        self._bar.update(self._bar.task_ids[0], completed=fraction)
 
+    @property
+    def drawn(self) -> bool:
+        """Whether there is a bar on the terminal."""
+        return self._bar is not None
+
+    def say(self, text: str) -> None:
+        """Write what is going on beside the bar, once there is one."""
+        if self._bar is not None:
+            self._bar.update(self._bar.task_ids[0], description=text)
+
+    def stop(self) -> None:
+        """Take the bar away."""
+        if self._bar is not None:
+            self._bar.stop()
+
+
+@contextmanager
+def progress_bar(title: str) -> Iterator[Bar]:
+    """Give a bar to call with the fraction done, 0 to 1."""
+    bar = Bar(title)
     try:
-        yield advance
+        yield bar
     finally:
-        if bar is not None:
-            bar.stop()
+        bar.stop()
 
 
 @contextmanager
 def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
-    """Give a function that says whether Ctrl-C was pressed; a second Ctrl-C ends the program."""
+    """Give a function that says whether Ctrl-C or SIGTERM came; a second one ends the program."""
     pressed = threading.Event()
-    previous = signal.getsignal(signal.SIGINT)
+    previous = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+
+    def restore() -> None:
+        for number, handler in previous.items():
+            signal.signal(number, handler)
 
     def note(number: int, frame: FrameType | None) -> None:
         pressed.set()
-        signal.signal(signal.SIGINT, previous)
+        restore()
 
-    signal.signal(signal.SIGINT, note)
+    for number in previous:
+        signal.signal(number, note)
     try:
         yield pressed.is_set
     finally:
-        signal.signal(signal.SIGINT, previous)
+        restore()

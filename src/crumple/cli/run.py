@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 if TYPE_CHECKING:
     from rich.table import Table
 
+    from crumple.analysis import Analysis
     from crumple.result import Result
 
 MOST_HINGES = 20
@@ -21,6 +22,8 @@ class Fidelity(StrEnum):
     """Solvers by name."""
 
     MULTIBODY = "multibody"
+    SHELL = "shell"
+    BOTH = "both"
 
 
 def run(
@@ -33,23 +36,69 @@ def run(
         ),
     ] = None,
     fidelity: Annotated[Fidelity, typer.Option(help="Which solver.")] = Fidelity.MULTIBODY,
+    threads: Annotated[
+        int | None, typer.Option(help="Threads; by default all cores.", min=1, show_default=False)
+    ] = None,
+    restart: Annotated[
+        Path | None,
+        typer.Option(help="Go on from the restart file of an interrupted shell run.", show_default=False),
+    ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print summary.json in place of the table.")
     ] = False,
 ) -> None:
     """Solve an input file and report. Writes summary, histories, shapes, figures and a page to a folder."""
-    from crumple.analysis import canonical, load, solve, with_lines
-    from crumple.cli.folder import results_errors, results_folder
-    from crumple.cli.progress import progress_bar, stop_on_interrupt
-    from crumple.errors import InputError
-    from crumple.report import ReportInput, write_report
-    from crumple.result import summary_json, write
+    from crumple.analysis import load
+    from crumple.cli.folder import results_folder
 
     analysis = load(file)
+    if restart is not None and fidelity is not Fidelity.SHELL:
+        raise typer.BadParameter("only shell runs are long enough to be restarted", param_hint="--restart")
     folder = results_folder(out, file)
+    both = fidelity is Fidelity.BOTH
+    summaries, good = {}, True
+    for one in (Fidelity.MULTIBODY, Fidelity.SHELL) if both else (fidelity,):
+        place = results_folder(folder / one.value, file) if both else folder
+        result = _solve(analysis, file, place, (one, threads, restart))
+        good = good and result.status.ok
+        if as_json:
+            summaries[one.value] = _summary(result)
+        else:
+            _show(result, place)
+            _show_restart(file, place)
+    if as_json:
+        import json
+
+        content = summaries if both else next(iter(summaries.values()))
+        typer.echo(json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False))
+    if not good:
+        raise typer.Exit(1)
+
+
+def _solve(
+    analysis: Analysis, file: Path, folder: Path, how: tuple[Fidelity, int | None, Path | None]
+) -> Result:
+    """Solve with one engine and write its files; `how`: which, threads, restart file."""
+    from crumple.analysis import canonical, solve, with_lines
+    from crumple.cli.folder import results_errors
+    from crumple.cli.progress import progress_bar, stop_on_interrupt
+    from crumple.cli.shell_run import available_threads, long_run_of
+    from crumple.errors import InputError
+    from crumple.report import ReportInput, write_report
+    from crumple.result import write
+
+    fidelity, threads, restart = how
+    is_shell = fidelity is Fidelity.SHELL
     with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
         try:
-            result = solve(analysis, fidelity=fidelity.value, progress=progress, cancel=cancel)
+            result = solve(
+                analysis,
+                fidelity=fidelity.value,
+                threads=threads or (available_threads() if is_shell else 1),
+                progress=progress,
+                cancel=cancel,
+                long_run=long_run_of(folder, restart, progress) if is_shell else None,
+            )
         except InputError as error:
             raise with_lines(error, file, analysis.structure) from None
     source = ReportInput(
@@ -57,18 +106,29 @@ def run(
         text=file.read_text(encoding="utf-8-sig"),
         name=file.name,
         canonical=canonical(analysis),
-        residual_bound=analysis.multibody.energy_residual_bound,
-        accuracy=analysis.multibody.accuracy,
+        residual_bound=(analysis.shell if is_shell else analysis.multibody).energy_residual_bound,
+        accuracy=None if is_shell else analysis.multibody.accuracy,
     )
     with results_errors(folder):
         write(result, folder)
         write_report(result, source, folder)
-    if as_json:
-        typer.echo(summary_json(result), nl=False)
-    else:
-        _show(result, folder)
-    if not result.status.ok:
-        raise typer.Exit(1)
+    return result
+
+
+def _summary(result: Result) -> dict[str, Any]:
+    from crumple.result import summary
+
+    return summary(result)
+
+
+def _show_restart(file: Path, folder: Path) -> None:
+    """Say how to go on with a shell run that was interrupted."""
+    from crumple.cli.shell_run import RESTART
+
+    if (folder / RESTART).exists():
+        typer.echo(
+            f"Go on with: crumple run {file} --fidelity shell --out {folder} --restart {folder / RESTART}"
+        )
 
 
 def _show(result: Result, folder: Path) -> None:

@@ -7,6 +7,7 @@ from crumple.multibody.mechanism import Link, Mechanism, Piece, lower
 from crumple.multibody.model import start_of, tree_hinge, tree_model
 from crumple.multibody.plane import Plane
 from crumple.multibody.solve import Run, solve_multibody
+from crumple.multibody.timing import stepping_seconds
 
 __all__ = [
     "Link",
@@ -17,6 +18,7 @@ __all__ = [
     "lower",
     "solve_multibody",
     "start_of",
+    "stepping_seconds",
     "tree_hinge",
     "tree_model",
 ]

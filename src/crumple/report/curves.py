@@ -41,6 +41,9 @@ _LEDGER = (
     ("elastic", "energy.elastic", 4),
     ("dissipated", "energy.dissipated", 1),
     ("external work", "energy.external_work", 2),
+    ("hourglass", "energy.hourglass", 3),
+    ("contact", "energy.contact", 5),
+    ("damping", "energy.damping", 6),
 )
 
 

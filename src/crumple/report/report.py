@@ -94,7 +94,7 @@ def write_report(result: Result, source: ReportInput, directory: Path | str) -> 
 
 def _draw(result: Result, bound: float | None) -> list[tuple[str, str, str]]:
     """Every figure that the result has something for: file name, SVG, caption."""
-    from crumple.report import curves, moment, shape  # noqa: PLC0415  (matplotlib takes a third of a second)
+    from crumple.report import curves, fold, moment, shape  # noqa: PLC0415  (matplotlib takes a third of a second)
     from crumple.report.style import drawing  # noqa: PLC0415
 
     with drawing():
@@ -105,6 +105,7 @@ def _draw(result: Result, bound: float | None) -> list[tuple[str, str, str]]:
                 "Deformed member walls at the picture times over the undeformed shape in grey, "
                 "all at one scale. Circles mark hinges.",
             ),
+            *((f"fold_{i + 1}", svg, caption) for i, (svg, caption) in enumerate(fold.folds(result))),
             (
                 "rotation",
                 curves.rotations(result),
@@ -134,7 +135,8 @@ def _moment_figures(result: Result, draw: Any) -> list[tuple[str, str | None, st
     figures = []
     for i, hinge in enumerate(ranked_hinges(result)[:MAX_MOMENT_FIGURES]):
         summary = result.hinges[hinge]
-        parts = [f"Moment in hinge {hinge}: the path it took, and its law."]
+        law = ", and its law" if summary.law else ""
+        parts = [f"Moment in hinge {hinge}: the path it took{law}."]
         named = (("Law", summary.law), ("Source", summary.source))
         parts += [sentence_case(f"{name}: {text}") for name, text in named if text]
         if summary.validity_rotation is not None and isfinite(summary.validity_rotation):
@@ -148,9 +150,16 @@ def _ledger_caption(result: Result) -> str:
     if "energy.residual" not in result.channels:
         return f"{shown}."
     return (
-        f"{shown} and, on the right, the residual of their balance: kinetic, elastic and dissipated energy "
-        "less external work and the energy at the start. Dissipation is integrated by itself."
+        f"{shown} and, on the right, the residual of their balance: kinetic, elastic and dissipated energy"
+        f"{_further_energies(result)} less external work and the energy at the start. "
+        "Dissipation is integrated by itself."
     )
+
+
+def _further_energies(result: Result) -> str:
+    """Terms that only some solvers have."""
+    named = [name for name in ("hourglass", "contact", "damping") if f"energy.{name}" in result.channels]
+    return f", that of {' and '.join(named)}," if named else ""
 
 
 def _render(
@@ -167,6 +176,7 @@ def _render(
 
     # the figures and the style are our own; everything else is escaped
     figures = {name: _Figure(i + 1, Markup(svg), caption) for i, (name, svg, caption) in enumerate(drawn)}
+    close_ups = [figure for name, figure in figures.items() if name.startswith("fold_")]
     moments = [figure for name, figure in figures.items() if name.startswith("moment_")]
     here = Path(__file__).parent
     environment = Environment(
@@ -176,7 +186,7 @@ def _render(
         trim_blocks=True,
     )
     style = (here / "page.css").read_text(encoding="utf-8")
-    text = _input_text(source)
+    text = embedded(source)
     named = ("deformation", "rotation", "energy_rotation", "energy", "outputs")
     return environment.get_template("page.html.jinja").render(
         version=result.provenance.version,
@@ -185,7 +195,7 @@ def _render(
         style=Markup(style),
         verdict=wording.verdict(result, bound, accuracy),
         key_figures=wording.key_figures(result),
-        figures={**{name: figures.get(name) for name in named}, "moments": moments},
+        figures={**{name: figures.get(name) for name in named}, "moments": moments, "folds": close_ups},
         omitted_hinges=max(len(result.hinges) - MAX_MOMENT_FIGURES, 0),
         hinge_table=wording.hinge_table(result),
         output_table=wording.output_table(result),
@@ -204,7 +214,8 @@ def _meta(result: Result, source: ReportInput) -> list[str]:
     return [part for part in (*parts, f"input {provenance.input_hash[:12]}") if part]
 
 
-def _input_text(source: ReportInput) -> str:
+def embedded(source: ReportInput) -> str:
+    """The input as its author wrote it, else as it was understood."""
     if source.text or source.canonical is None:
         return source.text
     return json.dumps(source.canonical, indent=2, ensure_ascii=False, default=str)

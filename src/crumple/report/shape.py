@@ -12,6 +12,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
+from crumple.report.strain import draw_key, largest_strain, wall_colours
 from crumple.report.style import INK, MUTED, RULE, SERIES, WIDTH, add_axes, new_figure, short, to_svg
 from crumple.report.view import View, choose_view, ring_centres
 from crumple.result import Result, States
@@ -27,7 +28,7 @@ _NAMED_HINGES = 8
 
 
 @dataclass(frozen=True)
-class _Surface:
+class Surface:
     """What every picture needs and no time changes.
 
     Attributes
@@ -51,11 +52,11 @@ class _Surface:
 
 def deformation(result: Result) -> str | None:
     """The figure as SVG, or None when the result has no states."""
-    states = _finite_states(result.states)
+    states = finite_states(result.states)
     if states is None:
         return None
     view = choose_view(states)
-    surface = _surface(states)
+    surface = surface_of(states)
     drawn = view.flat(np.concatenate([states.points[None], states.points + states.displacement]))
     low, high = drawn.reshape(-1, 2).min(axis=0), drawn.reshape(-1, 2).max(axis=0)
     size = np.maximum(high - low, 1e-3 * np.max(high - low))
@@ -68,7 +69,7 @@ def deformation(result: Result) -> str | None:
     panel_height = min(panel_width * height / width, 3.2)
     total = rows * (panel_height + label) + foot
     figure = new_figure(WIDTH, total)
-    hinges = _hinge_places(result, states)
+    hinges = hinge_places(result, states)
     raster = len(states.quads) * len(states.times) > _RASTER_FROM
     for i, time in enumerate(states.times):
         row, column = divmod(i, columns)
@@ -78,43 +79,47 @@ def deformation(result: Result) -> str | None:
         axes.set_xlim(low[0], high[0])
         axes.set_ylim(low[1], high[1])
         axes.set_aspect("equal", anchor="W")
-        _draw_walls(axes, states, surface, view, None, raster)
-        _draw_walls(axes, states, surface, view, i, raster)
+        draw_walls(axes, states, surface, view, None, raster)
+        draw_walls(axes, states, surface, view, i, raster)
         last = i == len(states.times) - 1
-        _draw_hinges(axes, {name: view.flat(places[i]) for name, places in hinges.items()}, named=last)
+        draw_hinges(axes, {name: view.flat(places[i]) for name, places in hinges.items()}, named=last)
         axes.text(
             0,
             1,
-            _time(float(time)),
+            picture_time(float(time)),
             transform=axes.transAxes,
             va="bottom",
             fontsize=8.5,
             color=INK,
         )
     scale = add_axes(figure, 0, 0, WIDTH, foot)
+    if top := largest_strain(states):
+        draw_key(scale, top, WIDTH - 1.5, 0.1)
     inches_per_metre = min(panel_width / width, panel_height / height)
-    _draw_scale(scale, view, inches_per_metre, panel_width, foot)
+    draw_scale(scale, view, inches_per_metre, panel_width, foot)
     return to_svg(figure, "deformation", _description(states))
 
 
-def _finite_states(states: States | None) -> States | None:
+def finite_states(states: States | None) -> States | None:
     """The states that can be drawn: those in which every point has a place; None without any."""
     if states is None or not len(states.quads) or np.ptp(states.points, axis=0).max() == 0.0:
         return None
     keep = np.isfinite(states.displacement).all(axis=(1, 2))
     if not keep.any():
         return None
-    return replace(states, times=states.times[keep], displacement=states.displacement[keep])
+    cells = {name: values[keep] for name, values in states.cell_data.items()}
+    return replace(states, times=states.times[keep], displacement=states.displacement[keep], cell_data=cells)
 
 
 def _description(states: States) -> str:
-    times = ", ".join(_time(float(time)) for time in states.times)
+    times = ", ".join(picture_time(float(time)) for time in states.times)
     return (
         f"Deformed shape of the member walls at {times}, over the undeformed shape in grey, all at one scale."
     )
 
 
-def _time(time: float) -> str:
+def picture_time(time: float) -> str:
+    """Time of a picture [s] as people read it."""
     return f"{time * 1e3:.4g} ms"
 
 
@@ -124,7 +129,8 @@ def _columns(aspect: float, n: int) -> int:
     return max(1, min(wish, n))
 
 
-def _surface(states: States) -> _Surface:
+def surface_of(states: States) -> Surface:
+    """Rings, edges and creases of a surface."""
     rings, ring = ring_centres(states)
     pairs = np.stack([states.quads, np.roll(states.quads, -1, axis=1)], axis=2).reshape(-1, 2)
     owner = np.repeat(np.arange(len(states.quads)), 4)
@@ -133,7 +139,7 @@ def _surface(states: States) -> _Surface:
     sides[inverse.reshape(-1), 1] = owner
     normals = _normals(states.points, states.quads)
     meeting = np.einsum("ij,ij->i", normals[sides[:, 0]], normals[sides[:, 1]])
-    return _Surface(rings, ring, edges, sides, (np.abs(meeting) < _CREASE) | (sides[:, 0] == sides[:, 1]))
+    return Surface(rings, ring, edges, sides, (np.abs(meeting) < _CREASE) | (sides[:, 0] == sides[:, 1]))
 
 
 def _normals(points: Floats, quads: NDArray[np.int64]) -> Floats:
@@ -143,8 +149,8 @@ def _normals(points: Floats, quads: NDArray[np.int64]) -> Floats:
     return normals
 
 
-def _draw_walls(
-    axes: Axes, states: States, surface: _Surface, view: View, state: int | None, raster: bool
+def draw_walls(
+    axes: Axes, states: States, surface: Surface, view: View, state: int | None, raster: bool
 ) -> None:
     """Walls of one state, farthest first, edged where they meet or turn away; None: undeformed, grey."""
     points = states.points if state is None else states.points + states.displacement[state]
@@ -175,7 +181,9 @@ def _draw_walls(
         return
     light = np.abs(normals @ (0.75 * view.towards + 0.6 * view.up))
     shade = np.clip(0.62 + 0.5 * light, 0.0, 1.15)[:, None]
-    colours = np.clip(1.0 - (1.0 - np.array(_WALL)) * (1.9 - shade), 0.0, 1.0)
+    top = largest_strain(states)
+    base = wall_colours(states, state, top) if top else np.tile(_WALL, (len(quads), 1))
+    colours = np.clip(1.0 - (1.0 - base) * (1.9 - shade), 0.0, 1.0)
     walls = PolyCollection(
         corners[order],
         facecolors=colours[order],
@@ -194,7 +202,7 @@ def _draw_walls(
     axes.add_collection(outline, autolim=False)
 
 
-def _hinge_places(result: Result, states: States) -> dict[str, Floats]:
+def hinge_places(result: Result, states: States) -> dict[str, Floats]:
     """Place of every hinge in every state, (n_states, 3): it moves with the walls around it."""
     places = {}
     for name, hinge in result.hinges.items():
@@ -207,7 +215,8 @@ def _hinge_places(result: Result, states: States) -> dict[str, Floats]:
     return places
 
 
-def _draw_hinges(axes: Axes, places: dict[str, Floats], *, named: bool) -> None:
+def draw_hinges(axes: Axes, places: dict[str, Floats], *, named: bool) -> None:
+    """Circles at the hinges, with their names where there are few."""
     if not places:
         return
     spots = np.array(list(places.values()))
@@ -239,7 +248,7 @@ def _draw_hinges(axes: Axes, places: dict[str, Floats], *, named: bool) -> None:
             )
 
 
-def _draw_scale(axes: Axes, view: View, inches_per_metre: float, panel: float, height: float) -> None:
+def draw_scale(axes: Axes, view: View, inches_per_metre: float, panel: float, height: float) -> None:
     """Scale bar on the left, directions of the world axes beside it."""
     axes.set_axis_off()
     axes.set_xlim(0, WIDTH)

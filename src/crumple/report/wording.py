@@ -194,6 +194,8 @@ def law_table(result: Result) -> Table:
     """Law, source and range of every hinge, and whether the run stayed inside; equal rows are one."""
     groups: dict[tuple[str, ...], list[str]] = {}
     for name, hinge in result.hinges.items():
+        if not hinge.law:
+            continue  # measured, not computed by a law
         law = f"{hinge.law} ({hinge.form})" if hinge.form else hinge.law
         groups.setdefault((law, hinge.source, hinge.validity_basis, _range(hinge)), []).append(name)
     rows = []

@@ -8,10 +8,10 @@ For a solver:
 - ``structure.section_of(member)`` and ``structure.material_of(member)`` -> objects of those rooms;
 - ``placed_hinges(structure)`` -> `PlacedHinge` per hinge: member, station, position, direction, law, record;
 - ``support.held`` -> freedoms held at zero, ``support.driven`` -> functions of time by driven freedom;
-- `MultibodySettings` and `Outputs` -> what the solver is told beside the structure.
+- `MultibodySettings`, `ShellSettings` and `Outputs` -> what the solver is told beside the structure.
 """
 
-from crumple.structure.checks import output_problems, problems_in
+from crumple.structure.checks import output_problems, problems_in, shell_problems
 from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges import HingePlace, PlacedHinge, hinge_places, placed_hinges
 from crumple.structure.law import (
@@ -41,6 +41,7 @@ from crumple.structure.section import (
     SquareTubeSpec,
 )
 from crumple.structure.settings import MultibodySettings
+from crumple.structure.shell_settings import FinePlace, ShellSettings
 from crumple.structure.structure import Structure
 from crumple.structure.walls import WallSectionSpec, WallSpec, WeldSpec
 
@@ -54,6 +55,7 @@ __all__ = [
     "ClosedHatSpec",
     "ConstantLaw",
     "Filter",
+    "FinePlace",
     "ForceComponents",
     "Frame",
     "FrozenMapping",
@@ -78,6 +80,7 @@ __all__ = [
     "RectangularTubeSpec",
     "Regularisation",
     "SectionRotation",
+    "ShellSettings",
     "SquareTubeSpec",
     "Stops",
     "Structure",
@@ -92,4 +95,5 @@ __all__ = [
     "output_problems",
     "placed_hinges",
     "problems_in",
+    "shell_problems",
 ]

@@ -17,6 +17,7 @@ from crumple.structure.hinge_checks import inertia_problems, place_problems
 from crumple.structure.law import LAW_SPECS, LawReference
 from crumple.structure.outputs import Outputs
 from crumple.structure.problems import one_of, outside, shown, suggestion
+from crumple.structure.shell_settings import ShellSettings
 from crumple.structure.structure import Structure
 
 COINCIDENT = 1e-6
@@ -69,6 +70,22 @@ def output_problems(outputs: Outputs, structure: Structure, defined: Names | Non
             problems += [
                 outside(f"{where}.{key}", s, length) for key, s in stations if s > length * (1.0 + 1e-9)
             ]
+    return problems
+
+
+def shell_problems(
+    settings: ShellSettings, structure: Structure, defined: Names | None = None
+) -> list[Problem]:
+    """Fine places of members that do not exist, or outside them."""
+    members = {*structure.members, *(defined or {}).get("members", ())}
+    problems: list[Problem] = []
+    for i, place in enumerate(settings.fine_at):
+        where = f"analysis.shell.fine_at[{i}]"
+        problems += _unknown("member", place.member, members, f"{where}.member")
+        if structure.has_line(place.member):
+            length = structure.frame_of(place.member).length
+            if place.at > length * (1.0 + 1e-9):
+                problems.append(outside(f"{where}.at", place.at, length))
     return problems
 
 

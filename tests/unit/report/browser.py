@@ -42,7 +42,7 @@ def find_browser():
 class Browser:
     """One page.  `events` holds what the browser told on its own, newest last."""
 
-    def __init__(self, path):
+    def __init__(self, path, flags=()):
         self.events = []
         self._answers = {}
         self._unread = b""
@@ -50,7 +50,8 @@ class Browser:
         self._profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         to_browser, self._write = os.pipe()
         self._read, from_browser = os.pipe()
-        arguments = [path, *FLAGS, "--remote-debugging-pipe", f"--user-data-dir={self._profile.name}"]
+        kept = [flag for flag in FLAGS if not (flags and flag == "--disable-gpu")]
+        arguments = [path, *kept, *flags, "--remote-debugging-pipe", f"--user-data-dir={self._profile.name}"]
         self._process = subprocess.Popen(
             [sys.executable, "-c", START, str(to_browser), str(from_browser), *arguments],
             pass_fds=(to_browser, from_browser),

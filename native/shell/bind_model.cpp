@@ -1,0 +1,122 @@
+// Building a model from arrays, one kind of thing per call.
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "bind_arrays.hpp"
+#include "model.hpp"
+
+namespace nb = nanobind;
+
+namespace crumple::shell {
+
+static Vec3 vec3(const In& a) {
+    if (a.size() != 3) throw std::invalid_argument("a vector has three components");
+    return read3(a.data());
+}
+
+static void set_nodes(Model& m, const In& position, const In& velocity, const In& spin, const In& mass, const In& inertia,
+                      const InBits& fixed) {
+    m.position = to_vector(position);
+    m.velocity = to_vector(velocity);
+    m.spin = to_vector(spin);
+    m.added_mass = to_vector(mass);
+    m.added_inertia = to_vector(inertia);
+    m.fixed = to_vector(fixed);
+    const std::size_t n = m.nodes();
+    if (m.velocity.size() != 3 * n || m.spin.size() != 3 * n || m.added_mass.size() != n || m.added_inertia.size() != n ||
+        m.fixed.size() != n)
+        throw std::invalid_argument("the arrays of the nodes differ in length");
+}
+
+static void set_elements(Model& m, const InIndex& quads, const In& thickness, const InIndex& sheet) {
+    m.quads = to_vector(quads);
+    m.thickness = to_vector(thickness);
+    m.sheet_of = to_vector(sheet);
+    if (m.quads.size() != 4 * m.thickness.size() || m.sheet_of.size() != m.thickness.size())
+        throw std::invalid_argument("the arrays of the elements differ in length");
+}
+
+static void add_material(Model& m, const nb::dict& d) {
+    Material a;
+    a.density = nb::cast<double>(d["density"]);
+    a.youngs_modulus = nb::cast<double>(d["youngs_modulus"]);
+    a.poissons_ratio = nb::cast<double>(d["poissons_ratio"]);
+    a.plastic_strain = to_vector(nb::cast<In>(d["plastic_strain"]));
+    a.yield_stress = to_vector(nb::cast<In>(d["yield_stress"]));
+    a.hardening_modulus = nb::cast<double>(d["hardening_modulus"]);
+    a.rate_reference = nb::cast<double>(d["rate_reference"]);
+    a.rate_exponent = nb::cast<double>(d["rate_exponent"]);
+    a.rate_time = nb::cast<double>(d["rate_time"]);
+    a.failure_strain = nb::cast<double>(d["failure_strain"]);
+    a.fails_at_any_point = nb::cast<bool>(d["fails_at_any_point"]);
+    if (a.plastic_strain.size() != a.yield_stress.size()) throw std::invalid_argument("a hardening table has unequal columns");
+    m.materials.push_back(std::move(a));
+}
+
+static void add_rigid_set(Model& m, const InIndex& nodes, double mass, const In& at, const In& inertia, unsigned fixed) {
+    RigidSet s{to_vector(nodes), mass, vec3(at), {}, fixed};
+    if (inertia.size() != 6) throw std::invalid_argument("an inertia has six components");
+    std::copy_n(inertia.data(), 6, s.added_inertia);
+    m.rigid_sets.push_back(std::move(s));
+}
+
+static Curve curve(const In& time, const In& value) {
+    Curve c{to_vector(time), to_vector(value)};
+    if (c.time.empty() || c.time.size() != c.value.size()) throw std::invalid_argument("a curve needs as many values as times, at least one");
+    for (std::size_t i = 1; i < c.time.size(); i++)
+        if (!(c.time[i] > c.time[i - 1])) throw std::invalid_argument("the times of a curve do not increase");
+    return c;
+}
+
+static void set_settings(Model& m, const nb::dict& d) {
+    Settings& s = m.settings;
+    s.safety = nb::cast<double>(d["safety"]);
+    s.scaled_step = nb::cast<double>(d["scaled_step"]);
+    s.least_step = nb::cast<double>(d["least_step"]);
+    s.damping = nb::cast<double>(d["damping"]);
+    s.gravity = vec3(nb::cast<In>(d["gravity"]));
+    s.thickness_update = nb::cast<bool>(d["thickness_update"]);
+    s.warping_correction = nb::cast<bool>(d["warping_correction"]);
+    s.viscous_hourglass = nb::cast<bool>(d["viscous_hourglass"]);
+    s.hourglass_membrane = nb::cast<double>(d["hourglass_membrane"]);
+    s.hourglass_shear = nb::cast<double>(d["hourglass_shear"]);
+    s.hourglass_bending = nb::cast<double>(d["hourglass_bending"]);
+}
+
+static void set_contact(Model& m, const nb::dict& d) {
+    m.contact.on = nb::cast<bool>(d["on"]);
+    m.contact.gap = nb::cast<double>(d["gap"]);
+    m.contact.stiffness = nb::cast<double>(d["stiffness"]);
+    m.contact.friction = nb::cast<double>(d["friction"]);
+    m.contact.damping = nb::cast<double>(d["damping"]);
+}
+
+static void add_plane(Model& m, const In& point, const In& normal, double friction, double gap, const InIndex& nodes) {
+    const Vec3 n = vec3(normal);
+    if (!(norm(n) > 0.0)) throw std::invalid_argument("the normal of a plane has no length");
+    m.planes.push_back({vec3(point), (1.0 / norm(n)) * n, friction, gap, to_vector(nodes)});
+}
+
+void bind_model(nb::module_& module) {
+    nb::class_<Model>(module, "Model")
+        .def(nb::init<>())
+        .def("nodes", &set_nodes)
+        .def("elements", &set_elements)
+        .def("material", &add_material)
+        .def("sheet", [](Model& m, Index material, int points, bool lobatto) { m.sheets.push_back({material, points, lobatto}); })
+        .def("rigid_set", &add_rigid_set)
+        .def("load", [](Model& m, Index node, int dof, const In& t, const In& v) { m.loads.push_back({node, dof, curve(t, v)}); })
+        .def("motion", [](Model& m, bool rigid, Index target, int dof, const In& t, const In& v) {
+            m.motions.push_back({rigid, target, dof, curve(t, v)});
+        })
+        .def("plane", &add_plane)
+        .def("cut", [](Model& m, const InIndex& elements, const InIndex& nodes) { m.cuts.push_back({to_vector(elements), to_vector(nodes)}); })
+        .def("contact", &set_contact)
+        .def("settings", &set_settings);
+}
+
+}  // namespace crumple::shell

@@ -1,0 +1,97 @@
+// The element and node stages, compiled once for each instruction set (CRUMPLE_KERNELS names the build).
+#include "kernel.hpp"
+
+#include "element.hpp"
+#include "transpose.hpp"
+
+namespace crumple::shell {
+namespace {
+
+template <Law law, int points>
+inline void run_block(const ElementStage& stage, const Part& part, std::size_t block, Real& stiffest) {
+    Vec x[4], v[4], w[4];
+    for (int c = 0; c < 4; c++) {
+        const std::uint32_t* node = stage.nodes + lanes * (4 * block + c);
+        x[c] = gather(stage.position, position_record, node);
+        v[c] = gather(stage.velocity, velocity_record, node);
+        w[c] = gather(stage.velocity + 4, velocity_record, node);
+    }
+    Real* slots = reinterpret_cast<Real*>(stage.state + stage.offset[block]);
+    const CornerForces forces = update_block<law, points>(part, x, v, w, stage.dt, slots, stiffest);
+    double* out = stage.corner + std::size_t(4 * corner_record * lanes) * block;
+    for (int c = 0; c < 4; c++) {
+        scatter(forces.force[c], out + corner_record * c, 4 * corner_record);
+        scatter(forces.moment[c], out + corner_record * c + 4, 4 * corner_record);
+    }
+}
+
+template <int points> inline void run_any_law(const ElementStage& stage, const Part& part, std::size_t block, Real& stiffest) {
+    switch (part.law) {
+        case Law::elastic: return run_block<Law::elastic, points>(stage, part, block, stiffest);
+        case Law::linear: return run_block<Law::linear, points>(stage, part, block, stiffest);
+        case Law::general: return run_block<Law::general, points>(stage, part, block, stiffest);
+    }
+}
+
+ElementReport run_elements(const ElementStage& stage, std::size_t first, std::size_t last) {
+    ElementReport report;
+    Real stiffest_of_all{};
+    for (std::size_t block = first; block < last; block++) {
+        const Part& part = stage.parts[stage.part_of[block]];
+        Real stiffest;
+        if (part.points == 5)
+            run_any_law<5>(stage, part, block, stiffest);
+        else
+            run_any_law<0>(stage, part, block, stiffest);
+        // NaN fails every comparison, so it counts as beyond the limit
+        const Mask fine = stiffest <= stage.frequency_limit;
+        if (report.bad_block < 0 && any(~fine)) report.bad_block = std::int64_t(block);
+        stiffest_of_all = larger(stiffest, stiffest_of_all);
+    }
+    for (int i = 0; i < lanes; i++)
+        if (stiffest_of_all[i] > report.frequency) report.frequency = stiffest_of_all[i];
+    return report;
+}
+
+// velocity and position of one free node; returns the work of damping per mass-proportional coefficient [J s]
+inline void run_node(const NodeStage& s, std::size_t i, Quad gravity, double& damped) {
+    Quad force{}, moment{};
+    for (std::uint32_t j = s.first[i]; j < s.first[i + 1]; j++) {
+        const double* corner = s.corner + std::size_t(corner_record) * s.corner_of[j];
+        force += load(corner);
+        moment += load(corner + 4);
+    }
+    if (s.contact) force -= load(s.contact + 4 * i);
+    double* velocity = s.velocity + velocity_record * i;
+    const double* inverse_mass = s.inverse_mass + velocity_record * i;
+    const Quad im = load(inverse_mass), ii = load(inverse_mass + 4);
+    const Quad v_old = load(velocity), w_old = load(velocity + 4);
+    // gravity acts where there is mass to move
+    Quad v = v_old - s.kick * (im * force) + s.kick * (im > 0.0 ? gravity : Quad{});
+    Quad w = w_old - s.kick * (ii * moment);
+    if (s.damping > 0.0) {
+        const double a = 0.5 * s.kick * s.damping, shrink = 1.0 / (1.0 + a);
+        v = shrink * (v - a * v_old);
+        w = shrink * (w - a * w_old);
+        const Quad vm = 0.5 * (v + v_old), wm = 0.5 * (w + w_old);
+        const Quad e = (im > 0.0 ? vm * vm / im : Quad{}) + (ii > 0.0 ? wm * wm / ii : Quad{});
+        damped += s.damping * s.kick * (e[0] + e[1] + e[2]);
+    }
+    store(velocity, v);
+    store(velocity + 4, w);
+    double* position = s.position + position_record * i;
+    store(position, load(position) + s.drift * v);
+}
+
+void run_nodes(const NodeStage& stage, std::size_t first, std::size_t last) {
+    const Quad gravity = {stage.gravity[0], stage.gravity[1], stage.gravity[2], 0.0};
+    for (std::size_t i = first; i < last; i++)
+        if (stage.kind[i] == 0) run_node(stage, i, gravity, stage.damping_work[i / node_chunk]);
+}
+
+}  // namespace
+
+extern const Kernels CRUMPLE_KERNELS;
+const Kernels CRUMPLE_KERNELS = {CRUMPLE_KERNELS_NAME, lanes, run_elements, run_nodes};
+
+}  // namespace crumple::shell

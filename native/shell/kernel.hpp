@@ -1,0 +1,56 @@
+// What one build of the kernels (one instruction set) offers to the stepper.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "part.hpp"
+
+namespace crumple::shell {
+
+// All elements, grouped in blocks of `lanes`; the last block of a part is filled up with copies.
+struct ElementStage {
+    const double* position;
+    const double* velocity;
+    const std::uint32_t* nodes;      // [block][corner][lane]
+    const std::uint32_t* part_of;    // [block]
+    const std::size_t* offset;       // [block] into state
+    const Part* parts;
+    double* state;
+    double* corner;                  // [block][lane][corner][corner_record]
+    double dt;
+    double frequency_limit;          // squared frequency [1/s2] above which a step is refused
+};
+
+struct ElementReport {
+    double frequency = 0.0;          // largest squared frequency 4/dt^2 of any element [1/s2]
+    std::int64_t bad_block = -1;     // first block with a state that is not finite, or that is too stiff
+};
+
+// Free nodes: those of rigid bodies and driven ones are handled apart.
+struct NodeStage {
+    double* position;
+    double* velocity;
+    const double* inverse_mass;      // [node][velocity_record]; 0 for a fixed degree of freedom
+    const double* corner;
+    const double* contact;           // [node][4] force, or null
+    const std::uint8_t* kind;        // 0: free
+    const std::uint32_t* first;      // CSR of corners per node
+    const std::uint32_t* corner_of;
+    double* damping_work;            // [chunk]; used when damping > 0
+    double kick, drift;              // time steps of velocity and position [s]
+    double damping;                  // mass-proportional [1/s]
+    double gravity[3];
+};
+constexpr int node_chunk = 64;       // nodes per chunk: sums of a chunk are the same for any number of threads
+
+struct Kernels {
+    const char* name;
+    int lanes;
+    ElementReport (*elements)(const ElementStage&, std::size_t first, std::size_t last);
+    void (*nodes)(const NodeStage&, std::size_t first, std::size_t last);
+};
+
+// The build named by the variable CRUMPLE_ISA, else the best that this machine runs.
+const Kernels& choose_kernels(const char* name);
+
+}  // namespace crumple::shell

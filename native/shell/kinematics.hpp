@@ -1,0 +1,83 @@
+// Strain increments of one step, seen from the end of the step.
+//
+// With L' = dt grad v at the end of the step, the increment is the Almansi strain sym(L') - L'^T L' / 2:
+// it vanishes for any finite rigid rotation, where sym(L') leaves (1 - cos) per step.  The transverse
+// shear is corrected to the same order.  Theory: docs/theory/shell_element.md.
+#pragma once
+#include "frame.hpp"
+
+namespace crumple::shell {
+namespace {
+
+struct StrainIncrement {
+    Real xx, yy, xy;             // membrane; xy is the engineering shear
+    Real kx, ky, kxy;            // change of curvature [1/m]
+    Real xz, yz;                 // engineering transverse shear
+};
+struct HourglassRate {
+    Real x, y, z, rx, ry;        // [m/s], [rad/s]
+};
+struct Kinematics {
+    StrainIncrement strain;
+    HourglassRate hourglass;
+};
+
+// Belytschko-Wong-Chiang: in a warped element the normals p_I differ from corner to corner, so that the
+// gradient changes through the thickness, b(z) = b + z b_c.  In the plane p_1 = -p_3 = -hz b_1, p_2 = -p_4 = hz b_2.
+struct Warp {
+    Real cx1, cx2, cy1, cy2;     // b_c [1/m2]
+    Vec tilt1, tilt2;            // hz b_1, hz b_2 in the world
+};
+
+CRUMPLE_INLINE Warp warp_of(const Frame& f) {
+    const Real c = f.hz / f.area;
+    return {c * f.by2, c * f.by1, -c * f.bx2, -c * f.bx1, f.hz * (f.bx1 * f.e1 + f.by1 * f.e2), f.hz * (f.bx2 * f.e1 + f.by2 * f.e2)};
+}
+
+CRUMPLE_INLINE void add_warp(const Frame& f, const Warp& w, const Pattern& v, double dt, StrainIncrement& s) {
+    const Real x13 = dot(v.along_13, f.e1), x24 = dot(v.along_24, f.e1);
+    const Real y13 = dot(v.along_13, f.e2), y24 = dot(v.along_24, f.e2);
+    s.kx += dt * (w.cx1 * x13 + w.cx2 * x24);
+    s.ky += dt * (w.cy1 * y13 + w.cy2 * y24);
+    s.kxy += dt * (w.cx1 * y13 + w.cx2 * y24 + w.cy1 * x13 + w.cy2 * x24);
+}
+
+// Takes the turning about a corner's own normal out: only what tilts the normal bends the element.
+CRUMPLE_INLINE void project_drill(const Frame& f, const Warp& w, Vec (&omega)[4]) {
+    omega[0] = omega[0] + dot(omega[0], f.e3) * w.tilt1;
+    omega[1] = omega[1] - dot(omega[1], f.e3) * w.tilt2;
+    omega[2] = omega[2] - dot(omega[2], f.e3) * w.tilt1;
+    omega[3] = omega[3] + dot(omega[3], f.e3) * w.tilt2;
+}
+
+CRUMPLE_INLINE Kinematics kinematics(const Frame& f, const Vec (&velocity)[4], const Vec (&nodal_omega)[4], double dt,
+                                     const Part& part) {
+    Kinematics k;
+    Vec omega[4] = {nodal_omega[0], nodal_omega[1], nodal_omega[2], nodal_omega[3]};
+    if (part.warping_correction) project_drill(f, warp_of(f), omega);
+    const Pattern v = pattern(velocity), w = pattern(omega);
+    const Gradient vx = gradient(f, v, f.e1), vy = gradient(f, v, f.e2), vz = gradient(f, v, f.e3);
+    const Gradient wx = gradient(f, w, f.e1), wy = gradient(f, w, f.e2);
+    const Vec mean = part.mean_12 * (omega[0] + omega[1]) + part.mean_34 * (omega[2] + omega[3]);
+    const double half = 0.5 * dt;
+    const Real turn = 0.5 * half * (vy.x - vx.y);
+    StrainIncrement& s = k.strain;
+    // membrane: linear part and the quadratic part of the Almansi strain
+    s.xx = dt * (vx.x - half * (vx.x * vx.x + vy.x * vy.x + vz.x * vz.x));
+    s.yy = dt * (vy.y - half * (vx.y * vx.y + vy.y * vy.y + vz.y * vz.y));
+    s.xy = dt * (vx.y + vy.x - dt * (vx.x * vx.y + vy.x * vy.y + vz.x * vz.y));
+    // bending
+    s.kx = dt * wy.x;
+    s.ky = -dt * wx.y;
+    s.kxy = dt * (wy.y - wx.x);
+    if (part.warping_correction) add_warp(f, warp_of(f), v, dt, s);
+    // transverse shear
+    s.xz = dt * (vz.x + dot(mean, f.e2) + turn * vz.y);
+    s.yz = dt * (vz.y - dot(mean, f.e1) - turn * vz.x);
+    // hourglass rates, blind to linear fields and to rigid rotation of a warped element
+    k.hourglass = {vx.hourglass + f.hz * vz.x, vy.hourglass + f.hz * vz.y, vz.hourglass, wx.hourglass, wy.hourglass};
+    return k;
+}
+
+}  // namespace
+}  // namespace crumple::shell

@@ -1,0 +1,170 @@
+#include "lowering.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace crumple::shell {
+
+// Cowper-Symonds exponent, table and failure of a material into a part
+static void set_plasticity(Part& p, const Material& a) {
+    p.rate = std::isfinite(a.rate_reference) && !a.yield_stress.empty();
+    p.inverse_rate_reference = p.rate ? 1.0 / a.rate_reference : 0.0;
+    p.inverse_rate_exponent = p.rate ? 1.0 / a.rate_exponent : 0.0;
+    p.rate_time = a.rate_time;
+    p.table_size = int(a.yield_stress.size());
+    p.table_strain = a.plastic_strain.data();
+    p.table_stress = a.yield_stress.data();
+    p.fails = std::isfinite(a.failure_strain);
+    p.fails_at_any_point = a.fails_at_any_point;
+    p.failure_strain = a.failure_strain;
+    p.yield_stress = a.yield_stress.empty() ? 0.0 : a.yield_stress[0];
+    p.hardening = a.hardening_modulus;
+    // one point with a slope behind it is the fast law
+    p.law = a.yield_stress.empty() ? Law::elastic : (a.yield_stress.size() == 1 && !p.rate ? Law::linear : Law::general);
+}
+
+Part part_of(const Model& m, const Sheet& sheet, bool triangle) {
+    const Material& a = m.materials[sheet.material];
+    Part p{};
+    const double E = a.youngs_modulus, nu = a.poissons_ratio;
+    p.youngs_modulus = E;
+    p.poissons_ratio = nu;
+    p.density = a.density;
+    p.plane_modulus = E / (1.0 - nu * nu);
+    p.shear_modulus = E / (2.0 * (1.0 + nu));
+    p.transverse_modulus = 5.0 / 6.0 * p.shear_modulus;
+    p.pressure_ratio = (1.0 + nu) / (3.0 * (1.0 - nu));
+    p.bulk_compliance = (1.0 - 2.0 * nu) / E;
+    p.inverse_3g = 1.0 / (3.0 * p.shear_modulus);
+    set_plasticity(p, a);
+    p.points = sheet.points;
+    thickness_rule(sheet.points, sheet.lobatto, p.z, p.weight);
+    p.mean_12 = triangle ? 1.0 / 3.0 : 0.25;
+    p.mean_34 = triangle ? 1.0 / 6.0 : 0.25;
+    p.triangle = triangle ? 1.0 : 0.0;
+    const Settings& s = m.settings;
+    p.viscous_hourglass = s.viscous_hourglass;
+    p.hourglass_membrane = triangle ? 0.0 : s.hourglass_membrane;
+    p.hourglass_shear = triangle ? 0.0 : s.hourglass_shear;
+    p.hourglass_bending = triangle ? 0.0 : s.hourglass_bending;
+    p.thickness_update = s.thickness_update;
+    p.warping_correction = s.warping_correction && !triangle;
+    return p;
+}
+
+// corners of each node, in the order of the elements: the order of summation is fixed
+static void list_corners(const Model& m, Blocks& b) {
+    b.first.assign(m.nodes() + 1, 0);
+    for (Index n : m.quads) b.first[n + 1]++;
+    for (std::size_t i = 0; i < m.nodes(); i++) b.first[i + 1] += b.first[i];
+    std::vector<std::uint32_t> next(b.first.begin(), b.first.end() - 1);
+    b.corner_of.resize(m.quads.size());
+    for (std::size_t e = 0; e < m.elements(); e++)
+        for (int c = 0; c < 4; c++) b.corner_of[next[m.quads[4 * e + c]]++] = std::uint32_t(b.corner(e, c));
+}
+
+Blocks block_up(const Model& m, int lanes) {
+    Blocks b;
+    b.lanes = lanes;
+    b.place_of.resize(m.elements());
+    std::map<std::pair<Index, bool>, std::vector<std::size_t>> groups;
+    for (std::size_t e = 0; e < m.elements(); e++) groups[{m.sheet_of[e], m.triangle(e)}].push_back(e);
+    std::size_t offset = 0;
+    for (const auto& [key, members] : groups) {
+        b.parts.push_back(part_of(m, m.sheets[key.first], key.second));
+        const Part& part = b.parts.back();
+        for (std::size_t start = 0; start < members.size(); start += std::size_t(lanes)) {
+            const std::size_t block = b.part_of.size();
+            b.part_of.push_back(std::uint32_t(b.parts.size() - 1));
+            b.offset.push_back(offset);
+            offset += std::size_t(lanes) * std::size_t(slots_of(part.points, part.rate));
+            for (int lane = 0; lane < lanes; lane++) {
+                const bool real = start + std::size_t(lane) < members.size();
+                const std::size_t e = members[real ? start + std::size_t(lane) : members.size() - 1];
+                b.element_of.push_back(real ? std::int64_t(e) : -1);
+                if (real) b.place_of[e] = block * std::size_t(lanes) + std::size_t(lane);
+            }
+        }
+    }
+    b.offset.push_back(offset);
+    // copies run with the last real element of the part, and nobody reads their forces
+    b.nodes.resize(4 * b.element_of.size());
+    std::int64_t last = 0;
+    for (std::size_t place = 0; place < b.element_of.size(); place++) {
+        if (b.element_of[place] >= 0) last = b.element_of[place];
+        const std::size_t block = place / std::size_t(lanes), lane = place % std::size_t(lanes);
+        for (std::size_t c = 0; c < 4; c++) b.nodes[(4 * block + c) * std::size_t(lanes) + lane] = m.quads[4 * std::size_t(last) + c];
+    }
+    list_corners(m, b);
+    return b;
+}
+
+double first_stable_step(const Model& m, std::size_t e) {
+    const Material& a = m.materials[m.sheets[m.sheet_of[e]].material];
+    Vec3 x[4];
+    for (int c = 0; c < 4; c++) x[c] = read3(&m.position[3 * m.quads[4 * e + c]]);
+    // the kernel's frame and bound, for one element
+    const Vec3 d31 = x[2] - x[0], d42 = x[3] - x[1], normal = cross(d31, d42);
+    const double inverse = 1.0 / norm(normal);
+    const Vec3 e3 = inverse * normal, g1 = d31 - d42, g2 = d31 + d42;
+    const Vec3 both = (1.0 / norm(g1)) * g1 + (1.0 / norm(g2)) * cross(g2, e3);
+    const Vec3 e1 = (1.0 / norm(both)) * both, e2 = cross(e3, e1);
+    const double bx1 = -dot(d42, e2) * inverse, bx2 = dot(d31, e2) * inverse;
+    const double by1 = dot(d42, e1) * inverse, by2 = -dot(d31, e1) * inverse;
+    const double tri = m.triangle(e) ? 1.0 : 0.0;
+    const double xx = 2.0 * (bx1 * bx1 + bx2 * bx2 + tri * bx1 * bx2), yy = 2.0 * (by1 * by1 + by2 * by2 + tri * by1 * by2);
+    const double xy = 2.0 * (bx1 * by1 + bx2 * by2) + tri * (bx1 * by2 + bx2 * by1);
+    const double c2 = a.youngs_modulus / (1.0 - a.poissons_ratio * a.poissons_ratio) / a.density;
+    return 2.0 / std::sqrt((4.0 - tri) * c2 * (std::max(xx, yy) + std::abs(xy)));
+}
+
+// In a mesh the stiffest mode alternates from element to element and cannot dilate them all; an element
+// with two corners of its own can dilate, which raises its squared frequency by 1 + nu.
+static std::vector<double> loose_ends(const Model& m) {
+    std::vector<int> sharing(m.nodes(), 0);
+    for (std::size_t e = 0; e < m.elements(); e++)
+        for (std::size_t c = 0; c < (m.triangle(e) ? 3 : 4); c++) sharing[m.quads[4 * e + c]]++;
+    std::vector<double> out(m.elements(), 1.0);
+    for (std::size_t e = 0; e < m.elements(); e++) {
+        int own = 0;
+        for (std::size_t c = 0; c < (m.triangle(e) ? 3 : 4); c++) own += sharing[m.quads[4 * e + c]] == 1;
+        if (own >= 2) out[e] = 1.0 + m.materials[m.sheets[m.sheet_of[e]].material].poissons_ratio;
+    }
+    return out;
+}
+
+// Rotary inertia per mass is (t^2 + a A) / 12.  With a = 3 kG / (C - kG) (kG transverse shear, C plane modulus) the
+// squared frequency of shear, 4 kG (1/A + 3/(a A)) in a square, stays at that of membrane waves, 4 C / A: shear
+// never governs the step.  With a = 1 narrow strips of a metal of low nu run away.  Theory: docs/theory/explicit_stepper.md.
+static double inertia_factor(const Material& a) {
+    const double shear = 5.0 / 6.0 / (2.0 * (1.0 + a.poissons_ratio)), plane = 1.0 / (1.0 - a.poissons_ratio * a.poissons_ratio);
+    return 3.0 * shear / (plane - shear);
+}
+
+Masses lump(const Model& m) {
+    Masses out;
+    out.loose = loose_ends(m);
+    out.mass = m.added_mass;
+    out.inertia = m.added_inertia;
+    out.scale.assign(m.elements(), 1.0);
+    const double target = m.settings.scaled_step / m.settings.safety;
+    for (std::size_t e = 0; e < m.elements(); e++) {
+        const double step = first_stable_step(m, e) / std::sqrt(out.loose[e]), area = area_of(m, e), t = m.thickness[e];
+        if (step < target) out.scale[e] = (target / step) * (target / step);
+        const double plain = m.materials[m.sheets[m.sheet_of[e]].material].density * t * area;
+        const double mass = plain * out.scale[e];
+        out.structure += plain;
+        out.added += mass - plain;
+        const bool tri = m.triangle(e);
+        const double gyration = (t * t + (tri ? 2.0 : 1.0) * inertia_factor(m.materials[m.sheets[m.sheet_of[e]].material]) * area) / 12.0;
+        for (int c = 0; c < 4; c++) {
+            const double share = tri ? (c < 2 ? 1.0 / 3.0 : 1.0 / 6.0) : 0.25;
+            out.mass[m.quads[4 * e + c]] += share * mass;
+            out.inertia[m.quads[4 * e + c]] += share * mass * gyration;
+        }
+    }
+    return out;
+}
+
+}  // namespace crumple::shell

@@ -1,0 +1,44 @@
+// A model as the kernels want it: parts with their constants, blocks of lanes, lumped masses, corners per node.
+#pragma once
+#include "aligned.hpp"
+#include "kernel.hpp"
+#include "model.hpp"
+
+namespace crumple::shell {
+
+struct Blocks {
+    int lanes = 0;
+    std::vector<Part> parts;
+    aligned_vector<std::uint32_t> nodes;         // [block][corner][lane]
+    std::vector<std::uint32_t> part_of;          // [block]
+    std::vector<std::size_t> offset;             // [block]; one more entry: the size of the state
+    std::vector<std::int64_t> element_of;        // [block][lane]; -1 for a copy that fills up a block
+    std::vector<std::size_t> place_of;           // [element] -> block * lanes + lane
+    std::vector<std::uint32_t> first, corner_of; // CSR: corner records of each node
+    std::size_t count() const { return part_of.size(); }
+    // index into the state of one slot of one element
+    std::size_t slot(std::size_t element, int slot) const {
+        const std::size_t place = place_of[element], block = place / std::size_t(lanes);
+        return offset[block] + std::size_t(slot) * std::size_t(lanes) + place % std::size_t(lanes);
+    }
+    const Part& part(std::size_t element) const { return parts[part_of[place_of[element] / std::size_t(lanes)]]; }
+    std::size_t corner(std::size_t element, int c) const { return 4 * place_of[element] + std::size_t(c); }
+};
+
+struct Masses {
+    std::vector<double> mass, inertia;           // [node]; isotropic rotary inertia [kg m2]
+    std::vector<double> scale;                   // [element] factor on the density from mass scaling
+    std::vector<double> loose;                   // [element] factor on the squared frequency of ends of strips
+    double added = 0.0;                          // mass added by scaling [kg]
+    double structure = 0.0;                      // mass of the elements without it [kg]
+};
+
+Part part_of(const Model& model, const Sheet& sheet, bool triangle);
+Blocks block_up(const Model& model, int lanes);
+Masses lump(const Model& model);
+// Stable time step of an element in its first shape and with its own density [s], without safety.
+double first_stable_step(const Model& model, std::size_t element);
+// Points z in [-1/2, 1/2] and weights that sum to 1.
+void thickness_rule(int points, bool lobatto, double* z, double* weight);
+
+}  // namespace crumple::shell

@@ -1,0 +1,114 @@
+// What is computed: frozen once a state is made of it.  SI units, world axes.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "part.hpp"
+#include "vec3.hpp"
+
+namespace crumple::shell {
+
+using Index = std::uint32_t;
+
+// Piecewise linear function of time, constant outside its range.
+struct Curve {
+    std::vector<double> time, value;
+    double at(double t) const;
+};
+
+struct Material {
+    double density, youngs_modulus, poissons_ratio;
+    std::vector<double> plastic_strain, yield_stress;   // empty: elastic; constant beyond the last point
+    double hardening_modulus;                           // slope behind a single point [Pa]; not with a rate effect
+    double rate_reference, rate_exponent, rate_time;    // reference infinite: no rate effect
+    double failure_strain;                              // infinite: never
+    bool fails_at_any_point;
+};
+
+struct Sheet {                       // a part before lowering
+    Index material;
+    int points;
+    bool lobatto;
+};
+
+struct RigidSet {
+    std::vector<Index> nodes;
+    double added_mass;
+    Vec3 added_at;                   // where the added mass sits
+    double added_inertia[6];         // xx, yy, zz, xy, yz, zx about its own centre
+    unsigned fixed;                  // bits 0..5: x, y, z, rx, ry, rz held
+};
+
+struct Load {                        // nodal force or moment
+    Index node;
+    int dof;                         // 0..5
+    Curve value;
+};
+
+struct Motion {                      // prescribed velocity of a node or a rigid set's centre of mass
+    bool rigid;
+    Index target;
+    int dof;
+    Curve velocity;
+};
+
+struct Plane {                       // half space n . (x - point) < 0 is solid
+    Vec3 point, normal;
+    double friction, gap;            // gap: distance of the mid-surface at first touch [m]
+    std::vector<Index> nodes;
+};
+
+struct SelfContact {
+    bool on = false;
+    double gap = 0.0;                // 0: the thickness of the two walls, half each
+    double stiffness = 0.1;          // share of the stability limit m / dt^2
+    double friction = 0.0;
+    double damping = 0.0;            // share of critical
+};
+
+struct Cut {                         // forces through a cut: corners of `elements` that lie on `nodes`
+    std::vector<Index> elements, nodes;
+};
+
+struct Settings {
+    double safety = 0.9;
+    double scaled_step = 0.0;        // elements below this stable step get mass [s]
+    double least_step = 1e-12;       // below it the run stops [s]
+    double damping = 0.0;            // mass-proportional [1/s]
+    Vec3 gravity;
+    bool thickness_update = true, warping_correction = false, viscous_hourglass = false;
+    double hourglass_membrane = 0.01, hourglass_shear = 0.01, hourglass_bending = 0.01;
+};
+
+struct Model {
+    // nodes
+    std::vector<double> position, velocity, spin;        // (n, 3)
+    std::vector<double> added_mass, added_inertia;       // (n)
+    std::vector<std::uint8_t> fixed;                     // (n) bits 0..5
+    // elements; a triangle repeats its third node
+    std::vector<Index> quads;                            // (m, 4)
+    std::vector<double> thickness;                       // (m)
+    std::vector<Index> sheet_of;                         // (m)
+    std::vector<Material> materials;
+    std::vector<Sheet> sheets;
+    std::vector<RigidSet> rigid_sets;
+    std::vector<Load> loads;
+    std::vector<Motion> motions;
+    std::vector<Plane> planes;
+    std::vector<Cut> cuts;
+    SelfContact contact;
+    Settings settings;
+
+    std::size_t nodes() const { return position.size() / 3; }
+    std::size_t elements() const { return thickness.size(); }
+    bool triangle(std::size_t e) const { return quads[4 * e + 2] == quads[4 * e + 3]; }
+};
+
+// Throws std::invalid_argument naming the first node, element or set that cannot be computed.
+void check(const Model& model);
+
+// Area of an element [m2].
+double area_of(const Model& model, std::size_t element);
+
+}  // namespace crumple::shell

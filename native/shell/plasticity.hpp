@@ -1,0 +1,128 @@
+// Von Mises plasticity in plane stress: implicit return, iterated to round-off.
+//
+// With p = sx + sy, d = sx - sy of the elastic trial and the unknown X = 3 G dep / Y(end of step), the
+// stress at the end is p / (1 + R X), d / (1 + X), sxy / (1 + X), R = (1 + nu) / (3 (1 - nu)), and
+// X follows from one equation
+//     q(X) (1 - H X / 3G) = Y0,    q^2 = p^2/4 u^2 + (3/4 d^2 + 3 sxy^2) v^2,   u = 1/(1 + R X), v = 1/(1 + X),
+// H the slope and Y0 the value at the old plastic strain of the hardening line in force.  1/q is nearly
+// linear in X, so Newton on 1/q needs two steps in an ordinary time step.  Every lane stops by its own
+// residual and lanes that do not yield keep their trial: the answer of an element does not depend on
+// its neighbours in the block.  Theory: docs/theory/plasticity.md.
+#pragma once
+#include "pack.hpp"
+#include "part.hpp"
+
+namespace crumple::shell {
+namespace {
+
+// Relative residual below which one more Newton step, being quadratic, ends at round-off.
+constexpr double last_step_residual = 1e-7;
+// Reached only by tables with convex kinks; ordinary steps take two.
+constexpr int max_return_steps = 40;
+
+struct Stress {
+    Real x, y, xy;
+};
+// What a return leaves behind: plastic work per volume [J/m3], and the share of the deviator that was kept.
+struct Returned {
+    Real work{}, kept = all(1.0);
+};
+
+// yield line in force at plastic strain `at`: value extrapolated to `start`, and slope
+struct YieldLine {
+    Real value, slope;
+};
+
+CRUMPLE_INLINE YieldLine yield_line(const Part& part, Real start, Real at, Real factor) {
+    const double *e = part.table_strain, *s = part.table_stress;
+    YieldLine line{all(s[0]), Real{}};
+    for (int i = 0; i + 1 < part.table_size; i++) {
+        const double slope = (s[i + 1] - s[i]) / (e[i + 1] - e[i]);
+        const Mask here = at >= e[i];
+        line.value = here ? s[i] + slope * (start - e[i]) : line.value;
+        line.slope = here ? all(slope) : line.slope;
+    }
+    // beyond the last point the stress stays
+    const Mask beyond = at >= e[part.table_size - 1];
+    line.value = beyond ? all(s[part.table_size - 1]) : line.value;
+    line.slope = beyond ? Real{} : line.slope;
+    return {line.value * factor, line.slope * factor};
+}
+
+// Cowper-Symonds factor 1 + (rate / D)^(1/q); `rate` is smoothed in place over part.rate_time
+CRUMPLE_INLINE Real rate_factor(const Part& part, Real& rate, Real strain, double dt) {
+    const double share = dt / (dt + part.rate_time);
+    if (dt > 0.0) rate += share * (strain * (1.0 / dt) - rate);
+    Real factor;
+    for (int i = 0; i < lanes; i++)
+        factor[i] = 1.0 + __builtin_pow(rate[i] * part.inverse_rate_reference, part.inverse_rate_exponent);
+    return factor;
+}
+
+// Linear hardening.
+CRUMPLE_INLINE Returned return_linear(const Part& part, Stress& s, Real& ep) {
+    const double R = part.pressure_ratio, h = part.hardening * part.inverse_3g;
+    const Real Y = part.yield_stress + part.hardening * ep;
+    Real p = s.x + s.y, d = s.x - s.y;
+    const Real a = 0.25 * p * p, b = 0.75 * d * d + 3.0 * s.xy * s.xy;
+    const Mask yields = a + b > Y * Y;
+    if (!any(yields)) return {};
+    Real X{}, u = all(1.0), v = u;
+    const Real inverse_Y = 1.0 / Y;
+    Mask active = yields;
+    for (int step = 0; step < max_return_steps && any(active); step++) {
+        // newton step on 1/q
+        const Real A = a * u * u, B = b * v * v, F = A + B, q = root(F) * inverse_Y;
+        const Real residual = q * (1.0 - h * X) - 1.0;
+        const Real next = X + F * residual / (R * A * u + B * v + h * F * q);
+        X = active ? larger(next, Real{}) : X;
+        u = 1.0 / (1.0 + R * X);
+        v = 1.0 / (1.0 + X);
+        active &= magnitude(residual) > last_step_residual;
+    }
+    // commit the lanes that yield
+    p *= u;
+    d *= v;
+    s.xy = yields ? s.xy * v : s.xy;
+    s.x = yields ? 0.5 * (p + d) : s.x;
+    s.y = yields ? 0.5 * (p - d) : s.y;
+    const Real Y_end = Y / (1.0 - h * X), increment = X * Y_end * part.inverse_3g;   // X is 0 where nothing yields
+    ep += increment;
+    return {Y_end * increment, v};
+}
+
+// Table and rate factor: the line in force is looked up at every Newton step.
+CRUMPLE_INLINE Returned return_general(const Part& part, Stress& s, Real& ep, Real factor) {
+    const double R = part.pressure_ratio;
+    YieldLine line = yield_line(part, ep, ep, factor);
+    Real p = s.x + s.y, d = s.x - s.y;
+    const Real a = 0.25 * p * p, b = 0.75 * d * d + 3.0 * s.xy * s.xy;
+    const Mask yields = a + b > line.value * line.value;
+    if (!any(yields)) return {};
+    Real X{}, u = all(1.0), v = u, q{};
+    Mask active = yields;
+    for (int step = 0; step < max_return_steps && any(active); step++) {
+        const Real A = a * u * u, B = b * v * v;
+        q = root(A + B);
+        // newton step on q itself: an extrapolated line may start below zero
+        line = yield_line(part, ep, ep + X * q * part.inverse_3g, factor);
+        const Real h = line.slope * part.inverse_3g, residual = q * (1.0 - h * X) - line.value;
+        const Real next = X + residual / ((R * A * u + B * v) * (1.0 - h * X) / q + h * q);
+        X = active ? larger(next, Real{}) : X;
+        u = 1.0 / (1.0 + R * X);
+        v = 1.0 / (1.0 + X);
+        active &= magnitude(residual) > last_step_residual * q;
+    }
+    q = root(a * u * u + b * v * v);
+    p *= u;
+    d *= v;
+    s.xy = yields ? s.xy * v : s.xy;
+    s.x = yields ? 0.5 * (p + d) : s.x;
+    s.y = yields ? 0.5 * (p - d) : s.y;
+    const Real increment = X * q * part.inverse_3g;
+    ep += increment;
+    return {q * increment, v};
+}
+
+}  // namespace
+}  // namespace crumple::shell

@@ -1,0 +1,37 @@
+// A rigid set of nodes: exact rigid motion, with momentum and energy of the free body kept to round-off.
+#pragma once
+#include "lowering.hpp"
+
+namespace crumple::shell {
+
+// Constants: members in the axes of the start.
+struct RigidBody {
+    std::vector<Index> nodes;
+    std::vector<Vec3> arm;           // member minus centre of mass at the start [m]
+    std::vector<double> member_inertia;
+    double mass = 0.0;               // [kg]
+    Mat3 inertia;                    // about the centre of mass, axes of the start [kg m2]
+    unsigned held = 0;               // bits 0..5: velocity prescribed (0 where fixed)
+    Vec3 centre0;
+};
+
+struct RigidState {
+    Vec3 centre, velocity;           // position at the step, velocity half a step earlier
+    Vec3 angular_momentum, omega;    // in the world, half a step earlier
+    Mat3 rotation;                   // from the start
+};
+
+struct Wrench {
+    Vec3 force, moment;
+};
+
+RigidBody make_body(const Model& model, const RigidSet& set, const Masses& masses);
+RigidState start_body(const RigidBody& body, const Model& model, const Masses& masses);
+// Inertia in world axes.
+Mat3 world_inertia(const RigidBody& body, const Mat3& rotation);
+// Angular velocity whose free components carry the angular momentum, the held ones given.
+Vec3 omega_of(const RigidBody& body, const Mat3& rotation, Vec3 momentum, Vec3 held_omega);
+// Turns and moves the body by its velocities over dt: implicit midpoint, which keeps L and L . J^-1 L / 2.
+void drift(const RigidBody& body, RigidState& state, double dt, Vec3 held_omega);
+
+}  // namespace crumple::shell

@@ -1,0 +1,235 @@
+// Building the state, and the loop of the stepper.
+#include "simulation.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "team.hpp"
+
+namespace crumple::shell {
+
+namespace {
+
+// Below this many elements per thread the barriers cost more than they gain.
+constexpr std::size_t elements_per_thread = 500;
+// The clock is read once in so many steps.
+constexpr std::int64_t steps_per_look = 16;
+
+}  // namespace
+
+Simulation::Simulation(std::shared_ptr<const Model> model, const Kernels& kernels)
+    : model_(std::move(model)), kernels_(kernels), masses_(lump(*model_)), blocks_(block_up(*model_, kernels.lanes)) {
+    for (const RigidSet& set : model_->rigid_sets) {
+        bodies_.push_back(make_body(*model_, set, masses_));
+        body_states_.push_back(start_body(bodies_.back(), *model_, masses_));
+    }
+    place_nodes();
+    sort_drives();
+    start_elements();
+    double step = std::numeric_limits<double>::max();
+    for (std::size_t e = 0; e < model_->elements(); e++)
+        step = std::min(step, first_stable_step(*model_, e) * std::sqrt(masses_.scale[e] / masses_.loose[e]));
+    first_dt_ = model_->settings.safety * step;
+    contact_ = std::make_unique<Contact>(*model_, masses_, first_dt_);
+    contact_->search_when_needed(motions(), alive_, true);
+    // forces of contact at the start; the elements are free of stress
+    contact_->evaluate(motions(), 0, contact_->items());
+    if (contact_->any()) contact_->commit(motions(), 0.0);
+    first_kinetic_ = kinetic();      // before there is a step, of the velocities as they are
+    dt_ = first_dt_;
+    for (Driven& d : driven_) std::copy_n(kick_driven(d).outside, 6, d.outside);
+}
+
+void Simulation::place_nodes() {
+    const std::size_t n = model_->nodes();
+    position_.assign(position_record * n, 0.0);
+    velocity_.assign(velocity_record * n, 0.0);
+    inverse_mass_.assign(velocity_record * n, 0.0);
+    kind_.assign(n, 0);
+    damping_work_.assign(n / node_chunk + 1, 0.0);
+    for (std::size_t i = 0; i < n; i++) {
+        for (std::size_t k = 0; k < 6; k++) {
+            const bool held = model_->fixed[i] & (1u << k);
+            const double mass = k < 3 ? masses_.mass[i] : masses_.inertia[i];
+            const std::size_t at = velocity_record * i + (k < 3 ? k : k + 1);
+            inverse_mass_[at] = held || !(mass > 0.0) ? 0.0 : 1.0 / mass;
+            velocity_[at] = held ? 0.0 : (k < 3 ? model_->velocity[3 * i + k] : model_->spin[3 * i + k - 3]);
+        }
+        write3(&position_[position_record * i], read3(&model_->position[3 * i]));
+    }
+    for (std::size_t b = 0; b < bodies_.size(); b++)
+        for (std::size_t k = 0; k < bodies_[b].nodes.size(); k++) {
+            const Index i = bodies_[b].nodes[k];
+            const RigidState& s = body_states_[b];
+            kind_[i] = 1;
+            write3(&velocity_[velocity_record * i], s.velocity + cross(s.omega, bodies_[b].arm[k]));
+            write3(&velocity_[velocity_record * i + 4], s.omega);
+        }
+}
+
+void Simulation::sort_drives() {
+    std::vector<std::int64_t> body_of(model_->nodes(), -1), place(model_->nodes(), -1);
+    for (std::size_t b = 0; b < bodies_.size(); b++)
+        for (Index n : bodies_[b].nodes) body_of[n] = std::int64_t(b);
+    body_drives_.assign(bodies_.size(), BodyDrive{});
+    auto driven = [&](Index n) -> Driven& {
+        if (place[n] < 0) {
+            place[n] = std::int64_t(driven_.size());
+            driven_.push_back(Driven{n, 0, {}, {}, {}});
+            kind_[n] = 2;
+        }
+        return driven_[std::size_t(place[n])];
+    };
+    for (std::size_t i = 0; i < model_->loads.size(); i++) {
+        const Index n = model_->loads[i].node;
+        (body_of[n] >= 0 ? body_drives_[std::size_t(body_of[n])].loads : driven(n).loads).push_back(i);
+    }
+    for (std::size_t i = 0; i < model_->motions.size(); i++) {
+        const Motion& a = model_->motions[i];
+        if (a.rigid) {
+            body_drives_[a.target].motions.push_back(i);
+            bodies_[a.target].held |= 1u << a.dof;
+        } else {
+            driven(a.target).motions.push_back(i);
+            driven(a.target).held |= 1u << a.dof;
+        }
+    }
+}
+
+void Simulation::start_elements() {
+    state_.assign(blocks_.offset.back(), 0.0);
+    corner_.assign(std::size_t(4 * corner_record) * blocks_.element_of.size(), 0.0);
+    alive_.assign(model_->elements(), 1);
+    std::size_t e = 0;
+    for (std::size_t place = 0; place < blocks_.element_of.size(); place++) {
+        // copies start like the element they copy
+        if (blocks_.element_of[place] >= 0) e = std::size_t(blocks_.element_of[place]);
+        const std::size_t block = place / std::size_t(blocks_.lanes), lane = place % std::size_t(blocks_.lanes);
+        const Part& part = blocks_.parts[blocks_.part_of[block]];
+        auto slot = [&](int s) -> double& { return state_[blocks_.offset[block] + std::size_t(s * blocks_.lanes) + lane]; };
+        slot(thickness) = model_->thickness[e];
+        slot(volume0) = model_->thickness[e] * area_of(*model_, e);
+        slot(wave) = (part.triangle > 0.0 ? 3.0 : 4.0) * part.plane_modulus * masses_.loose[e] / (part.density * masses_.scale[e]);
+        slot(alive) = 1.0;
+        can_fail_ |= part.fails;
+    }
+}
+
+ElementStage Simulation::element_stage(double dt) {
+    const double least = model_->settings.least_step / model_->settings.safety;
+    return {position_.data(), velocity_.data(), blocks_.nodes.data(), blocks_.part_of.data(), blocks_.offset.data(),
+            blocks_.parts.data(), state_.data(), corner_.data(), dt, 4.0 / (least * least)};
+}
+
+NodeStage Simulation::node_stage() {
+    const Settings& s = model_->settings;
+    return {position_.data(), velocity_.data(), inverse_mass_.data(), corner_.data(), contact_->any() ? contact_->force() : nullptr,
+            kind_.data(), blocks_.first.data(), blocks_.corner_of.data(), damping_work_.data(), kick(), dt_, s.damping,
+            {s.gravity.x, s.gravity.y, s.gravity.z}};
+}
+
+void Simulation::move_nodes(Range range) { kernels_.nodes(node_stage(), range.first, range.last); }
+
+// the step that follows from what the elements found, or why there is none
+void Simulation::end_step(const std::vector<ElementReport>& reports) {
+    double frequency = 0.0;
+    for (const ElementReport& r : reports) {
+        if (r.bad_block >= 0 && end_ == End::running) note_failure(r);
+        frequency = std::max(frequency, r.frequency);
+    }
+    last_dt_ = dt_;
+    time_ += dt_;
+    steps_++;
+    if (end_ != End::running) return;
+    if (can_fail_ && contact_->any()) update_alive();
+    if (contact_->any()) {
+        contact_->commit(motions(), last_dt_);
+        contact_->search_when_needed(motions(), alive_, false);
+    }
+    // a shape that relaxes lengthens the step slowly; with every element gone the step stays
+    const double stable = frequency > 0.0 ? model_->settings.safety * 2.0 / std::sqrt(frequency) : dt_;
+    dt_ = std::min(stable, 1.02 * dt_);
+}
+
+// the first element of the block that is not finite, else the one that is torn or the smallest
+void Simulation::note_failure(const ElementReport& r) {
+    const std::size_t block = std::size_t(r.bad_block);
+    end_ = std::isinf(r.frequency) ? End::torn : End::step_collapsed;
+    double worst = -1.0;
+    for (std::size_t lane = 0; lane < std::size_t(blocks_.lanes); lane++) {
+        const std::int64_t e = blocks_.element_of[block * std::size_t(blocks_.lanes) + lane];
+        if (e < 0) continue;
+        Vec3 x[4], v[4];
+        for (std::size_t c = 0; c < 4; c++) {
+            x[c] = read3(&position_[position_record * model_->quads[4 * std::size_t(e) + c]]);
+            v[c] = read3(&velocity_[velocity_record * model_->quads[4 * std::size_t(e) + c]]);
+        }
+        const double area = norm(cross(x[2] - x[0], x[3] - x[1]));
+        if (!std::isfinite(area) || !std::isfinite(slot(std::size_t(e), internal_energy))) {
+            end_ = End::not_finite;
+            failed_element_ = e;
+            return;
+        }
+        const double speed = std::max(norm(v[2] - v[0]), norm(v[3] - v[1])), badness = (end_ == End::torn ? speed : 1.0) / area;
+        if (badness > worst) {
+            worst = badness;
+            failed_element_ = e;
+        }
+    }
+}
+
+void Simulation::update_alive() {
+    for (std::size_t e = 0; e < alive_.size(); e++) alive_[e] = slot(e, alive) > 0.5;
+}
+
+End Simulation::advance(double until, double seconds, std::int64_t steps, int threads) {
+    if (end_ != End::running) return end_;
+    const auto start = std::chrono::steady_clock::now();
+    const std::int64_t last_step = steps_ + std::min(steps, std::numeric_limits<std::int64_t>::max() - steps_);
+    const std::size_t useful = std::max<std::size_t>(1, model_->elements() / elements_per_thread);
+    const int members = int(std::min<std::size_t>(useful, std::size_t(std::max(threads, 1))));
+    std::vector<ElementReport> reports;
+    reports.resize(std::size_t(members));
+    Barrier barrier(members);
+    bool go = true;
+    auto decide = [&] {
+        go = end_ == End::running && time_ < until && steps_ < last_step;
+        if (go && steps_ % steps_per_look == 0)
+            go = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < seconds;
+    };
+    decide();
+    run_team(members, [&](int member) {
+        while (go) {
+            // nodes: forces of the last step move them
+            move_nodes(share_of(model_->nodes(), member, members, node_chunk));
+            if (member == 0) {
+                move_driven();
+                move_bodies();
+            }
+            barrier.wait([] {});
+            // elements: the new shape gives new forces
+            const Range blocks = share_of(blocks_.count(), member, members);
+            reports[std::size_t(member)] = kernels_.elements(element_stage(dt_), blocks.first, blocks.last);
+            const Range touches = share_of(contact_->items(), member, members);
+            contact_->evaluate(motions(), touches.first, touches.last);
+            barrier.wait([&] {
+                end_step(reports);
+                decide();
+            });
+        }
+    });
+    return end_ != End::running ? end_ : time_ >= until ? End::reached : End::running;
+}
+
+void Simulation::deform(const double* position, const double* velocity, const double* spin, double dt) {
+    for (std::size_t i = 0; i < model_->nodes(); i++) {
+        write3(&position_[position_record * i], read3(position + 3 * i));
+        write3(&velocity_[velocity_record * i], read3(velocity + 3 * i));
+        write3(&velocity_[velocity_record * i + 4], read3(spin + 3 * i));
+    }
+    kernels_.elements(element_stage(dt), 0, blocks_.count());
+}
+
+}  // namespace crumple::shell

@@ -1,0 +1,114 @@
+// The moving state of a model and the explicit stepper that advances it.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "contact.hpp"
+#include "rigid_body.hpp"
+#include "team.hpp"
+
+namespace crumple::shell {
+
+// [J]; internal = elastic + plastic; residual = kinetic + internal + hourglass + contact + damping - external - first kinetic
+struct Energies {
+    double kinetic = 0.0, elastic = 0.0, plastic = 0.0, hourglass = 0.0, contact = 0.0, damping = 0.0, external = 0.0;
+    double residual = 0.0, eroded = 0.0;
+};
+
+enum class End : int { running, reached, not_finite, step_collapsed, torn };
+
+struct Checkpoint {
+    std::vector<double> numbers, nodes, elements, corners, bodies, drives, contact;
+};
+
+class Simulation {
+public:
+    Simulation(std::shared_ptr<const Model> model, const Kernels& kernels);
+
+    // Steps until `until`, or for `seconds` of wall time, or `steps` steps, whichever comes first.
+    End advance(double until, double seconds, std::int64_t steps, int threads);
+    // One evaluation of the elements at given nodal motion, without time integration: positions at the end of the step.
+    void deform(const double* position, const double* velocity, const double* spin, double dt);
+
+    Energies energies() const;
+    Wrench cut(std::size_t i, Vec3* centre) const;
+    double slot(std::size_t element, int slot) const;
+    void node_forces(double* force_and_moment) const;    // (n, 6) internal forces
+    void velocities(double* v, double* w) const;         // (n, 3) each, at the time of the positions
+
+    Checkpoint save() const;
+    void restore(const Checkpoint& saved);
+
+    const Model& model() const { return *model_; }
+    const Blocks& blocks() const { return blocks_; }
+    const Masses& masses() const { return masses_; }
+    const Kernels& kernels() const { return kernels_; }
+    const Contact& contact() const { return *contact_; }
+    const std::vector<RigidBody>& bodies() const { return bodies_; }
+    const std::vector<RigidState>& body_states() const { return body_states_; }
+    const double* position() const { return position_.data(); }
+    double time() const { return time_; }
+    double step() const { return dt_; }
+    double first_step() const { return first_dt_; }
+    std::int64_t steps() const { return steps_; }
+    std::int64_t failed_element() const { return failed_element_; }
+    End end() const { return end_; }
+
+private:
+    // a node with a load or a prescribed velocity
+    struct Driven {
+        Index node;
+        unsigned held;                           // prescribed dofs
+        std::vector<std::size_t> loads, motions;
+        double outside[6];                       // force from outside at the last step
+    };
+    struct BodyDrive {
+        std::vector<std::size_t> loads, motions;
+        double outside[6];
+    };
+    struct Kick {                                // result of a half-computed step of six degrees of freedom
+        double velocity[6], outside[6];
+    };
+
+    void place_nodes();
+    void sort_drives();
+    void start_elements();
+    ElementStage element_stage(double dt);
+    NodeStage node_stage();
+    void move_nodes(Range range);
+    void move_driven();
+    void move_bodies();
+    void begin_step();
+    void end_step(const std::vector<ElementReport>& reports);
+    void note_failure(const ElementReport& report);
+    void update_alive();
+    Wrench internal_force(Index node) const;     // of elements and contact, as it acts on the node
+    Vec3 load(const std::vector<std::size_t>& loads, bool moment, double t) const;
+    Kick kick_driven(const Driven& d) const;
+    Kick kick_body(std::size_t i, RigidState& state) const;
+    double kinetic() const;
+    double work_to_come() const;
+    double gravity_work() const;
+    Motions motions() const { return {position_.data(), velocity_.data()}; }
+    double kick() const { return 0.5 * (dt_ + last_dt_); }
+
+    std::shared_ptr<const Model> model_;
+    const Kernels& kernels_;
+    Masses masses_;
+    Blocks blocks_;
+    aligned_vector<double> position_, velocity_, inverse_mass_, state_, corner_;
+    std::vector<std::uint8_t> kind_, alive_;
+    std::vector<double> damping_work_;
+    std::vector<RigidBody> bodies_;
+    std::vector<RigidState> body_states_;
+    std::vector<BodyDrive> body_drives_;
+    std::vector<Driven> driven_;
+    std::unique_ptr<Contact> contact_;
+    double time_ = 0.0, dt_ = 0.0, last_dt_ = 0.0, first_dt_ = 0.0;
+    double outside_work_ = 0.0, body_damping_ = 0.0, first_kinetic_ = 0.0;
+    std::int64_t steps_ = 0, failed_element_ = -1;
+    End end_ = End::running;
+    bool can_fail_ = false;
+};
+
+}  // namespace crumple::shell

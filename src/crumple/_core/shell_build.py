@@ -1,0 +1,99 @@
+"""From a `ShellModel` to the model of the compiled core."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crumple._core import _kernels
+from crumple._core.shell_model import Floats, Hourglass, Indices, ShellMaterial, ShellModel, ShellSettings
+
+kernel: Any = _kernels.shell
+_DOFS = {"x": 0, "y": 1, "z": 2, "rx": 3, "ry": 4, "rz": 5}
+
+
+def floats(values: ArrayLike) -> Floats:
+    """Contiguous doubles, as the core takes them."""
+    return np.ascontiguousarray(values, dtype=np.float64)
+
+
+def _indices(values: ArrayLike) -> Indices:
+    return np.ascontiguousarray(values, dtype=np.uint32)
+
+
+def _or_zero(values: ArrayLike | None, shape: tuple[int, ...]) -> Floats:
+    return np.zeros(shape) if values is None else floats(np.broadcast_to(floats(values), shape))
+
+
+def _bits(dofs: Sequence[str]) -> int:
+    return sum(1 << _DOFS[dof] for dof in set(dofs))
+
+
+def built(model: ShellModel) -> Any:
+    """Model of the core from the arrays of a `ShellModel`."""
+    core = kernel.Model()
+    n, m = len(model.position), len(model.elements)
+    fixed = np.zeros((n, 6), dtype=bool) if model.fixed is None else np.asarray(model.fixed, dtype=bool)
+    core.nodes(
+        floats(model.position),
+        _or_zero(model.velocity, (n, 3)),
+        _or_zero(model.spin, (n, 3)),
+        _or_zero(model.mass, (n,)),
+        _or_zero(model.inertia, (n,)),
+        (fixed @ (1 << np.arange(6))).astype(np.uint8),
+    )
+    thickness = np.broadcast_to(floats(model.thickness), (m,))
+    core.elements(_indices(model.elements), floats(thickness), _indices(np.broadcast_to(model.sheet, (m,))))
+    for material in model.materials:
+        _add_material(core, material)
+    for sheet in model.sheets:
+        core.sheet(sheet.material, sheet.points, sheet.lobatto)
+    _add_sets(core, model)
+    _add_settings(core, model.settings)
+    return core
+
+
+def _add_material(core: Any, material: ShellMaterial) -> None:
+    strain, stress = material.table()
+    names = (
+        "density",
+        "youngs_modulus",
+        "poissons_ratio",
+        "hardening_modulus",
+        "rate_reference",
+        "rate_exponent",
+    )
+    names += ("rate_time", "failure_strain", "fails_at_any_point")  # type: ignore[assignment]
+    values = {name: getattr(material, name) for name in names}
+    core.material({**values, "plastic_strain": strain, "yield_stress": stress})
+
+
+def _add_sets(core: Any, model: ShellModel) -> None:
+    for rigid in model.rigid_sets:
+        nodes = _indices(rigid.nodes)
+        at = model.position[nodes].mean(axis=0) if rigid.at is None else rigid.at
+        core.rigid_set(nodes, rigid.mass, floats(at), floats(rigid.inertia), _bits(rigid.fixed))
+    for load in model.loads:
+        core.load(load.node, _DOFS[load.dof], floats(load.time), floats(load.value))
+    for motion in model.motions:
+        core.motion(
+            motion.rigid_set, motion.target, _DOFS[motion.dof], floats(motion.time), floats(motion.value)
+        )
+    for plane in model.planes:
+        nodes = _indices(np.arange(len(model.position)) if plane.nodes is None else plane.nodes)
+        core.plane(floats(plane.point), floats(plane.normal), plane.friction, plane.gap, nodes)
+    for cut in model.cuts:
+        core.cut(_indices(cut.elements), _indices(cut.nodes))
+
+
+def _add_settings(core: Any, s: ShellSettings) -> None:
+    names = ("safety", "scaled_step", "least_step", "damping", "thickness_update", "warping_correction")
+    coefficients = ("hourglass_membrane", "hourglass_shear", "hourglass_bending")
+    values = {name: getattr(s, name) for name in (*names, *coefficients)}
+    viscous = s.hourglass is Hourglass.VISCOUS
+    core.settings({**values, "gravity": floats(s.gravity), "viscous_hourglass": viscous})
+    contact = {"on": s.self_contact, "gap": s.contact_gap, "stiffness": s.contact_stiffness}
+    core.contact({**contact, "friction": s.contact_friction, "damping": s.contact_damping})

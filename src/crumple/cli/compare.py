@@ -1,0 +1,159 @@
+"""`crumple compare FILE`: solve an input file with both engines and put the answers side by side."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from crumple.analysis import Analysis
+    from crumple.comparison import Comparison, CurveFile
+    from crumple.report import ReportInput
+
+MOST_HINGES = 8
+"""Hinges that the table shows; the page holds more."""
+
+
+def compare(
+    file: Annotated[Path, typer.Argument(help="Input file (YAML).", show_default=False)],
+    *,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the results; by default out/ and the input file's name.")
+    ] = None,
+    curve: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="name=file.csv: measured histories, or another code's; any number.", show_default=False
+        ),
+    ] = None,
+    pair: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="column=history: what a column of a curve file is called here; column=-history where "
+            "it counts the other way.",
+            show_default=False,
+        ),
+    ] = None,
+    threads: Annotated[
+        int | None,
+        typer.Option(help="Threads of the shell run; by default all cores.", min=1, show_default=False),
+    ] = None,
+    variants: Annotated[
+        bool, typer.Option(help="Solve also multibody models with elastic hinges and members.")
+    ] = True,
+) -> None:
+    """Solve with both engines and compare. Writes multibody/, shell/ and report.html to a folder."""
+    from crumple.analysis import load, with_lines
+    from crumple.cli.folder import results_errors, results_folder
+    from crumple.cli.progress import progress_bar, stop_on_interrupt
+    from crumple.cli.shell_run import available_threads, long_run_of
+    from crumple.comparison import picture_times, solve_and_compare
+    from crumple.errors import InputError
+    from crumple.report import write_comparison
+
+    analysis = load(file)
+    curves = [_curve(text, pair or []) for text in curve or []]
+    folder = results_folder(out, file)
+    results_folder(folder / "shell", file)
+    with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
+        try:
+            found = solve_and_compare(
+                analysis,
+                threads=threads or available_threads(),
+                curves=curves,
+                variants=variants,
+                progress=progress,
+                cancel=cancel,
+                long_run=long_run_of(folder / "shell", None, progress),
+            )
+        except InputError as error:
+            raise with_lines(error, file, analysis.structure) from None
+    with results_errors(folder):
+        source = write_both(found, analysis, file, folder)
+        write_comparison(found, source, folder, pictures=picture_times(analysis))
+    _show(found, folder)
+    if not all(s.result.status.ok for s in (found.candidate, found.reference)):
+        raise typer.Exit(1)
+
+
+def write_both(found: Comparison, analysis: Analysis, file: Path, folder: Path) -> ReportInput:
+    """Write a folder for each of the two results; give what the pages say of the input."""
+    from dataclasses import replace
+
+    from crumple.analysis import canonical
+    from crumple.comparison import picture_times, with_pictures
+    from crumple.report import ReportInput, write_report
+    from crumple.result import write
+
+    source = ReportInput(
+        title=analysis.title,
+        text=file.read_text(encoding="utf-8-sig"),
+        name=file.name,
+        canonical=canonical(analysis),
+    )
+    for each, settings in ((found.candidate, analysis.multibody), (found.reference, analysis.shell)):
+        result = with_pictures(each.result, picture_times(analysis))
+        write(result, folder / each.name)
+        bound = settings.energy_residual_bound
+        write_report(result, replace(source, residual_bound=bound), folder / each.name)
+    return source
+
+
+def _curve(text: str, pairs: list[str]) -> CurveFile:
+    """A curve file from ``name=file.csv``."""
+    from crumple.comparison import read_curves
+
+    name, equals, path = text.partition("=")
+    if not equals or not name.strip() or not path.strip():
+        raise typer.BadParameter(f"'{text}' is not name=file.csv", param_hint="--curve")
+    renamed = {}
+    for entry in pairs:
+        column, equals, history = entry.partition("=")
+        if not equals or not column.strip() or not history.strip():
+            raise typer.BadParameter(f"'{entry}' is not column=history", param_hint="--pair")
+        renamed[column.strip()] = history.strip()
+    return read_curves(path.strip(), name.strip(), renamed)
+
+
+def _show(found: Comparison, folder: Path) -> None:
+    """Print the verdict, a table of hinges, cautions, times, and where the files are."""
+    import math
+
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.table import Table
+    from rich.text import Text
+
+    from crumple.units import format_quantity
+
+    console = Console(highlight=False)
+    console.print(Text(found.title, style="bold"))
+    style = {"good": "green", "caution": "yellow"}.get(found.trust.level, "bold red")
+    console.print(Text(found.trust.headline, style=style))
+    first, second = found.candidate.name, found.reference.name
+    table = Table()
+    table.add_column("Hinge")
+    for head in (f"{first}, deg", f"{second}, deg", "Differs", "Energy differs", "Rating"):
+        table.add_column(head, justify="right")
+    for hinge in found.hinges[:MOST_HINGES]:
+        error = hinge.error("rotation_max")
+        energy = max((abs(e) for e in hinge.energy_errors() if e is not None), default=None)
+        channel = f"hinge.{hinge.name}.rotation"
+        rated = next((p.rating for p in found.pairs if (p.channel, p.candidate) == (channel, first)), None)
+        table.add_row(
+            escape(hinge.name),
+            *(f"{math.degrees(m.rotation_max):.2f}" if m else "-" for m in (hinge.first, hinge.second)),
+            "-" if error is None else f"{100 * error:+.1f} %",
+            "-" if energy is None else f"{100 * energy:.1f} %",
+            "-" if rated is None else f"{rated.overall:.2f}",
+        )
+    console.print(table)
+    seconds = [format_quantity(s.result.solve_seconds, "s", 3) for s in (found.candidate, found.reference)]
+    ratio = f", {found.speed_ratio:.3g} times faster" if found.speed_ratio else ""
+    alone = f" ({found.stepping_ratio:.3g} times, stepping alone)" if found.stepping_ratio else ""
+    console.print(f"Solved in {seconds[0]} ({first}) and {seconds[1]} ({second}){ratio}{alone}")
+    for caution in found.trust.cautions:
+        console.print(Text(f"Caution: {caution}", style="yellow"))
+    console.print(Text(f"Results: {folder}  (open {folder / 'report.html'})"), soft_wrap=True)

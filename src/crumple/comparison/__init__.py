@@ -1,0 +1,37 @@
+"""Two results, or a result and a measured curve: metrics, rating, verdict."""
+
+from crumple.comparison.comparison import Comparison, Opening, Source, compare
+from crumple.comparison.curve_file import CurveFile, read_curves
+from crumple.comparison.metrics import HingeComparison, HingeMetrics
+from crumple.comparison.motion import HingeMotion
+from crumple.comparison.pairing import Pair
+from crumple.comparison.rating import EDITION, SAMPLING_RATE, Rating, rating
+from crumple.comparison.sections import at_times
+from crumple.comparison.signal import Signal
+from crumple.comparison.solving import picture_times, solve_and_compare, with_frames, with_pictures
+from crumple.comparison.trust import Trust, energy_put_in
+
+__all__ = [
+    "EDITION",
+    "SAMPLING_RATE",
+    "Comparison",
+    "CurveFile",
+    "HingeComparison",
+    "HingeMetrics",
+    "HingeMotion",
+    "Opening",
+    "Pair",
+    "Rating",
+    "Signal",
+    "Source",
+    "Trust",
+    "at_times",
+    "compare",
+    "energy_put_in",
+    "picture_times",
+    "rating",
+    "read_curves",
+    "solve_and_compare",
+    "with_frames",
+    "with_pictures",
+]

@@ -1,0 +1,231 @@
+"""Two fidelities of one structure, and curves from elsewhere: what agrees, what does not, whom to believe."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from crumple.comparison.curve_file import CurveFile
+from crumple.comparison.metrics import HingeComparison, compared, metrics_of
+from crumple.comparison.motion import HingeMotion, Measured, channel_motions, measured, member_sections
+from crumple.comparison.pairing import TELLING, Pair, pairs_of
+from crumple.comparison.signal import Signal, member_signals, signals_of
+from crumple.comparison.trust import Trust, trust_of
+from crumple.errors import InputError, Problem
+from crumple.result import Result
+from crumple.structure import PlacedHinge, Structure, placed_hinges
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """One result with what was read from it.
+
+    Attributes
+    ----------
+    name
+        What the comparison calls it.
+    result
+        As the solver gave it.
+    hinges
+        Every hinge's motion: from its channels, or measured in the shapes.
+    extra
+        Folds where no hinge was put.
+    signals
+        Histories by name.
+    """
+
+    name: str
+    result: Result
+    hinges: tuple[HingeMotion, ...]
+    extra: tuple[HingeMotion, ...]
+    signals: Mapping[str, Signal]
+
+    def hinge(self, name: str) -> HingeMotion | None:
+        """Motion of a hinge or fold by name."""
+        return next((motion for motion in (*self.hinges, *self.extra) if motion.name == name), None)
+
+
+@dataclass(frozen=True, eq=False)
+class Opening:
+    """A hinge or fold that opened: name, member, place along it [m], time [s]."""
+
+    name: str
+    member: str
+    station: float
+    time: float
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """What two results say of one structure; plain data.
+
+    Attributes
+    ----------
+    title
+        Of the analysis.
+    candidate, reference
+        The design answer and the one that checks it.
+    variants
+        Further candidates, for example the same model with elastic-plastic hinges.
+    curves
+        From files.
+    hinges
+        Hinge by hinge, candidate against reference; folds without a hinge come last.
+    variant_hinges
+        The same for every variant, by its name.
+    pairs
+        Histories rated: candidate and variants against reference, every result against every curve.
+    unpaired
+        Columns of curve files that match no history, by file name.
+    opened
+        Hinges in order of opening, by source name.
+    trust
+        Verdict and sentences.
+    stepping
+        Wall time of one run of the multibody stepper alone [s], by source name, where it was measured.
+    """
+
+    title: str
+    candidate: Source
+    reference: Source
+    variants: tuple[Source, ...]
+    curves: tuple[CurveFile, ...]
+    hinges: tuple[HingeComparison, ...]
+    variant_hinges: Mapping[str, tuple[HingeComparison, ...]]
+    pairs: tuple[Pair, ...]
+    unpaired: Mapping[str, tuple[str, ...]]
+    opened: Mapping[str, tuple[Opening, ...]]
+    trust: Trust = field(default_factory=lambda: Trust("caution", "", (), ()))
+    stepping: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def speed_ratio(self) -> float | None:
+        """Solve time of the reference over that of the candidate; None where one is not known."""
+        a, b = self.candidate.result.solve_seconds, self.reference.result.solve_seconds
+        return b / a if a > 0.0 and b > 0.0 else None
+
+    @property
+    def stepping_ratio(self) -> float | None:
+        """Solve time of the reference over the candidate's stepping alone; None where one is not known."""
+        a, b = self.stepping.get(self.candidate.name, 0.0), self.reference.result.solve_seconds
+        return b / a if a > 0.0 and b > 0.0 else None
+
+    @property
+    def sources(self) -> tuple[Source, ...]:
+        """Candidate, variants, reference."""
+        return (self.candidate, *self.variants, self.reference)
+
+
+def compare(
+    candidate: Result,
+    reference: Result,
+    structure: Structure,
+    *,
+    variants: Mapping[str, Result] | None = None,
+    curves: Sequence[CurveFile] = (),
+) -> Comparison:
+    """Compare two results of one structure, and any curves, with each other.
+
+    Parameters
+    ----------
+    candidate
+        The answer that is judged, as a rule multibody.
+    reference
+        What it is judged by, as a rule shell; its hinges are measured in its shapes, so it needs states.
+    structure
+        Of both.
+    variants
+        Further candidates by name.
+    curves
+        Measured curves or those of other codes; columns are paired with histories of the same name.
+
+    Returns
+    -------
+    Comparison
+        Pure data.
+
+    Raises
+    ------
+    InputError
+        If a result holds no histories at all.
+
+    References
+    ----------
+    Definitions in docs/theory/comparison.md.
+    """
+    hinges = placed_hinges(structure)
+    names = _names(candidate, reference, variants or {})
+    results = (candidate, *(variants or {}).values(), reference)
+    sources = [_source(name, result, structure, hinges) for name, result in zip(names, results, strict=True)]
+    first, others, last = sources[0], tuple(sources[1:-1]), sources[-1]
+    tables = {source.name: _hinges(source, last) for source in (first, *others)}
+    pairs = pairs_of((first.name, first.signals), (last.name, last.signals))
+    for s in others:
+        pairs += pairs_of((s.name, s.signals), (last.name, last.signals), ranks=TELLING)
+    unpaired = {}
+    for curve in curves:
+        known = {c for source in sources for c in source.signals}
+        unpaired[curve.name] = tuple(c for c in curve.signals if c not in known)
+        pairs += [p for s in sources for p in pairs_of((s.name, s.signals), (curve.name, curve.signals))]
+    opened = {source.name: openings(source) for source in sources}
+    found = Comparison(
+        title=candidate.title or reference.title,
+        candidate=first,
+        reference=last,
+        variants=others,
+        curves=tuple(curves),
+        hinges=tables[first.name],
+        variant_hinges={s.name: tables[s.name] for s in others},
+        pairs=tuple(pairs),
+        unpaired=unpaired,
+        opened=opened,
+    )
+    return _with_trust(found, structure)
+
+
+def _with_trust(found: Comparison, structure: Structure) -> Comparison:
+    return replace(found, trust=trust_of(found, structure))
+
+
+def _names(candidate: Result, reference: Result, variants: Mapping[str, Result]) -> list[str]:
+    """Names of the sources: fidelities where they differ."""
+    first, last = candidate.fidelity, reference.fidelity
+    if first == last:
+        first, last = f"{first} (judged)", f"{last} (reference)"
+    return [first, *variants, last]
+
+
+def _source(name: str, result: Result, structure: Structure, hinges: Sequence[PlacedHinge]) -> Source:
+    if not result.time.size:
+        what = f"the {name} result holds no histories"
+        raise InputError(Problem(what, result.status.value, "a run that got past its start", result.reason))
+    if result.fidelity == "multibody":
+        sections = member_sections(result, structure)
+        seen = Measured(sections, (), tuple(channel_motions(result, hinges, sections)), ())
+    else:
+        seen = measured(result, structure, hinges)
+    members = member_signals(structure, seen.sections)
+    signals = signals_of(result, () if result.fidelity == "multibody" else seen.hinges, members)
+    return Source(name, result, seen.hinges, seen.extra, signals)
+
+
+def _hinges(first: Source, second: Source) -> tuple[HingeComparison, ...]:
+    """Hinges of the candidate, each with the reference's, then folds that have none."""
+    names = list(dict.fromkeys(m.name for s in (first, second) for m in (*s.hinges, *s.extra)))
+    found = []
+    for name in names:
+        a, b = first.hinge(name), second.hinge(name)
+        place = a or b
+        if place is not None:
+            found.append(compared(place, a, b))
+    return tuple(found)
+
+
+def openings(source: Source) -> tuple[Opening, ...]:
+    """Hinges and folds of one source that opened, first things first."""
+    found = []
+    for motion in (*source.hinges, *source.extra):
+        time = metrics_of(motion, ()).opened if motion.time.size else None
+        if time is not None and motion.fold:
+            found.append(Opening(motion.name, motion.member, motion.station, time))
+    return tuple(sorted(found, key=lambda opening: opening.time))

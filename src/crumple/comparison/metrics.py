@@ -1,0 +1,186 @@
+"""What engineers ask of a hinge, as numbers, of one result and of another beside it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple.comparison.motion import HingeMotion
+from crumple.comparison.sections import Floats
+
+OPENED_AT = math.radians(0.5)
+"""Plastic rotation [rad] from which a hinge counts as open."""
+STEPS = (1.0, 2.0, 5.0)
+"""Round steps of the rotations [deg] at which energies are compared, times powers of ten."""
+LEVELS = 5
+"""About so many of them."""
+
+
+@dataclass(frozen=True, eq=False)
+class HingeMetrics:
+    """Figures of one hinge in one result; None where they cannot be had.
+
+    Attributes
+    ----------
+    rotation_max, time_of_peak
+        Largest magnitude [rad] and when [s].
+    far_rotation_max
+        The same as the far end shows it [rad].
+    plastic_rotation
+        Largest magnitude of plastic rotation [rad].
+    plastic_energy
+        Dissipated at the end [J].
+    energy_at
+        Dissipated when each of the plastic rotations of the comparison is first reached [J].
+    moment_peak, moment_mean
+        Largest magnitude, and energy over plastic rotation [N m].
+    opened
+        When it opened [s]; None if it never did.
+    """
+
+    rotation_max: float
+    time_of_peak: float
+    far_rotation_max: float | None
+    plastic_rotation: float
+    plastic_energy: float
+    energy_at: tuple[float | None, ...]
+    moment_peak: float | None
+    moment_mean: float | None
+    opened: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class HingeComparison:
+    """One hinge in both results.
+
+    Attributes
+    ----------
+    name, member, station
+        Of the hinge [m].
+    first, second
+        In the candidate (multibody) and in the reference (shell); None where that result does not show it.
+    levels
+        Plastic rotations [rad] of `HingeMetrics.energy_at`.
+    fold_station, fold_extent
+        Where the reference folded [m]; None without a fold there.
+    how
+        How the reference was measured.
+    """
+
+    name: str
+    member: str
+    station: float
+    first: HingeMetrics | None
+    second: HingeMetrics | None
+    levels: tuple[float, ...]
+    fold_station: float | None = None
+    fold_extent: tuple[float, float] | None = None
+    how: str = ""
+
+    def error(self, quantity: str) -> float | None:
+        """Relative error of a figure of the candidate; None where the reference has no fold or no figure."""
+        if self.first is None or self.second is None or self.fold_station is None:
+            return None
+        a, b = getattr(self.first, quantity), getattr(self.second, quantity)
+        if a is None or b is None or not b:
+            return None
+        return float(a / b - 1.0)
+
+    def energy_errors(self) -> tuple[float | None, ...]:
+        """Relative error of plastic energy at every level."""
+        if self.first is None or self.second is None or self.fold_station is None:
+            return tuple(None for _ in self.levels)
+        pairs = zip(self.first.energy_at, self.second.energy_at, strict=True)
+        return tuple(a / b - 1.0 if a is not None and b else None for a, b in pairs)
+
+
+def rotation_levels(largest: float) -> tuple[float, ...]:
+    """Round plastic rotations [rad] up to the largest that both reached, about five."""
+    degrees = math.degrees(largest)
+    if not degrees > 0.1:
+        return ()
+    wish = degrees / LEVELS
+    power = 10.0 ** math.floor(math.log10(wish))
+    step = min((s * power for s in (*STEPS, 10.0)), key=lambda s: abs(math.log(s / wish)))
+    return tuple(math.radians(step * k) for k in range(1, int(degrees / step + 1e-9) + 1))
+
+
+def metrics_of(motion: HingeMotion, levels: tuple[float, ...]) -> HingeMetrics:
+    """Figures of one hinge.
+
+    Parameters
+    ----------
+    motion
+        Its history.
+    levels
+        Plastic rotations [rad] at which the energy is wanted.
+    """
+    side = motion.sense
+    peak = int(np.argmax(side * motion.rotation))
+    plastic = np.maximum.accumulate(np.maximum(side * motion.plastic_rotation, 0.0))
+    most, work = float(plastic[-1]), float(motion.plastic_work[-1])
+    moment = float(np.abs(motion.moment).max(initial=0.0))
+    far = None if motion.far is None else float(np.nanmax(np.abs(motion.far)))
+    return HingeMetrics(
+        rotation_max=float(side * motion.rotation[peak]),
+        time_of_peak=float(motion.time[peak]),
+        far_rotation_max=far,
+        plastic_rotation=most,
+        plastic_energy=work,
+        energy_at=tuple(_energy_at(plastic, motion.plastic_work, level) for level in levels),
+        moment_peak=moment or None,
+        moment_mean=work / most if most > 0.0 and work > 0.0 else None,
+        opened=opening_time(motion.time, plastic),
+    )
+
+
+def opening_time(time: Floats, plastic: Floats) -> float | None:
+    """When a growing plastic rotation [rad] passes the opening rotation [s]; None if never."""
+    open_ = np.flatnonzero(plastic >= OPENED_AT)
+    if not open_.size:
+        return None
+    i = int(open_[0])
+    if i == 0:
+        return float(time[0])
+    share = (OPENED_AT - plastic[i - 1]) / max(plastic[i] - plastic[i - 1], 1e-300)
+    return float(time[i - 1] + share * (time[i] - time[i - 1]))
+
+
+def _energy_at(plastic: Floats, work: Floats, level: float) -> float | None:
+    """Energy when a growing plastic rotation first reaches a level; None if it never does."""
+    if not plastic[-1] >= level:
+        return None
+    i = int(np.searchsorted(plastic, level))
+    if i == 0 or plastic[i] == plastic[i - 1]:
+        return float(work[i])
+    share = (level - plastic[i - 1]) / (plastic[i] - plastic[i - 1])
+    return float(work[i - 1] + share * (work[i] - work[i - 1]))
+
+
+def compared(place: HingeMotion, first: HingeMotion | None, second: HingeMotion | None) -> HingeComparison:
+    """One hinge of both results side by side.
+
+    Parameters
+    ----------
+    place
+        Either of them, for name and place.
+    first, second
+        Candidate and reference.
+    """
+    both = [m for m in (first, second) if m is not None and m.rotation.size]
+    largest = min((float(np.max(m.sense * m.plastic_rotation)) for m in both), default=0.0)
+    levels = rotation_levels(largest)
+    found = second is not None and second.fold
+    return HingeComparison(
+        name=place.name,
+        member=place.member,
+        station=first.station if first is not None else place.station,
+        first=metrics_of(first, levels) if first is not None and first.time.size else None,
+        second=metrics_of(second, levels) if second is not None and second.time.size else None,
+        levels=levels,
+        fold_station=second.station if second is not None and found else None,
+        fold_extent=second.extent if second is not None else None,
+        how=second.how if second is not None else "",
+    )

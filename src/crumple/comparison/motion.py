@@ -1,0 +1,360 @@
+"""What each hinge did, in one shape for both fidelities.
+
+A multibody result says it in its channels.  In a shell result it is measured:
+
+- rotation: of the section plane beyond the fold relative to the one before it, about the hinge's axis at
+  the start;
+- plastic work: the part of the energy dissipated that falls between the planes, by plastic strain times
+  wall area (nearly so for perfect plasticity and one wall thickness);
+- moment: the channel of that name where the result has one, else the moment conjugate to plastic work, work
+  over rotation across a window of rotation;
+- plastic rotation: rotation - M/k, k = EI over the distance of the planes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple.comparison.folds import Fold, find_folds
+from crumple.comparison.sections import Floats, Sections, sections_of
+from crumple.result import Result
+from crumple.structure import PlacedHinge, Structure
+
+REACH = 2.0
+"""A fold belongs to a hinge within this many times the section's largest side along the member."""
+WINDOW = np.radians(2.0)
+"""Rotation [rad] over which work is divided by rotation: a few outputs of a run, a small part of a fold."""
+ELASTIC_WORK = 0.01
+"""Share of the final plastic work below which a fold is taken as elastic."""
+
+
+@dataclass(frozen=True, eq=False)
+class HingeMotion:
+    """History of one hinge or fold.
+
+    Attributes
+    ----------
+    name
+        Of the hinge; for a fold where none was put ``MEMBER at 123 mm``.
+    member, station
+        Place along a member [m].
+    time
+        [s], (n,).
+    rotation, rotation_rate, plastic_rotation
+        Signed [rad], [rad/s], (n,).
+    moment
+        In the sense of the rotation rate [N m], (n,).
+    plastic_work
+        Dissipated so far [J], (n,).
+    how
+        How it was measured, in one sentence.
+    far
+        Rotation as the far end of its side of the member shows it [rad], (n,): that of the line between the
+        member's ends relative to the nearer end's section; None without shapes.
+    extent
+        Stretch of the fold [m], or None.
+    planes
+        Stations of the planes [m] that the rotation is measured between, or None.
+    fold
+        Whether a fold was found here; a multibody hinge counts once it has turned plastically.
+    """
+
+    name: str
+    member: str
+    station: float
+    time: Floats
+    rotation: Floats
+    rotation_rate: Floats
+    plastic_rotation: Floats
+    moment: Floats
+    plastic_work: Floats
+    how: str
+    far: Floats | None = None
+    extent: tuple[float, float] | None = None
+    planes: tuple[float, float] | None = None
+    fold: bool = True
+
+    @property
+    def sense(self) -> float:
+        """+1 or -1: the sense in which it turned farthest."""
+        if not self.rotation.size:
+            return 1.0
+        return float(np.sign(self.rotation[int(np.argmax(np.abs(self.rotation)))]) or 1.0)
+
+
+def channel_motions(
+    result: Result, hinges: Sequence[PlacedHinge], sections: Mapping[str, Sections]
+) -> list[HingeMotion]:
+    """Hinges of a result that has their channels, in the order given."""
+    found = []
+    for hinge in hinges:
+        prefix = f"hinge.{hinge.name}."
+        if prefix + "rotation" not in result.channels:
+            continue
+        rotation = result[prefix + "rotation"]
+        zero = np.zeros_like(rotation)
+        rate, plastic, moment, work = (
+            result[prefix + key] if prefix + key in result.channels else zero
+            for key in ("rotation_rate", "plastic_rotation", "moment", "energy")
+        )
+        moved = float(np.ptp(plastic)) if rotation.size else 0.0
+        own, far = sections.get(hinge.member), None
+        if own is not None:
+            far = np.interp(result.time, own.times, far_rotation(own, hinge.station, hinge.direction))
+        found.append(
+            HingeMotion(
+                name=hinge.name,
+                member=hinge.member,
+                station=hinge.station,
+                time=result.time,
+                rotation=rotation,
+                rotation_rate=rate,
+                plastic_rotation=plastic,
+                moment=moment,
+                plastic_work=work,
+                how="The hinge's own histories.",
+                far=far,
+                fold=moved > 0.0,
+            )
+        )
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """Sections, folds and hinges measured in the shapes of one result."""
+
+    sections: dict[str, Sections]
+    folds: tuple[Fold, ...]
+    hinges: tuple[HingeMotion, ...]
+    extra: tuple[HingeMotion, ...]
+    """Folds where no hinge was put."""
+
+
+def measured(result: Result, structure: Structure, hinges: Sequence[PlacedHinge]) -> Measured:
+    """Measure what a result with shapes did at each hinge, and where else it folded.
+
+    Parameters
+    ----------
+    result
+        With states; histories of energy are taken where it has them.
+    structure
+        For sections, materials and axes.
+    hinges
+        Of the structure.
+    """
+    states = result.states
+    if states is None or not len(states.times):
+        return Measured({}, (), (), ())
+    sections = member_sections(result, structure)
+    depths = {m: largest_side(structure, m) for m in sections}
+    folds = find_folds(states, sections, depths)
+    pairs = matched(folds, hinges, depths)
+    motions = []
+    for hinge in hinges:
+        if hinge.member not in sections:
+            continue
+        fold = next((folds[i] for i, name in pairs.items() if name == hinge.name), None)
+        planes = _planes(sections[hinge.member], hinge, fold, hinges, depths[hinge.member])
+        motions.append(_measure(result, structure, sections[hinge.member], _Site(hinge, fold, planes)))
+    extra = []
+    for i, fold in enumerate(folds):
+        if i not in pairs:
+            site = _Site(_stand_in(structure, sections[fold.member], fold), fold, fold.planes)
+            extra.append(_measure(result, structure, sections[fold.member], site))
+    return Measured(sections, tuple(folds), tuple(motions), tuple(extra))
+
+
+def member_sections(result: Result, structure: Structure) -> dict[str, Sections]:
+    """Sections of every member that the result has shapes of."""
+    if result.states is None:
+        return {}
+    return {m: own for m in structure.members if (own := sections_of(result.states, m)) is not None}
+
+
+@dataclass(frozen=True)
+class _Where:
+    """The part of a placed hinge that measuring needs."""
+
+    name: str
+    member: str
+    station: float
+    axis: str
+    direction: Floats
+
+
+@dataclass(frozen=True)
+class _Site:
+    """Hinge or stand-in, its fold if any, and the sections on both sides."""
+
+    hinge: PlacedHinge | _Where
+    fold: Fold | None
+    planes: tuple[int, int]
+
+
+def largest_side(structure: Structure, member: str) -> float:
+    """Largest side of a member's section along its mid-line [m]."""
+    return float(np.ptp(structure.section_of(member).outline(), axis=0).max())
+
+
+def matched(folds: Sequence[Fold], hinges: Sequence[PlacedHinge], depths: dict[str, float]) -> dict[int, str]:
+    """Hinge that each fold belongs to, by the fold's index: nearest pairs first, one to one."""
+    distances = sorted(
+        (abs(fold.station - hinge.station), i, hinge.name)
+        for i, fold in enumerate(folds)
+        for hinge in hinges
+        if hinge.member == fold.member
+    )
+    pairs: dict[int, str] = {}
+    for distance, i, name in distances:
+        near = distance <= REACH * depths[folds[i].member]
+        if near and i not in pairs and name not in pairs.values():
+            pairs[i] = name
+    return pairs
+
+
+def _planes(
+    own: Sections, hinge: PlacedHinge, fold: Fold | None, hinges: Sequence[PlacedHinge], depth: float
+) -> tuple[int, int]:
+    """Sections on both sides of a hinge: those of its fold, but no farther than half way to other hinges."""
+    along = sorted(other.station for other in hinges if other.member == hinge.member)
+    place = along.index(hinge.station)
+    low = (along[place - 1] + hinge.station) / 2 if place else -np.inf
+    high = (along[place + 1] + hinge.station) / 2 if place + 1 < len(along) else np.inf
+    start, end = (
+        (hinge.station - depth, hinge.station + depth)
+        if fold is None
+        else (float(own.stations[fold.planes[0]]), float(own.stations[fold.planes[1]]))
+    )
+    first, last = own.nearest(max(start, low)), own.nearest(min(end, high))
+    if first == last:
+        first, last = max(first - 1, 0), min(last + 1, len(own.stations) - 1)
+    return first, last
+
+
+def _stand_in(structure: Structure, own: Sections, fold: Fold) -> _Where:
+    """A hinge for a fold where none was put, about the section axis about which it turned more."""
+    frame = structure.frame_of(fold.member)
+    first, last = fold.planes
+    turns = {axis: float(np.abs(_between(own, frame.axis(axis), first, last)).max()) for axis in ("y", "z")}
+    axis = max(turns, key=lambda name: turns[name])
+    name = f"{fold.member} at {fold.station * 1e3:.0f} mm"
+    return _Where(name, fold.member, fold.station, axis, frame.axis(axis))
+
+
+def _between(own: Sections, axis: Floats, first: int, last: int) -> Floats:
+    turned = own.rotation(axis)
+    return np.asarray(turned[:, last] - turned[:, first])
+
+
+def _measure(result: Result, structure: Structure, own: Sections, site: _Site) -> HingeMotion:
+    hinge, fold = site.hinge, site.fold
+    first, last = site.planes
+    a, b = float(own.stations[first]), float(own.stations[last])
+    rotation = _between(own, hinge.direction, first, last)
+    section, material = structure.section_of(hinge.member), structure.material_of(hinge.member)
+    stiffness = material.youngs_modulus * section.second_moment(hinge.axis) / (b - a)  # type: ignore[arg-type]
+    work = _work(result, own.times, fold)
+    moment, said = _moment(result, hinge.name, own.times, rotation, work, stiffness)
+    plastic = rotation - moment / stiffness if fold is not None else np.zeros_like(rotation)
+    elastic = work < ELASTIC_WORK * max(float(work.max(initial=0.0)), 1e-300)
+    plastic = np.where(elastic, 0.0, plastic)
+    where = (
+        f"the fold found from {fold.start * 1e3:.0f} to {fold.end * 1e3:.0f} mm"
+        if fold
+        else "no fold found here"
+    )
+    how = (
+        f"Between best-fit planes of the sections at {a * 1e3:.0f} and {b * 1e3:.0f} mm of member "
+        f"{hinge.member} "
+        f"({where}); {said}; elastic part M/k with k = {stiffness / 1e3:.3g} kN m/rad."
+    )
+    return HingeMotion(
+        name=hinge.name,
+        member=hinge.member,
+        station=fold.station if fold is not None else hinge.station,
+        time=own.times,
+        rotation=rotation,
+        rotation_rate=rate_of(rotation, own.times),
+        plastic_rotation=plastic,
+        moment=moment,
+        plastic_work=work,
+        how=how,
+        far=far_rotation(own, hinge.station, hinge.direction),
+        extent=(fold.start, fold.end) if fold is not None else None,
+        planes=(a, b),
+        fold=fold is not None,
+    )
+
+
+def far_rotation(own: Sections, station: float, axis: Floats) -> Floats:
+    """Rotation of a hinge as the far end of its member shows it [rad], (n_states,).
+
+    For a hinge in the member's first half the line between the ends turns relative to the first section; for
+    one in the second half the last section turns relative to that line.  For a single hinge at a clamp this
+    is the angle under which the clamp sees the free end.
+    """
+    turned, chord = own.rotation(axis), own.chord_rotation(axis)
+    if station <= (own.stations[0] + own.stations[-1]) / 2:
+        return np.asarray(chord - turned[:, 0])
+    return np.asarray(turned[:, -1] - chord)
+
+
+def rate_of(values: Floats, time: Floats) -> Floats:
+    """Derivative by central differences; zero for a single time."""
+    return np.asarray(np.gradient(values, time)) if time.size > 1 else np.zeros_like(values)
+
+
+def _work(result: Result, times: Floats, fold: Fold | None) -> Floats:
+    """Energy dissipated in a fold [J] at the times of the shapes."""
+    if fold is None or "energy.dissipated" not in result.channels:
+        return np.zeros_like(times)
+    total = np.interp(times, result.time, result["energy.dissipated"])
+    return np.asarray(np.maximum.accumulate(fold.share * total))
+
+
+def _moment(
+    result: Result, name: str, times: Floats, rotation: Floats, work: Floats, stiffness: float
+) -> tuple[Floats, str]:
+    """Moment in the sense of the rotation [N m], and where it is from."""
+    channel = result.channels.get(f"hinge.{name}.moment")
+    if channel is not None and np.isfinite(channel.values).all():
+        return np.interp(times, result.time, channel.values), "moment from the result"
+    if not work.any():
+        return np.zeros_like(times), "no moment known"
+    return conjugate_moment(rotation, work, stiffness), "moment conjugate to plastic work"
+
+
+def conjugate_moment(rotation: Floats, work: Floats, stiffness: float) -> Floats:
+    """Moment conjugate to plastic work: work over rotation across a window; elastic before it yields.
+
+    Parameters
+    ----------
+    rotation
+        [rad], (n,).
+    work
+        Plastic work, growing [J], (n,).
+    stiffness
+        Elastic, between the planes [N m/rad].
+
+    Returns
+    -------
+    Floats
+        [N m], (n,), with the sign of the rotation.  After the largest rotation the last value stays.
+    """
+    side = float(np.sign(rotation[int(np.argmax(np.abs(rotation)))]) or 1.0)
+    turned = np.maximum.accumulate(np.maximum(side * rotation, 0.0))
+    grid, first = np.unique(turned, return_index=True)
+    if grid.size < 3:
+        return np.zeros_like(rotation)
+    # the work done until a rotation is first passed; a window shrinks at both ends of the path
+    done = work[np.append(first[1:] - 1, len(work) - 1)]
+    low = np.clip(grid - WINDOW / 2, grid[0], grid[-1])
+    high = np.clip(grid + WINDOW / 2, grid[0], grid[-1])
+    slope = (np.interp(high, grid, done) - np.interp(low, grid, done)) / np.maximum(high - low, 1e-12)
+    moment = np.interp(turned, grid, slope)
+    elastic = work < ELASTIC_WORK * work[-1]
+    return np.asarray(side * np.where(elastic, np.minimum(stiffness * side * rotation, moment.max()), moment))

@@ -1,0 +1,141 @@
+"""How the sections of a member turn: best-fit planes of its rings of points, in any result that has states.
+
+A ring is the set of points of one member at one station.  Its plane is the least-squares plane through the
+moved points: the eigenvector of their scatter with the smallest eigenvalue, pointing the way in which the
+outline runs round.  The rotation of a section about an axis is the angle between its normal now and at the
+start, both seen along the axis, counted on without a jump at half a turn.
+
+Limits: a section that is flattened to a line has no plane; its angle is then noise.  A fold's own rings warp,
+so a relative rotation is taken between rings on both sides of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crumple.result import States
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+SAME_STATION = 1e-6
+"""Stations nearer than this share of the member's length are one: far below any element, above rounding."""
+FEWEST = 3
+"""Points that define a plane."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sections:
+    """Rings of one member over time.
+
+    Attributes
+    ----------
+    member
+        Its name.
+    stations
+        Of the rings, increasing [m], (n_rings,).
+    times
+        [s], (n_states,).
+    centres, start_centres
+        Means of the points [m] over time, (n_states, n_rings, 3), and at the start, (n_rings, 3).
+    normals, start_normals
+        Unit normals over time, (n_states, n_rings, 3), and at the start, (n_rings, 3).
+    """
+
+    member: str
+    stations: Floats
+    times: Floats
+    centres: Floats
+    start_centres: Floats
+    normals: Floats
+    start_normals: Floats
+
+    def rotation(self, axis: Floats) -> Floats:
+        """Rotation of every section about a fixed axis since the start [rad], (n_states, n_rings).
+
+        Parameters
+        ----------
+        axis
+            Unit vector, right-handed, across the member, (3,).
+        """
+        first = self.start_normals - np.outer(self.start_normals @ axis, axis)
+        second = np.cross(axis, first)
+        angle = np.arctan2(
+            np.einsum("tri,ri->tr", self.normals, second), np.einsum("tri,ri->tr", self.normals, first)
+        )
+        return np.asarray(np.unwrap(angle, axis=0))
+
+    def nearest(self, station: float) -> int:
+        """Index of the ring nearest to a station [m]."""
+        return int(np.argmin(np.abs(self.stations - station)))
+
+    def chord_rotation(self, axis: Floats) -> Floats:
+        """Rotation of the line from the first to the last section about an axis [rad], (n_states,)."""
+        line = self.centres[:, -1] - self.centres[:, 0]
+        first = self.start_centres[-1] - self.start_centres[0]
+        first = first - (first @ axis) * axis
+        angle = np.arctan2(line @ np.cross(axis, first), line @ first)
+        return np.asarray(np.unwrap(angle))
+
+
+def sections_of(states: States, member: str) -> Sections | None:
+    """Rings of a member, or None where the result has no shape of it.
+
+    Parameters
+    ----------
+    states
+        Of any result; rings with fewer than three points are left out.
+    member
+        Its name.
+    """
+    if member not in states.member_names or not len(states.times):
+        return None
+    own = np.flatnonzero(states.member == states.member_names.index(member))
+    if not own.size:
+        return None
+    order = own[np.lexsort((states.contour[own], states.station[own]))]
+    station = states.station[order]
+    gap = SAME_STATION * max(float(np.ptp(station)), 1e-9)
+    rings = [
+        ring for ring in np.split(order, np.flatnonzero(np.diff(station) > gap) + 1) if len(ring) >= FEWEST
+    ]
+    if len(rings) < 2:
+        return None
+    planes = [_planes(states.points[None, ring] + states.displacement[:, ring]) for ring in rings]
+    start = [_planes(states.points[None, ring]) for ring in rings]
+    return Sections(
+        member=member,
+        stations=np.array([float(states.station[ring].mean()) for ring in rings]),
+        times=states.times,
+        centres=np.stack([centre for centre, _ in planes], axis=1),
+        normals=np.stack([normal for _, normal in planes], axis=1),
+        start_centres=np.concatenate([centre for centre, _ in start]),
+        start_normals=np.concatenate([normal for _, normal in start]),
+    )
+
+
+def _planes(points: Floats) -> tuple[Floats, Floats]:
+    """Centre and unit normal of one ring in every state, from (n_states, n, 3): (n_states, 3) each."""
+    centre = points.mean(axis=1)
+    arm = points - centre[:, None]
+    scatter = np.einsum("tni,tnj->tij", arm, arm)
+    normal = np.linalg.eigh(scatter)[1][:, :, 0]
+    # the outline runs round the normal
+    area = np.cross(arm, np.roll(arm, -1, axis=1)).sum(axis=1)
+    side = np.where(np.einsum("ti,ti->t", normal, area) < 0.0, -1.0, 1.0)
+    return centre, normal * side[:, None]
+
+
+def at_times(states: States, times: Floats) -> States:
+    """The states nearest to given times, (n,) [s]."""
+    rows = np.array([int(np.argmin(np.abs(states.times - t))) for t in times], dtype=np.int64)
+    return replace(
+        states,
+        times=states.times[rows],
+        displacement=states.displacement[rows],
+        point_data={name: values[rows] for name, values in states.point_data.items()},
+        cell_data={name: values[rows] for name, values in states.cell_data.items()},
+    )

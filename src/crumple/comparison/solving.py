@@ -1,0 +1,142 @@
+"""From one analysis to a comparison: both engines, further multibody models, time taken."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from crumple.analysis import Analysis, input_hash, solve
+from crumple.comparison.comparison import Comparison, compare
+from crumple.comparison.curve_file import CurveFile
+from crumple.comparison.sections import at_times
+from crumple.comparison.variant import with_elastic_hinges, with_elastic_members, with_measured_laws
+from crumple.errors import InputError
+from crumple.multibody import Run, stepping_seconds
+from crumple.result import Result
+from crumple.structure import Structure
+
+if TYPE_CHECKING:
+    from crumple.shell import LongRun
+
+FRAMES = 101
+"""Shapes stored over the run: rotations are measured in them, and the moving picture plays them."""
+
+Progress = Callable[[float], None]
+Cancel = Callable[[], bool]
+
+
+def solve_and_compare(
+    analysis: Analysis,
+    *,
+    threads: int = 1,
+    curves: Sequence[CurveFile] = (),
+    variants: bool = True,
+    progress: Progress | None = None,
+    cancel: Cancel | None = None,
+    long_run: LongRun | None = None,
+) -> Comparison:
+    """Solve an analysis with both engines and compare the answers.
+
+    Parameters
+    ----------
+    analysis
+        What to solve; its pictures are supplemented by others at even times.
+    threads
+        Of the shell run.
+    curves
+        From files, to be compared too.
+    variants
+        Whether to solve further multibody models: elastic hinges, elastic members, laws read off the shell
+        run. progress, cancel, long_run As `crumple.analysis.solve` takes them; progress is that of the
+        shell run.
+
+    Returns
+    -------
+    Comparison
+        Candidate multibody, reference shell.  A run that failed is compared as far as it got.
+
+    Raises
+    ------
+    InputError
+        If an engine cannot take the structure.
+    """
+    dense = with_frames(analysis)
+    candidate = _hashed(solve(dense, cancel=cancel), analysis)
+    shell = solve(dense, "shell", threads, progress, cancel, long_run=long_run)
+    reference = _hashed(shell, analysis)
+    models: dict[str, tuple[Structure, Result]] = {}
+    if variants and reference.time.size:
+        models = _variants(dense, candidate, reference)
+    stepping = {
+        name: seconds for name, model in models.items() if (seconds := _stepping(dense, model[0])) is not None
+    }
+    own = _stepping(dense, analysis.structure)
+    if own is not None:
+        stepping[candidate.fidelity] = own
+    found = compare(
+        candidate,
+        reference,
+        analysis.structure,
+        variants={name: result for name, (_, result) in models.items()},
+        curves=curves,
+    )
+    return replace(found, stepping=stepping)
+
+
+def with_frames(analysis: Analysis, number: int = FRAMES) -> Analysis:
+    """The same analysis with shapes at even times beside those asked for."""
+    even = np.linspace(0.0, analysis.duration, number)
+    wanted = tuple(
+        float(t) for t in np.union1d(even, [t for t in analysis.outputs.pictures if t <= analysis.duration])
+    )
+    return analysis.model_copy(update={"outputs": analysis.outputs.model_copy(update={"pictures": wanted})})
+
+
+def picture_times(analysis: Analysis) -> tuple[float, ...]:
+    """Times of the pictures that the input asks for [s], else six over the run."""
+    return analysis.outputs.pictures or tuple(float(t) for t in np.linspace(0.0, analysis.duration, 6))
+
+
+def with_pictures(result: Result, times: Sequence[float]) -> Result:
+    """The same result with shapes at the given times alone, as a run of its own stores them."""
+    if result.states is None or not len(result.states.times):
+        return result
+    reached = np.array([t for t in times if t <= result.states.times[-1] * (1 + 1e-9)])
+    return replace(result, states=at_times(result.states, reached)) if reached.size else result
+
+
+def _variants(dense: Analysis, candidate: Result, reference: Result) -> dict[str, tuple[Structure, Result]]:
+    """Further models and their results, by name; a model that cannot be solved is left out."""
+    structure = dense.structure
+    shell = compare(candidate, reference, structure).reference
+    total = None
+    if shell.hinges and "energy.dissipated" in reference.channels:
+        total = float(reference["energy.dissipated"][-1])
+    wanted = {
+        "elastic hinges": with_elastic_hinges(structure),
+        "elastic members": with_elastic_members(structure),
+        "laws of the shell run": with_measured_laws(structure, shell.hinges, total),
+    }
+    found = {}
+    for name, model in wanted.items():
+        if model is None:
+            continue
+        try:
+            found[name] = (model, solve(dense.model_copy(update={"structure": model})))
+        except InputError:
+            continue
+    return found
+
+
+def _stepping(dense: Analysis, structure: Structure) -> float | None:
+    outputs = dense.outputs.model_copy(update={"pictures": ()})
+    run = Run(dense.duration, dense.output_interval, dense.multibody, outputs, dense.title)
+    return stepping_seconds(structure, run)
+
+
+def _hashed(result: Result, analysis: Analysis) -> Result:
+    """With the hash of the input as its author wrote it: the further shapes are not his."""
+    return replace(result, provenance=replace(result.provenance, input_hash=input_hash(analysis)))

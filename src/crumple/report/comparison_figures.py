@@ -1,0 +1,178 @@
+"""Figures of a comparison: shapes side by side, motion over time, energy over rotation in two ways."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from crumple.comparison import Comparison, Source
+from crumple.report.scales import Floats, display_unit, largest, spread, time_unit
+from crumple.report.style import HALF, RULE, WIDTH, Line, add_axes, draw_lines, name_axes, new_figure, to_svg
+
+_DEGREES = math.degrees(1.0)
+_PANEL = 1.9  # height of the axes [in]
+_HEAD, _FOOT = 0.26, 0.34
+_LEFT, _RIGHT = 0.42, 0.95
+SAMPLES = 400
+"""Points at which two curves are held against each other to find a shift."""
+
+
+def motion_over_time(comparison: Comparison, name: str, figure_name: str) -> str | None:
+    """Rotation and angular velocity of one hinge against time, in every source that shows it, as SVG."""
+    unit = _time_factor(comparison)
+    turned, turning = [], []
+    for index, (label, time, rotation, rate) in enumerate(_measures(comparison, name)):
+        turned.append(Line(label, time / unit, rotation * _DEGREES, index))
+        turning.append(Line(label, time / unit, rate, index))
+    if not turned:
+        return None
+    figure = new_figure(WIDTH, _HEAD + _PANEL + _FOOT)
+    width = (WIDTH - 2 * _LEFT - _RIGHT - 0.15) / 2
+    axes = add_axes(figure, _LEFT, _FOOT, width, _PANEL)
+    _draw(axes, turned, _time_name(comparison), "Rotation, deg", labels=False)
+    axes = add_axes(figure, 2 * _LEFT + width + 0.15, _FOOT, width, _PANEL)
+    _draw(axes, turning, _time_name(comparison), "Angular velocity, rad/s", labels=True)
+    return to_svg(figure, figure_name, f"Rotation and angular velocity of hinge {name} against time.")
+
+
+def _measures(comparison: Comparison, name: str) -> list[tuple[str, Floats, Floats, Floats]]:
+    """Lines of one hinge in its sense: label, time, rotation, rate; then those of curve files."""
+    first, second = comparison.candidate, comparison.reference
+    lines: list[tuple[str, Floats, Floats, Floats]] = []
+    a, b = first.hinge(name), second.hinge(name)
+    if a is not None:
+        lines.append((first.name, a.time, a.sense * a.rotation, a.sense * a.rotation_rate))
+    if b is not None:
+        lines.append((f"{second.name}, near", b.time, b.sense * b.rotation, b.sense * b.rotation_rate))
+        if b.far is not None:
+            far = b.sense * b.far
+            lines.append((f"{second.name}, far end", b.time, far, np.gradient(far, b.time)))
+    motion = b or a
+    if motion is not None:
+        for curve in comparison.curves:
+            for key in (f"hinge.{name}.rotation", f"member.{motion.member}.chord_rotation"):
+                signal = curve.signals.get(key)
+                if signal is not None:
+                    values = motion.sense * signal.values
+                    lines.append((curve.name, signal.time, values, np.gradient(values, signal.time)))
+    return lines
+
+
+def energy_as_drawn_once(comparison: Comparison, name: str, figure_name: str) -> tuple[str, str] | None:
+    """Total energy against rotation with the candidate shifted sideways, as SVG, and the shifts in words.
+
+    The candidate's curve is moved by the mean horizontal distance to the reference's over the energies
+    that both reach, so that it starts where rigid bars would have bent elastically.
+    """
+    first, second = comparison.candidate, comparison.reference
+    a, b = first.hinge(name), second.hinge(name)
+    if a is None or b is None or b.far is None:
+        return None
+    mine = (a.sense * a.rotation, total_energy(first, a.time))
+    theirs = [
+        (f"{second.name}, far end", b.sense * b.far, total_energy(second, b.time), 2),
+        (f"{second.name}, near", b.sense * b.rotation, total_energy(second, b.time), 1),
+    ]
+    shifts = [horizontal_shift(*mine, x, y) for _, x, y, _ in theirs]
+    unit, factor = display_unit("J", largest([mine[1], *(y for _, _, y, _ in theirs)]))
+    lines = [Line(label, x * _DEGREES, y / factor, index) for label, x, y, index in theirs]
+    lines.append(Line(f"{first.name}, shifted", (mine[0] + shifts[0]) * _DEGREES, mine[1] / factor, 0))
+    svg = _energy_figure(lines, "rotation, deg", f"Total energy, {unit}", figure_name, name)
+    words = (
+        f"The {first.name} curve is shifted by {shifts[0] * _DEGREES:.1f}° against the far end "
+        f"({shifts[1] * _DEGREES:.1f}° would fit the rotation near the hinge): a drawing aid that stands "
+        "for the elastic "
+        "bending which rigid bars lack, not a result."
+    )
+    return svg, words
+
+
+def energy_cleanly(comparison: Comparison, name: str, figure_name: str) -> str | None:
+    """Plastic work against plastic rotation, nothing shifted, as SVG."""
+    lines = []
+    found = [
+        (s, m, i) for i, s in enumerate((comparison.candidate, comparison.reference)) if (m := s.hinge(name))
+    ]
+    unit, factor = display_unit("J", largest([m.plastic_work for _, m, _ in found]))
+    for source, motion, index in found:
+        plastic = np.maximum.accumulate(np.maximum(motion.sense * motion.plastic_rotation, 0.0))
+        lines.append(Line(source.name, plastic * _DEGREES, motion.plastic_work / factor, index))
+    if not lines:
+        return None
+    return _energy_figure(lines, "plastic rotation, deg", f"Plastic work, {unit}", figure_name, name)
+
+
+def variants_over_rotation(comparison: Comparison, name: str) -> str | None:
+    """Total energy against the far end's rotation of every model, nothing shifted, as SVG."""
+    lines = []
+    sources = [s for s in comparison.sources if (m := s.hinge(name)) is not None and m.far is not None]
+    peak = largest([total_energy(s, s.result.time) for s in sources])
+    unit, factor = display_unit("J", peak)
+    for index, source in enumerate(
+        [comparison.reference, *(s for s in sources if s is not comparison.reference)]
+    ):
+        motion = source.hinge(name)
+        if motion is not None and motion.far is not None:
+            energy = total_energy(source, motion.time) / factor
+            lines.append(
+                Line(source.name, motion.sense * motion.far * _DEGREES, energy, (1, 0, 2, 3, 4, 5)[index % 6])
+            )
+    if len(lines) < 2:
+        return None
+    figure = new_figure(WIDTH, _HEAD + _PANEL + 0.4 + _FOOT)
+    axes = add_axes(figure, _LEFT, _FOOT, WIDTH - _LEFT - 1.5, _PANEL + 0.4)
+    _draw(axes, lines, "rotation at the far end, deg", f"Total energy, {unit}", labels=True)
+    return to_svg(figure, "variants", "Total energy against rotation of every model, nothing shifted.")
+
+
+def total_energy(source: Source, time: Floats) -> Floats:
+    """Elastic and dissipated energy of the structure [J] at given times."""
+    names = [n for n in ("energy.elastic", "energy.dissipated") if n in source.result.channels]
+    total = sum((source.result[n] for n in names), np.zeros_like(source.result.time))
+    return np.asarray(np.interp(time, source.result.time, total))
+
+
+def horizontal_shift(x: Floats, y: Floats, other_x: Floats, other_y: Floats) -> float:
+    """Mean of other_x - x at equal y over the heights that both pass, from a tenth of them to nine tenths."""
+    top = min(float(np.max(y)), float(np.max(other_y)))
+    heights = np.linspace(0.1 * top, 0.9 * top, SAMPLES)
+    return float(np.mean(_reached(other_x, other_y, heights) - _reached(x, y, heights)))
+
+
+def _reached(x: Floats, y: Floats, heights: Floats) -> Floats:
+    """Where a curve first reaches each height."""
+    grown, first = np.unique(np.maximum.accumulate(y), return_index=True)
+    return np.asarray(np.interp(heights, grown, x[first]))
+
+
+def _energy_figure(lines: Sequence[Line], x: str, y: str, figure_name: str, hinge: str) -> str:
+    figure = new_figure(HALF, _HEAD + _PANEL + _FOOT)
+    axes = add_axes(figure, _LEFT, _FOOT, HALF - _LEFT - _RIGHT, _PANEL)
+    _draw(axes, lines, x, y, labels=True)
+    return to_svg(
+        figure, figure_name, f"{y.partition(',')[0]} against {x.partition(',')[0]} of hinge {hinge}."
+    )
+
+
+def _draw(axes: object, lines: Sequence[Line], x: str, y: str, *, labels: bool) -> None:
+    from matplotlib.axes import Axes  # noqa: PLC0415
+
+    assert isinstance(axes, Axes)
+    axes.set_xlim(*spread([line.x for line in lines], margin=0.02))
+    axes.set_ylim(*spread([line.y for line in lines]))
+    low, high = axes.get_ylim()
+    if low < 0 < high:
+        axes.axhline(0.0, color=RULE, linewidth=0.6, zorder=1)
+        axes.spines["bottom"].set_visible(False)
+    name_axes(axes, x, y)
+    draw_lines(axes, lines, labels=labels)
+
+
+def _time_factor(comparison: Comparison) -> float:
+    return time_unit(float(comparison.candidate.result.time[-1]))[1]
+
+
+def _time_name(comparison: Comparison) -> str:
+    return f"time, {time_unit(float(comparison.candidate.result.time[-1]))[0]}"

@@ -1,0 +1,185 @@
+"""The comparison as one self-contained page: figures, numbers, moving picture."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from crumple.comparison import Comparison
+from crumple.report.report import MAX_INPUT, ReportInput, embedded
+from crumple.result.files import write_text
+
+MOST_HINGES = 4
+"""Hinges with figures of their own, those that absorbed most."""
+
+
+@dataclass(frozen=True)
+class _Figure:
+    number: int
+    svg: Any
+    caption: str
+
+
+def write_comparison(
+    comparison: Comparison, source: ReportInput, directory: Path | str, *, pictures: Sequence[float] = ()
+) -> Path:
+    """Draw the figures, write them to ``figures/`` and write ``report.html`` around them.
+
+    Parameters
+    ----------
+    comparison
+        What to show.
+    source
+        Title, input text and its name.
+    directory
+        Made when absent.
+    pictures
+        Times of the deformation patterns [s]; by default six over the run.
+
+    Returns
+    -------
+    Path
+        The page.
+
+    Raises
+    ------
+    OSError
+        If the folder cannot be written.
+    """
+    folder = Path(directory)
+    drawn = _draw(comparison, pictures)
+    for name, svg, _ in drawn:
+        write_text(folder / "figures" / f"{name}.svg", '<?xml version="1.0" encoding="utf-8"?>\n' + svg)
+    page = folder / "report.html"
+    write_text(page, _render(comparison, source, drawn))
+    return page
+
+
+def _draw(comparison: Comparison, pictures: Sequence[float]) -> list[tuple[str, str, str]]:
+    """File name, SVG and caption of every figure that there is something for."""
+    import numpy as np  # noqa: PLC0415
+
+    from crumple.report import comparison_figures as figures  # noqa: PLC0415
+    from crumple.report.comparison_shapes import shapes_side_by_side  # noqa: PLC0415
+    from crumple.report.comparison_wording import ranked  # noqa: PLC0415
+    from crumple.report.style import drawing  # noqa: PLC0415
+
+    times = pictures or tuple(np.linspace(0.0, float(comparison.reference.result.time[-1]), 6))
+    first, second = comparison.candidate.name, comparison.reference.name
+    found: list[tuple[str, str | None, str]] = []
+    with drawing():
+        caption = (
+            f"Deformed walls, {first} left and {second} right, in one view and at one scale. Circles: hinges."
+        )
+        found.append(("shapes", shapes_side_by_side(comparison, times), caption))
+        for i, hinge in enumerate(ranked(comparison)[:MOST_HINGES], 1):
+            name = hinge.name
+            caption = (
+                f"Rotation and angular velocity of hinge {name} against time. The {second} rotation is "
+                "measured near the "
+                "fold, between section planes on both sides of it, and at the far end, from the line to it."
+            )
+            found.append((f"motion_{i}", figures.motion_over_time(comparison, name, f"motion-{i}"), caption))
+            shifted = figures.energy_as_drawn_once(comparison, name, f"shifted-{i}")
+            if shifted is not None:
+                caption = (
+                    f"Hinge {name}, as earlier papers drew it: total energy against rotation. {shifted[1]}"
+                )
+                found.append((f"shifted_{i}", shifted[0], caption))
+            clean = figures.energy_cleanly(comparison, name, f"plastic-{i}")
+            caption = f"Hinge {name}, cleanly: plastic work against plastic rotation, rotation less M/k."
+            found.append((f"plastic_{i}", clean, caption))
+        if comparison.variants and comparison.hinges:
+            svg = figures.variants_over_rotation(comparison, ranked(comparison)[0].name)
+            caption = "Total energy against the rotation at the far end, nothing shifted, for every model."
+            found.append(("variants", svg, caption))
+    return [(name, svg, caption) for name, svg, caption in found if svg is not None]
+
+
+def _render(comparison: Comparison, source: ReportInput, drawn: list[tuple[str, str, str]]) -> str:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined  # noqa: PLC0415
+    from markupsafe import Markup  # noqa: PLC0415
+
+    from crumple.report import comparison_wording as wording  # noqa: PLC0415
+    from crumple.report.player import scene_of  # noqa: PLC0415
+
+    here = Path(__file__).parent
+    figures = {name: _Figure(i + 1, Markup(svg), caption) for i, (name, svg, caption) in enumerate(drawn)}
+    hinges = [
+        {key: figures.get(f"{key}_{i}") for key in ("motion", "shifted", "plastic")}
+        for i in range(1, MOST_HINGES + 1)
+        if f"motion_{i}" in figures
+    ]
+    scene = scene_of(comparison)
+    scripts = [_text(here / "copy.js")]
+    if scene is not None:
+        scripts = [_text(here / "vendor" / "three.min.js"), _text(here / "player.js"), *scripts]
+    environment = Environment(
+        loader=FileSystemLoader(here), autoescape=True, undefined=StrictUndefined, trim_blocks=True
+    )
+    text = embedded(source)
+    provenance = comparison.candidate.result.provenance
+    return environment.get_template("comparison.html.jinja").render(
+        version=provenance.version,
+        title=source.title or comparison.title or "Comparison",
+        meta=[
+            p
+            for p in (source.name, f"Crumple {provenance.version}", f"input {provenance.input_hash[:12]}")
+            if p
+        ],
+        style=Markup(_text(here / "page.css") + _text(here / "comparison.css")),
+        scripts=[Markup(script) for script in scripts],
+        hashes=" ".join(_hash(script) for script in scripts),
+        scene=None if scene is None else {"header": Markup(scene.header), "payload": Markup(scene.payload)},
+        strain=0.0 if scene is None else scene.strain,
+        trust=comparison.trust,
+        names=(comparison.candidate.name, comparison.reference.name),
+        key_figures=wording.key_figures(comparison),
+        figures=figures,
+        hinge_figures=hinges,
+        hinge_tables=wording.hinge_tables(comparison),
+        omitted=max(len(comparison.hinges) - wording.MOST_HINGES, 0),
+        rating_table=wording.rating_table(comparison),
+        opening_table=wording.opening_table(comparison),
+        model_table=wording.model_table(comparison),
+        curves=_curves(comparison),
+        notes=_notes(comparison),
+        input_text=text[:MAX_INPUT],
+        input_cut=MAX_INPUT if len(text) > MAX_INPUT else 0,
+        input_name=source.name,
+    )
+
+
+def _curves(comparison: Comparison) -> list[str]:
+    """What became of every curve file, in sentences."""
+    said = []
+    for curve in comparison.curves:
+        unpaired = comparison.unpaired.get(curve.name, ())
+        paired = [name for name in curve.signals if name not in unpaired]
+        text = f"{curve.name} ({Path(curve.file).name}): compared {', '.join(paired) or 'nothing'}."
+        if unpaired:
+            text += f" No history of the results is called {', '.join(unpaired)}."
+        if curve.left_out:
+            text += f" Without a unit, and so left out: {', '.join(curve.left_out)}."
+        said.append(text)
+    return said
+
+
+def _notes(comparison: Comparison) -> list[tuple[str, tuple[str, ...], tuple[str, ...]]]:
+    """Warnings and assumptions of every result."""
+    return [(s.name, s.result.warnings, s.result.assumptions) for s in comparison.sources]
+
+
+def _text(path: Path) -> str:
+    return path.read_text(encoding="utf-8")
+
+
+def _hash(script: str) -> str:
+    """What the page's security policy lets run: this very script and no other."""
+    # the browser hashes what stands between the tags, line breaks of the template included
+    digest = hashlib.sha256(f"\n{script}\n".encode()).digest()
+    return f"'sha256-{base64.b64encode(digest).decode()}'"

@@ -1,0 +1,24 @@
+"""Structure to a mesh of thin shells, and the explicit stepper that moves it.
+
+`solve_shell(structure, run)` is the way in; `mesh_of` and `lower` show the mesh and the model that a
+structure becomes, `report_of` what the mesh is like.
+"""
+
+from crumple.shell.mesh import Mesh, Tube, mesh_of
+from crumple.shell.model import Lowered, lower
+from crumple.shell.quality import MeshReport, report_of
+from crumple.shell.solve import LongRun, Moment, ShellRun, solve_shell
+
+__all__ = [
+    "LongRun",
+    "Lowered",
+    "Mesh",
+    "MeshReport",
+    "Moment",
+    "ShellRun",
+    "Tube",
+    "lower",
+    "mesh_of",
+    "report_of",
+    "solve_shell",
+]

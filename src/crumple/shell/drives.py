@@ -1,0 +1,67 @@
+"""Loads and prescribed motions as the stepper takes them: piecewise linear in time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from crumple._core.shell import NodalLoad, PrescribedVelocity
+from crumple.function import TimeFunction
+from crumple.shell.bodies import Body
+from crumple.shell.contour import Floats
+from crumple.shell.mesh import Mesh
+from crumple.structure import Structure
+
+SAMPLING = 1e-5
+"""Error of a sampled function of time, relative to its largest value; far below that of the mesh."""
+BEFORE = 1e-6
+"""Share of an interval before its end at which the slope towards the end is taken."""
+
+
+def loads_of(structure: Structure, mesh: Mesh, duration: float) -> Iterator[NodalLoad]:
+    """Forces and moments on the reference nodes; those on a clamp do nothing."""
+    for load in structure.loads:
+        if load.node not in mesh.reference:
+            continue
+        for kind, components in (("", load.force), ("r", load.moment)):
+            for axis in "xyz":
+                function = getattr(components, axis)
+                if function is not None:
+                    times, values = sampled(function, duration)
+                    yield NodalLoad(mesh.reference[load.node], kind + axis, times, values)
+
+
+def motions_of(
+    structure: Structure, bodies: tuple[Body, ...], duration: float
+) -> Iterator[PrescribedVelocity]:
+    """Prescribed velocities of the rigid bodies."""
+    number = {body.node: i for i, body in enumerate(bodies)}
+    for support in structure.supports.values():
+        for freedom, function in support.driven.items():
+            times, rates = velocity_of(function, duration)
+            yield PrescribedVelocity(number[support.node], freedom, times, rates, rigid_set=True)
+
+
+def sampled(function: TimeFunction, duration: float) -> tuple[Floats, Floats]:
+    """Times [s] and values between which straight lines follow the function."""
+    coarse = np.abs(function(np.linspace(0.0, duration, 257)))
+    return function.sampled(0.0, duration, max(SAMPLING * float(coarse.max()), 1e-12))
+
+
+def velocity_of(function: TimeFunction, duration: float) -> tuple[Floats, Floats]:
+    """Rate of a function, piecewise linear with jumps at kinks.
+
+    Returns
+    -------
+    times, rates
+        Each time of the samples but the ends twice; the integral meets the function at every one of them.
+    """
+    at, value = sampled(function, duration)
+    step = np.diff(at)
+    left, right = function.derivative(at[:-1]), function.derivative(at[1:] - BEFORE * step)
+    shift = np.diff(value) / step - (left + right) / 2
+    # a jump takes the least time that a number can tell
+    ends = np.append(np.nextafter(at[1:-1], 0.0), at[-1:])
+    times = np.column_stack([at[:-1], ends]).reshape(-1)
+    return times, np.column_stack([left + shift, right + shift]).reshape(-1)

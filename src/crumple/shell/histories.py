@@ -1,0 +1,150 @@
+"""From the record of a shell run to named channels and summaries."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from crumple.result import Channel, HingeSummary
+from crumple.shell.contour import Floats
+from crumple.shell.places import HingeZone
+from crumple.shell.record import ENERGIES, Record, Sampler
+from crumple.shell.sections import continuous, relative_rotation, rotation_vector
+from crumple.structure import Outputs, Structure
+
+AXES = ("x", "y", "z")
+AT_REST = 2e-3
+"""Share of a hinge's plastic work that may still come after it counts as at rest: vibration adds as much."""
+CHANNEL_NAMES = {"plastic": "dissipated"}
+"""Names of the energies where the stepper's differ from the result's."""
+
+
+def channels_of(structure: Structure, sampler: Sampler, record: Record, outputs: Outputs) -> list[Channel]:
+    """Every channel of the run, at the times of the record; those asked for come last."""
+    return [
+        *hinge_channels(sampler, record),
+        *energy_channels(record),
+        *cut_channels(sampler, record),
+        *node_channels(sampler, record),
+        *section_channels(structure, sampler, record, outputs),
+    ]
+
+
+def energy_channels(record: Record) -> Iterator[Channel]:
+    """Ledger: kinetic + elastic + dissipated + hourglass + contact + damping - work - start = residual."""
+    energy = record["energy"]
+    for i, name in enumerate(ENERGIES):
+        if name in ("damping", "eroded") and not energy[:, i].any():
+            continue
+        yield Channel(f"energy.{CHANNEL_NAMES.get(name, name)}", "J", energy[:, i].copy())
+
+
+def hinge_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
+    """Rotation between the sections on both sides, moment in the cut, plastic work between."""
+    for k, zone in enumerate(sampler.lowered.zones):
+        rotation, moment, energy = hinge_history(sampler, record, k, zone)
+        columns = (
+            ("rotation", "rad", rotation),
+            ("rotation_rate", "rad/s", _slope(rotation, record["time"])),
+            ("plastic_rotation", "rad", rotation - moment / zone.stiffness),
+            ("moment", "N*m", moment),
+            ("energy", "J", energy),
+        )
+        yield from (
+            Channel(f"hinge.{zone.place.name}.{name}", unit, values) for name, unit, values in columns
+        )
+
+
+def hinge_history(
+    sampler: Sampler, record: Record, number: int, zone: HingeZone
+) -> tuple[Floats, Floats, Floats]:
+    """Rotation [rad], moment [N m] and plastic work [J] of one hinge, (n,) each.
+
+    The moment is what the second side exerts on the first, about the axis as the first section carries it: it
+    has the sign of the rotation that it drives.
+    """
+    first, last = (ring_history(sampler, record, zone.place.member, ring) for ring in (zone.first, zone.last))
+    rotation = relative_rotation(first, last, zone.direction)
+    axis = first @ zone.direction
+    moment = np.einsum("ti,ti->t", record["cut"][:, number, 3:6], axis)
+    return rotation, moment, record["zone"][:, number]
+
+
+def ring_history(sampler: Sampler, record: Record, member: str, ring: int) -> Floats:
+    """Rotation of one section from the start over time, (n, 3, 3)."""
+    return record["ring"][:, sampler.rings.index((member, ring))]
+
+
+def cut_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
+    """Force and moment in each hinge's cut, and of the structure on each support."""
+    zones = [f"cut.{zone.place.name}" for zone in sampler.lowered.zones]
+    names = [*zones, *(f"support.{name}" for name in sampler.lowered.supports)]
+    for k, name in enumerate(names):
+        for quantity, unit, column in (("force", "N", 0), ("moment", "N*m", 3)):
+            for i, axis in enumerate(AXES):
+                yield Channel(f"{name}.{quantity}.{axis}", unit, record["cut"][:, k, column + i].copy())
+
+
+def node_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
+    """Displacement, velocity, mean acceleration between outputs, and rotation of nodes, in global axes."""
+    for k, name in enumerate(sampler.nodes):
+        motion = record["node"][:, k]
+        velocity = motion[:, 1]
+        fields = (
+            ("displacement", "m", motion[:, 0]),
+            ("velocity", "m/s", velocity),
+            ("acceleration", "m/s^2", _slope(velocity, record["time"])),
+            ("rotation", "rad", continuous(rotation_vector(motion[:, 3:]))),
+            ("rotation_rate", "rad/s", motion[:, 2]),
+        )
+        for quantity, unit, values in fields:
+            for i, axis in enumerate(AXES):
+                yield Channel(f"node.{name}.{quantity}.{axis}", unit, np.ascontiguousarray(values[:, i]))
+
+
+def section_channels(
+    structure: Structure, sampler: Sampler, record: Record, outputs: Outputs
+) -> Iterator[Channel]:
+    """Rotation of one station of a member against another about the hinges' axis, else the larger."""
+    for name, asked in outputs.section_rotations.items():
+        tube = sampler.lowered.mesh.tubes[asked.member]
+        first, last = (
+            ring_history(sampler, record, asked.member, tube.ring_at(station))
+            for station in (asked.start, asked.end)
+        )
+        axes = {zone.place.axis for zone in sampler.lowered.zones if zone.place.member == asked.member}
+        turned = {axis: relative_rotation(first, last, tube.frame.axis(axis)) for axis in ("y", "z")}
+        axis = (
+            axes.pop() if len(axes) == 1 else max(turned, key=lambda axis: float(np.abs(turned[axis]).max()))
+        )
+        yield Channel(name, "rad", turned[axis])
+
+
+def summaries(sampler: Sampler, record: Record) -> dict[str, HingeSummary]:
+    """What every hinge place did."""
+    found = {}
+    for k, zone in enumerate(sampler.lowered.zones):
+        rotation, moment, energy = hinge_history(sampler, record, k, zone)
+        found[zone.place.name] = HingeSummary(
+            rotation_max=float(np.abs(rotation).max()),
+            rotation_final=float(rotation[-1]),
+            time_of_rest=_rest(record["time"], energy),
+            energy=float(energy[-1]),
+            moment_max=float(np.abs(moment).max()),
+            position=tuple(float(value) for value in zone.position),  # type: ignore[arg-type]
+        )
+    return found
+
+
+def _rest(time: Floats, energy: Floats) -> float | None:
+    """Time after which next to no plastic work was done [s]; None while it goes on at the end."""
+    final = float(energy[-1])
+    if final <= 0.0:
+        return 0.0
+    rest = int(np.argmax(energy >= (1.0 - AT_REST) * final))
+    return None if rest >= len(time) - 2 else float(time[rest])
+
+
+def _slope(values: Floats, time: Floats) -> Floats:
+    return np.asarray(np.gradient(values, time, axis=0)) if time.size > 1 else 0.0 * values

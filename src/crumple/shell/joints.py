@@ -1,0 +1,229 @@
+"""What becomes of the members' ends at each node: clamped, joined by a mitre, made rigid, or left free.
+
+Members that meet at a node are cut back so that their walls do not cross, and their end sections move as one
+rigid body; what was cut away stays as its mass.  With outgoing unit vectors x_i and x_j at an angle a, and
+half depths e_i and e_j in their common plane, the inner edges meet at (e_j + e_i cos a) / sin a along i.
+Two members whose contours meet point by point in the plane halving their angle share those points: a mitre.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass, field
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crumple.errors import InputError, Problem
+from crumple.shell.contour import Contour, Floats
+from crumple.structure import FREEDOMS, Structure
+
+SHARPEST_MITRE = np.radians(100.0)
+"""Change of direction up to which two members share a mitre: beyond it a mitre is longer than the section."""
+SAME_POINT = 1e-6
+"""Distance over the section's size below which two contours' points are one."""
+NARROWEST_ANGLE = np.radians(10.0)
+"""Angle between two members below which they lie within each other all along."""
+LONGEST_CUT = 0.35
+"""Share of a member that a joint may take at one end."""
+SHEARED_LENGTH = 2.5
+"""Length over which a mitre's slant fades out, over its largest shift: elements keep 60 % of their length."""
+
+
+class Kind(Enum):
+    """What holds the sections at a node."""
+
+    FREE = "free"
+    CLAMPED = "clamped"
+    MITRED = "mitred"
+    RIGID = "rigid"
+
+
+@dataclass(frozen=True)
+class End:
+    """One end of a member; ``second`` says which."""
+
+    member: str
+    second: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Joint:
+    """What becomes of the ends at one node.
+
+    Attributes
+    ----------
+    node
+        Its name.
+    kind
+        What holds the sections together.
+    ends
+        Members' ends there.
+    cut
+        Length that each end is cut back by [m], (ends,).
+    slant
+        Of a mitre: shift into the member of every contour point of each end [m], else empty.
+    match
+        Of a mitre: index of the first end's contour point for each of the second's.
+    rigid_ring
+        Whether a mitre's shared section is rigid, because something acts on the node.
+    """
+
+    node: str
+    kind: Kind
+    ends: tuple[End, ...]
+    cut: tuple[float, ...]
+    slant: tuple[Floats, ...] = ()
+    match: NDArray[np.int64] = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    rigid_ring: bool = False
+
+    @property
+    def is_body(self) -> bool:
+        """Whether the node is a rigid body."""
+        return self.kind is Kind.RIGID or self.rigid_ring
+
+
+def joints_of(structure: Structure, contours: dict[str, Contour]) -> dict[str, Joint]:
+    """Joint of every node at which a member ends.
+
+    Raises
+    ------
+    InputError
+        If members lie within each other, or one is too short for its joints.
+    """
+    ends: dict[str, list[End]] = defaultdict(list)
+    for name, member in structure.members.items():
+        ends[member.nodes[0]].append(End(name, False))
+        ends[member.nodes[1]].append(End(name, True))
+    loaded = _loaded_nodes(structure)
+    joints, problems = {}, []
+    for node, meeting in ends.items():
+        try:
+            joints[node] = _joint(structure, contours, node, tuple(meeting), node in loaded)
+        except InputError as error:
+            problems += error.problems
+    if problems:
+        raise InputError(problems)
+    return joints
+
+
+def is_clamped(structure: Structure, node: str) -> bool:
+    """Whether supports hold all six freedoms of a node."""
+    held = {f for support in structure.supports.values() if support.node == node for f in support.held}
+    return held == set(FREEDOMS)
+
+
+def outgoing(structure: Structure, end: End) -> Floats:
+    """Unit vector from the node into the member, (3,)."""
+    x = structure.frame_of(end.member).x
+    return -x if end.second else x
+
+
+def _loaded_nodes(structure: Structure) -> set[str]:
+    """Nodes that carry, take or are driven by something."""
+    return {
+        part.node
+        for parts in (
+            structure.masses.values(),
+            structure.supports.values(),
+            structure.loads,
+            structure.impulses,
+        )
+        for part in parts
+    }
+
+
+def _joint(
+    structure: Structure, contours: dict[str, Contour], node: str, ends: tuple[End, ...], loaded: bool
+) -> Joint:
+    clamped = is_clamped(structure, node)
+    if len(ends) == 1:
+        kind = Kind.CLAMPED if clamped else Kind.RIGID if loaded else Kind.FREE
+        return Joint(node, kind, ends, (0.0,))
+    if len(ends) == 2 and not clamped:
+        mitre = _mitre(structure, contours, node, ends, loaded)
+        if mitre is not None:
+            return mitre
+    cut = tuple(_cut(structure, contours, node, end, ends) for end in ends)
+    return Joint(node, Kind.CLAMPED if clamped else Kind.RIGID, ends, cut)
+
+
+def _mitre(
+    structure: Structure, contours: dict[str, Contour], node: str, ends: tuple[End, ...], loaded: bool
+) -> Joint | None:
+    """Shared section of two members, or None where their contours do not meet."""
+    x = [outgoing(structure, end) for end in ends]
+    turn = np.arccos(np.clip(-float(x[0] @ x[1]), -1.0, 1.0))
+    if turn > SHARPEST_MITRE:
+        return None
+    normal = (x[0] - x[1]) / np.linalg.norm(x[0] - x[1])
+    slants, points = [], []
+    for end, direction in zip(ends, x, strict=True):
+        frame, ring = structure.frame_of(end.member), contours[end.member].points
+        arms = ring @ frame.axes[1:]
+        slant = -(arms @ normal) / float(direction @ normal)
+        if SHEARED_LENGTH * np.abs(slant).max() > LONGEST_CUT * frame.length:
+            return None
+        slants.append(slant)
+        points.append(arms + slant[:, None] * direction)
+    if len(points[0]) != len(points[1]):
+        return None
+    distance = np.linalg.norm(points[1][:, None] - points[0][None], axis=2)
+    match = np.argmin(distance, axis=1)
+    size = float(np.ptp(contours[ends[0].member].points, axis=0).max())
+    if distance.min(axis=1).max() > SAME_POINT * size or len(set(match)) < len(match):
+        return None
+    return Joint(node, Kind.MITRED, ends, (0.0, 0.0), tuple(slants), match, rigid_ring=loaded)
+
+
+def _cut(
+    structure: Structure, contours: dict[str, Contour], node: str, end: End, ends: tuple[End, ...]
+) -> float:
+    """Length that one end is cut back by, so that its walls keep clear of every other member's [m]."""
+    length, most = structure.frame_of(end.member).length, 0.0
+    x = outgoing(structure, end)
+    for other in ends:
+        if other is end:
+            continue
+        y = outgoing(structure, other)
+        cosine, sine = float(x @ y), float(np.linalg.norm(np.cross(x, y)))
+        if sine < np.sin(NARROWEST_ANGLE):
+            if cosine > 0.0:
+                raise _within(node, end, other, np.degrees(np.arctan2(sine, cosine)))
+            continue
+        mine = _half_depth(structure, contours, end, (y - cosine * x) / sine)
+        theirs = _half_depth(structure, contours, other, (x - cosine * y) / sine)
+        walls = (
+            structure.section_of(end.member).thickness + structure.section_of(other.member).thickness
+        ) / 2
+        most = max(most, (theirs + cosine * mine) / sine + walls)
+    if most > LONGEST_CUT * length:
+        raise InputError(
+            Problem(
+                f"the joint at node {node} takes too much of member {end.member}",
+                f"{1e3 * most:.4g} mm of {1e3 * length:.4g} mm",
+                f"at most {LONGEST_CUT:.0%} of the member",
+                "make the member longer, or join it at another node",
+                f"members.{end.member}",
+            )
+        )
+    return most
+
+
+def _half_depth(structure: Structure, contours: dict[str, Contour], end: End, direction: Floats) -> float:
+    """Largest reach of a section from its axis along a direction [m]."""
+    frame = structure.frame_of(end.member)
+    return float(np.abs(contours[end.member].points @ (frame.axes[1:] @ direction)).max())
+
+
+def _within(node: str, end: End, other: End, angle: float) -> InputError:
+    return InputError(
+        Problem(
+            f"the members {end.member} and {other.member} lie within each other at node {node}",
+            f"{angle:.3g} deg between them",
+            f"at least {np.degrees(NARROWEST_ANGLE):.0f} deg",
+            "describe them as one member, or move a node",
+            f"members.{end.member}",
+        )
+    )

@@ -1,0 +1,266 @@
+"""Members as quadrilaterals along their mid-lines, joined at the nodes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple.errors import InputError, Problem
+from crumple.shell.contour import Contour, Floats, Integers, contour_of
+from crumple.shell.joints import SHEARED_LENGTH, Joint, Kind, joints_of
+from crumple.shell.stations import Sizes, Zone, stations
+from crumple.structure import Frame, Outputs, ShellSettings, Structure, hinge_places
+
+MOST_ELEMENTS = 5_000_000
+"""Elements of one mesh; more is a slip of the pen and would fill the memory."""
+FINE_SIDES = 2.0
+"""Reach of the fine mesh where none is given, over the largest side of the section: folds lie within one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tube:
+    """Mesh of one member.
+
+    Attributes
+    ----------
+    frame, contour
+        Axes at the start, and the divided section.
+    stations
+        Of the rings along the member [m], (rings,); a mitre's slant is not counted.
+    nodes
+        Node of each ring and contour point, (rings, points).
+    first_element
+        Number of its first element; ring i, side j has element ``first_element + i * sides + j``.
+    """
+
+    frame: Frame
+    contour: Contour
+    stations: Floats
+    nodes: Integers
+    first_element: int
+
+    @property
+    def sides(self) -> int:
+        """Elements from one ring to the next."""
+        return len(self.contour.sides)
+
+    @property
+    def bays(self) -> int:
+        """Rows of elements along the member."""
+        return len(self.stations) - 1
+
+    def ring_at(self, station: float) -> int:
+        """Ring nearest to a station [m]."""
+        return int(np.argmin(np.abs(self.stations - station)))
+
+    def bay(self, ring: int) -> Integers:
+        """Elements between a ring and the next, (sides,)."""
+        return self.first_element + ring * self.sides + np.arange(self.sides)
+
+    def elements_between(self, first: int, last: int) -> Integers:
+        """Elements between two rings."""
+        return self.first_element + np.arange(first * self.sides, last * self.sides)
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Nodes and elements of a structure.
+
+    Attributes
+    ----------
+    position
+        Nodes [m], (n, 3): those of walls, then one reference node per rigid body at its structure node.
+    quads
+        Corners, (m, 4), counter-clockwise seen from outside.
+    tubes
+        By member.
+    joints
+        By node.
+    reference
+        Reference node by node name.
+    """
+
+    position: Floats
+    quads: Integers
+    tubes: dict[str, Tube]
+    joints: dict[str, Joint]
+    reference: dict[str, int]
+
+    @property
+    def walls(self) -> int:
+        """Number of nodes in walls."""
+        return len(self.position) - len(self.reference)
+
+    def end_ring(self, member: str, second: bool) -> Integers:
+        """Nodes of a member's last ring at its first or second node, (points,)."""
+        return np.asarray(self.tubes[member].nodes[-1 if second else 0])
+
+    def place_of(self, element: int) -> str:
+        """Where an element lies, in words."""
+        for name, tube in self.tubes.items():
+            ring, side = divmod(element - tube.first_element, tube.sides)
+            if 0 <= ring < tube.bays:
+                middle = (tube.stations[ring] + tube.stations[ring + 1]) / 2
+                return f"member {name}, {1e3 * middle:.4g} mm from its first node, side {side} of the section"
+        return "no member"
+
+
+def mesh_of(structure: Structure, settings: ShellSettings, outputs: Outputs | None = None) -> Mesh:
+    """Mesh a structure.
+
+    Parameters
+    ----------
+    structure
+        Sound.
+    settings
+        Sizes.
+    outputs
+        Stations at which rings shall lie.
+
+    Raises
+    ------
+    InputError
+        If a member cannot be meshed, by name.
+    """
+    size = settings.fine_size or settings.element_size
+    contours = {name: contour_of(structure.section_of(name), size) for name in structure.members}
+    joints = joints_of(structure, contours)
+    rings = {
+        name: _rings(structure, name, settings, joints, outputs or Outputs()) for name in structure.members
+    }
+    _check_number(contours, rings)
+    return _joined(structure, contours, joints, rings)
+
+
+def _rings(
+    structure: Structure, member: str, settings: ShellSettings, joints: dict[str, Joint], outputs: Outputs
+) -> Floats:
+    """Stations of one member's rings."""
+    length = structure.frame_of(member).length
+    cut = [_cut_of(joints, structure, member, second) for second in (False, True)]
+    ends = (cut[0], length - cut[1])
+    if ends[1] - ends[0] < settings.element_size / 2:
+        what, came = (
+            "nothing is left of this member between its joints",
+            f"{1e3 * (ends[1] - ends[0]):.4g} mm",
+        )
+        todo = "make it longer, or the elements smaller"
+        raise InputError(Problem(what, came, "at least one element", todo, f"members.{member}"))
+    asked = [
+        station
+        for rotation in outputs.section_rotations.values()
+        if rotation.member == member
+        for station in (rotation.start, rotation.end)
+    ]
+    fine = settings.fine_size or settings.element_size
+    sizes = Sizes(settings.element_size, fine, settings.growth)
+    return stations(ends, asked, _fine_zones(structure, member, settings, joints, ends), sizes)
+
+
+def _fine_zones(
+    structure: Structure, member: str, settings: ShellSettings, joints: dict[str, Joint], ends: Zone
+) -> list[Zone]:
+    """Stretches with fine elements: at held and joined ends, at hinge places, and where asked."""
+    if settings.fine_size is None:
+        return []
+    reach = settings.fine_length
+    if reach is None:
+        reach = FINE_SIDES * float(np.ptp(structure.section_of(member).outer_outline(), axis=0).max())
+    held = {support.node for support in structure.supports.values()}
+    centres = [
+        end
+        for node, end in zip(structure.members[member].nodes, ends, strict=True)
+        if node in held or len(joints[node].ends) > 1
+    ]
+    centres += [place.station for place in hinge_places(structure) if place.member == member]
+    centres += [place.at for place in settings.fine_at if place.member == member]
+    return [(centre - reach, centre + reach) for centre in centres]
+
+
+def _cut_of(joints: dict[str, Joint], structure: Structure, member: str, second: bool) -> float:
+    joint = joints[structure.members[member].nodes[int(second)]]
+    at = next(i for i, end in enumerate(joint.ends) if end.member == member and end.second == second)
+    return joint.cut[at]
+
+
+def _check_number(contours: dict[str, Contour], rings: dict[str, Floats]) -> None:
+    number = sum(len(contours[name].sides) * (len(rings[name]) - 1) for name in rings)
+    if number > MOST_ELEMENTS:
+        what, todo = "the mesh has too many elements", "give a larger element_size"
+        allowed = f"at most {MOST_ELEMENTS}"
+        raise InputError(Problem(what, str(number), allowed, todo, "analysis.shell.element_size"))
+
+
+def _joined(
+    structure: Structure,
+    contours: dict[str, Contour],
+    joints: dict[str, Joint],
+    rings: dict[str, Floats],
+) -> Mesh:
+    """Nodes numbered member by member; a mitre's second end takes the nodes of its first."""
+    positions: list[Floats] = []
+    quads: list[Integers] = []
+    tubes: dict[str, Tube] = {}
+    count = elements = 0
+    for name in structure.members:
+        frame, around = structure.frame_of(name), len(contours[name].points)
+        numbers = np.full((len(rings[name]), around), -1, dtype=np.int64)
+        points = _points(structure, name, contours[name].points, rings[name], joints)
+        for second in (False, True):
+            shared = _shared(structure, joints, tubes, name, second)
+            if shared is not None:
+                numbers[-1 if second else 0] = shared
+        new = numbers < 0
+        numbers[new] = count + np.arange(int(new.sum()))
+        count += int(new.sum())
+        positions.append(points[new])
+        tubes[name] = Tube(frame, contours[name], rings[name], numbers, elements)
+        quads.append(_quads(numbers, contours[name].sides))
+        elements += len(quads[-1])
+    bodies = [node for node, joint in joints.items() if joint.is_body]
+    reference = {node: count + i for i, node in enumerate(bodies)}
+    positions += [np.asarray(structure.nodes[node], float)[None] for node in bodies]
+    return Mesh(np.concatenate(positions), np.concatenate(quads), tubes, joints, reference)
+
+
+def _points(structure: Structure, member: str, ring: Floats, at: Floats, joints: dict[str, Joint]) -> Floats:
+    """Positions of one member's nodes [m], (rings, points, 3), slanted towards mitres."""
+    frame = structure.frame_of(member)
+    along = np.repeat(at[:, None], len(ring), axis=1)
+    for second in (False, True):
+        joint = joints[structure.members[member].nodes[int(second)]]
+        if joint.kind is not Kind.MITRED:
+            continue
+        which = next(i for i, end in enumerate(joint.ends) if end.member == member and end.second == second)
+        slant = joint.slant[which]
+        distance = at[-1] - at if second else at - at[0]
+        reach = max(SHEARED_LENGTH * float(np.abs(slant).max()), 1e-12)
+        fade = np.maximum(1.0 - distance / reach, 0.0)[:, None]
+        along = along + (-fade * slant if second else fade * slant)
+    points: Floats = frame.origin + along[..., None] * frame.x + (ring @ frame.axes[1:])[None]
+    return points
+
+
+def _shared(
+    structure: Structure, joints: dict[str, Joint], tubes: dict[str, Tube], member: str, second: bool
+) -> Integers | None:
+    """Nodes of an end that another member's mesh has made already; None: its own."""
+    joint = joints[structure.members[member].nodes[int(second)]]
+    if joint.kind is not Kind.MITRED:
+        return None
+    mine = next(i for i, end in enumerate(joint.ends) if end.member == member and end.second == second)
+    other = joint.ends[1 - mine]
+    if other.member not in tubes:
+        return None
+    ring = tubes[other.member].nodes[-1 if other.second else 0]
+    # match gives the first end's point of each of the second's
+    order = joint.match if mine == 1 else np.argsort(joint.match)
+    return np.asarray(ring[order])
+
+
+def _quads(numbers: Integers, sides: Integers) -> Integers:
+    """Corners of a member's elements, normals to the right of the sides, (m, 4)."""
+    here, beside = numbers[:, sides[:, 0]], numbers[:, sides[:, 1]]
+    corners = np.stack([here[:-1], beside[:-1], beside[1:], here[1:]], axis=2)
+    return np.asarray(corners.reshape(-1, 4))

@@ -1,0 +1,173 @@
+"""From a structure and its mesh to the stepper's frozen model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple._core.shell import (
+    Cut,
+    Hourglass,
+    RigidSet,
+    Sheet,
+    ShellMaterial,
+    ShellModel,
+)
+from crumple._core.shell import ShellSettings as CoreSettings
+from crumple.shell.bodies import Body, bodies_of
+from crumple.shell.contour import Integers
+from crumple.shell.drives import loads_of, motions_of
+from crumple.shell.joints import Kind
+from crumple.shell.mesh import Mesh, mesh_of
+from crumple.shell.metal import shell_material
+from crumple.shell.places import HingeZone, hinge_zones
+from crumple.shell.quality import MeshReport, report_of, wall_thickness
+from crumple.shell.start import Start, start_of
+from crumple.structure import Outputs, ShellSettings, Structure
+
+
+@dataclass(frozen=True, eq=False)
+class Lowered:
+    """A structure as the shell engine computes it.
+
+    Attributes
+    ----------
+    mesh, report
+        Nodes and elements, and what they are like.
+    bodies
+        Rigid bodies in the order of the model's rigid sets.
+    start
+        Motion at the start.
+    zones
+        Where each hinge is measured, in the order of the model's first cuts.
+    supports
+        Names of the supports that the model's further cuts belong to.
+    model
+        What the stepper takes.
+    """
+
+    mesh: Mesh
+    report: MeshReport
+    bodies: tuple[Body, ...]
+    start: Start
+    zones: tuple[HingeZone, ...]
+    supports: tuple[str, ...]
+    model: ShellModel
+
+
+def lower(
+    structure: Structure, settings: ShellSettings, outputs: Outputs | None = None, duration: float = 1.0
+) -> Lowered:
+    """Mesh a structure and gather everything that the stepper needs.
+
+    Parameters
+    ----------
+    structure
+        Sound.
+    settings
+        Of the mesh and the method.
+    outputs
+        Stations that shall have a ring.
+    duration
+        Functions of time are sampled over it [s].
+
+    Raises
+    ------
+    InputError
+        If the structure cannot be meshed.
+    """
+    mesh = mesh_of(structure, settings, outputs)
+    report = report_of(structure, mesh)
+    bodies = bodies_of(structure, mesh)
+    start = start_of(structure, mesh, bodies)
+    zones = hinge_zones(structure, mesh)
+    supports = {name: _support_cut(mesh, support.node) for name, support in structure.supports.items()}
+    cuts = [_cut(zone.cut_elements, zone.cut_nodes) for zone in zones]
+    materials, sheets, sheet = _sheets(structure, mesh, settings)
+    model = ShellModel(
+        position=mesh.position,
+        elements=mesh.quads,
+        thickness=wall_thickness(mesh),
+        materials=materials,
+        sheets=sheets,
+        sheet=sheet,
+        fixed=_fixed(mesh),
+        velocity=start.velocity,
+        spin=start.spin,
+        rigid_sets=[_rigid_set(body) for body in bodies],
+        loads=list(loads_of(structure, mesh, duration)),
+        motions=list(motions_of(structure, bodies, duration)),
+        cuts=[*cuts, *supports.values()],
+        settings=_settings(structure, settings),
+    )
+    return Lowered(mesh, report, bodies, start, zones, tuple(supports), model)
+
+
+def _sheets(
+    structure: Structure, mesh: Mesh, settings: ShellSettings
+) -> tuple[list[ShellMaterial], list[Sheet], Integers]:
+    """Materials in the order of the structure, one sheet each, and the sheet of every element."""
+    names = list(dict.fromkeys(member.material for member in structure.members.values()))
+    materials = [shell_material(structure.materials[name].material(name)) for name in names]
+    sheets = [Sheet(material=i, points=settings.thickness_points) for i in range(len(names))]
+    parts = [
+        np.full(tube.bays * tube.sides, names.index(structure.members[member].material))
+        for member, tube in mesh.tubes.items()
+    ]
+    return materials, sheets, np.concatenate(parts)
+
+
+def _fixed(mesh: Mesh) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+    fixed = np.zeros((len(mesh.position), 6), dtype=bool)
+    for joint in mesh.joints.values():
+        if joint.kind is Kind.CLAMPED:
+            for end in joint.ends:
+                fixed[mesh.end_ring(end.member, end.second)] = True
+    return fixed
+
+
+def _rigid_set(body: Body) -> RigidSet:
+    lump = body.lump
+    xx, yy, zz = np.diag(lump.inertia)
+    xy, yz, zx = lump.inertia[0, 1], lump.inertia[1, 2], lump.inertia[2, 0]
+    x, y, z = lump.centre
+    return RigidSet(
+        nodes=body.nodes.astype(np.uint32),
+        mass=lump.mass,
+        at=(float(x), float(y), float(z)),
+        inertia=(float(xx), float(yy), float(zz), float(xy), float(yz), float(zx)),
+        fixed=body.held,
+    )
+
+
+def _support_cut(mesh: Mesh, node: str) -> Cut:
+    """What all members exert on the end sections at a node."""
+    ends = mesh.joints[node].ends
+    bays = [mesh.tubes[end.member].bay(mesh.tubes[end.member].bays - 1 if end.second else 0) for end in ends]
+    rings = [mesh.end_ring(end.member, end.second) for end in ends]
+    return _cut(np.concatenate(bays), np.unique(np.concatenate(rings)))
+
+
+def _cut(elements: Integers, nodes: Integers) -> Cut:
+    return Cut(elements=elements.astype(np.uint32), nodes=nodes.astype(np.uint32))
+
+
+def _settings(structure: Structure, settings: ShellSettings) -> CoreSettings:
+    coefficient = settings.hourglass_coefficient
+    x, y, z = structure.gravity
+    return CoreSettings(
+        safety=settings.safety_factor,
+        scaled_step=settings.mass_scaling or 0.0,
+        least_step=settings.minimum_time_step,
+        damping=settings.damping,
+        gravity=(x, y, z),
+        thickness_update=settings.thickness_update == "on",
+        warping_correction=settings.warping_correction == "on",
+        hourglass=Hourglass(settings.hourglass),
+        hourglass_membrane=coefficient,
+        hourglass_shear=coefficient,
+        hourglass_bending=coefficient,
+        self_contact=settings.self_contact == "on",
+        contact_friction=settings.contact_friction,
+    )

@@ -1,0 +1,49 @@
+"""A divided section, and how many sides a wall or bend gets."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+SHORTEST_BEND = 0.3
+"""Length of a bend over the element size below which it is drawn as a sharp corner: a shorter side would cost
+more than three times the time steps, and a bend that small has next to no length to fold in."""
+ONE_SIDE = 1.2
+"""Length of a wall over the element size up to which it is one side, not two."""
+
+
+@dataclass(frozen=True, eq=False)
+class Contour:
+    """A section as the mesh takes it.
+
+    Attributes
+    ----------
+    points
+        (y, z) [m] on the mid-lines, (n, 2).
+    sides
+        Pairs of points that a wall joins, (k, 2); around a closed section counter-clockwise.
+    thickness
+        Of every side [m], (k,).
+    """
+
+    points: Floats
+    sides: Integers
+    thickness: Floats
+
+    @property
+    def area(self) -> float:
+        """Area of the metal [m^2]."""
+        ends = self.points[self.sides]
+        return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) @ self.thickness)
+
+
+def number_of_sides(length: float, size: float, *, bend: bool) -> int:
+    """Sides of a wall or bend of a length [m]; of a wall an even number: nodes in its middle."""
+    if bend:
+        return max(1, round(length / size))
+    return 1 if length < ONE_SIDE * size else 2 * max(1, round(length / (2.0 * size)))

@@ -1,0 +1,131 @@
+"""Is a mesh fit to be computed, and what can be expected of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple.errors import InputError, Problem
+from crumple.shell.contour import Floats
+from crumple.shell.mesh import Mesh
+from crumple.structure import Structure
+
+MOST_NAMED = 5
+"""Bad elements named in one refusal."""
+LEAST_AREA = 1e-6
+"""Area of an element over its longest side squared, below which it has none."""
+
+
+@dataclass(frozen=True)
+class MeshReport:
+    """What a mesh is like.
+
+    Attributes
+    ----------
+    elements, nodes
+        Numbers, reference nodes of rigid bodies not counted.
+    smallest_side, largest_side
+        [m].
+    worst_aspect
+        Largest ratio of mean opposite sides of one element.
+    worst_warp
+        Largest angle [rad] of a corner out of its element's plane.
+    mass
+        Of the walls [kg].
+    time_step
+        Stable step of the first shape, safety and mass scaling included [s]; 0 before it is known.
+    """
+
+    elements: int
+    nodes: int
+    smallest_side: float
+    largest_side: float
+    worst_aspect: float
+    worst_warp: float
+    mass: float
+    time_step: float = 0.0
+
+    def __str__(self) -> str:
+        step = f", time step {1e6 * self.time_step:.3g} us" if self.time_step else ""
+        return (
+            f"{self.elements} elements, {self.nodes} nodes, sides {1e3 * self.smallest_side:.3g} to "
+            f"{1e3 * self.largest_side:.3g} mm, aspect at most {self.worst_aspect:.3g}, "
+            f"warp at most {np.degrees(self.worst_warp):.2g} deg{step}"
+        )
+
+
+def areas(mesh: Mesh) -> Floats:
+    """Areas of the elements [m^2], (m,)."""
+    corner = mesh.position[mesh.quads]
+    return np.asarray(
+        np.linalg.norm(np.cross(corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1]), axis=1) / 2
+    )
+
+
+def wall_thickness(mesh: Mesh) -> Floats:
+    """Thickness of every element [m], (m,)."""
+    return np.concatenate([np.tile(tube.contour.thickness, tube.bays) for tube in mesh.tubes.values()])
+
+
+def wall_density(structure: Structure, mesh: Mesh) -> Floats:
+    """Density of every element [kg/m^3], (m,)."""
+    parts = [
+        np.full(tube.bays * tube.sides, structure.material_of(name).density)
+        for name, tube in mesh.tubes.items()
+    ]
+    return np.concatenate(parts)
+
+
+def report_of(structure: Structure, mesh: Mesh) -> MeshReport:
+    """Measure a mesh.
+
+    Raises
+    ------
+    InputError
+        Naming elements without area, crossed ones, and nodes that coincide.
+    """
+    corner = mesh.position[mesh.quads]
+    side = np.linalg.norm(np.roll(corner, -1, axis=1) - corner, axis=2)
+    _check(mesh, corner, side)
+    pair = np.stack([side[:, 0] + side[:, 2], side[:, 1] + side[:, 3]])
+    mass = areas(mesh) * wall_thickness(mesh) * wall_density(structure, mesh)
+    return MeshReport(
+        elements=len(mesh.quads),
+        nodes=mesh.walls,
+        smallest_side=float(side.min()),
+        largest_side=float(side.max()),
+        worst_aspect=float((pair.max(axis=0) / pair.min(axis=0)).max()),
+        worst_warp=float(_warp(corner).max()),
+        mass=float(mass.sum()),
+    )
+
+
+def _warp(corner: Floats) -> Floats:
+    """Angle of the corners out of the plane through the middle [rad], (m,)."""
+    normal = np.cross(corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1])
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    out = np.abs(np.einsum("mij,mj->mi", corner - corner.mean(axis=1)[:, None], normal)).max(axis=1)
+    reach = np.linalg.norm(corner - corner.mean(axis=1)[:, None], axis=2).min(axis=1)
+    return np.asarray(np.arctan2(out, reach))
+
+
+def _check(mesh: Mesh, corner: Floats, side: Floats) -> None:
+    normal = np.cross(corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1])
+    before = corner - np.roll(corner, 1, axis=1)
+    after = np.roll(corner, -1, axis=1) - corner
+    turning = np.einsum("mij,mj->mi", np.cross(before, after), normal).min(axis=1)
+    flat = np.linalg.norm(normal, axis=1) / 2 < LEAST_AREA * side.max(axis=1) ** 2
+    faults = (
+        ("an element has no area", flat),
+        ("an element is crossed or not convex", ~flat & (turning <= 0.0)),
+        ("two corners of an element coincide", side.min(axis=1) < 1e-9 * np.median(side)),
+    )
+    todo = "change the element size, or the members that meet there"
+    problems = [
+        Problem(what, mesh.place_of(int(element)), "elements with four corners apart", todo, "analysis.shell")
+        for what, bad in faults
+        for element in np.flatnonzero(bad)[:MOST_NAMED]
+    ]
+    if problems:
+        raise InputError(problems)

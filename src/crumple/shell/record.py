@@ -1,0 +1,134 @@
+"""What is noted at every output time, as plain arrays that a restart file can hold."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from crumple._core.shell import ShellState
+from crumple.shell.contour import Floats, Integers
+from crumple.shell.mesh import Mesh
+from crumple.shell.model import Lowered
+from crumple.shell.sections import mean_spin, section_rotation
+from crumple.structure import Outputs
+
+ENERGIES = (
+    "kinetic", "elastic", "plastic", "hourglass", "contact", "damping", "external_work", "residual", "eroded",
+)  # fmt: skip
+"""Columns of the energies, by the stepper's names."""
+
+Ring = tuple[str, int]
+
+
+@dataclass(frozen=True, eq=False)
+class Sampler:
+    """Reads histories from the moving state.
+
+    Attributes
+    ----------
+    lowered
+        What is computed.
+    nodes
+        Names of the structure nodes that are followed.
+    rings
+        Sections whose rotation is followed: member and ring.
+    """
+
+    lowered: Lowered
+    nodes: tuple[str, ...]
+    rings: tuple[Ring, ...]
+
+    @classmethod
+    def of(cls, lowered: Lowered, outputs: Outputs) -> Sampler:
+        """Sampler of everything that the outputs and the hinges need."""
+        rings = [(zone.place.member, ring) for zone in lowered.zones for ring in (zone.first, zone.last)]
+        for asked in outputs.section_rotations.values():
+            tube = lowered.mesh.tubes[asked.member]
+            rings += [(asked.member, tube.ring_at(station)) for station in (asked.start, asked.end)]
+        return cls(lowered, tuple(outputs.nodes), tuple(dict.fromkeys(rings)))
+
+    def sample(self, state: ShellState) -> dict[str, Floats]:
+        """Histories now: time (), energy (9,), zone (h,), cut (c, 9), ring (r, 3, 3), node (k, 4, 3)."""
+        mesh, position = self.lowered.mesh, state.position
+        velocity = state.velocity[0]
+        plastic = state.element_field("plastic_energy")
+        energies = state.energies
+        cuts = [np.concatenate(state.cut(i)) for i in range(len(self.lowered.model.cuts))]
+        rotations = [
+            section_rotation(mesh.position[nodes], position[nodes])
+            for nodes in (mesh.tubes[member].nodes[ring] for member, ring in self.rings)
+        ]
+        motions = [self._motion(state, name, position, velocity) for name in self.nodes]
+        return {
+            "time": np.array(state.time),
+            "energy": np.array([energies[name] for name in ENERGIES]),
+            "zone": np.array([plastic[zone.elements].sum() for zone in self.lowered.zones]),
+            "cut": np.array(cuts).reshape(-1, 9),
+            "ring": np.array(rotations).reshape(-1, 3, 3),
+            "node": np.array(motions).reshape(-1, 6, 3),
+        }
+
+    def _motion(self, state: ShellState, name: str, position: Floats, velocity: Floats) -> Floats:
+        """Displacement, velocity, angular velocity, and the rotation matrix of a node, (6, 3)."""
+        mesh = self.lowered.mesh
+        if name in mesh.reference:
+            which = list(mesh.reference).index(name)
+            body, at = state.rigid_sets[which], mesh.reference[name]
+            centre, linear, spin = body[:3], body[3:6], body[6:9]
+            moved = position[at] - mesh.position[at]
+            return np.vstack(
+                [moved, linear + np.cross(spin, position[at] - centre), spin, body[9:].reshape(3, 3)]
+            )
+        nodes = ring_of_node(mesh, name)
+        moved = (position[nodes] - mesh.position[nodes]).mean(axis=0)
+        spin = mean_spin(position[nodes], velocity[nodes])
+        turned = section_rotation(mesh.position[nodes], position[nodes])
+        return np.vstack([moved, velocity[nodes].mean(axis=0), spin, turned])
+
+
+def ring_of_node(mesh: Mesh, node: str) -> Integers:
+    """Nodes of the first section that ends at a structure node."""
+    end = mesh.joints[node].ends[0]
+    return mesh.end_ring(end.member, end.second)
+
+
+@dataclass
+class Record:
+    """Rows of samples, and the stored shapes."""
+
+    rows: dict[str, list[Floats]] = field(default_factory=dict)
+    shapes: dict[str, list[Floats]] = field(default_factory=dict)
+
+    def add(self, sample: Mapping[str, Floats]) -> None:
+        """Append one row of histories."""
+        for name, values in sample.items():
+            self.rows.setdefault(name, []).append(values)
+
+    def add_shape(self, shape: Mapping[str, Floats]) -> None:
+        """Append one stored shape."""
+        for name, values in shape.items():
+            self.shapes.setdefault(name, []).append(values)
+
+    def __len__(self) -> int:
+        return len(self.rows.get("time", ()))
+
+    def __getitem__(self, name: str) -> Floats:
+        """All rows of one kind, (n, ...)."""
+        return np.array(self.rows[name])
+
+    def to_arrays(self) -> dict[str, Floats]:
+        """Everything as named arrays."""
+        rows = {f"rows/{name}": np.array(values) for name, values in self.rows.items()}
+        return rows | {f"shapes/{name}": np.array(values) for name, values in self.shapes.items()}
+
+    @classmethod
+    def from_arrays(cls, arrays: Mapping[str, Floats]) -> Record:
+        """Record from what `to_arrays` gave; other names are passed over."""
+        record = cls()
+        for key, values in arrays.items():
+            kind, _, name = key.partition("/")
+            if kind in ("rows", "shapes"):
+                getattr(record, kind)[name] = list(values)
+        return record

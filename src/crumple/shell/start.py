@@ -1,0 +1,127 @@
+"""Motion at the start: velocity fields on walls and lumps, impulses, and what rigid bodies make of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple.shell.bodies import Body
+from crumple.shell.contour import Floats
+from crumple.shell.mesh import Mesh
+from crumple.shell.quality import areas, wall_density, wall_thickness
+from crumple.structure import InitialVelocity, Structure
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """Motion at the start.
+
+    Attributes
+    ----------
+    velocity, spin
+        Of every node [m/s], [rad/s], (n, 3).
+    given_energy
+        Kinetic energy of the described fields [J], of everything that has mass.
+    """
+
+    velocity: Floats
+    spin: Floats
+    given_energy: float
+
+
+def start_of(structure: Structure, mesh: Mesh, bodies: tuple[Body, ...]) -> Start:
+    """Velocities at the start.
+
+    Parameters
+    ----------
+    structure, mesh
+        What is computed.
+    bodies
+        Rigid bodies at the nodes; each takes the momentum of its parts and the impulses on its node.
+    """
+    mass, inertia = nodal_masses(structure, mesh)
+    velocity, spin = np.zeros((len(mesh.position), 3)), np.zeros((len(mesh.position), 3))
+    # a node that two members share moves with the first
+    for name, tube in reversed(mesh.tubes.items()):
+        nodes = tube.nodes.reshape(-1)
+        velocity[nodes], spin[nodes] = _field(structure, "members", name, mesh.position[nodes])
+    energy = float((mass * (velocity**2).sum(axis=1) + inertia * (spin**2).sum(axis=1)).sum()) / 2
+    for body in bodies:
+        lump_velocity, lump_spin = _field(structure, "nodes", body.node, body.lump.centre[None])
+        energy += body.lump.energy(lump_velocity[0], lump_spin[0])
+        centre, v, w = _rigid_motion(structure, mesh, body, (mass, inertia), (velocity, spin))
+        nodes = body.nodes
+        velocity[nodes] = v + np.cross(w, mesh.position[nodes] - centre)
+        spin[nodes] = w
+    return Start(velocity, spin, energy)
+
+
+def nodal_masses(structure: Structure, mesh: Mesh) -> tuple[Floats, Floats]:
+    """Masses [kg] and isotropic rotary inertias [kg m^2] of the nodes, (n,) each, as the stepper lumps."""
+    area, thickness = areas(mesh), wall_thickness(mesh)
+    share = area * thickness * wall_density(structure, mesh) / 4
+    gyration = (thickness**2 + area) / 12
+    mass, inertia = np.zeros(len(mesh.position)), np.zeros(len(mesh.position))
+    np.add.at(mass, mesh.quads, share[:, None])
+    np.add.at(inertia, mesh.quads, (share * gyration)[:, None])
+    return mass, inertia
+
+
+def _field(structure: Structure, kind: str, name: str, points: Floats) -> tuple[Floats, Floats]:
+    """Sum of the fields that act on a member or node: velocities and angular velocities at points, (n, 3)."""
+    velocity, spin = np.zeros(points.shape), np.zeros(points.shape)
+    for field in structure.initial_velocity:
+        everywhere = field.nodes is None and field.members is None
+        if everywhere or name in (getattr(field, kind) or ()):
+            rate = _rate(field)
+            velocity += np.asarray(field.translation, float) + np.cross(
+                rate, points - np.asarray(field.about)
+            )
+            spin += rate
+    return velocity, spin
+
+
+def _rate(field: InitialVelocity) -> Floats:
+    if field.axis is None:
+        return np.zeros(3)
+    axis = np.asarray(field.axis, float)
+    return np.asarray(field.rotation * axis / np.linalg.norm(axis))
+
+
+def _rigid_motion(
+    structure: Structure,
+    mesh: Mesh,
+    body: Body,
+    masses: tuple[Floats, Floats],
+    motion: tuple[Floats, Floats],
+) -> tuple[Floats, Floats, Floats]:
+    """Centre, velocity and angular velocity of a body with the momentum of its parts and its impulses."""
+    nodes = body.nodes
+    mass, inertia = (values[nodes] for values in masses)
+    velocity, spin = (values[nodes] for values in motion)
+    position = mesh.position[nodes]
+    lump_velocity, lump_spin = (
+        values[0] for values in _field(structure, "nodes", body.node, body.lump.centre[None])
+    )
+    total = mass.sum() + body.lump.mass
+    centre = (mass @ position + body.lump.mass * body.lump.centre) / total
+    momentum = mass @ velocity + body.lump.mass * lump_velocity
+    arm, lump_arm = position - centre, body.lump.centre - centre
+    angular = np.cross(arm, mass[:, None] * velocity).sum(axis=0) + inertia @ spin
+    angular += np.cross(lump_arm, body.lump.mass * lump_velocity) + body.lump.inertia @ lump_spin
+    for given in structure.impulses:
+        if given.node == body.node:
+            impulse = np.asarray(given.impulse, float)
+            momentum = momentum + impulse
+            angular = angular + np.asarray(given.angular_impulse, float)
+            angular = angular + np.cross(np.asarray(structure.nodes[body.node]) - centre, impulse)
+    tensor = inertia.sum() * np.eye(3) + _about(mass, arm)
+    tensor += body.lump.inertia + _about(np.array([body.lump.mass]), lump_arm[None])
+    return centre, momentum / total, np.linalg.solve(tensor, angular)
+
+
+def _about(mass: Floats, arm: Floats) -> Floats:
+    """Inertia tensor of points [kg m^2], (3, 3)."""
+    squares = (mass * (arm**2).sum(axis=1)).sum() * np.eye(3)
+    return np.asarray(squares - np.einsum("n,ni,nj->ij", mass, arm, arm))

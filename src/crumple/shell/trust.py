@@ -1,0 +1,129 @@
+"""What an engineer must know before believing a shell result: assumptions and warnings."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from crumple._core.shell import ShellState
+from crumple.shell.bodies import Body
+from crumple.shell.joints import Kind
+from crumple.shell.metal import in_words
+from crumple.shell.model import Lowered
+from crumple.shell.record import ENERGIES, Record
+from crumple.structure import ShellSettings, Structure
+
+LOST_SHARE = 5e-3
+"""Share of the given energy that may vanish at the start before a warning."""
+HOURGLASS_SHARE = 0.05
+"""Hourglass energy over the largest internal energy above which what holds the elements is no physics."""
+PRESSED_IN = 0.5
+"""Penetration over the distance kept above which contact is soft enough to be worth a warning."""
+ADDED_SHARE = 0.01
+"""Mass added by scaling, over the walls' mass, above which inertia is no longer that of the structure."""
+MASS_SHARE = 0.01
+"""Difference of the meshed mass from that of the sections above which it is worth a warning."""
+OFF_CENTRE = 0.05
+"""Distance of a held body's centre of mass from its node, over the section's size, worth a warning."""
+LEAST_ENERGY = 1e-9
+"""Energy [J] below which nothing has been put in and shares mean nothing."""
+
+
+def energy_residual(record: Record) -> float:
+    """Largest abs(residual) over the initial kinetic energy and the largest external work."""
+    energy = record["energy"]
+    given = float(
+        energy[0, ENERGIES.index("kinetic")] + np.abs(energy[:, ENERGIES.index("external_work")]).max()
+    )
+    worst = float(np.abs(energy[:, ENERGIES.index("residual")]).max())
+    return worst / given if given > LEAST_ENERGY else 0.0
+
+
+def assumptions(structure: Structure, lowered: Lowered, settings: ShellSettings) -> tuple[str, ...]:
+    """Sentences stating what the model takes for granted."""
+    found = [
+        f"Walls are shells along their mid-lines: {lowered.report}.",
+        f"One-point quadrilaterals with {settings.thickness_points} points through the thickness, hourglass "
+        f"control by {settings.hourglass}, thickness update {settings.thickness_update}, warping correction "
+        f"{settings.warping_correction}, self-contact {settings.self_contact}.",
+    ]
+    for name in dict.fromkeys(member.material for member in structure.members.values()):
+        found.append(in_words(structure.materials[name].material(name)))
+    for node, joint in lowered.mesh.joints.items():
+        if joint.kind is Kind.RIGID and len(joint.ends) > 1:
+            members = ", ".join(end.member for end in joint.ends)
+            found.append(f"The ends of {members} at node {node} are cut back and move as one rigid body.")
+        elif joint.is_body:
+            found.append(f"The section at node {node} is rigid.")
+    found += [
+        f"Hinge {zone.place.name} is the stretch of member {zone.place.member} from "
+        f"{_station(lowered, zone.place.member, zone.first)} to "
+        f"{_station(lowered, zone.place.member, zone.last)} mm: rotation between the sections there, "
+        "plastic work in the walls between."
+        for zone in lowered.zones
+    ]
+    return tuple(found)
+
+
+def warnings(structure: Structure, lowered: Lowered, record: Record, state: ShellState) -> tuple[str, ...]:
+    """Sentences that must be read before believing the result."""
+    energy = {name: record["energy"][:, i] for i, name in enumerate(ENERGIES)}
+    found = list(_mesh_warnings(structure, lowered))
+    internal = float((energy["elastic"] + energy["plastic"]).max())
+    hourglass = float(energy["hourglass"].max())
+    if internal > LEAST_ENERGY and hourglass > HOURGLASS_SHARE * internal:
+        found.append(
+            f"Hourglass energy reaches {hourglass / internal:.1%} of the internal energy: "
+            "use a finer mesh, or the other hourglass control."
+        )
+    depth = state.deepest_penetration
+    if depth > 1.0:
+        found.append(
+            "Walls passed through each other: contact could not hold them, and later folds are not real."
+        )
+    elif depth > PRESSED_IN:
+        found.append(
+            f"Walls pressed into each other by up to {depth:.0%} of the distance that contact keeps."
+        )
+    if state.added_mass > ADDED_SHARE * state.mass:
+        found.append(f"Mass scaling added {state.added_mass:.3g} kg to {state.mass:.3g} kg of walls.")
+    kinetic, given = float(energy["kinetic"][0]), lowered.start.given_energy
+    if not structure.impulses and given - kinetic > LOST_SHARE * given:
+        found.append(
+            f"{given - kinetic:.4g} J of the given {given:.4g} J is lost at the start: the given motion does "
+            "not fit the supports and rigid sections."
+        )
+    return tuple(found)
+
+
+def _mesh_warnings(structure: Structure, lowered: Lowered) -> list[str]:
+    found = []
+    for name, tube in lowered.mesh.tubes.items():
+        section = structure.section_of(name)
+        area = tube.contour.area
+        if abs(area / section.area - 1.0) > MASS_SHARE:
+            found.append(
+                f"The mesh of member {name} has {area / section.area:.1%} of its section's area: "
+                "its corners are drawn coarsely."
+            )
+    for body in lowered.bodies:
+        distance = _off_centre(structure, lowered, body)
+        if body.held and distance:
+            found.append(
+                f"The support of node {body.node} holds the joint's centre of mass, {1e3 * distance:.3g} mm "
+                "from the node."
+            )
+    return found
+
+
+def _off_centre(structure: Structure, lowered: Lowered, body: Body) -> float:
+    """Distance of a body's lump or of its sections' middle from its node [m]; 0 where it does not matter."""
+    mesh, place = lowered.mesh, np.asarray(structure.nodes[body.node], float)
+    walls = mesh.position[body.nodes[:-1]]
+    size = float(np.ptp(walls, axis=0).max())
+    lump = body.lump.centre if body.lump.mass > 0.0 else place
+    distance = max(float(np.linalg.norm(walls.mean(axis=0) - place)), float(np.linalg.norm(lump - place)))
+    return distance if distance > OFF_CENTRE * size else 0.0
+
+
+def _station(lowered: Lowered, member: str, ring: int) -> str:
+    return f"{1e3 * float(lowered.mesh.tubes[member].stations[ring]):.3g}"

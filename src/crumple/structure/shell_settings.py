@@ -1,0 +1,90 @@
+"""Settings of the shell solver."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, model_validator
+
+from crumple.structure.quantity import (
+    NUMBER,
+    Dimension,
+    Fraction,
+    NonNegativeLength,
+    NonNegativeNumber,
+    PositiveLength,
+    PositiveTime,
+)
+from crumple.structure.spec import Name, Spec, refuse
+
+
+def _on_or_off(given: Any) -> Any:
+    return {True: "on", False: "off"}[given] if isinstance(given, bool) else given
+
+
+Switch = Annotated[Literal["on", "off"], BeforeValidator(_on_or_off)]
+Growth = Annotated[float, replace(NUMBER, example="1.15", above=1.0, at_most=2.0)]
+SafetyFactor = Annotated[float, replace(NUMBER, example="0.9", above=0.0, at_most=1.0)]
+HourglassCoefficient = Annotated[float, replace(NUMBER, example="0.01", at_least=0.0, at_most=0.2)]
+Damping = Annotated[float, Dimension("a damping rate", "1/s", "10 1/s", at_least=0.0)]
+
+
+class FinePlace(Spec):
+    """A place of a member with a fine mesh around it."""
+
+    member: Name
+    """Member."""
+    at: NonNegativeLength
+    """Distance from the member's first node."""
+
+
+class ShellSettings(Spec):
+    """Settings of the shell solver: mesh, element, contact and stepper."""
+
+    element_size: PositiveLength = 5e-3
+    """Length of the elements; where a finer size is given, that of the elements far from the fine zones."""
+    fine_size: PositiveLength | None = None
+    """Length of the elements near supports, joints and hinge places, and around every section."""
+    fine_length: PositiveLength | None = None
+    """How far the fine mesh reaches to both sides of such a place; without it twice the largest side."""
+    growth: Growth = 1.15
+    """Largest ratio of the lengths of neighbouring elements between fine and coarse."""
+    fine_at: tuple[FinePlace, ...] = ()
+    """Further places with a fine mesh."""
+    thickness_points: Annotated[int, Field(ge=1, le=10, strict=True)] = 5
+    """Points through the thickness (Gauss)."""
+    thickness_update: Switch = "on"
+    """Let the walls become thinner where they are stretched and thicker where they are compressed."""
+    hourglass: Literal["stiffness", "viscous"] = "stiffness"
+    """What holds the modes that an element with one point cannot see."""
+    hourglass_coefficient: HourglassCoefficient = 0.01
+    """How strongly they are held."""
+    warping_correction: Switch = "off"
+    """Bending terms of elements whose corners do not lie in one plane: right for twisted members, too soft in
+    tight folds."""
+    safety_factor: SafetyFactor = 0.9
+    """Share of the stable time step that is used."""
+    mass_scaling: PositiveTime | None = None
+    """Time step below which elements are made heavier instead; the added mass is reported."""
+    minimum_time_step: PositiveTime = 1e-10
+    """A stable time step below it ends the run with a status."""
+    self_contact: Switch = "on"
+    """Contact of walls with walls."""
+    contact_friction: NonNegativeNumber = 0.0
+    """Coulomb coefficient between walls."""
+    damping: Damping = 0.0
+    """Damping force over momentum."""
+    energy_residual_bound: Fraction = 0.01
+    """Energy residual above which the run ends with a status that says not to trust it."""
+
+    @model_validator(mode="after")
+    def _fine_is_finer(self) -> ShellSettings:
+        if self.fine_size is not None and self.fine_size > self.element_size:
+            refuse(
+                "the fine size is larger than the element size",
+                key="fine_size",
+                allowed=f"at most {1e3 * self.element_size:g} mm",
+                todo="exchange them",
+            )
+        return self

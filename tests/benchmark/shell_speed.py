@@ -1,0 +1,74 @@
+"""Speed of the shell kernels per element-step, never part of the default run.
+
+``python tests/benchmark/shell_speed.py [isa ...]``: a uniform tube of 5 mm elements thrown against its
+clamp, after yielding has spread, without and with self-contact, on one thread and two.  The least of
+several repeats is printed: what the machine does undisturbed.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+
+import numpy as np
+
+from crumple._core.shell import RigidSet, ShellMaterial, ShellModel, ShellSettings, ShellState
+
+FLOOR = 14.0
+"""ns per element-step: 0.73 kflop and 1.1 kB at the rates of one AVX-512 core."""
+
+
+def tube(nx: int = 200, **settings: object) -> ShellModel:
+    """50 x 25 x 2.65 mm, 5 mm elements, 28 around."""
+    b, h, ny, nz = 47.35e-3, 22.35e-3, 10, 4
+    rim = [(-b / 2 + b * i / ny, -h / 2) for i in range(ny)] + [
+        (b / 2, -h / 2 + h * i / nz) for i in range(nz)
+    ]
+    rim += [(-y, -z) for y, z in rim]
+    x = np.array([(0.005 * i, *p) for i in range(nx + 1) for p in rim])
+    i, j = np.divmod(np.arange(nx * len(rim)), len(rim))
+    k = (j + 1) % len(rim)
+    quads = np.stack(
+        [i * len(rim) + j, (i + 1) * len(rim) + j, (i + 1) * len(rim) + k, i * len(rim) + k], axis=1
+    )
+    fixed = np.zeros((len(x), 6), dtype=bool)
+    fixed[: len(rim)] = True
+    omega = np.array([0.0, -15.0, 0.0])
+    return ShellModel(
+        position=x,
+        elements=quads,
+        thickness=2.65e-3,
+        materials=[ShellMaterial(7850.0, 210e9, 0.3, yield_stress=488e6)],
+        fixed=fixed,
+        velocity=np.cross(omega, x),
+        spin=np.broadcast_to(omega, x.shape),
+        rigid_sets=[RigidSet(np.arange(nx * len(rim), len(x)), mass=6.0)],
+        settings=ShellSettings(**settings),  # type: ignore[arg-type]
+    )
+
+
+def rate(state: ShellState, threads: int, steps: int = 200, repeats: int = 12) -> float:
+    """Least wall time per element-step [ns]."""
+    best = np.inf
+    for _ in range(repeats):
+        start = time.perf_counter()
+        state.advance(1.0, steps=steps, threads=threads)
+        best = min(best, time.perf_counter() - start)
+    return best / steps / len(state.model.elements) * 1e9
+
+
+def main() -> None:
+    for isa in sys.argv[1:] or [""]:
+        for contact in (False, True):
+            state = ShellState(tube(self_contact=contact), isa=isa)
+            state.advance(0.01, threads=2)
+            one, two = rate(state, 1), rate(state, 2)
+            name = f"{state.isa}, self-contact {'on' if contact else 'off'}"
+            print(
+                f"{name}: {one:.1f} ns, two threads {two:.1f} ns ({one / two:.2f}x), "
+                f"{one / FLOOR:.1f} times the floor"
+            )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,61 @@
+"""`crumple compare` and `crumple run --fidelity both` from input file to page, on a coarse mesh."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from tests.unit.cli.test_shell_run import coarse, crumple
+
+
+def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
+    measured = tmp_path / "test.csv"
+    measured.write_text("time [ms],tip [deg],M2\n0,0,1\n6,5,2\n12,9,3\n")
+    run = crumple(
+        "compare", coarse(tmp_path, 12), "--out", tmp_path / "out", "--threads", 1,
+        "--curve", f"bench={measured}", "--pair", "tip=-member.tube.chord_rotation",
+    )  # fmt: skip
+    assert (run.returncode, run.stderr) == (0, "")
+    assert "times faster" in run.stdout
+    assert "Caution" in run.stdout
+    for name in ("multibody", "shell"):
+        summary = json.loads((tmp_path / "out" / name / "summary.json").read_text())
+        assert summary["fidelity"] == name
+        assert (tmp_path / "out" / name / "report.html").is_file()
+    hashes = {
+        json.loads((tmp_path / "out" / name / "summary.json").read_text())["provenance"]["input_hash"]
+        for name in ("multibody", "shell")
+    }
+    assert len(hashes) == 1
+    page = (tmp_path / "out" / "report.html").read_text()
+    for expected in ("bench", "laws of the shell run", "elastic members", "left out: M2", 'id="player"'):
+        assert expected in page
+    assert (tmp_path / "out" / "figures" / "shapes.svg").is_file()
+
+
+def test_run_with_both_fidelities(tmp_path: Path) -> None:
+    file = coarse(tmp_path, 2)
+    run = crumple("run", file, "--fidelity", "both", "--out", tmp_path, "--json", "--threads", 1)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert {name: entry["fidelity"] for name, entry in json.loads(run.stdout).items()} == {
+        "multibody": "multibody",
+        "shell": "shell",
+    }
+    assert not (tmp_path / "report.html").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (("--curve", "nothing"), "is not name=file.csv"),
+        (("--curve", "a=missing.csv"), "there is no such file"),
+        (("--curve", "a=missing.csv", "--pair", "x"), "is not column=history"),
+    ],
+)
+def test_bad_curves_are_refused_before_anything_is_solved(tmp_path: Path, arguments, says) -> None:
+    run = crumple("compare", coarse(tmp_path, 12), "--out", tmp_path / "out", *arguments)
+    assert run.returncode == 2
+    assert says in run.stderr
+    assert "Traceback" not in run.stderr
+    assert not (tmp_path / "out").exists()

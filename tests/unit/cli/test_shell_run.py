@@ -1,0 +1,127 @@
+"""Shell runs from the command line: results and report, news, being told to end, going on."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from crumple.cli.main import main
+from crumple.cli.progress import Bar, stop_on_interrupt
+from crumple.cli.shell_run import available_threads, duration, long_run_of, news
+from crumple.shell import Moment
+
+EXAMPLE = Path(__file__).parents[3] / "examples" / "01_tube_bending.yaml"
+MOMENT = Moment(
+    0.02,
+    0.1,
+    7.5e-7,
+    26000,
+    dict.fromkeys(("kinetic", "elastic", "plastic", "hourglass", "contact"), 12.3),
+    75.4,
+)
+
+
+def coarse(folder: Path, milliseconds: int) -> Path:
+    """Example 01 with coarse elements and a shorter run."""
+    text = EXAMPLE.read_text(encoding="utf-8")
+    text = text.replace("multibody: {accuracy: 1e-3}", "shell: {element_size: 20 mm}")
+    text = text.replace("duration: 100 ms", f"duration: {milliseconds} ms")
+    text = text.replace(
+        "pictures: [0 ms, 20 ms, 40 ms, 60 ms, 80 ms, 100 ms]", "pictures: [0 ms, 6 ms, 12 ms]"
+    )
+    file = folder / "coarse.yaml"
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def crumple(*arguments: object) -> subprocess.CompletedProcess[str]:
+    words = [sys.executable, "-m", "crumple", *map(str, arguments)]
+    return subprocess.run(words, capture_output=True, text=True, check=False, timeout=100)
+
+
+def test_run_writes_results_and_pictures(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    run = crumple("run", coarse(tmp_path, 12), "--fidelity", "shell", "--out", out, "--threads", 1)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert "Status: complete" in run.stdout
+    summary = json.loads((out / "summary.json").read_text())
+    assert summary["fidelity"] == "shell"
+    assert summary["hinges"]["root"]["energy"] > 0
+    assert summary["outputs"]["tip_rotation"]["max"] < 0
+    assert summary["provenance"]["settings"]["element_size"] == 0.02
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert "plastic strain" in page
+    assert (out / "figures" / "fold_1.svg").exists()
+    assert not (out / "restart.npz").exists()
+
+
+def test_run_told_to_end_can_be_read_and_goes_on_with_the_same_bits(
+    tmp_path: Path, monkeypatch, capsys
+) -> None:
+    file, whole, parts = coarse(tmp_path, 60), tmp_path / "whole", tmp_path / "parts"
+    assert crumple("run", file, "--fidelity", "shell", "--out", whole, "--threads", 1).returncode == 0
+
+    def end(moment: Moment) -> str:
+        if moment.time > 0.02:
+            os.kill(os.getpid(), signal.SIGTERM)
+        return ""
+
+    monkeypatch.setattr("crumple.cli.shell_run.news", end)
+    monkeypatch.setattr("crumple.cli.shell_run.NEWS_EVERY", -1.0)
+    monkeypatch.setattr("crumple.shell.solve.WATCH_EVERY", 0.0)
+    words = ["crumple", "run", file, "--fidelity", "shell", "--out", parts, "--threads", 1]
+    monkeypatch.setattr(sys, "argv", [str(word) for word in words])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == 1
+    printed = capsys.readouterr().out
+    assert "cancelled" in printed
+    assert "--restart" in printed
+    summary = json.loads((parts / "summary.json").read_text())
+    assert 0.0 < summary["end_time"] < 0.06
+    again = crumple("run", file, "--fidelity", "shell", "--out", parts, "--restart", parts / "restart.npz")
+    assert again.returncode == 0
+    assert (parts / "histories.csv").read_bytes() == (whole / "histories.csv").read_bytes()
+
+
+def test_restart_is_for_shells(tmp_path: Path) -> None:
+    run = crumple("run", EXAMPLE, "--restart", tmp_path / "restart.npz", "--out", tmp_path)
+    assert run.returncode == 2
+    assert "only shell runs" in run.stderr
+
+
+def test_termination_is_a_wish_to_stop() -> None:
+    before = signal.getsignal(signal.SIGTERM)
+    with stop_on_interrupt() as cancelled:
+        assert not cancelled()
+        os.kill(os.getpid(), signal.SIGTERM)
+        assert cancelled()
+    assert signal.getsignal(signal.SIGTERM) == before
+
+
+def test_news_tell_time_step_energies_and_end() -> None:
+    text = news(MOMENT)
+    for part in ("20 of 100 ms", "step 0.75 us", "kinetic 12.3 J", "about 75 s left"):
+        assert part in text
+
+
+def test_wall_times_for_people() -> None:
+    assert [duration(seconds) for seconds in (12.4, 600.0, 9000.0)] == ["12 s", "10 min", "2.5 h"]
+
+
+def test_news_go_to_standard_error_where_there_is_no_terminal(monkeypatch, capsys, tmp_path) -> None:
+    monkeypatch.setattr("crumple.cli.shell_run.NEWS_EVERY", -1.0)
+    watch = long_run_of(tmp_path, None, Bar("solving")).watch
+    assert watch is not None
+    watch(MOMENT)
+    assert "of 100 ms" in capsys.readouterr().err
+
+
+def test_there_is_a_thread() -> None:
+    assert available_threads() >= 1

@@ -1,0 +1,185 @@
+"""A multibody run against a shell-like result: pairs, ratings, order, trust in plain sentences."""
+
+import pickle
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.unit.comparison.folded_tube import EXAMPLE, analysis, angle_over_time, folded_result
+
+from crumple.analysis import load, solve
+from crumple.comparison import CurveFile, Signal, compare, with_frames, with_pictures
+from crumple.comparison.motion import HingeMotion
+from crumple.comparison.pairing import pairs_of
+from crumple.comparison.trust import _across_joint
+from crumple.comparison.variant import (
+    measured_law,
+    with_elastic_hinges,
+    with_elastic_members,
+    with_measured_laws,
+)
+from crumple.errors import InputError, Status
+from crumple.structure.hinges import hinge_places, law_spec, placed_hinges
+
+TIMES = np.linspace(0.0, 0.1, 101)
+
+
+@pytest.fixture(scope="module", name="case")
+def _case():
+    return analysis()
+
+
+@pytest.fixture(scope="module", name="multibody")
+def _multibody(case):
+    return solve(with_frames(case, 21))
+
+
+@pytest.fixture(scope="module", name="found")
+def _found(case, multibody):
+    return compare(multibody, folded_result(largest=0.545), case.structure)
+
+
+def test_a_result_agrees_with_itself(case, multibody):
+    found = compare(multibody, multibody, case.structure)
+    assert found.candidate.name != found.reference.name
+    (hinge,) = found.hinges
+    assert hinge.error("rotation_max") == 0.0
+    assert all(pair.rating.overall == pytest.approx(1.0) for pair in found.pairs if pair.rating)
+    assert all(pair.largest_difference == 0.0 for pair in found.pairs)
+
+
+def test_the_hinge_is_found_in_both(found):
+    (hinge,) = found.hinges
+    assert hinge.name == "root"
+    assert hinge.error("rotation_max") == pytest.approx(0.0, abs=0.002)
+    assert hinge.fold_extent == pytest.approx((0.01, 0.04))
+    assert [o.name for o in found.opened["shell"]] == ["root"]
+    channels = [pair.channel for pair in found.pairs]
+    assert channels[:2] == ["hinge.root.rotation", "hinge.root.rotation_rate"]
+    assert "member.tube.chord_rotation" in channels
+    assert found.pairs[0].rating.overall > 0.9
+
+
+def test_the_comparison_travels(found):
+    again = pickle.loads(pickle.dumps(found))
+    assert again.hinges[0].first == found.hinges[0].first or again.trust == found.trust
+    assert again.speed_ratio == found.speed_ratio
+
+
+def test_curves_are_paired_by_name_and_the_rest_is_named(case, multibody):
+    shell = folded_result()
+    values = -angle_over_time(TIMES)
+    curve = CurveFile(
+        "test",
+        "test.csv",
+        {
+            "hinge.root.rotation": Signal("hinge.root.rotation", "rad", TIMES, values),
+            "unheard of": Signal("unheard of", "rad", TIMES, values),
+        },
+    )
+    found = compare(multibody, shell, case.structure, curves=[curve])
+    rated = {p.candidate: p.rating.overall for p in found.pairs if p.reference == "test"}
+    assert set(rated) == {"multibody", "shell"}
+    assert rated["shell"] == pytest.approx(1.0, abs=1e-6)
+    assert found.unpaired["test"] == ("unheard of",)
+
+
+def test_histories_of_other_units_are_not_paired():
+    a = {"x": Signal("x", "rad", TIMES, TIMES)}
+    b = {"x": Signal("x", "J", TIMES, TIMES)}
+    assert pairs_of(("a", a), ("b", b)) == []
+    assert len(pairs_of(("a", a), ("b", a))) == 1
+
+
+def test_agreement_is_called_so(case, multibody):
+    trust = compare(multibody, multibody, case.structure).trust
+    assert trust.level == "good"
+    assert trust.headline.startswith("Both answers agree")
+    assert trust.cautions == ()
+
+
+def test_an_equal_rotation_does_not_excuse_another_energy(found):
+    assert found.trust.level == "bad"
+    assert "off by 0.0%, plastic energy by up to 3" in found.trust.headline
+    assert any("inside the range" in fact for fact in found.trust.facts)
+    assert any("one mesh" in fact for fact in found.trust.facts)
+
+
+def test_a_fold_without_a_hinge_is_said(case, multibody):
+    folds = [(0.01, 0.04, angle_over_time(TIMES)), (0.60, 0.63, 0.5 * angle_over_time(TIMES))]
+    found = compare(multibody, folded_result(folds), case.structure)
+    assert found.trust.level == "bad"
+    assert "folds where no hinge was put (tube at 615 mm)" in found.trust.headline
+    assert [h.name for h in found.hinges] == ["root", "tube at 615 mm"]
+    assert found.hinges[1].first is None
+
+
+@pytest.mark.parametrize(("station", "beside"), [(0.48, "knee"), (0.25, "")])
+def test_a_fold_across_a_joint_is_told_from_one_without_a_hinge(station, beside):
+    structure = load(EXAMPLE.parent / "06_two_bars.yaml").structure
+    hinges = {hinge.name: hinge for hinge in placed_hinges(structure)}
+    motion = HingeMotion("first at", "first", station, *[np.zeros(1)] * 6, how="")
+    assert _across_joint(structure, motion, hinges) == beside
+
+
+def test_jamming_and_contact_are_said(case, multibody):
+    found = compare(multibody, folded_result(largest=1.6, contact=0.05), case.structure)
+    said = " ".join(found.trust.cautions)
+    assert "jam at" in said
+    assert "Walls touch" in said
+    assert found.trust.level == "bad"
+
+
+def test_elastic_energy_that_rigid_bars_lack_is_said(case, multibody):
+    shell = folded_result()
+    elastic = replace(shell.channels["energy.elastic"], values=0.2 * shell["energy.kinetic"])
+    found = compare(
+        multibody, replace(shell, channels={**shell.channels, "energy.elastic": elastic}), case.structure
+    )
+    assert any("lack the elastic part" in text for text in found.trust.cautions)
+
+
+def test_a_run_that_failed_is_compared_and_said(case, multibody):
+    shell = folded_result(status=Status.NOT_FINITE, reason="element 7 failed")
+    found = compare(multibody, shell, case.structure)
+    assert found.trust.level == "bad"
+    assert any("element 7 failed" in text for text in found.trust.cautions)
+
+
+def test_a_result_without_histories_is_refused(case, multibody):
+    empty = replace(folded_result(), time=np.zeros(0), channels={})
+    with pytest.raises(InputError, match="holds no histories"):
+        compare(multibody, empty, case.structure)
+
+
+def test_a_reference_without_shapes_is_compared_by_its_channels(case, multibody):
+    found = compare(multibody, replace(folded_result(), states=None), case.structure)
+    assert found.hinges[0].second is None
+    assert [pair.channel for pair in found.pairs] == ["energy.kinetic", "energy.dissipated"]
+
+
+def test_variants_change_forms_and_bars_alone(case):
+    elastic = with_elastic_hinges(case.structure)
+    assert law_spec(elastic, hinge_places(elastic)[0]).form == "elastic-plastic"
+    assert law_spec(case.structure, hinge_places(case.structure)[0]).form == "set-valued"
+    assert with_elastic_hinges(elastic) is None
+    members = with_elastic_members(case.structure)
+    assert members.members["tube"].bars.number > 1
+    assert with_elastic_members(members) is None
+    stations = [hinge.station for hinge in placed_hinges(members)]
+    assert min(np.diff(stations)) > 0.01
+
+
+def test_a_law_read_off_a_fold_gives_its_moment_back(found, case):
+    motion = found.reference.hinges[0]
+    law = measured_law(motion)
+    assert law.rotation[0] == 0.0
+    assert np.allclose(law.moment[2:], 1200.0, rtol=1e-6)
+    changed = with_measured_laws(case.structure, found.reference.hinges)
+    assert law_spec(changed, hinge_places(changed)[0]).type == "table"
+    assert with_measured_laws(case.structure, []) is None
+
+
+def test_stored_pictures_are_those_asked_for(multibody):
+    kept = with_pictures(multibody, (0.0, 0.05, 0.1))
+    assert kept.states.times == pytest.approx([0.0, 0.05, 0.1])
