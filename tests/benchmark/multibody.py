@@ -154,7 +154,9 @@ def moment_function(exu: Any) -> Callable[..., Any]:
     """The law in Exudyn's symbols: k is the scale, d the half-width of the ramp."""
     s = exu.symbolic
 
-    def moment(mbs: Any, t: Any, item: Any, u: Any, v: Any, k: Any, d: Any, offset: Any) -> Any:
+    def moment(*given: Any) -> Any:
+        # system, time, item, rotation, rate, stiffness, damping, offset
+        _, _, _, u, v, k, d, _ = given
         turned = s.abs(u)
         capacity = k * 1000 * (0.576 + 0.5 / s.sqrt(s.max(turned, 0.05)))
         ramp = s.sin(1.5707963267948966 * s.min(s.max(v / d, -1.0), 1.0))

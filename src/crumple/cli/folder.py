@@ -15,7 +15,7 @@ FILES = ("result.vtkhdf", "histories.csv", "summary.json", "report.html")
 FIGURES = "figures"
 
 
-def results_folder(given: str | None, file: Path) -> Path:
+def results_folder(given: str | Path | None, file: Path) -> Path:
     """The folder, made and tried; by default out/ and the input file's name.
 
     Raises
@@ -23,7 +23,7 @@ def results_folder(given: str | None, file: Path) -> Path:
     InputError
         If it cannot be made or written to, or something in it is in the way.
     """
-    if given is not None and not given.strip():
+    if given is not None and not str(given).strip():
         todo = "name a folder; . is the present one"
         raise InputError(Problem("the name of the results' folder is empty", todo=todo, where="--out"))
     folder = Path(given) if given is not None else Path("out") / file.stem
