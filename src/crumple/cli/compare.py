@@ -20,7 +20,7 @@ def compare(
     file: Annotated[Path, typer.Argument(help="Input file (YAML).", show_default=False)],
     *,
     out: Annotated[
-        Path | None, typer.Option(help="Folder for the results; by default out/ and the input file's name.")
+        str | None, typer.Option(help="Folder for the results; by default out/ and the input file's name.")
     ] = None,
     curve: Annotated[
         list[str] | None,
@@ -56,7 +56,7 @@ def compare(
     analysis = load(file)
     curves = [_curve(text, pair or []) for text in curve or []]
     folder = results_folder(out, file)
-    results_folder(folder / "shell", file)
+    results_folder(str(folder / "shell"), file)
     with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
         try:
             found = solve_and_compare(

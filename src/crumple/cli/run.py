@@ -58,7 +58,7 @@ def run(
     both = fidelity is Fidelity.BOTH
     summaries, good = {}, True
     for one in (Fidelity.MULTIBODY, Fidelity.SHELL) if both else (fidelity,):
-        place = results_folder(folder / one.value, file) if both else folder
+        place = results_folder(str(folder / one.value), file) if both else folder
         result = _solve(analysis, file, place, (one, threads, restart))
         good = good and result.status.ok
         if as_json:

@@ -35,7 +35,7 @@ def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
 
 
 def test_run_with_both_fidelities(tmp_path: Path) -> None:
-    file = coarse(tmp_path, 2)
+    file = coarse(tmp_path, 12)
     run = crumple("run", file, "--fidelity", "both", "--out", tmp_path, "--json", "--threads", 1)
     assert (run.returncode, run.stderr) == (0, "")
     assert {name: entry["fidelity"] for name, entry in json.loads(run.stdout).items()} == {
