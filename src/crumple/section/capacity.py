@@ -38,8 +38,9 @@ from crumple.section.wall_section import walls_of
 from crumple.section.walled import WalledSection, angle_of
 
 BASIS = (
-    "effective widths as in the cold-formed steel rules, remembered, originals not seen; their buckling "
-    "coefficients checked by Rayleigh-Ritz; plastic and elastic moments exact; the step between proposed here"
+    "effective widths of the cold-formed steel rules as widely quoted, the standards themselves not read; "
+    "their buckling coefficients checked by Rayleigh-Ritz; plastic and elastic moments exact; the step between "
+    "proposed here"
 )
 
 
