@@ -1,0 +1,38 @@
+"""Our own past figures of the multibody answer: example 01's tube in every form, and a struck chain.
+
+Nothing outside says that these are right; tests/verification does that. A change of the method may move
+them by its accuracy, which is the tolerance; more than that wants a reason.
+"""
+
+import pytest
+from tests.verification.structures import cantilever
+
+from crumple.multibody import Run, solve_multibody
+
+THROWN = [{"rotation": 15.0, "axis": (0.0, -1.0, 0.0)}]
+# form: rotation [rad], time of rest [s], absorbed energy [J]
+TUBE = {
+    "set-valued": (-0.544866, 0.0795536, 783.720),
+    "elastic-plastic": (-0.567280, 0.0797614, 759.993),
+    "regularised": (-0.544871, 0.07925, 783.720),
+}
+# rotations [rad] of a chain of four bars with 2 kg at its tip, struck there by 40 N s
+CHAIN = {"root": 0.14117, "tube-1": 0.01701, "tube-2": 0.02042, "tube-3": 0.03294}
+
+
+@pytest.mark.parametrize("form", TUBE)
+def test_tube(form):
+    structure = cantilever({"type": "kecman", "form": form}, initial_velocity=THROWN)
+    hinge = solve_multibody(structure, Run(0.1, 0.0005)).hinges["root"]
+    rotation, rest, energy = TUBE[form]
+    assert hinge.rotation_max == pytest.approx(-rotation, rel=1e-3)
+    assert hinge.time_of_rest == pytest.approx(rest, abs=3e-4)
+    assert hinge.energy == pytest.approx(energy, rel=1e-3)
+
+
+def test_chain():
+    blow = [{"node": "tip", "impulse": (0.0, 0.0, 40.0)}]
+    structure = cantilever({"type": "kecman"}, payload=2.0, bars=4, impulses=blow)
+    hinges = solve_multibody(structure, Run(0.1, 0.0005)).hinges
+    for name, rotation in CHAIN.items():
+        assert hinges[name].rotation_max == pytest.approx(rotation, abs=3e-4), name
