@@ -39,8 +39,8 @@ from crumple.section.walled import WalledSection, angle_of
 
 BASIS = (
     "effective widths of the cold-formed steel rules as widely quoted, the standards themselves not read; "
-    "their buckling coefficients checked by Rayleigh-Ritz; plastic and elastic moments exact; the step between "
-    "proposed here"
+    "their buckling coefficients checked by Rayleigh-Ritz; plastic and elastic moments exact; "
+    "the step between proposed here"
 )
 
 
