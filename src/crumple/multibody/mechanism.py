@@ -258,14 +258,15 @@ def _check_inertia(bodies: tuple[RigidMass, ...], links: list[Link], plane: Plan
     for body, link in zip(bodies, links, strict=True):
         if body.mass > 0.0 and plane.normal @ body.inertia @ plane.normal > 0.0:
             continue
-        name = link.hinge.name if link.hinge else "of a support"
+        place = ", ".join(f"{value:.4g}" for value in link.position)
+        body_at = f"beyond hinge {link.hinge.name}" if link.hinge else f"held by the pin at ({place}) m"
         problems.append(
             Problem(
-                f"the body beyond hinge {name} has no inertia",
+                f"the body {body_at} has no inertia",
                 "mass 0 kg",
                 "a body with mass and rotary inertia",
                 "move the hinge into the member, or give the node a mass",
-                f"hinges.{name}",
+                f"hinges.{link.hinge.name}" if link.hinge else "supports",
             )
         )
     if problems:
