@@ -163,3 +163,11 @@ def test_lump_on_the_axis_of_a_pin_is_refused():
     supports = {"pin": {"node": "p", "fix": "pin"}} | CLAMP
     with pytest.raises(InputError):
         lower(structure(nodes, supports=supports, masses={"m": {"node": "p", "mass": 1.0}}))
+
+
+def test_a_massless_node_between_a_pin_and_a_hinge_is_refused_by_its_place():
+    nodes = X_LINE | {"c": (0.0, 0.0, 1.0)}
+    ends = {end: member("a", end, (f"h{end}", "a", {"offset": 0.0})) for end in "bc"}
+    with pytest.raises(InputError, match=r"held by the pin at \(0, 0, 0\) m has no inertia") as refusal:
+        lower(structure(nodes, ends, supports={"pin": {"node": "a", "fix": "pin"}}))
+    assert refusal.value.problems[0].where == "supports"
