@@ -12,9 +12,11 @@ from crumple.structure import (
     MultibodySettings,
     Outputs,
     ShellSettings,
+    Stage,
     Structure,
     output_problems,
     shell_problems,
+    stage_problems,
 )
 from crumple.structure.quantity import PositiveTime
 from crumple.structure.spec import Spec, raise_all, refuse
@@ -23,6 +25,8 @@ from crumple.units import format_quantity
 LONGEST_TITLE = 200
 DEFAULT_INTERVALS = 200
 """Intervals of the histories where the input gives none: enough for a smooth figure."""
+MOST_STAGES = 100
+"""Stages of one run; more is a slip of the pen."""
 MOST_SAMPLES = 1_000_000
 """Samples of every channel: far more than any figure needs, little enough to store."""
 
@@ -30,12 +34,27 @@ MOST_SAMPLES = 1_000_000
 class Settings(Spec):
     """How long to simulate, and the settings of the solvers."""
 
-    duration: PositiveTime
-    """Time to simulate."""
+    duration: PositiveTime | None = None
+    """Time to simulate; with `stages` the sum of theirs."""
+    stages: Annotated[tuple[Stage, ...], Field(max_length=MOST_STAGES)] = ()
+    """What happens in sequence; without it one dynamic stage of `duration`."""
     multibody: MultibodySettings = MultibodySettings()
     """Settings of the multibody solver."""
     shell: ShellSettings = ShellSettings()
     """Settings of the shell solver."""
+
+    @model_validator(mode="after")
+    def _one_duration(self) -> Settings:
+        if self.duration is None and not self.stages:
+            refuse("the duration is missing", key="duration", allowed="a time, for example 100 ms")
+        if self.duration is not None and self.stages:
+            refuse("the stages have durations of their own", key="duration", todo="take it away")
+        return self
+
+    @property
+    def total_duration(self) -> float:
+        """Longest time that all stages take [s]."""
+        return self.duration or sum(stage.duration for stage in self.stages)
 
 
 def _printable(title: str) -> str:
@@ -90,9 +109,11 @@ class Analysis(Spec):
     structure
         What is simulated.
     duration
-        [s].
+        [s]; at most, where a stage may end earlier.
     title
         One line for people.
+    stages
+        What happens in sequence, with durations that add up to `duration`; empty for one dynamic stage.
     multibody, shell
         Settings of the solvers.
     outputs
@@ -102,6 +123,7 @@ class Analysis(Spec):
     structure: Structure
     duration: PositiveTime
     title: Title = ""
+    stages: tuple[Stage, ...] = ()
     multibody: MultibodySettings = MultibodySettings()
     shell: ShellSettings = ShellSettings()
     outputs: Outputs = Outputs()
@@ -113,6 +135,13 @@ class Analysis(Spec):
         problems = output_problems(self.outputs, self.structure)
         problems += run_problems(self.outputs, self.duration)
         problems += shell_problems(self.shell, self.structure)
+        problems += stage_problems(self.stages, self.structure)
+        total = sum(stage.duration for stage in self.stages)
+        if self.stages and not math.isclose(total, self.duration):
+            what, todo = "the duration is not that of the stages", "correct one of them"
+            problems.append(
+                Problem(what, f"{self.duration:g} s", f"{total:g} s, their sum", todo, "duration")
+            )
         interval = self.output_interval
         raise_all(problems or filter_problems(self.structure, self.outputs, self.duration, interval))
         return self

@@ -21,6 +21,7 @@ from crumple.structure import (
     output_problems,
     problems_in,
     shell_problems,
+    stage_problems,
 )
 from crumple.structure.problems import Place, path_of, placed_problems, shown
 
@@ -139,11 +140,13 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
     if isinstance(outputs, Outputs):
         cross += output_problems(outputs, structure, defined)
     if whole:
-        cross += run_problems(whole.outputs, whole.analysis.duration)
+        duration = whole.analysis.total_duration
+        cross += run_problems(whole.outputs, duration)
         cross += shell_problems(whole.analysis.shell, structure, defined)
+        cross += stage_problems(whole.analysis.stages, structure, defined)
     if whole and not cross:
-        interval = whole.outputs.every or whole.analysis.duration / DEFAULT_INTERVALS
-        cross += filter_problems(structure, whole.outputs, whole.analysis.duration, interval)
+        interval = whole.outputs.every or duration / DEFAULT_INTERVALS
+        cross += filter_problems(structure, whole.outputs, duration, interval)
     problems += [(path_of(problem.where), problem) for problem in cross]
     if problems or document.problems or whole is None:
         raise InputError(_placed(problems, document, file))
@@ -152,8 +155,9 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
             "structure": Structure.model_construct(
                 **{key: getattr(whole, key) for key in Structure.model_fields}
             ),
-            "duration": whole.analysis.duration,
+            "duration": whole.analysis.total_duration,
             "title": whole.title,
+            "stages": whole.analysis.stages,
             "multibody": whole.analysis.multibody,
             "shell": whole.analysis.shell,
             "outputs": whole.outputs,

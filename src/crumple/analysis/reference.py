@@ -18,7 +18,7 @@ from pydantic.fields import FieldInfo
 
 from crumple.analysis.input_file import InputFile
 from crumple.analysis.schema import field_descriptions, first_sentence
-from crumple.structure import LawKeys
+from crumple.structure import LawKeys, Obstacle
 from crumple.structure.member import Place
 from crumple.structure.quantity import Dimension
 from crumple.structure.spec import Name
@@ -26,6 +26,8 @@ from crumple.structure.time_function import FunctionOf
 
 BEGIN = "<!-- written by `python -m crumple.analysis.reference docs/input.md`: begin -->"
 END = "<!-- end -->"
+COMMON: dict[type[BaseModel], str] = {LawKeys: "`hinge_laws.NAME`", Obstacle: "`obstacles.NAME`"}
+"""Models whose keys every type of a part has, and where such parts stand."""
 HEAD = ("Key", "Value", "Unit", "Default", "Meaning")
 
 
@@ -46,9 +48,10 @@ def _tables(
 ) -> Iterator[str]:
     """Table of a part, followed by those of the parts inside it, each where it is first met."""
     seen = {model} if seen is None else seen
-    if issubclass(model, LawKeys) and LawKeys not in seen:
-        seen.add(LawKeys)
-        yield from _tables("`hinge_laws.NAME`, any type", LawKeys, seen)
+    common = _common(model)
+    if common is not None and common not in seen:
+        seen.add(common)
+        yield from _tables(f"{COMMON[common]}, any type", common, seen)
     own = {name: field for name, field in model.model_fields.items() if not _shared(model, name)}
     yield _table(path, model, own)
     for name, field in own.items():
@@ -58,13 +61,20 @@ def _tables(
                 seen.add(found)
                 kind = found.model_fields.get("type")
                 # a law in place has the keys of a named one
-                inner = "`hinge_laws.NAME`" if issubclass(found, LawKeys) else inner
+                base = _common(found)
+                inner = inner if base is None else COMMON[base]
                 yield from _tables(f"{inner}, type {kind.default}" if kind else inner, found, seen)
 
 
+def _common(model: type[BaseModel]) -> type[BaseModel] | None:
+    """Model whose keys every type of this part has; None for parts of one type."""
+    return next((base for base in COMMON if issubclass(model, base)), None)
+
+
 def _shared(model: type[BaseModel], name: str) -> bool:
-    """Whether a key belongs to every law and stands in their common table."""
-    return model is not LawKeys and issubclass(model, LawKeys) and name in LawKeys.model_fields
+    """Whether a key stands in the common table of its part's types."""
+    common = _common(model)
+    return common is not None and model is not common and name in common.model_fields
 
 
 def _table(path: str, model: type[BaseModel], fields: dict[str, FieldInfo]) -> str:

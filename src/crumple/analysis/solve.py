@@ -11,6 +11,7 @@ from crumple.analysis.analysis import Analysis
 from crumple.analysis.canonical import canonical, input_hash
 from crumple.analysis.filters import with_filters
 from crumple.errors import InputError, Problem, Status
+from crumple.structure.spec import raise_all
 from crumple.units import format_quantity
 
 if TYPE_CHECKING:
@@ -19,6 +20,11 @@ if TYPE_CHECKING:
 
 FIDELITIES = ("multibody", "shell")
 """Solvers by name."""
+UNSOLVED = {
+    "multibody": ("obstacles", "member_contact", "analysis.stages"),
+    "shell": ("obstacles", "analysis.stages"),
+}
+"""Parts of a description that a solver does not take."""
 
 
 def solve(
@@ -65,6 +71,7 @@ def solve(
         raise InputError(Problem("unknown fidelity", fidelity, allowed, "choose one of these", "fidelity"))
     if threads < 1:
         raise InputError(Problem("no thread to run on", str(threads), "at least 1", "", "threads"))
+    _refuse_unsolved(analysis, fidelity)
     if fidelity == "shell":
         solved = _shell(analysis, threads, progress, cancel, long_run)
     else:
@@ -85,6 +92,22 @@ def solve(
             f"asked to stop; the last output is at {reached} of {format_quantity(analysis.duration, 's', 3)}"
         )
     return replace(result, provenance=provenance, reason=reason)
+
+
+def _refuse_unsolved(analysis: Analysis, fidelity: str) -> None:
+    """Refuse what can be described but this solver does not solve, rather than leave it out silently."""
+    structure = analysis.structure
+    given = {
+        "obstacles": structure.obstacles,
+        "member_contact": structure.member_contact,
+        "analysis.stages": analysis.stages,
+    }
+    problems = [
+        Problem(f"the {fidelity} solver does not take '{where}' so far", where=where, todo="take it away")
+        for where, part in given.items()
+        if part and where in UNSOLVED[fidelity]
+    ]
+    raise_all(problems)
 
 
 # the solvers need the compiled kernels; reading and checking input does not

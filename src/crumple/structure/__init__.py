@@ -1,7 +1,8 @@
 """What the engineer describes, once, for every solver; plain frozen data in SI.
 
 `Structure` has named ``materials``, ``sections``, ``nodes`` (positions), ``members``, ``hinge_laws``,
-``supports``, ``masses``, and the lists ``initial_velocity``, ``impulses``, ``loads``, and ``gravity``.
+``supports``, ``masses``, ``obstacles``, and the lists ``initial_velocity``, ``impulses``, ``loads``, and
+``gravity``.
 For a solver:
 
 - ``structure.frame_of(member)`` -> `Frame` (origin, axes as rows x y z, length, ``position(station)``);
@@ -29,6 +30,16 @@ from crumple.structure.mapping import FrozenMapping
 from crumple.structure.material import MaterialSpec, RateSpec
 from crumple.structure.member import Bars, Hinge, Member
 from crumple.structure.motion import FREEDOMS, InitialVelocity, Motion, Support
+from crumple.structure.obstacle_checks import gap, stage_problems
+from crumple.structure.obstacles import (
+    CylinderObstacle,
+    MemberContact,
+    Obstacle,
+    PlaneObstacle,
+    SphereObstacle,
+    Travel,
+    Turning,
+)
 from crumple.structure.outputs import Filter, Outputs, SectionRotation
 from crumple.structure.section import (
     AngleSpec,
@@ -42,6 +53,7 @@ from crumple.structure.section import (
 )
 from crumple.structure.settings import MultibodySettings
 from crumple.structure.shell_settings import FinePlace, ShellSettings
+from crumple.structure.stages import Stage, Until
 from crumple.structure.structure import Structure
 from crumple.structure.walls import WallSectionSpec, WallSpec, WeldSpec
 
@@ -54,6 +66,7 @@ __all__ = [
     "CircularTubeSpec",
     "ClosedHatSpec",
     "ConstantLaw",
+    "CylinderObstacle",
     "Filter",
     "FinePlace",
     "ForceComponents",
@@ -69,31 +82,41 @@ __all__ = [
     "Mass",
     "MaterialSpec",
     "Member",
+    "MemberContact",
     "MomentComponents",
     "Motion",
     "MultiCellTubeSpec",
     "MultibodySettings",
     "NodalImpulse",
+    "Obstacle",
     "Outputs",
     "PlacedHinge",
+    "PlaneObstacle",
     "RateSpec",
     "RectangularTubeSpec",
     "Regularisation",
     "SectionRotation",
     "ShellSettings",
+    "SphereObstacle",
     "SquareTubeSpec",
+    "Stage",
     "Stops",
     "Structure",
     "Support",
     "TableLaw",
+    "Travel",
+    "Turning",
+    "Until",
     "WallSectionSpec",
     "WallSpec",
     "WeldSpec",
     "WierzbickiLaw",
     "frame_of",
+    "gap",
     "hinge_places",
     "output_problems",
     "placed_hinges",
     "problems_in",
     "shell_problems",
+    "stage_problems",
 ]

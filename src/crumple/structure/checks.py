@@ -15,8 +15,9 @@ import numpy as np
 from crumple.errors import Problem
 from crumple.structure.hinge_checks import inertia_problems, place_problems
 from crumple.structure.law import LAW_SPECS, LawReference
+from crumple.structure.obstacle_checks import obstacle_problems
 from crumple.structure.outputs import Outputs
-from crumple.structure.problems import one_of, outside, shown, suggestion
+from crumple.structure.problems import one_of, outside, shown, suggestion, unknown
 from crumple.structure.shell_settings import ShellSettings
 from crumple.structure.structure import Structure
 
@@ -24,7 +25,7 @@ COINCIDENT = 1e-6
 """Distance [m] below which two nodes are one place: a thousandth of a wall, far above rounding."""
 JUMP = 1e-12
 """Prescribed displacement [m] or rotation [rad] at the start that is still rounding."""
-KINDS = ("nodes", "members", "sections", "materials", "hinge_laws")
+KINDS = ("nodes", "members", "sections", "materials", "hinge_laws", "supports", "obstacles")
 
 Names = Mapping[str, Iterable[str]]
 """Names per kind of part that the input defines, including those of refused parts."""
@@ -59,11 +60,11 @@ def output_problems(outputs: Outputs, structure: Structure, defined: Names | Non
     problems = [
         problem
         for i, node in enumerate(outputs.nodes)
-        for problem in _unknown("node", node, nodes, f"outputs.nodes[{i}]")
+        for problem in unknown("node", node, nodes, f"outputs.nodes[{i}]")
     ]
     for name, rotation in outputs.section_rotations.items():
         where = f"outputs.section_rotations.{name}"
-        problems += _unknown("member", rotation.member, members, f"{where}.member")
+        problems += unknown("member", rotation.member, members, f"{where}.member")
         if structure.has_line(rotation.member):
             length = structure.frame_of(rotation.member).length
             stations = (("from", rotation.start), ("to", rotation.end))
@@ -81,7 +82,7 @@ def shell_problems(
     problems: list[Problem] = []
     for i, place in enumerate(settings.fine_at):
         where = f"analysis.shell.fine_at[{i}]"
-        problems += _unknown("member", place.member, members, f"{where}.member")
+        problems += unknown("member", place.member, members, f"{where}.member")
         if structure.has_line(place.member):
             length = structure.frame_of(place.member).length
             if place.at > length * (1.0 + 1e-9):
@@ -95,9 +96,9 @@ def _names(structure: Structure, known: Known) -> Iterator[Problem]:
     for name, member in structure.members.items():
         where = f"members.{name}"
         for i, node in enumerate(member.nodes):
-            yield from _unknown("node", node, known["nodes"], f"{where}.nodes[{i}]")
-        yield from _unknown("section", member.section, known["sections"], f"{where}.section")
-        yield from _unknown("material", member.material, known["materials"], f"{where}.material")
+            yield from unknown("node", node, known["nodes"], f"{where}.nodes[{i}]")
+        yield from unknown("section", member.section, known["sections"], f"{where}.section")
+        yield from unknown("material", member.material, known["materials"], f"{where}.material")
         yield from _unknown_law(member.bars.law, laws, f"{where}.bars.law")
         for i, hinge in enumerate(member.hinges):
             yield from _unknown_law(hinge.law, laws, f"{where}.hinges[{i}].law")
@@ -113,18 +114,18 @@ def _metals(structure: Structure, known: Known) -> Iterator[Problem]:
     """Materials that sections name."""
     for name, section in structure.sections.items():
         for key, material in section.named_materials().items():
-            yield from _unknown("material", material, known["materials"], f"sections.{name}.{key}")
+            yield from unknown("material", material, known["materials"], f"sections.{name}.{key}")
 
 
 def _carried_names(structure: Structure, known: Known) -> Iterator[Problem]:
     """Names that supports, masses, loads and initial motion refer to."""
     for where, node, _ in _carriers(structure):
-        yield from _unknown("node", node, known["nodes"], where)
+        yield from unknown("node", node, known["nodes"], where)
     for i, field in enumerate(structure.initial_velocity):
         for j, node in enumerate(field.nodes or ()):
-            yield from _unknown("node", node, known["nodes"], f"initial_velocity[{i}].nodes[{j}]")
+            yield from unknown("node", node, known["nodes"], f"initial_velocity[{i}].nodes[{j}]")
         for j, name in enumerate(field.members or ()):
-            yield from _unknown("member", name, known["members"], f"initial_velocity[{i}].members[{j}]")
+            yield from unknown("member", name, known["members"], f"initial_velocity[{i}].members[{j}]")
 
 
 def _members(structure: Structure, known: Known) -> Iterator[Problem]:
@@ -207,6 +208,7 @@ _CHECKS: tuple[Callable[[Structure, Known], Iterator[Problem]], ...] = (
     _coincident,
     place_problems,
     _supports,
+    obstacle_problems,
 )
 _CHECKS_OF_WHAT_IS_MISSING = (_connections, inertia_problems)
 
@@ -223,13 +225,6 @@ def _carriers(structure: Structure) -> Iterator[tuple[str, str, str]]:
         yield f"impulses[{i}].node", struck.node, "the impulse"
 
 
-def _unknown(kind: str, name: str, known: Collection[str], where: str) -> Iterator[Problem]:
-    if name not in known:
-        names = sorted(known)
-        todo = suggestion(name, names) or f"define the {kind} '{shown(name)}' or correct the name"
-        yield Problem(f"there is no {kind} '{shown(name)}'", shown(name), one_of(names), todo, where)
-
-
 def _unknown_law(law: LawReference | None, known: Collection[str], where: str) -> Iterator[Problem]:
     if isinstance(law, str):
-        yield from _unknown("hinge law", law, known, where)
+        yield from unknown("hinge law", law, known, where)

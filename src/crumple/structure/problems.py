@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
@@ -96,6 +96,14 @@ def suggestion(name: object, known: Iterable[str]) -> str:
     names = list(known)
     close = difflib.get_close_matches(str(name)[:64], names, n=1, cutoff=0.6)
     return f"did you mean '{close[0]}'?" if close else ""
+
+
+def unknown(kind: str, name: str, known: Iterable[str], where: str) -> Iterator[Problem]:
+    """The refusal of a name that is not among those known; nothing where it is."""
+    names = sorted(known)
+    if name not in names:
+        todo = suggestion(name, names) or f"define the {kind} '{shown(name)}' or correct the name"
+        yield Problem(f"there is no {kind} '{shown(name)}'", shown(name), one_of(names), todo, where)
 
 
 def outside(where: str, station: float, length: float) -> Problem:

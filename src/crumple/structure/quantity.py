@@ -175,12 +175,14 @@ ANGULAR_IMPULSE = Dimension("an angular impulse", "N*m*s", "5 N*m*s")
 ROTARY_INERTIA = Dimension("a rotary inertia", "kg*m^2", "0.1 kg*m^2")
 ROTATIONAL_STIFFNESS = Dimension("a rotational stiffness", "N*m/rad", "20 kN*m/rad")
 ROTATIONAL_DAMPING = Dimension("a rotational damping", "N*m*s/rad", "2 kN*m*s/rad")
+ENERGY = Dimension("an energy", "J", "5 kJ")
 RATE = Dimension("a strain rate", "1/s", "40.4 1/s")
 NUMBER = Dimension("a number", "1", "0.5")
 
 Length = Annotated[float, LENGTH]
 PositiveLength = Annotated[float, _positive(LENGTH)]
 NonNegativeLength = Annotated[float, _not_negative(LENGTH)]
+PositiveMass = Annotated[float, _positive(MASS)]
 NonNegativeMass = Annotated[float, _not_negative(MASS)]
 Time = Annotated[float, TIME]
 PositiveTime = Annotated[float, _positive(TIME)]
@@ -196,6 +198,8 @@ Acceleration = Annotated[float, ACCELERATION]
 AngularVelocity = Annotated[float, ANGULAR_VELOCITY]
 PositiveAngularVelocity = Annotated[float, _positive(ANGULAR_VELOCITY)]
 Force = Annotated[float, FORCE]
+PositiveForce = Annotated[float, _positive(FORCE)]
+PositiveEnergy = Annotated[float, _positive(ENERGY)]
 Moment = Annotated[float, MOMENT]
 PositiveMoment = Annotated[float, _positive(MOMENT)]
 Impulse = Annotated[float, IMPULSE]
@@ -213,6 +217,8 @@ PositiveRate = Annotated[float, _positive(RATE)]
 Number = Annotated[float, NUMBER]
 PositiveNumber = Annotated[float, _positive(NUMBER)]
 NonNegativeNumber = Annotated[float, _not_negative(NUMBER)]
+FrictionCoefficient = Annotated[float, replace(NUMBER, example="0.2", at_least=0.0, at_most=10.0)]
+Restitution = Annotated[float, replace(NUMBER, example="0.1", at_least=0.0, at_most=1.0)]
 RateExponent = Annotated[float, replace(NUMBER, example="5", at_least=1.0)]
 StopExponent = RateExponent
 RollingWeight = Annotated[float, replace(NUMBER, example="0.5", at_least=0.0, at_most=1.0)]

@@ -17,6 +17,7 @@ from crumple.structure.mapping import FrozenMapping
 from crumple.structure.material import MaterialSpec
 from crumple.structure.member import Member
 from crumple.structure.motion import InitialVelocity, Support
+from crumple.structure.obstacles import MemberContact, ObstacleSpec
 from crumple.structure.quantity import Acceleration, Position
 from crumple.structure.section import SectionSpec
 from crumple.structure.spec import Named, Spec, raise_all
@@ -50,6 +51,11 @@ class Structure(Spec):
     """Forces and moments."""
     gravity: tuple[Acceleration, Acceleration, Acceleration] = (0.0, 0.0, 0.0)
     """Acceleration of free fall."""
+    obstacles: Named[ObstacleSpec] = FrozenMapping()
+    """What the structure can hit, by name."""
+    member_contact: MemberContact | None = None
+    """Contact of members with members that share no node; without it they pass through each other in the
+    multibody model, while shells have `analysis.shell.self_contact`."""
 
     @model_validator(mode="after")
     def _sound(self, info: ValidationInfo) -> Structure:

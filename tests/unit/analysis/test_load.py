@@ -207,3 +207,47 @@ def test_a_name_has_no_control_characters(text, name):
     problems = refused(text.replace("  payload: {", f'  "{name}": {{', 1))
     assert any("not a name" in problem.what for problem in problems)
     assert not any("\x1b" in str(problem) or "\u202e" in str(problem) for problem in problems)
+
+
+STAGES = """analysis:
+  stages:
+    - {name: push, kind: quasi-static, duration: 1 s, drive: [ram], until: [{force: 20 kN, of: ram}]}
+    - {name: fall, duration: 50 ms, obstacles: [ground]}
+"""
+OBSTACLES = """obstacles:
+  ram: {type: plane, point: [0 m, 0 m, 1 m], normal: [0, 0, -1], velocity: [0 m/s, 0 m/s, -10 mm/s]}
+  ground: {type: plane, point: [0 m, 0 m, -1 m], normal: [0, 0, 1], friction: 0.3}
+"""
+
+
+def staged(text):
+    return text.replace("analysis:\n  duration: 100 ms\n", OBSTACLES + STAGES)
+
+
+def test_stages_and_obstacles_load(text):
+    analysis = loads(staged(text))
+    assert analysis.duration == pytest.approx(1.05)
+    assert [stage.name for stage in analysis.stages] == ["push", "fall"]
+    assert analysis.structure.obstacles["ground"].friction == 0.3
+    assert input_hash(analysis) != input_hash(loads(text))
+    assert pickle.loads(pickle.dumps(analysis)) == analysis
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "line"),
+    [("of: ram}", "of: rem}", "- {name"), ("friction: 0.3", "friction: -1", "ground")],
+)
+def test_mistakes_of_stages_and_obstacles_come_with_their_lines(text, right, wrong, line):
+    mistaken = staged(text).replace(right, wrong)
+    (problem,) = refused(mistaken)
+    assert mistaken.splitlines()[problem.line - 1].split(":")[0].strip() == line
+
+
+def test_a_run_has_one_duration(text):
+    twice = refused(staged(text).replace("  stages:", "  duration: 1 s\n  stages:"))
+    assert "durations of their own" in str(twice[0])
+    none = refused(text.replace("  duration: 100 ms\n", ""))
+    assert "the duration is missing" in str(none[0])
+    analysis = loads(staged(text))
+    with pytest.raises(InputError, match="not that of the stages"):
+        analysis.model_copy(update={"duration": 2.0})

@@ -33,7 +33,9 @@ def test_every_key_of_every_part_has_a_row():
 
 
 def test_the_examples_of_the_document_are_sound():
-    example, more = re.findall(r"```yaml\n(.*?)```", DOCUMENT.read_text(encoding="utf-8"), re.DOTALL)
+    example, more, obstacles, stages = re.findall(
+        r"```yaml\n(.*?)```", DOCUMENT.read_text(encoding="utf-8"), re.DOTALL
+    )
     assert loads(example).structure.members["arm"].hinges[0].name == "fold"
     # the second shows materials and sections alone: it replaces those of the first
     end = example.index("nodes:")
@@ -45,3 +47,5 @@ def test_the_examples_of_the_document_are_sound():
         assert {wall.material.name for wall in structure.section_of("arm").walls if wall.material} == {
             "strong"
         }
+    whole = example.replace("analysis:\n  duration: 100 ms\n", obstacles.replace("pole", "ram") + stages)
+    assert [stage.name for stage in loads(whole).stages] == ["push", "impact"]

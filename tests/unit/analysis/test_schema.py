@@ -85,7 +85,7 @@ def test_every_key_is_described_and_every_quantity_names_its_unit():
     for part in parts:
         for key, entry in part["properties"].items():
             assert len(entry["description"]) > 5, key
-    assert SCHEMA["$defs"]["Settings"]["properties"]["duration"]["x-unit"] == "s"
+    assert SCHEMA["$defs"]["Stage"]["properties"]["duration"]["x-unit"] == "s"
     json.dumps(SCHEMA, allow_nan=False)
 
 

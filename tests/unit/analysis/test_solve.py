@@ -9,6 +9,7 @@ import pytest
 
 from crumple.analysis import input_hash, load, loads, solve
 from crumple.analysis.filters import with_filters
+from crumple.analysis.solve import UNSOLVED
 from crumple.errors import InputError, Status
 from crumple.result import cfc
 
@@ -83,3 +84,15 @@ def test_a_run_that_ended_early_says_which_filters_it_lacks():
     short = with_filters(replace(whole, time=whole.time[:3], channels=channels), analysis)
     assert "smooth" not in short.channels
     assert any("smooth" in warning for warning in short.warnings)
+
+
+@pytest.mark.parametrize("fidelity", sorted(UNSOLVED))
+def test_a_solver_refuses_what_it_would_leave_out(fidelity):
+    ball = "obstacles:\n  b: {type: sphere, point: [0.5 m, 0 m, 1 m], radius: 10 mm}\n"
+    stages = "analysis:\n  stages: [{name: a, duration: 100 ms}]\n"
+    text = ball + TEXT.replace("analysis:\n  duration: 100 ms\n", stages)
+    text = text.replace("crumple: 1\n", "").replace("title:", "crumple: 1\ntitle:")
+    with pytest.raises(InputError) as refused:
+        solve(loads(text), fidelity)
+    given = {"obstacles", "analysis.stages"}
+    assert {problem.where for problem in refused.value.problems} == given & set(UNSOLVED[fidelity])

@@ -89,7 +89,7 @@ CASES = {
         "materials.steel.poissons_ratio",
         "a number is needed here",
     ),
-    "empty value": ("duration: 100 ms", "duration:", "analysis.duration", "a time is needed here"),
+    "empty value": ("duration: 100 ms", "duration:", "analysis.duration", "the duration is missing"),
     "group for a value": (
         "duration: 100 ms",
         "duration: {a: 1}",

@@ -1,0 +1,143 @@
+"""Mistakes of obstacles and stages: names that do not exist, jumps, nodes that start inside a solid."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+import numpy as np
+
+from crumple.errors import Problem
+from crumple.function import TimeFunction
+from crumple.structure.geometry import Floats
+from crumple.structure.obstacles import CylinderObstacle, Obstacle, PlaneObstacle
+from crumple.structure.problems import unknown
+from crumple.structure.stages import Stage, Until
+from crumple.structure.structure import Structure
+
+JUMP = 1e-12
+"""Prescribed displacement [m] or rotation [rad] at the start that is still rounding."""
+INSIDE = 1e-6
+"""Depth [m] of a node in an obstacle that is still rounding."""
+
+Names = Mapping[str, Iterable[str]]
+
+
+def obstacle_problems(structure: Structure, known: Mapping[str, set[str]]) -> Iterator[Problem]:
+    """Members that do not exist, motions that start with a jump, nodes inside, names taken."""
+    for name, obstacle in structure.obstacles.items():
+        where = f"obstacles.{name}"
+        for i, member in enumerate(obstacle.members or ()):
+            yield from unknown("member", member, known["members"], f"{where}.members[{i}]")
+        if name in known["supports"]:
+            what, todo = f"a support and an obstacle are both called '{name}'", "rename one of them"
+            yield Problem(what, name, "a name of its own", todo, where)
+        for key, function in _functions(obstacle):
+            start = float(function(0.0))
+            if abs(start) > JUMP:
+                what, todo = "the prescribed motion starts with a jump", "let it start from 0"
+                yield Problem(what, f"{start:g}", "0 at the start", todo, f"{where}.{key}")
+        for node in _touching_nodes(structure, obstacle):
+            depth = -gap(obstacle, np.asarray(structure.nodes[node], float))
+            if depth > INSIDE:
+                what, todo = f"the node '{node}' starts inside the obstacle", "move the node or the obstacle"
+                yield Problem(what, f"{1e3 * depth:.4g} mm deep", "outside it", todo, where)
+
+
+def gap(obstacle: Obstacle, point: Floats) -> float:
+    """Distance of a point from an obstacle at the start [m], negative inside."""
+    apart = point - np.asarray(obstacle.point, float)
+    if isinstance(obstacle, PlaneObstacle):
+        above = float(apart @ _unit(obstacle.normal))
+        if obstacle.edge is None:
+            return above
+        beyond = float(apart @ _unit(obstacle.edge))
+        return float(np.hypot(above, beyond)) if min(above, beyond) > 0.0 else max(above, beyond)
+    radius = float(getattr(obstacle, "radius", 0.0))
+    if isinstance(obstacle, CylinderObstacle):
+        axis = _unit(obstacle.axis)
+        along = float(apart @ axis)
+        if obstacle.length is not None:
+            along = min(max(along, 0.0), obstacle.length)
+        apart = apart - along * axis
+    return float(np.linalg.norm(apart)) - radius
+
+
+def stage_problems(
+    stages: tuple[Stage, ...], structure: Structure, defined: Names | None = None
+) -> list[Problem]:
+    """Every name in the stages that does not exist or is used twice.
+
+    Parameters
+    ----------
+    stages
+        In their order.
+    structure
+        That they happen to.
+    defined
+        Names per kind that exist even if their parts are missing here.
+    """
+
+    def names(*kinds: str) -> set[str]:
+        return {
+            name for kind in kinds for name in (*getattr(structure, kind), *(defined or {}).get(kind, ()))
+        }
+
+    moving, nodes, obstacles = names("supports", "obstacles"), names("nodes"), names("obstacles")
+    problems: list[Problem] = []
+    for i, stage in enumerate(stages):
+        where = f"analysis.stages[{i}]"
+        if stage.name in [other.name for other in stages[:i]]:
+            what = f"two stages are called '{stage.name}'"
+            problems.append(Problem(what, stage.name, "a name of its own", "rename one", f"{where}.name"))
+        for j, name in enumerate(stage.drive or ()):
+            problems += unknown("obstacle or support", name, moving, f"{where}.drive[{j}]")
+        for j, name in enumerate(stage.obstacles or ()):
+            problems += unknown("obstacle", name, obstacles, f"{where}.obstacles[{j}]")
+        for j, until in enumerate(stage.until):
+            problems += _until_problems(until, stage, structure, f"{where}.until[{j}]")
+            if until.of is not None:
+                problems += unknown("obstacle or support", until.of, moving, f"{where}.until[{j}].of")
+            for k, node in enumerate(until.between or ()):
+                problems += unknown("node", node, nodes, f"{where}.until[{j}].between[{k}]")
+        for j, struck in enumerate(stage.impulses):
+            problems += unknown("node", struck.node, nodes, f"{where}.impulses[{j}].node")
+        for j, field in enumerate(stage.initial_velocity):
+            for k, node in enumerate(field.nodes or ()):
+                problems += unknown("node", node, nodes, f"{where}.initial_velocity[{j}].nodes[{k}]")
+            for k, member in enumerate(field.members or ()):
+                place = f"{where}.initial_velocity[{j}].members[{k}]"
+                problems += unknown("member", member, names("members"), place)
+    return problems
+
+
+def _until_problems(until: Until, stage: Stage, structure: Structure, where: str) -> Iterator[Problem]:
+    """Conditions that look at an obstacle that is not there or does not move."""
+    if until.of in structure.obstacles and until.of not in (stage.obstacles or structure.obstacles):
+        what, todo = f"the obstacle '{until.of}' is not there in this stage", "add it to 'obstacles'"
+        yield Problem(what, str(until.of), ", ".join(stage.obstacles or ()), todo, f"{where}.of")
+    support = structure.supports.get(until.of or "")
+    if support is not None and not support.driven:
+        what, todo = f"the support '{until.of}' is not driven", "add 'motion' to it"
+        yield Problem(what, str(until.of), "an obstacle or a driven support", todo, f"{where}.of")
+
+
+def _functions(obstacle: Obstacle) -> Iterator[tuple[str, TimeFunction]]:
+    for axis in ("x", "y", "z"):
+        function = getattr(obstacle.motion, axis)
+        if function is not None:
+            yield f"motion.{axis}", function
+    if obstacle.turning is not None:
+        yield "turning.angle", obstacle.turning.angle
+
+
+def _touching_nodes(structure: Structure, obstacle: Obstacle) -> list[str]:
+    """Nodes at the ends of the members that can touch an obstacle, in the structure's order."""
+    members = structure.members if obstacle.members is None else obstacle.members
+    ends = {node for name in members if name in structure.members for node in structure.members[name].nodes}
+    return [node for node in structure.nodes if node in ends]
+
+
+def _unit(direction: tuple[float, float, float]) -> Floats:
+    vector = np.asarray(direction, float)
+    unit: Floats = vector / np.linalg.norm(vector)
+    return unit

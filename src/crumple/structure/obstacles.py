@@ -1,0 +1,194 @@
+"""What a structure can hit: rigid planes, cylinders and spheres, fixed, driven or with a mass on a guide."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Discriminator, Tag, model_validator
+
+from crumple.structure.geometry import Floats
+from crumple.structure.quantity import (
+    Direction,
+    FrictionCoefficient,
+    Position,
+    PositiveLength,
+    PositiveMass,
+    Restitution,
+    Velocity,
+)
+from crumple.structure.spec import Name, Spec, refuse, type_tag
+from crumple.structure.time_function import AngleFunction, LengthFunction
+
+SLANT = 1e-9
+"""Cosine between two directions below which they are at right angles but for rounding."""
+
+
+class Travel(Spec):
+    """Prescribed displacement in global axes, each a function of time that starts from 0."""
+
+    x: LengthFunction | None = None
+    """Displacement along x."""
+    y: LengthFunction | None = None
+    """Displacement along y."""
+    z: LengthFunction | None = None
+    """Displacement along z."""
+
+
+class Turning(Spec):
+    """Prescribed rotation about a fixed axis."""
+
+    about: Position
+    """Point on the axis."""
+    axis: Direction
+    """Direction of the axis, right-handed; of any length."""
+    angle: AngleFunction
+    """Angle as a function of time that starts from 0."""
+
+    @model_validator(mode="after")
+    def _has_axis(self) -> Turning:
+        _refuse_zero("axis", self.axis)
+        return self
+
+
+class Obstacle(Spec):
+    """Keys that every obstacle has: how it moves, and how it touches."""
+
+    point: Position
+    """Point on the plane or its edge, on the cylinder's axis, or the sphere's centre."""
+    friction: FrictionCoefficient = 0.0
+    """Coulomb coefficient between it and the structure."""
+    restitution: Restitution = 0.0
+    """Speed of separation over speed of approach, where rigid bodies hit it; in shells it follows from the
+    walls, and this is not used."""
+    members: tuple[Name, ...] | None = None
+    """Only these members touch it; without it all."""
+    mass: PositiveMass | None = None
+    """Mass that slides along `guide`; without it the obstacle is fixed or driven."""
+    guide: Direction | None = None
+    """Direction in which the mass moves; without it that of `velocity`, or across a plane."""
+    velocity: tuple[Velocity, Velocity, Velocity] = (0.0, 0.0, 0.0)
+    """Velocity at the start of a mass; of an obstacle without mass for good."""
+    motion: Travel = Travel()
+    """What is driven in place of being fixed."""
+    turning: Turning | None = None
+    """Driven rotation, after the displacements of `motion`."""
+
+    @property
+    def driven(self) -> bool:
+        """Whether its motion is prescribed and not that of rest."""
+        functions = (self.motion.x, self.motion.y, self.motion.z, self.turning)
+        return self.mass is None and (any(self.velocity) or any(f is not None for f in functions))
+
+    @property
+    def guide_direction(self) -> Floats | None:
+        """Unit vector along which its mass moves, (3,); None without mass."""
+        if self.mass is None:
+            return None
+        given = self.guide or (self.velocity if any(self.velocity) else self._across())
+        return None if given is None else np.asarray(given, float) / np.linalg.norm(given)
+
+    def _across(self) -> Direction | None:
+        """Direction in which such an obstacle is mostly hit; None where there is none."""
+        return None
+
+    @model_validator(mode="after")
+    def _moves_one_way(self) -> Obstacle:
+        given = [key for key in ("x", "y", "z") if getattr(self.motion, key) is not None]
+        if self.guide is not None:
+            _refuse_zero("guide", self.guide)
+        if self.mass is None:
+            if self.guide is not None:
+                refuse("a guide without a mass", key="guide", todo="give 'mass' too, or take the guide away")
+            if any(self.velocity) and given:
+                refuse("the obstacle is driven twice", key="velocity", todo="keep 'velocity' or 'motion'")
+            return self
+        if given or self.turning is not None:
+            key = "motion" if given else "turning"
+            refuse("an obstacle with a mass is not driven", key=key, todo=f"take 'mass' or '{key}' away")
+        direction = self.guide_direction
+        if direction is None:
+            todo = "add 'guide', for example [1, 0, 0]"
+            refuse("nothing says in which direction the mass moves", key="mass", todo=todo)
+        across = np.cross(direction, self.velocity)
+        if float(np.linalg.norm(across)) > SLANT * float(np.linalg.norm(self.velocity)):
+            refuse("the velocity lies across the guide", key="velocity", allowed="a velocity along 'guide'")
+        return self
+
+
+class PlaneObstacle(Obstacle):
+    """Rigid plane; solid behind it.  With `edge` it ends there, like the ground at a ditch."""
+
+    type: Literal["plane"] = "plane"
+    """Kind of obstacle."""
+    normal: Direction
+    """Direction out of the solid; of any length."""
+    edge: Direction | None = None
+    """Direction out of the solid across the edge that passes through `point`, at right angles to the normal;
+    without it the plane has no end."""
+
+    @model_validator(mode="after")
+    def _has_sides(self) -> PlaneObstacle:
+        _refuse_zero("normal", self.normal)
+        if self.edge is not None:
+            _refuse_zero("edge", self.edge)
+            size = float(np.linalg.norm(self.normal) * np.linalg.norm(self.edge))
+            if abs(float(np.dot(self.normal, self.edge))) > SLANT * size:
+                todo = "turn one of them"
+                refuse(
+                    "the edge's direction leans", key="edge", allowed="at right angles to 'normal'", todo=todo
+                )
+        return self
+
+    def _across(self) -> Direction:
+        return self.normal
+
+
+class CylinderObstacle(Obstacle):
+    """Rigid round pole."""
+
+    type: Literal["cylinder"] = "cylinder"
+    """Kind of obstacle."""
+    axis: Direction
+    """Direction of its axis; of any length."""
+    radius: PositiveLength
+    """Radius."""
+    length: PositiveLength | None = None
+    """Length from `point` along `axis`, with round ends; without it the pole has no end."""
+
+    @model_validator(mode="after")
+    def _has_axis(self) -> CylinderObstacle:
+        _refuse_zero("axis", self.axis)
+        return self
+
+
+class SphereObstacle(Obstacle):
+    """Rigid ball."""
+
+    type: Literal["sphere"] = "sphere"
+    """Kind of obstacle."""
+    radius: PositiveLength
+    """Radius."""
+
+
+ObstacleSpec = Annotated[
+    Annotated[PlaneObstacle, Tag("(type=plane)")]
+    | Annotated[CylinderObstacle, Tag("(type=cylinder)")]
+    | Annotated[SphereObstacle, Tag("(type=sphere)")],
+    Discriminator(type_tag),
+]
+"""Any obstacle; ``type`` says which."""
+
+
+class MemberContact(Spec):
+    """Contact of members with members that share no node."""
+
+    friction: FrictionCoefficient = 0.0
+    """Coulomb coefficient."""
+    restitution: Restitution = 0.0
+    """Speed of separation over speed of approach between rigid bodies; not used in shells."""
+
+
+def _refuse_zero(key: str, direction: Direction) -> None:
+    if not any(direction):
+        refuse("the direction is zero", key=key, allowed="a direction such as [0, 0, 1]")

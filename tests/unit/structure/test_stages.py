@@ -1,0 +1,88 @@
+"""Stages: conditions that end them, and names that they refer to."""
+
+import pytest
+
+from crumple.errors import InputError
+from crumple.structure import Stage, Structure, Until, stage_problems
+
+RAM = {"type": "plane", "point": (0, 0, 0.2), "normal": (0, 0, -1), "velocity": (0, 0, -0.1)}
+WALL = {"type": "plane", "point": (2, 0, 0), "normal": (-1, 0, 0)}
+
+
+def test_condition_knows_its_quantity_and_value():
+    until = Until(force="20 kN", of="ram")
+    assert (until.quantity, until.value) == ("force", 20e3)
+    assert Until(energy=5e3).quantity == "energy"
+    assert Until(distance=-0.05, between=("a", "b")).value == -0.05
+    assert Until(displacement="100 mm", of="ram").value == 0.1
+
+
+@pytest.mark.parametrize(
+    ("keys", "says"),
+    [
+        ({}, "names no quantity"),
+        ({"force": 1.0, "energy": 1.0, "of": "ram"}, "several quantities"),
+        ({"force": 1.0}, "'force' needs 'of'"),
+        ({"displacement": 1.0}, "'displacement' needs 'of'"),
+        ({"energy": 1.0, "of": "ram"}, "'energy' has no 'of'"),
+        ({"distance": -0.1}, "'distance' needs 'between'"),
+        ({"energy": 1.0, "between": ("a", "b")}, "'energy' has no 'between'"),
+        ({"distance": 0.0, "between": ("a", "b")}, "never changes"),
+        ({"distance": 0.1, "between": ("a", "a")}, "both nodes are the same"),
+        ({"force": -1.0, "of": "ram"}, "more than 0"),
+    ],
+)
+def test_wrong_condition_is_refused(keys, says):
+    with pytest.raises(InputError, match=says):
+        Until(**keys)
+
+
+@pytest.mark.parametrize(
+    "motion",
+    [
+        {"initial_velocity": [{"translation": (1, 0, 0)}]},
+        {"impulses": [{"node": "tip", "impulse": (1, 0, 0)}]},
+    ],
+)
+def test_quasi_static_stage_has_no_inertia(motion):
+    Stage(name="hit", duration=0.1, **motion)
+    with pytest.raises(InputError, match="no inertia"):
+        Stage(name="push", kind="quasi-static", duration=1.0, **motion)
+
+
+# what a stage says, the place that is to blame below the stage, what the message says
+WRONG = {
+    "drive": ({"drive": ("rem",)}, "drive[0]", "no obstacle or support 'rem'"),
+    "obstacles": ({"obstacles": ("clamp",)}, "obstacles[0]", "no obstacle 'clamp'"),
+    "of": ({"until": ({"force": 1, "of": "rom"},)}, "until[0].of", "no obstacle or support 'rom'"),
+    "absent": ({"obstacles": ("wall",), "until": ({"force": 1, "of": "ram"},)}, "until[0].of", "not there"),
+    "clamp": ({"until": ({"force": 1, "of": "clamp"},)}, "until[0].of", "not driven"),
+    "between": ({"until": ({"distance": 1, "between": ("root", "tap")},)}, "until[0].between[1]", "'tap'"),
+    "impulse": ({"impulses": ({"node": "x"},)}, "impulses[0].node", "no node 'x'"),
+    "nodes": ({"initial_velocity": ({"nodes": ("x",)},)}, "initial_velocity[0].nodes[0]", "no node 'x'"),
+    "members": ({"initial_velocity": ({"members": ("x",)},)}, "initial_velocity[0].members[0]", "no member"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_names_that_do_not_exist_are_refused(name, keys):
+    given, where, says = WRONG[name]
+    structure = Structure(**keys, obstacles={"ram": RAM, "wall": WALL})
+    problems = stage_problems((Stage(name="push", duration=1.0, **given),), structure)
+    assert [problem.where for problem in problems] == [f"analysis.stages[0].{where}"]
+    assert says in problems[0].what
+
+
+def test_sound_stages_have_no_problem(keys):
+    structure = Structure(**keys, obstacles={"ram": RAM, "wall": WALL})
+    push = Stage(
+        name="push",
+        kind="quasi-static",
+        duration=1.0,
+        drive=("ram",),
+        obstacles=("ram",),
+        until=({"force": 1e3, "of": "ram"}, {"distance": -0.1, "between": ("root", "tip")}),
+    )
+    hit = Stage(name="hit", duration=0.1, initial_velocity=({"translation": (10, 0, 0)},))
+    assert stage_problems((push, hit), structure) == []
+    assert "two stages" in stage_problems((push, push), structure)[0].what
