@@ -14,6 +14,7 @@ from crumple import __version__
 from crumple.cli.check import check
 from crumple.cli.compare import compare
 from crumple.cli.hinge import hinge
+from crumple.cli.layouts import layouts
 from crumple.cli.refusal import show_refusal
 from crumple.cli.run import run
 from crumple.cli.schema import schema
@@ -30,7 +31,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,  # rich takes 60 ms to import: a third of what help may take
 )
-for verb in (run, compare, check, schema, hinge, section):
+for verb in (run, compare, layouts, check, schema, hinge, section):
     app.command()(verb)
 
 

@@ -77,12 +77,12 @@ def rotations(result: Result) -> str | None:
     right = (_LEFT, _EDGE) if len(turned) == 1 else (_RIGHT, _RIGHT)
     width = (WIDTH - 2 * _LEFT - sum(right)) / 2
     axes = add_axes(figure, _LEFT, _FOOT, width, _PANEL)
-    _over_time(axes, result.time, turned, "Rotation, deg")
+    over_time(axes, result.time, turned, "Rotation, deg")
     if len(turned) == 1:
         _radians_on_the_right(axes)
     if turning:
         axes = add_axes(figure, WIDTH - width - right[1], _FOOT, width, _PANEL)
-        _over_time(axes, result.time, turning, "Angular velocity, rad/s")
+        over_time(axes, result.time, turning, "Angular velocity, rad/s")
     return to_svg(figure, "rotation", "Rotation and angular velocity of the hinges against time.")
 
 
@@ -132,7 +132,7 @@ def ledger(result: Result, bound: float | None = None) -> str | None:
     beside = 1.5 if share is not None else 0.0
     width = WIDTH - _LEFT - names - (0.5 + beside + _EDGE if beside else 0.0)
     axes = add_axes(figure, _LEFT, _FOOT, width, _PANEL + 0.15)
-    _over_time(axes, result.time, lines, f"Energy, {unit}", labels=True)
+    over_time(axes, result.time, lines, f"Energy, {unit}", labels=True)
     if share is not None:
         axes = add_axes(figure, WIDTH - beside - _EDGE, _FOOT, beside, _PANEL + 0.15)
         _draw_residual(axes, result.time, 100 * share, None if bound is None else 100 * bound)
@@ -154,7 +154,7 @@ def residual_share(result: Result) -> Floats | None:
 def _draw_residual(axes: Axes, time: Floats, percent: Floats, bound: float | None) -> None:
     """On the scale of its bound, so that a small residual looks small."""
     line = Line("residual", time / time_unit(float(time[-1]))[1], percent, 0)
-    _over_time(axes, time, [line], "Residual, % of energy put in", labels=False)
+    over_time(axes, time, [line], "Residual, % of energy put in", labels=False)
     reach = largest([percent])
     if bound is not None:
         size = 1.3 * max(bound, reach)
@@ -193,7 +193,7 @@ def outputs(result: Result) -> str | None:
             for label, channel in group.channels
         ]
         name = f"{short(group.name, 44)}, {unit}" if unit else short(group.name, 44)
-        _over_time(axes, result.time, lines, name, labels=labelled)
+        over_time(axes, result.time, lines, name, labels=labelled)
     return to_svg(figure, "outputs", "Requested outputs against time.")
 
 
@@ -211,7 +211,7 @@ def _hinge_lines(result: Result, quantity: str, factor: float) -> list[Line]:
     return lines
 
 
-def _over_time(
+def over_time(
     axes: Axes, time: Floats, lines: Sequence[Line], name: str, *, labels: bool | None = None
 ) -> None:
     """Lines over the whole time, with the zero line marked where it is inside."""

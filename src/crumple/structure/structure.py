@@ -101,6 +101,14 @@ class Structure(Spec):
         first, second = (self.nodes[name] for name in spec.nodes)
         return frame_of(first, second, up=spec.up, roll=spec.roll)
 
+    @property
+    def mass_of_members(self) -> float:
+        """Mass of all members, without lumped masses [kg]."""
+        return sum(
+            self.section_of(name).mass_per_length(self.material_of(name).density) * self.frame_of(name).length
+            for name in self.members
+        )
+
     @cached_property
     def bending_normal(self) -> tuple[float, float, float] | None:
         """Normal of the plane in which it bends; None where nothing says so."""

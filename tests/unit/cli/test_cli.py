@@ -45,11 +45,11 @@ def run_command(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[s
 def test_help_names_every_verb(run_command) -> None:
     code, out, _ = run_command("--help")
     assert code == 0
-    for verb in ("run", "check", "schema", "hinge", "section"):
+    for verb in ("run", "compare", "layouts", "check", "schema", "hinge", "section"):
         assert f" {verb} " in out
 
 
-@pytest.mark.parametrize("verb", ["run", "check", "schema", "hinge", "section"])
+@pytest.mark.parametrize("verb", ["run", "compare", "layouts", "check", "schema", "hinge", "section"])
 def test_every_verb_has_help(run_command, verb: str) -> None:
     assert run_command(verb, "--help")[0] == 0
 
@@ -127,7 +127,7 @@ def test_check(run_command, tmp_path: Path) -> None:
     assert "problems" in err
 
 
-@pytest.mark.parametrize("verb", ["run", "check"])
+@pytest.mark.parametrize("verb", ["run", "compare", "check"])
 @pytest.mark.parametrize(
     "content",
     [None, b"", b"\x00\xff\xfe\x80", b"crumple: 1\n", b"a: &x 1\nb: *x\n", b"!!python/object:os.system\n"],

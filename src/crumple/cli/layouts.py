@@ -1,0 +1,100 @@
+"""`crumple layouts FILE FILE...`: solve several layouts of one structure and put them into one table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from crumple.report import Layout
+
+
+def layouts(
+    files: Annotated[list[Path], typer.Argument(help="Input files (YAML).", show_default=False)],
+    *,
+    out: Annotated[str, typer.Option(metavar="FOLDER", help="Folder for the results.")] = "out/layouts",
+    title: Annotated[str, typer.Option(help="Title of the page.")] = "Layouts",
+) -> None:
+    """Solve several layouts as multibody models and compare them. A layout that fails is a row."""
+    from crumple.cli.folder import results_errors, results_folder
+    from crumple.cli.progress import progress_bar, stop_on_interrupt
+    from crumple.report import write_layouts
+
+    folder = results_folder(out, files[0])
+    found: list[Layout] = []
+    with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
+        for i, (name, file) in enumerate(zip(_names(files), files, strict=True)):
+            found.append(_solved(name, file, results_folder(folder / name, file), cancel))
+            progress((i + 1) / len(files))
+            if cancel():
+                break
+    with results_errors(folder):
+        write_layouts(found, title, folder)
+    _show(found, folder)
+    if not all(layout.result is not None and layout.result.status.ok for layout in found):
+        raise typer.Exit(1)
+
+
+def _names(files: list[Path]) -> list[str]:
+    """A name for each file, its stem; numbered where two are the same."""
+    stems = [file.stem for file in files]
+    return [
+        stem if stems.count(stem) == 1 else f"{stem}-{stems[: i + 1].count(stem)}"
+        for i, stem in enumerate(stems)
+    ]
+
+
+def _solved(name: str, file: Path, folder: Path, cancel: Callable[[], bool]) -> Layout:
+    """One layout: read, solved and written to its folder; a refusal is kept with its reason."""
+    from crumple.analysis import canonical, load, solve
+    from crumple.cli.folder import results_errors
+    from crumple.errors import InputError
+    from crumple.report import Layout, ReportInput, write_report
+    from crumple.result import write
+
+    try:
+        analysis = load(file)
+        result = solve(analysis, cancel=cancel)
+    except InputError as error:
+        first, more = error.problems[0], len(error.problems) - 1
+        place = f" ({first.where})" if first.where else ""
+        return Layout(name, reason=f"{first.what}{place}" + (f", and {more} more" if more else ""))
+    source = ReportInput(
+        title=analysis.title,
+        text=file.read_text(encoding="utf-8-sig"),
+        name=file.name,
+        canonical=canonical(analysis),
+        residual_bound=analysis.multibody.energy_residual_bound,
+        accuracy=analysis.multibody.accuracy,
+    )
+    with results_errors(folder):
+        write(result, folder)
+        write_report(result, source, folder)
+    return Layout(name, analysis.title, analysis.structure.mass_of_members, result)
+
+
+def _show(found: list[Layout], folder: Path) -> None:
+    """Print the table, and where the files are."""
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.table import Table
+    from rich.text import Text
+
+    from crumple.report import layout_table
+
+    console = Console(highlight=False)
+    content = layout_table(found)
+    table = Table()
+    for i, head in enumerate(content.heads):
+        table.add_column(escape(head), justify="left" if i < 2 else "right")
+    for row in content.rows:
+        table.add_row(*(escape(cell) for cell in row))
+    console.print(table)
+    for layout in found:
+        if layout.result is None:
+            console.print(Text(f"{layout.name}: {layout.reason}", style="bold red"))
+    console.print(Text(f"Results: {folder}  (open {folder / 'report.html'})"), soft_wrap=True)

@@ -1,0 +1,227 @@
+"""Several layouts of one structure side by side: one page, one table, failures as rows."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from crumple.result.files import write_text
+
+if TYPE_CHECKING:
+    from crumple.report.wording import Table
+    from crumple.result import Result
+
+OPEN = 1e-3
+"""Largest rotation [rad] above which a hinge counts as open: what an engineer would see as a bend."""
+MOST_OUTPUTS = 8
+"""Requested outputs with a panel in the figure; the table and the files hold all."""
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """One layout and what became of it.
+
+    Attributes
+    ----------
+    name
+        Short, unique among the layouts; the name of its folder.
+    title
+        Of its analysis.
+    mass
+        Of its members [kg], without lumped masses; None where it could not be read.
+    result
+        None where the solver refused it.
+    reason
+        Why there is no result.
+    """
+
+    name: str
+    title: str = ""
+    mass: float | None = None
+    result: Result | None = None
+    reason: str = ""
+
+    @property
+    def absorbed(self) -> float:
+        """Energy that its hinges dissipated [J]; NaN without a result."""
+        if self.result is None or "energy.dissipated" not in self.result.channels:
+            return float("nan")
+        return float(self.result["energy.dissipated"][-1])
+
+    @property
+    def status(self) -> str:
+        """How it ended, in words."""
+        return self.result.status.value if self.result is not None else "refused"
+
+
+def write_layouts(layouts: Sequence[Layout], title: str, directory: Path | str) -> Path:
+    """Write ``layouts.csv``, ``figures/`` and ``report.html`` for several layouts.
+
+    Parameters
+    ----------
+    layouts
+        In the order of the table; the page of each is expected in a folder of its name.
+    title
+        Of the page.
+    directory
+        Made when absent.
+
+    Returns
+    -------
+    Path
+        The page.
+
+    Raises
+    ------
+    OSError
+        If the folder cannot be written.
+    """
+    folder = Path(directory)
+    names = common_outputs(layouts)
+    write_text(folder / "layouts.csv", _csv(layouts, names))
+    drawn = _draw(layouts, names)
+    for name, svg, _ in drawn:
+        write_text(folder / "figures" / f"{name}.svg", '<?xml version="1.0" encoding="utf-8"?>\n' + svg)
+    page = folder / "report.html"
+    write_text(page, _render(layouts, title, names, drawn))
+    return page
+
+
+def common_outputs(layouts: Sequence[Layout]) -> list[str]:
+    """Requested outputs that every solved layout has and that move in one of them, in the first's order."""
+    results = [layout.result for layout in layouts if layout.result is not None]
+    if not results:
+        return []
+    shared = [name for name in results[0].output_names if all(name in result.outputs for result in results)]
+    largest = {name: max(abs(result.outputs[name].max) for result in results) for name in shared}
+    unit = {name: results[0].channels[name].unit for name in shared}
+    most = {unit[name]: max(largest[n] for n in shared if unit[n] == unit[name]) for name in shared}
+    return [name for name in shared if largest[name] > 1e-9 * most[unit[name]]]
+
+
+def layout_table(layouts: Sequence[Layout]) -> Table:
+    """One row per layout: mass, energy, hinges, each column in one unit."""
+    from crumple.report.wording import Table, column, percent  # noqa: PLC0415
+
+    nan = float("nan")
+    absorbed = [layout.absorbed for layout in layouts]
+    masses = [nan if layout.mass is None else layout.mass for layout in layouts]
+    heads, columns = ["Layout", "Status"], [[x.name for x in layouts], [x.status for x in layouts]]
+
+    def add(head: str, values: Sequence[float], unit: str, suffix: str = "") -> None:
+        shown, cells = column(values, unit)
+        heads.append(f"{head}, {shown}{suffix}" if shown else head)
+        columns.append(list(cells))
+
+    add("Mass of members", masses, "kg")
+    add("Energy absorbed", absorbed, "J")
+    per_mass = [e / m if m else nan for e, m in zip(absorbed, masses, strict=True)]
+    add("Energy by mass", per_mass, "J", "/kg")
+    heads.append("Hinges open")
+    columns.append([_open_hinges(layout) for layout in layouts])
+    heads.append("Energy residual")
+    columns.append([percent(x.result.energy_residual) if x.result else "—" for x in layouts])
+    add("Solved in", [x.result.solve_seconds if x.result else nan for x in layouts], "s")
+    rows = list(zip(*columns, strict=True))
+    return Table("What each layout weighs and absorbs.", tuple(heads), rows, frozenset({1}))
+
+
+def _output_table(layouts: Sequence[Layout], outputs: Sequence[str]) -> Table:
+    """One row per requested output: its value of largest magnitude in every solved layout."""
+    from crumple.report.wording import Table, column  # noqa: PLC0415
+
+    solved = [(layout.name, layout.result) for layout in layouts if layout.result is not None]
+    rows = []
+    for name in outputs:
+        values = [result.outputs[name].max for _, result in solved]
+        unit, cells = column(values, solved[0][1].channels[name].unit)
+        rows.append((f"{name}, {unit}" if unit else name, *cells))
+    heads = ("Output", *(name for name, _ in solved))
+    return Table("Largest magnitude of each requested output.", heads, rows)
+
+
+def _open_hinges(layout: Layout) -> str:
+    if layout.result is None:
+        return "—"
+    hinges = layout.result.hinges
+    return f"{sum(hinge.rotation_max > OPEN for hinge in hinges.values())} of {len(hinges)}"
+
+
+def _csv(layouts: Sequence[Layout], outputs: Sequence[str]) -> str:
+    """The table as data in SI, one row per layout; empty cells where there is no value."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    units = {name: x.result.channels[name].unit for x in layouts if x.result for name in outputs}
+    writer.writerow(
+        [
+            "layout",
+            "title",
+            "status",
+            "reason",
+            "mass [kg]",
+            "energy absorbed [J]",
+            "energy residual",
+            "solve time [s]",
+        ]
+        + [f"{name} {kind} [{units[name]}]" for name in outputs for kind in ("final", "max")]
+    )
+    for layout in layouts:
+        row: list[Any] = [layout.name, layout.title, layout.status, layout.reason, layout.mass]
+        if layout.result is not None:
+            row += [layout.absorbed, layout.result.energy_residual, layout.result.solve_seconds]
+            summaries = (layout.result.outputs[name] for name in outputs)
+            row += [value for output in summaries for value in (output.final, output.max)]
+        row += [None] * (len(heads) + 1 + len(kinds) - len(row))
+        writer.writerow(["" if value is None else value for value in row])
+    return text.getvalue()
+
+
+def _draw(layouts: Sequence[Layout], outputs: Sequence[str]) -> list[tuple[str, str, str]]:
+    """File name, SVG and caption of every figure that there is something for."""
+    from crumple.report import layouts_figures as figures  # noqa: PLC0415  (matplotlib is slow to import)
+    from crumple.report.style import drawing  # noqa: PLC0415
+
+    solved = [(layout.name, layout.result) for layout in layouts if layout.result is not None]
+    with drawing():
+        found = [
+            ("shapes", figures.shapes(solved), "Last picture of each layout in one view and at one scale."),
+            ("energy", figures.energies(solved), "Energy absorbed against time."),
+            (
+                "outputs",
+                figures.outputs(solved, outputs[:MOST_OUTPUTS]),
+                "Requested outputs that all layouts have, against time.",
+            ),
+        ]
+    return [(name, svg, caption) for name, svg, caption in found if svg is not None]
+
+
+def _render(
+    layouts: Sequence[Layout], title: str, outputs: Sequence[str], drawn: list[tuple[str, str, str]]
+) -> str:
+    from importlib.metadata import version  # noqa: PLC0415
+    from urllib.parse import quote  # noqa: PLC0415
+
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined  # noqa: PLC0415
+    from markupsafe import Markup  # noqa: PLC0415
+
+    here = Path(__file__).parent
+    environment = Environment(
+        loader=FileSystemLoader(here), autoescape=True, undefined=StrictUndefined, trim_blocks=True
+    )
+    figures = [
+        {"number": i + 1, "svg": Markup(svg), "caption": caption} for i, (_, svg, caption) in enumerate(drawn)
+    ]
+    return environment.get_template("layouts.html.jinja").render(
+        version=version("crumple"),
+        title=title,
+        style=Markup((here / "page.css").read_text(encoding="utf-8")),
+        tables=[table for table in (layout_table(layouts), _output_table(layouts, outputs)) if table.rows],
+        number=len(layouts),
+        figures=figures,
+        warned=[x for x in layouts if x.result is None or x.result.warnings or not x.result.status.ok],
+        pages=[(x.name, x.title, f"{quote(x.name)}/report.html") for x in layouts if x.result is not None],
+    )

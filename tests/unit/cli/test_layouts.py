@@ -1,0 +1,47 @@
+"""`crumple layouts`: a folder and a row for each file, a refusal is a row too."""
+
+from pathlib import Path
+
+import pytest
+from tests.unit.cli.test_cli import run_command  # noqa: F401  (a fixture)
+
+EXAMPLE = Path("examples/01_tube_bending.yaml")
+
+
+@pytest.fixture(name="files")
+def _files(tmp_path):
+    text = EXAMPLE.read_text(encoding="utf-8").replace("pictures: [0 ms, 20 ms", "pictures: [20 ms")
+    files = []
+    for name, change in (("thin", "2 mm"), ("thick", "3 mm"), ("wrong", "3 kg")):
+        file = tmp_path / f"{name}.yaml"
+        file.write_text(text.replace("2.65 mm", change), encoding="utf-8")
+        files.append(file)
+    return files
+
+
+def test_layouts_are_solved_and_tabled(run_command, files, tmp_path):  # noqa: F811
+    code, out, err = run_command("layouts", *files[:2], "--out", tmp_path / "out", "--title", "Walls")
+    assert (code, err) == (0, "")
+    assert "thin" in out
+    assert "thick" in out
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert "<h1>Walls</h1>" in page
+    for name in ("thin", "thick"):
+        assert (tmp_path / "out" / name / "summary.json").exists()
+    rows = (tmp_path / "out" / "layouts.csv").read_text(encoding="utf-8").splitlines()
+    assert float(rows[1].split("complete,,")[1].split(",")[0]) == pytest.approx(2.24, rel=5e-3)
+
+
+def test_a_refused_layout_is_a_row(run_command, files, tmp_path):  # noqa: F811
+    code, out, _ = run_command("layouts", *files[1:], "--out", tmp_path / "out")
+    assert code == 1
+    assert "refused" in out
+    assert "wrong: " in out
+    assert "sections.tube.thickness" in out.replace("\n", " ")
+
+
+def test_files_of_one_name_get_folders_of_their_own(run_command, files, tmp_path):  # noqa: F811
+    code, _, _ = run_command("layouts", files[0], files[0], "--out", tmp_path / "out")
+    assert code == 0
+    assert (tmp_path / "out" / "thin-1" / "report.html").exists()
+    assert (tmp_path / "out" / "thin-2" / "report.html").exists()
