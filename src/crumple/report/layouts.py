@@ -156,26 +156,17 @@ def _csv(layouts: Sequence[Layout], outputs: Sequence[str]) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     units = {name: x.result.channels[name].unit for x in layouts if x.result for name in outputs}
-    writer.writerow(
-        [
-            "layout",
-            "title",
-            "status",
-            "reason",
-            "mass [kg]",
-            "energy absorbed [J]",
-            "energy residual",
-            "solve time [s]",
-        ]
-        + [f"{name} {kind} [{units[name]}]" for name in outputs for kind in ("final", "max")]
-    )
+    heads = ["layout", "title", "status", "reason", "mass [kg]", "energy absorbed [J]", "energy residual"]
+    heads += ["solve time [s]"]
+    heads += [f"{name} {kind} [{units[name]}]" for name in outputs for kind in ("final", "max")]
+    writer.writerow(heads)
     for layout in layouts:
         row: list[Any] = [layout.name, layout.title, layout.status, layout.reason, layout.mass]
         if layout.result is not None:
             row += [layout.absorbed, layout.result.energy_residual, layout.result.solve_seconds]
             summaries = (layout.result.outputs[name] for name in outputs)
             row += [value for output in summaries for value in (output.final, output.max)]
-        row += [None] * (len(heads) + 1 + len(kinds) - len(row))
+        row += [None] * (len(heads) - len(row))
         writer.writerow(["" if value is None else value for value in row])
     return text.getvalue()
 
