@@ -57,8 +57,9 @@ def continued(
         return single_fold(np.minimum(rotation, jamming_angle))
     folds = np.floor(rotation / jamming_angle)
     within = np.clip(rotation - folds * jamming_angle, 0.0, jamming_angle)
-    fresh = single_fold(within)
-    jammed = float(single_fold(np.array([jamming_angle]))[0])
+    # one call: a law costs more by the call than by the rotation
+    values = single_fold(np.append(within, jamming_angle))
+    fresh, jammed = values[:-1].reshape(within.shape), float(values[-1])
     share = np.where(folds > 0.0, np.minimum(within / (RAMP_FRACTION * jamming_angle), 1.0), 1.0)
     return np.asarray(jammed + (fresh - jammed) * share, np.float64)
 

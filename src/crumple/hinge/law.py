@@ -106,6 +106,7 @@ class HingeLaw(Protocol):
         Stop that the law itself asks for (jammed walls), or None.
     """
 
+    def __hash__(self) -> int: ...
     @property
     def name(self) -> str: ...
     @property

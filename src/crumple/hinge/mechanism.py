@@ -127,20 +127,18 @@ def _web_angles(
 ) -> tuple[NDArray[Any], NDArray[Any]]:
     """Turns [rad] of the web plates at the rigid web (line KE) and at the diagonal (line AK).
 
-    Corners in the middle plane of the fold, x along the beam, y up, z out of the web:
-    K = (h, 0, 0), E = (x_E, b c, 0), A = (0, y_B, z_A).  Angles by the tangents of their halves: an arc
-    cosine loses half the digits at small rotations, and the diagonal of a square tube turns past a right
-    angle just before its flange closes.
+    Corners in the middle plane of the fold, x along the beam, y up, z out of the web: K = (h, 0, 0),
+    E = (h - b s, b c, 0), A = (0, y_B, z_A).  Over b, the plate K E A has the normal (c z, s z, c h - s y);
+    the lower plate, which holds the bottom corner and A, has (0, -z, y), and y^2 + z^2 = (b - z)^2.
+
+    Angles by the tangents of their halves: an arc cosine loses half the digits at small rotations, and the
+    diagonal of a square tube turns past a right angle just before its flange closes.
     """
-    y_B, z_A = corners["y_B"], corners["z_A"]
-    along, up = corners["x_E"] - h, b * np.cos(rotation / 2.0)
-    # normal of the plate K E A, (E - K) x (A - K)
-    n_x, n_y, n_z = up * z_A, -along * z_A, along * y_B + up * h
-    length = np.sqrt(n_x**2 + n_y**2 + n_z**2)
-    at_web_end = 2.0 * np.arctan(np.sqrt(n_x**2 + n_y**2) / (length + n_z))
-    # normal of the lower plate, which holds the bottom corner and A: (0, -z_A, y_B)
-    cross_x, cross_y, cross_z = n_y * y_B + n_z * z_A, -n_x * y_B, -n_x * z_A
-    across = np.sqrt(cross_x**2 + cross_y**2 + cross_z**2)
-    lengths = length * np.sqrt(y_B**2 + z_A**2)
-    at_diagonal = 2.0 * np.arctan(across / (lengths + n_z * y_B - n_y * z_A))
+    y, z = corners["y_B"], corners["z_A"]
+    s, c = np.sin(rotation / 2.0), np.cos(rotation / 2.0)
+    out = c * h - s * y
+    at_web_end = 2.0 * np.arctan(z / (out + np.sqrt(out**2 + z**2)))
+    # sine and cosine of the turn, times the lengths of both normals
+    sine, cosine = c * z * np.sqrt(h**2 + (b - z) ** 2), c * h * y - s * (b - z) ** 2
+    at_diagonal = 2.0 * np.arctan(sine / (cosine + np.sqrt(sine**2 + cosine**2)))
     return at_web_end, at_diagonal

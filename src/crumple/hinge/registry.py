@@ -9,6 +9,7 @@ import importlib
 import inspect
 import pkgutil
 from collections.abc import Callable
+from functools import cache
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from crumple.errors import InputError, Problem
@@ -76,8 +77,7 @@ class Family:
 
     def options(self, name: str) -> tuple[str, ...]:
         """Names of the keyword options of a law."""
-        parameters = inspect.signature(self.type_of(name).of).parameters.values()
-        return tuple(parameter.name for parameter in parameters if parameter.kind is parameter.KEYWORD_ONLY)
+        return _keyword_only(self.type_of(name).of)
 
     def build(self, name: str, *arguments: Any, **options: Any) -> Any:
         """Build a law by its name; refuses unknown options with `InputError`."""
@@ -93,6 +93,12 @@ class Family:
                 ]
             )
         return cls.of(*arguments, **options)
+
+
+@cache
+def _keyword_only(function: Callable[..., Any]) -> tuple[str, ...]:
+    parameters = inspect.signature(function).parameters.values()
+    return tuple(parameter.name for parameter in parameters if parameter.kind is parameter.KEYWORD_ONLY)
 
 
 _BENDING = Family("crumple.hinge.laws", "hinge law")

@@ -13,6 +13,7 @@ import numpy as np
 from crumple.errors import InputError, Problem
 from crumple.multibody.rigid import Floats
 from crumple.structure import PlacedHinge, Structure, Support
+from crumple.structure.geometry import cross
 from crumple.structure.motion import FREEDOMS
 
 PARALLEL = 1e-6
@@ -28,15 +29,23 @@ class Held:
     @property
     def clamped(self) -> bool:
         """Both displacements and the rotation."""
-        return self._rank(slice(0, 3)) == 3
+        return self._turns and self._directions == 2
 
     @property
     def pinned(self) -> bool:
         """Both displacements, not the rotation."""
-        return len(self.rows) > 0 and self._rank(slice(0, 3)) == 2 and not any(row[0] for row in self.rows)
+        return not self._turns and self._directions == 2
 
-    def _rank(self, columns: slice) -> int:
-        return int(np.linalg.matrix_rank(np.array(self.rows)[:, columns])) if self.rows else 0
+    @property
+    def _turns(self) -> bool:
+        return any(row[0] for row in self.rows)
+
+    @property
+    def _directions(self) -> int:
+        """Number of independent displacements among the rows."""
+        moves = [(x, y) for _, x, y in self.rows if x or y]
+        across = (abs(moves[0][0] * y - moves[0][1] * x) > PARALLEL for x, y in moves)
+        return 2 if any(across) else len(moves[:1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,10 +74,9 @@ class Plane:
 
     def row(self, freedom: str) -> tuple[float, float, float]:
         """Direction (rotation, x, y) of a global freedom in the plane; zero where it lies across it."""
-        i = FREEDOMS.index(freedom)
-        axis = np.eye(3)[i % 3]
-        across = float(axis @ self.normal)
-        row = (across, 0.0, 0.0) if i >= 3 else (0.0, float(axis @ self.first), float(axis @ self.second))
+        turn, i = divmod(FREEDOMS.index(freedom), 3)
+        across = float(self.normal[i])
+        row = (across, 0.0, 0.0) if turn else (0.0, float(self.first[i]), float(self.second[i]))
         return tuple(value if abs(value) > PARALLEL else 0.0 for value in row)  # type: ignore[return-value]
 
     def held(self, structure: Structure, node: str) -> Held:
@@ -92,7 +100,7 @@ def plane_of(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Plane:
     if hinges:
         normal = hinges[0].direction
         for hinge in hinges[1:]:
-            if np.linalg.norm(np.cross(normal, hinge.direction)) > PARALLEL:
+            if np.linalg.norm(cross(normal, hinge.direction)) > PARALLEL:
                 raise InputError(
                     Problem(
                         "hinges turn about different axes; the multibody engine solves planar motion so far",
@@ -112,7 +120,7 @@ def plane_of(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Plane:
     first = np.eye(3)[(int(np.argmax(np.abs(normal))) + 1) % 3]
     first = first - (first @ normal) * normal
     first /= np.linalg.norm(first)
-    return Plane(normal, first, np.cross(normal, first))
+    return Plane(normal, first, cross(normal, first))
 
 
 def _text(vector: Floats) -> str:

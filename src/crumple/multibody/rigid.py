@@ -53,9 +53,10 @@ def piece_mass(structure: Structure, member: str, start: float, end: float) -> R
     )
     length = end - start
     mass = section.mass_per_length(material.density) * length
-    moments = material.density * length * np.array([section.second_moment("y"), section.second_moment("z")])
-    local = np.diag([moments.sum(), mass * length**2 / 12 + moments[0], mass * length**2 / 12 + moments[1]])
-    return RigidMass(mass, frame.position((start + end) / 2), frame.axes.T @ local @ frame.axes)
+    about_y, about_z = (material.density * length * section.second_moment(axis) for axis in ("y", "z"))
+    slender = mass * length**2 / 12
+    local = np.array([about_y + about_z, slender + about_y, slender + about_z])
+    return RigidMass(mass, frame.position((start + end) / 2), (frame.axes.T * local) @ frame.axes)
 
 
 def lump_mass(structure: Structure, mass: Mass) -> RigidMass:

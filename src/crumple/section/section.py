@@ -27,6 +27,10 @@ class Section(Protocol):
     Methods that take an axis mean bending with the moment vector along that axis.
     """
 
+    def __hash__(self) -> int:
+        """By its dimensions."""
+        ...
+
     @property
     def kind(self) -> str:
         """Name of the shape as the input writes it."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise
 from typing import Literal
 
@@ -16,7 +17,8 @@ import numpy as np
 from crumple import hinge
 from crumple.errors import InputError, Problem
 from crumple.hinge import Form, HingeLaw, HingeRecord, SofteningVariable, Stop
-from crumple.section import Axis, half_fold_length
+from crumple.material import Material
+from crumple.section import Axis, Section, half_fold_length
 from crumple.structure.bending import bending_axis
 from crumple.structure.geometry import Floats
 from crumple.structure.law import LAW_SPECS, LawKeys, LawReference, Stops
@@ -26,6 +28,8 @@ from crumple.structure.structure import Structure
 
 DEFAULT_LAW = {"rectangular_tube": "kecman"}
 """Law type of a hinge that names none, by kind of section."""
+MADE = 1024
+"""Laws, and records, that a process keeps: far more than any structure has."""
 NEARER = np.sqrt(0.5)
 """Cosine of 45 degrees: of two axes across a member the nearer one is within it."""
 SAME_DIRECTION = 1e-9
@@ -152,13 +156,12 @@ def placed_hinges(structure: Structure) -> tuple[PlacedHinge, ...]:
     placed: list[PlacedHinge] = []
     for place in hinge_places(structure):
         by_member[place.member].append(place)
-    laws = _Laws(structure)
     for member, places in by_member.items():
         length = structure.frame_of(member).length
         stations = [place.station for place in places]
         for place, share in zip(places, tributary_lengths(stations, length), strict=True):
             try:
-                placed.append(_placed(structure, place, share, laws))
+                placed.append(_placed(structure, place, share))
             except InputError as error:
                 problems += error.problems
     if problems:
@@ -218,42 +221,30 @@ def law_of(structure: Structure, place: HingePlace) -> HingeLaw:
     InputError
         If the law does not fit the section.
     """
-    spec = law_spec(structure, place)
+    section, material = structure.section_of(place.member), structure.material_of(place.member)
+    return _law(section, material, place.axis, law_spec(structure, place))
+
+
+# a law is a pure function of these four: the hinges of a chain and the runs of a study share it
+@lru_cache(maxsize=MADE)
+def _law(section: Section, material: Material, axis: Axis, spec: LawKeys) -> HingeLaw:
     given = spec.model_dump(exclude=set(LawKeys.model_fields) | {"type"}, exclude_none=True)
     kind = str(getattr(spec, "type"))  # noqa: B009  (every law has it, each with its own literal type)
     options = set(hinge.law_options(kind))
     if "elastic_stiffness" in options and not isinstance(spec.elastic_stiffness, str):
         given["elastic_stiffness"] = spec.elastic_stiffness
-    section, material = structure.section_of(place.member), structure.material_of(place.member)
-    return hinge.bounded(hinge.build_law(kind, section, material, place.axis, **given), spec.bound)
+    return hinge.bounded(hinge.build_law(kind, section, material, axis, **given), spec.bound)
 
 
-class _Laws:
-    """Laws and records already made, so that the many hinges of a chain share them."""
-
-    def __init__(self, structure: Structure) -> None:
-        self._structure = structure
-        self._made: dict[tuple[str, str, Axis, LawKeys], tuple[HingeLaw, HingeRecord]] = {}
-
-    def of(self, place: HingePlace, tributary_length: float) -> tuple[HingeLaw, HingeRecord]:
-        """Law and record of a hinge that stands for a length of its member [m]."""
-        member, spec = self._structure.members[place.member], law_spec(self._structure, place)
-        rigidity = self._structure.flexural_rigidity(place.member, place.axis)
-        key = (member.section, member.material, place.axis, spec)
-        if key not in self._made:
-            law = law_of(self._structure, place)
-            self._made[key] = (law, _record(law, spec, rigidity, tributary_length))
-        law, record = self._made[key]
-        # the length alone differs along a chain, and only the elastic form looks at it
-        by_length = spec.elastic_stiffness == "auto" and law.elastic_stiffness is None
-        if record.form is Form.ELASTIC_PLASTIC and by_length:
-            stiffness = hinge.tributary_stiffness(rigidity, tributary_length)
-            record = replace(record, elastic_stiffness=stiffness)
-        return law, record
-
-
-def _placed(structure: Structure, place: HingePlace, share: float, laws: _Laws) -> PlacedHinge:
-    law, record = laws.of(place, share)
+def _placed(structure: Structure, place: HingePlace, share: float) -> PlacedHinge:
+    spec = law_spec(structure, place)
+    rigidity = structure.flexural_rigidity(place.member, place.axis)
+    law = law_of(structure, place)
+    record = _record(law, spec, rigidity)
+    # the length alone differs along a chain, and only the elastic form looks at it
+    by_length = spec.elastic_stiffness == "auto" and law.elastic_stiffness is None
+    if record.form is Form.ELASTIC_PLASTIC and by_length:
+        record = replace(record, elastic_stiffness=hinge.tributary_stiffness(rigidity, share))
     frame = structure.frame_of(place.member)
     return PlacedHinge(
         name=place.name,
@@ -279,14 +270,16 @@ def _direction(structure: Structure, place: HingePlace) -> Floats:
     return np.sign(along) * np.asarray(normal) if abs(along) > NEARER else axis
 
 
-def _record(law: HingeLaw, spec: LawKeys, rigidity: float, tributary_length: float) -> HingeRecord:
+@lru_cache(maxsize=MADE)
+def _record(law: HingeLaw, spec: LawKeys, rigidity: float) -> HingeRecord:
+    """Record of a law; where its stiffness is that of a length of member, the length is one metre here."""
     stiffness = spec.elastic_stiffness
     return hinge.record_of(
         law,
         form=Form(spec.form),
         elastic_stiffness=None if isinstance(stiffness, str) else stiffness,
         flexural_rigidity=rigidity,
-        tributary_length=tributary_length,
+        tributary_length=1.0,
         softening=SofteningVariable(spec.softening),
         stops=_stop(spec.stops),
         regularisation_rate=spec.regularisation.rate,

@@ -46,6 +46,31 @@ def test_points_grow_with_the_root_of_the_accuracy():
     assert record_of(law).positive.rotation.size <= 100
 
 
+class _Counted(ConstantLaw):
+    """A law without symmetry, kinked and curved, that counts how often it is asked."""
+
+    calls = 0
+
+    def kinks(self, sense=1):
+        return (0.2, 0.5, 0.9)
+
+    def moment_capacity(self, rotation, sense=1):
+        type(self).calls += 1
+        return 1000.0 * (1.0 + sense * 0.1 * np.cos(3.0 * np.asarray(rotation)))
+
+
+def test_a_law_is_asked_a_few_times_for_many_rotations():
+    record = record_of(_Counted(1000.0))
+    # twice for each sense, and once to see that they differ
+    assert _Counted.calls <= 7
+    for sense, envelope in ((1, record.positive), (-1, record.negative)):
+        seen = np.linspace(0.0, math.pi, 5000)
+        exact = 1000.0 * (1.0 + sense * 0.1 * np.cos(3.0 * seen))
+        np.testing.assert_allclose(np.interp(seen, envelope.rotation, envelope.moment), exact, rtol=1e-4)
+        assert {0.2, 0.5, 0.9} <= set(envelope.rotation)
+        assert not envelope.moment.flags.writeable
+
+
 def test_elastic_stiffness_is_given_or_the_laws_or_the_tributary_lengths():
     rigidity = STEEL.youngs_modulus * TUBE.second_moment_y
     own = TabulatedLaw([0.0], [500.0], elastic_stiffness=7e3)

@@ -202,10 +202,11 @@ class KecmanLaw:
 
     def _single_fold(self, rotation: Floats) -> Floats:
         """Capacity of one fold up to jamming [N m]."""
-        if self.start is Start.CAP:
-            return np.minimum(self.peak.moment, self.mechanism.moment(rotation))
-        before = self.peak.moment - self._parabola * rotation**2
-        return np.where(rotation < self.mechanism_from, before, self.mechanism.moment(rotation))
+        parabola = self._parabola if self.start is Start.PARABOLA else 0.0
+        capacity: Floats = np.asarray(self.peak.moment - parabola * rotation**2)
+        governed = rotation > self.mechanism_from
+        capacity[governed] = self.mechanism.moment(rotation[governed])
+        return capacity
 
 
 def _jamming_stop(mechanism: FoldMechanism, section: RectangularTube, material: Material, axis: Axis) -> Stop:
