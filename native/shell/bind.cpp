@@ -94,7 +94,7 @@ static nb::dict save(const Simulation& s) {
     put("numbers", c.numbers);
     put("nodes", c.nodes);
     put("elements", c.elements);
-    put("corners", c.corners);
+    put("sums", c.sums);
     put("bodies", c.bodies);
     put("drives", c.drives);
     put("contact", c.contact);
@@ -111,7 +111,7 @@ static void restore(Simulation& s, const nb::dict& d) {
     get("numbers", c.numbers, size.numbers.size());
     get("nodes", c.nodes, size.nodes.size());
     get("elements", c.elements, size.elements.size());
-    get("corners", c.corners, size.corners.size());
+    get("sums", c.sums, size.sums.size());
     get("bodies", c.bodies, size.bodies.size());
     get("drives", c.drives, size.drives.size());
     get("contact", c.contact, 0);

@@ -8,9 +8,9 @@ namespace crumple::shell {
 Wrench Simulation::internal_force(Index n) const {
     Wrench w;
     for (std::uint32_t j = blocks_.first[n]; j < blocks_.first[n + 1]; j++) {
-        const double* corner = &corner_[std::size_t(corner_record) * blocks_.corner_of[j]];
-        w.force = w.force - read3(corner);
-        w.moment = w.moment - read3(corner + 4);
+        const double* sum = &sum_[std::size_t(corner_record) * blocks_.sum_of[j]];
+        w.force = w.force - read3(sum);
+        w.moment = w.moment - read3(sum + 4);
     }
     if (contact_ && contact_->any()) w.force = w.force + read3(contact_->force() + 4 * n);
     return w;

@@ -8,7 +8,7 @@ namespace crumple::shell {
 namespace {
 
 template <Law law, int points>
-inline void run_block(const ElementStage& stage, const Part& part, std::size_t block, Real& stiffest) {
+inline void run_block(const ElementStage& stage, const Part& part, std::size_t block, double* out, Real& stiffest) {
     Vec x[4], v[4], w[4];
     for (int c = 0; c < 4; c++) {
         const std::uint32_t* node = stage.nodes + lanes * (4 * block + c);
@@ -18,31 +18,37 @@ inline void run_block(const ElementStage& stage, const Part& part, std::size_t b
     }
     Real* slots = reinterpret_cast<Real*>(stage.state + stage.offset[block]);
     const CornerForces forces = update_block<law, points>(part, x, v, w, stage.dt, slots, stiffest);
-    double* out = stage.corner + std::size_t(4 * corner_record * lanes) * block;
     for (int c = 0; c < 4; c++) {
         scatter(forces.force[c], out + corner_record * c, 4 * corner_record);
         scatter(forces.moment[c], out + corner_record * c + 4, 4 * corner_record);
     }
 }
 
-template <int points> inline void run_any_law(const ElementStage& stage, const Part& part, std::size_t block, Real& stiffest) {
+template <int points> inline void run_any_law(const ElementStage& stage, const Part& part, std::size_t block, double* out, Real& stiffest) {
     switch (part.law) {
-        case Law::elastic: return run_block<Law::elastic, points>(stage, part, block, stiffest);
-        case Law::linear: return run_block<Law::linear, points>(stage, part, block, stiffest);
-        case Law::general: return run_block<Law::general, points>(stage, part, block, stiffest);
+        case Law::elastic: return run_block<Law::elastic, points>(stage, part, block, out, stiffest);
+        case Law::linear: return run_block<Law::linear, points>(stage, part, block, out, stiffest);
+        case Law::general: return run_block<Law::general, points>(stage, part, block, out, stiffest);
     }
+}
+
+// The next state comes from memory while this one is computed.
+inline void prefetch(const double* next, std::size_t size) {
+    for (std::size_t i = 0; i < size; i += 8) __builtin_prefetch(next + i, 1);
 }
 
 ElementReport run_elements(const ElementStage& stage, std::size_t first, std::size_t last) {
     ElementReport report;
     Real stiffest_of_all{};
-    for (std::size_t block = first; block < last; block++) {
+    double* out = stage.corner;
+    for (std::size_t block = first; block < last; block++, out += 4 * corner_record * lanes) {
         const Part& part = stage.parts[stage.part_of[block]];
+        if (stage.from_memory) prefetch(stage.state + stage.offset[block + 1], stage.offset[block + 1] - stage.offset[block]);
         Real stiffest;
         if (part.points == 5)
-            run_any_law<5>(stage, part, block, stiffest);
+            run_any_law<5>(stage, part, block, out, stiffest);
         else
-            run_any_law<0>(stage, part, block, stiffest);
+            run_any_law<0>(stage, part, block, out, stiffest);
         // NaN fails every comparison, so it counts as beyond the limit
         const Mask fine = stiffest <= stage.frequency_limit;
         if (report.bad_block < 0 && any(~fine)) report.bad_block = std::int64_t(block);
@@ -53,13 +59,26 @@ ElementReport run_elements(const ElementStage& stage, std::size_t first, std::si
     return report;
 }
 
+void run_sums(const SumStage& stage, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; i++) {
+        Quad force{}, moment{};
+        for (std::uint32_t j = stage.first[i]; j < stage.first[i + 1]; j++) {
+            const double* corner = stage.corner + std::size_t(corner_record) * stage.corner_of[j];
+            force += load(corner);
+            moment += load(corner + 4);
+        }
+        store(stage.sum + corner_record * i, force);
+        store(stage.sum + corner_record * i + 4, moment);
+    }
+}
+
 // velocity and position of one free node; returns the work of damping per mass-proportional coefficient [J s]
 inline void run_node(const NodeStage& s, std::size_t i, Quad gravity, double& damped) {
     Quad force{}, moment{};
     for (std::uint32_t j = s.first[i]; j < s.first[i + 1]; j++) {
-        const double* corner = s.corner + std::size_t(corner_record) * s.corner_of[j];
-        force += load(corner);
-        moment += load(corner + 4);
+        const double* sum = s.sum + std::size_t(corner_record) * s.sum_of[j];
+        force += load(sum);
+        moment += load(sum + 4);
     }
     if (s.contact) force -= load(s.contact + 4 * i);
     double* velocity = s.velocity + velocity_record * i;
@@ -92,6 +111,6 @@ void run_nodes(const NodeStage& stage, std::size_t first, std::size_t last) {
 }  // namespace
 
 extern const Kernels CRUMPLE_KERNELS;
-const Kernels CRUMPLE_KERNELS = {CRUMPLE_KERNELS_NAME, lanes, run_elements, run_nodes};
+const Kernels CRUMPLE_KERNELS = {CRUMPLE_KERNELS_NAME, lanes, run_elements, run_sums, run_nodes};
 
 }  // namespace crumple::shell

@@ -16,8 +16,9 @@ struct ElementStage {
     const std::size_t* offset;       // [block] into state
     const Part* parts;
     double* state;
-    double* corner;                  // [block][lane][corner][corner_record]
+    double* corner;                  // [block of the chunk][lane][corner][corner_record]
     double dt;
+    bool from_memory;                // the state is larger than the caches
     double frequency_limit;          // squared frequency [1/s2] above which a step is refused
 };
 
@@ -26,16 +27,24 @@ struct ElementReport {
     std::int64_t bad_block = -1;     // first block with a state that is not finite, or that is too stiff
 };
 
+// Sums of a chunk's corner forces.
+struct SumStage {
+    const double* corner;            // of the chunk
+    const std::uint32_t* first;      // CSR of corners per sum
+    const std::uint32_t* corner_of;
+    double* sum;                     // [sum][corner_record]
+};
+
 // Free nodes: those of rigid bodies and driven ones are handled apart.
 struct NodeStage {
     double* position;
     double* velocity;
     const double* inverse_mass;      // [node][velocity_record]; 0 for a fixed degree of freedom
-    const double* corner;
+    const double* sum;               // [sum][corner_record] force and moment of a chunk's elements
     const double* contact;           // [node][4] force, or null
     const std::uint8_t* kind;        // 0: free
-    const std::uint32_t* first;      // CSR of corners per node
-    const std::uint32_t* corner_of;
+    const std::uint32_t* first;      // CSR of sums per node
+    const std::uint32_t* sum_of;
     double* damping_work;            // [chunk]; used when damping > 0
     double kick, drift;              // time steps of velocity and position [s]
     double damping;                  // mass-proportional [1/s]
@@ -47,6 +56,7 @@ struct Kernels {
     const char* name;
     int lanes;
     ElementReport (*elements)(const ElementStage&, std::size_t first, std::size_t last);
+    void (*sums)(const SumStage&, std::size_t first, std::size_t last);
     void (*nodes)(const NodeStage&, std::size_t first, std::size_t last);
 };
 

@@ -103,11 +103,12 @@ Wrench Simulation::cut(std::size_t i, Vec3* centre) const {
     }
     *centre = (1.0 / double(c.nodes.size())) * sum;
     Wrench w;
+    auto kept = blocks_.cut_corners[i].begin();
     for (Index e : c.elements)
         for (int k = 0; k < 4; k++) {
             const Index n = model_->quads[4 * e + std::size_t(k)];
             if (!in[n]) continue;
-            const double* corner = &corner_[std::size_t(corner_record) * blocks_.corner(e, k)];
+            const double* corner = &kept_[std::size_t(corner_record) * *kept++];
             const Vec3 f = -1.0 * read3(corner);
             w.force = w.force + f;
             w.moment = w.moment - read3(corner + 4) + cross(read3(&position_[position_record * n]) - *centre, f);
@@ -144,7 +145,8 @@ Checkpoint Simulation::save() const {
     c.nodes.assign(position_.begin(), position_.end());
     c.nodes.insert(c.nodes.end(), velocity_.begin(), velocity_.end());
     c.elements.assign(state_.begin(), state_.end());
-    c.corners.assign(corner_.begin(), corner_.end());
+    c.sums.assign(sum_.begin(), sum_.end());
+    c.sums.insert(c.sums.end(), kept_.begin(), kept_.end());
     for (const RigidState& s : body_states_) {
         for (Vec3 v : {s.centre, s.velocity, s.angular_momentum, s.omega}) c.bodies.insert(c.bodies.end(), {v.x, v.y, v.z});
         c.bodies.insert(c.bodies.end(), s.rotation.m, s.rotation.m + 9);
@@ -165,7 +167,8 @@ void Simulation::restore(const Checkpoint& c) {
     std::copy_n(c.nodes.begin(), position_.size(), position_.begin());
     std::copy_n(c.nodes.begin() + std::ptrdiff_t(position_.size()), velocity_.size(), velocity_.begin());
     std::copy_n(c.elements.begin(), state_.size(), state_.begin());
-    std::copy_n(c.corners.begin(), corner_.size(), corner_.begin());
+    std::copy_n(c.sums.begin(), sum_.size(), sum_.begin());
+    std::copy_n(c.sums.begin() + std::ptrdiff_t(sum_.size()), kept_.size(), kept_.begin());
     p = c.bodies.data();
     for (RigidState& s : body_states_) {
         for (Vec3* v : {&s.centre, &s.velocity, &s.angular_momentum, &s.omega}) {

@@ -53,15 +53,74 @@ Part part_of(const Model& m, const Sheet& sheet, bool triangle) {
     return p;
 }
 
-// corners of each node, in the order of the elements: the order of summation is fixed
+// Elements of a chunk: their state and corner forces fit the second cache many times, and a mesh of a few thousand
+// elements has enough chunks to share them evenly.
+constexpr std::size_t elements_per_chunk = 128;
+
+// Sums of each chunk's corners per node, in the order of the elements: the order of summation is fixed.
 static void list_corners(const Model& m, Blocks& b) {
+    Chunks& c = b.chunks;
+    const std::size_t lanes = std::size_t(b.lanes);
+    c.blocks = elements_per_chunk / lanes;
+    const std::size_t records = 4 * lanes * c.blocks, count = (b.count() + c.blocks - 1) / c.blocks;
+    struct Corner {
+        std::uint32_t node, record;
+    };
+    std::vector<std::vector<Corner>> corners(count);
+    for (std::size_t e = 0; e < m.elements(); e++)
+        for (int k = 0; k < 4; k++) {
+            const std::size_t record = b.corner(e, k);
+            corners[record / records].push_back({m.quads[4 * e + std::size_t(k)], std::uint32_t(record % records)});
+        }
+    std::vector<Index> node_of;                  // [sum]
+    c.first.push_back(0);
+    for (std::vector<Corner>& chunk : corners) {
+        c.sums.push_back(std::uint32_t(node_of.size()));
+        std::stable_sort(chunk.begin(), chunk.end(), [](const Corner& x, const Corner& y) { return x.node < y.node; });
+        for (std::size_t i = 0; i < chunk.size(); i++) {
+            c.corner_of.push_back(chunk[i].record);
+            if (i + 1 < chunk.size() && chunk[i + 1].node == chunk[i].node) continue;
+            node_of.push_back(chunk[i].node);
+            c.first.push_back(std::uint32_t(c.corner_of.size()));
+        }
+    }
+    c.sums.push_back(std::uint32_t(node_of.size()));
     b.first.assign(m.nodes() + 1, 0);
-    for (Index n : m.quads) b.first[n + 1]++;
+    for (Index n : node_of) b.first[n + 1]++;
     for (std::size_t i = 0; i < m.nodes(); i++) b.first[i + 1] += b.first[i];
     std::vector<std::uint32_t> next(b.first.begin(), b.first.end() - 1);
-    b.corner_of.resize(m.quads.size());
-    for (std::size_t e = 0; e < m.elements(); e++)
-        for (int c = 0; c < 4; c++) b.corner_of[next[m.quads[4 * e + c]]++] = std::uint32_t(b.corner(e, c));
+    b.sum_of.resize(node_of.size());
+    for (std::size_t i = 0; i < node_of.size(); i++) b.sum_of[next[node_of[i]]++] = std::uint32_t(i);
+}
+
+// Corners of the cuts' elements at the cuts' nodes, chunk by chunk.
+static void list_cuts(const Model& m, Blocks& b) {
+    Chunks& c = b.chunks;
+    const std::size_t records = 4 * std::size_t(b.lanes) * c.blocks;
+    struct Kept {
+        std::size_t record, cut;
+    };
+    std::vector<Kept> all;
+    for (std::size_t i = 0; i < m.cuts.size(); i++) {
+        std::vector<std::uint8_t> in(m.nodes(), 0);
+        for (Index n : m.cuts[i].nodes) in[n] = 1;
+        for (Index e : m.cuts[i].elements)
+            for (int k = 0; k < 4; k++)
+                if (in[m.quads[4 * std::size_t(e) + std::size_t(k)]]) all.push_back({b.corner(e, k), i});
+    }
+    std::vector<std::size_t> order(all.size());
+    for (std::size_t i = 0; i < order.size(); i++) order[i] = i;
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) { return all[x].record < all[y].record; });
+    b.cut_corners.assign(m.cuts.size(), {});
+    std::vector<std::uint32_t> place(all.size());
+    c.kept.assign(c.count() + 1, 0);
+    for (std::size_t i = 0; i < order.size(); i++) {
+        place[order[i]] = std::uint32_t(i);
+        c.kept_corner.push_back(std::uint32_t(all[order[i]].record % records));
+        c.kept[all[order[i]].record / records + 1]++;
+    }
+    for (std::size_t i = 0; i < c.count(); i++) c.kept[i + 1] += c.kept[i];
+    for (std::size_t i = 0; i < all.size(); i++) b.cut_corners[all[i].cut].push_back(place[i]);
 }
 
 Blocks block_up(const Model& m, int lanes) {
@@ -97,6 +156,7 @@ Blocks block_up(const Model& m, int lanes) {
         for (std::size_t c = 0; c < 4; c++) b.nodes[(4 * block + c) * std::size_t(lanes) + lane] = m.quads[4 * std::size_t(last) + c];
     }
     list_corners(m, b);
+    list_cuts(m, b);
     return b;
 }
 

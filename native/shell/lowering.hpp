@@ -6,6 +6,17 @@
 
 namespace crumple::shell {
 
+// Blocks are handled in chunks.  The forces at the corners of a chunk's elements are summed per node while they lie in
+// the cache; a node that several chunks touch has a sum in each.  The chunks do not depend on the number of threads.
+struct Chunks {
+    std::size_t blocks = 0;                      // in each
+    std::vector<std::uint32_t> sums;             // [chunk] first sum; one more entry: their number
+    std::vector<std::uint32_t> first, corner_of; // CSR: corner records, counted from the chunk's first, of each sum
+    std::vector<std::uint32_t> kept;             // [chunk] first corner that a cut looks at; one more entry
+    std::vector<std::uint32_t> kept_corner;      // corner record of each, counted from the chunk's first
+    std::size_t count() const { return sums.size() - 1; }
+};
+
 struct Blocks {
     int lanes = 0;
     std::vector<Part> parts;
@@ -14,7 +25,9 @@ struct Blocks {
     std::vector<std::size_t> offset;             // [block]; one more entry: the size of the state
     std::vector<std::int64_t> element_of;        // [block][lane]; -1 for a copy that fills up a block
     std::vector<std::size_t> place_of;           // [element] -> block * lanes + lane
-    std::vector<std::uint32_t> first, corner_of; // CSR: corner records of each node
+    std::vector<std::uint32_t> first, sum_of;    // CSR: sums of each node
+    std::vector<std::vector<std::uint32_t>> cut_corners; // [cut]: kept corner of each element and each of its cut nodes
+    Chunks chunks;
     std::size_t count() const { return part_of.size(); }
     // index into the state of one slot of one element
     std::size_t slot(std::size_t element, int slot) const {

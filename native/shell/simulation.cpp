@@ -14,6 +14,8 @@ namespace {
 
 // Below this many elements per thread the barriers cost more than they gain.
 constexpr std::size_t elements_per_thread = 500;
+// State of more numbers than these is fetched ahead; below it the fetching would only cost.
+constexpr std::size_t largest_in_cache = 500'000;
 // The clock is read once in so many steps.
 constexpr std::int64_t steps_per_look = 16;
 
@@ -100,7 +102,8 @@ void Simulation::sort_drives() {
 
 void Simulation::start_elements() {
     state_.assign(blocks_.offset.back(), 0.0);
-    corner_.assign(std::size_t(4 * corner_record) * blocks_.element_of.size(), 0.0);
+    sum_.assign(std::size_t(corner_record) * blocks_.sum_of.size(), 0.0);
+    kept_.assign(std::size_t(corner_record) * blocks_.chunks.kept_corner.size(), 0.0);
     alive_.assign(model_->elements(), 1);
     std::size_t e = 0;
     for (std::size_t place = 0; place < blocks_.element_of.size(); place++) {
@@ -117,16 +120,33 @@ void Simulation::start_elements() {
     }
 }
 
-ElementStage Simulation::element_stage(double dt) {
+ElementStage Simulation::element_stage(double dt, double* corner) {
     const double least = model_->settings.least_step / model_->settings.safety;
     return {position_.data(), velocity_.data(), blocks_.nodes.data(), blocks_.part_of.data(), blocks_.offset.data(),
-            blocks_.parts.data(), state_.data(), corner_.data(), dt, 4.0 / (least * least)};
+            blocks_.parts.data(), state_.data(), corner, dt,
+            state_.size() > largest_in_cache, 4.0 / (least * least)};
+}
+
+ElementReport Simulation::move_elements(Range chunks, double dt, double* corner) {
+    const Chunks& c = blocks_.chunks;
+    const ElementStage stage = element_stage(dt, corner);
+    const SumStage sums = {corner, c.first.data(), c.corner_of.data(), sum_.data()};
+    ElementReport report;
+    for (std::size_t i = chunks.first; i < chunks.last; i++) {
+        const ElementReport r = kernels_.elements(stage, i * c.blocks, std::min((i + 1) * c.blocks, blocks_.count()));
+        if (report.bad_block < 0) report.bad_block = r.bad_block;
+        report.frequency = std::max(report.frequency, r.frequency);
+        kernels_.sums(sums, c.sums[i], c.sums[i + 1]);
+        for (std::size_t j = c.kept[i]; j < c.kept[i + 1]; j++)
+            std::copy_n(corner + std::size_t(corner_record) * c.kept_corner[j], corner_record, &kept_[corner_record * j]);
+    }
+    return report;
 }
 
 NodeStage Simulation::node_stage() {
     const Settings& s = model_->settings;
-    return {position_.data(), velocity_.data(), inverse_mass_.data(), corner_.data(), contact_->any() ? contact_->force() : nullptr,
-            kind_.data(), blocks_.first.data(), blocks_.corner_of.data(), damping_work_.data(), kick(), dt_, s.damping,
+    return {position_.data(), velocity_.data(), inverse_mass_.data(), sum_.data(), contact_->any() ? contact_->force() : nullptr,
+            kind_.data(), blocks_.first.data(), blocks_.sum_of.data(), damping_work_.data(), kick(), dt_, s.damping,
             {s.gravity.x, s.gravity.y, s.gravity.z}};
 }
 
@@ -201,6 +221,7 @@ End Simulation::advance(double until, double seconds, std::int64_t steps, int th
     };
     decide();
     run_team(members, [&](int member) {
+        aligned_vector<double> corner = chunk_corners();
         while (go) {
             // nodes: forces of the last step move them
             move_nodes(share_of(model_->nodes(), member, members, node_chunk));
@@ -210,8 +231,7 @@ End Simulation::advance(double until, double seconds, std::int64_t steps, int th
             }
             barrier.wait([] {});
             // elements: the new shape gives new forces
-            const Range blocks = share_of(blocks_.count(), member, members);
-            reports[std::size_t(member)] = kernels_.elements(element_stage(dt_), blocks.first, blocks.last);
+            reports[std::size_t(member)] = move_elements(share_of(blocks_.chunks.count(), member, members), dt_, corner.data());
             const Range touches = share_of(contact_->items(), member, members);
             contact_->evaluate(motions(), touches.first, touches.last);
             barrier.wait([&] {
@@ -229,7 +249,7 @@ void Simulation::deform(const double* position, const double* velocity, const do
         write3(&velocity_[velocity_record * i], read3(velocity + 3 * i));
         write3(&velocity_[velocity_record * i + 4], read3(spin + 3 * i));
     }
-    kernels_.elements(element_stage(dt), 0, blocks_.count());
+    move_elements({0, blocks_.chunks.count()}, dt, chunk_corners().data());
 }
 
 }  // namespace crumple::shell

@@ -18,7 +18,7 @@ struct Energies {
 enum class End : int { running, reached, not_finite, step_collapsed, torn };
 
 struct Checkpoint {
-    std::vector<double> numbers, nodes, elements, corners, bodies, drives, contact;
+    std::vector<double> numbers, nodes, elements, sums, bodies, drives, contact;
 };
 
 class Simulation {
@@ -73,7 +73,10 @@ private:
     void place_nodes();
     void sort_drives();
     void start_elements();
-    ElementStage element_stage(double dt);
+    ElementStage element_stage(double dt, double* corner);
+    // room for the forces at the corners of a chunk's elements
+    aligned_vector<double> chunk_corners() const { return aligned_vector<double>(std::size_t(4 * corner_record * blocks_.lanes) * blocks_.chunks.blocks); }
+    ElementReport move_elements(Range chunks, double dt, double* corner);
     NodeStage node_stage();
     void move_nodes(Range range);
     void move_driven();
@@ -96,7 +99,8 @@ private:
     const Kernels& kernels_;
     Masses masses_;
     Blocks blocks_;
-    aligned_vector<double> position_, velocity_, inverse_mass_, state_, corner_;
+    aligned_vector<double> position_, velocity_, inverse_mass_, state_;
+    aligned_vector<double> sum_, kept_;           // corner forces: per chunk and node, and those that cuts look at
     std::vector<std::uint8_t> kind_, alive_;
     std::vector<double> damping_work_;
     std::vector<RigidBody> bodies_;

@@ -1,12 +1,14 @@
 """Speed of the shell kernels per element-step, never part of the default run.
 
 ``python tests/benchmark/shell_speed.py [isa ...]``: a uniform tube of 5 mm elements thrown against its
-clamp, after yielding has spread, without and with self-contact, on one thread and two.  The least of
-several repeats is printed: what the machine does undisturbed.
+clamp, after yielding has spread, without and with self-contact, on one thread and two; then longer tubes of
+up to 500 000 elements, early in their motion, with the memory that each element takes.  The least of several
+repeats is printed: what the machine does undisturbed.
 """
 
 from __future__ import annotations
 
+import resource
 import sys
 import time
 
@@ -57,6 +59,21 @@ def rate(state: ShellState, threads: int, steps: int = 200, repeats: int = 12) -
     return best / steps / len(state.model.elements) * 1e9
 
 
+def scaling(isa: str) -> None:
+    """Print how the rate on one thread and the memory grow with the mesh."""
+    smallest = 0.0
+    for nx in (200, 1000, 4000, 17857):
+        model = tube(nx, self_contact=False)
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        state = ShellState(model, isa=isa)
+        state.advance(1.0, steps=50, threads=2)
+        one = rate(state, 1, steps=max(5, 40_000 // nx), repeats=8)
+        smallest = smallest or one
+        memory = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / len(model.elements)
+        size = f", {memory:.2f} kB an element" if nx > 1000 else ""
+        print(f"{len(model.elements)} elements: {one:.1f} ns ({one / smallest:.2f}x the smallest){size}")
+
+
 def main() -> None:
     for isa in sys.argv[1:] or [""]:
         for contact in (False, True):
@@ -68,6 +85,7 @@ def main() -> None:
                 f"{name}: {one:.1f} ns, two threads {two:.1f} ns ({one / two:.2f}x), "
                 f"{one / FLOOR:.1f} times the floor"
             )
+        scaling(isa)
 
 
 if __name__ == "__main__":
