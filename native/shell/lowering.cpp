@@ -53,24 +53,29 @@ Part part_of(const Model& m, const Sheet& sheet, bool triangle) {
     return p;
 }
 
-// Elements of a chunk: their state and corner forces fit the second cache many times, and a mesh of a few thousand
-// elements has enough chunks to share them evenly.
-constexpr std::size_t elements_per_chunk = 128;
+struct Place {
+    std::size_t chunk;
+    std::uint32_t record;                        // of the corner, counted from the chunk's first
+};
+
+static Place place_in_chunk(const Blocks& b, std::size_t element, int corner) {
+    const std::vector<std::uint32_t>& first = b.chunks.block;
+    const std::size_t lanes = std::size_t(b.lanes), block = b.place_of[element] / lanes;
+    const std::size_t chunk = std::size_t(std::upper_bound(first.begin(), first.end(), std::uint32_t(block)) - first.begin()) - 1;
+    return {chunk, std::uint32_t(b.corner(element, corner) - 4 * lanes * first[chunk])};
+}
 
 // Sums of each chunk's corners per node, in the order of the elements: the order of summation is fixed.
 static void list_corners(const Model& m, Blocks& b) {
     Chunks& c = b.chunks;
-    const std::size_t lanes = std::size_t(b.lanes);
-    c.blocks = elements_per_chunk / lanes;
-    const std::size_t records = 4 * lanes * c.blocks, count = (b.count() + c.blocks - 1) / c.blocks;
     struct Corner {
         std::uint32_t node, record;
     };
-    std::vector<std::vector<Corner>> corners(count);
+    std::vector<std::vector<Corner>> corners(c.count());
     for (std::size_t e = 0; e < m.elements(); e++)
         for (int k = 0; k < 4; k++) {
-            const std::size_t record = b.corner(e, k);
-            corners[record / records].push_back({m.quads[4 * e + std::size_t(k)], std::uint32_t(record % records)});
+            const Place p = place_in_chunk(b, e, k);
+            corners[p.chunk].push_back({m.quads[4 * e + std::size_t(k)], p.record});
         }
     std::vector<Index> node_of;                  // [sum]
     c.first.push_back(0);
@@ -96,9 +101,12 @@ static void list_corners(const Model& m, Blocks& b) {
 // Corners of the cuts' elements at the cuts' nodes, chunk by chunk.
 static void list_cuts(const Model& m, Blocks& b) {
     Chunks& c = b.chunks;
-    const std::size_t records = 4 * std::size_t(b.lanes) * c.blocks;
     struct Kept {
-        std::size_t record, cut;
+        Place place;
+        std::size_t cut;
+        bool operator<(const Kept& other) const {
+            return place.chunk < other.place.chunk || (place.chunk == other.place.chunk && place.record < other.place.record);
+        }
     };
     std::vector<Kept> all;
     for (std::size_t i = 0; i < m.cuts.size(); i++) {
@@ -106,18 +114,18 @@ static void list_cuts(const Model& m, Blocks& b) {
         for (Index n : m.cuts[i].nodes) in[n] = 1;
         for (Index e : m.cuts[i].elements)
             for (int k = 0; k < 4; k++)
-                if (in[m.quads[4 * std::size_t(e) + std::size_t(k)]]) all.push_back({b.corner(e, k), i});
+                if (in[m.quads[4 * std::size_t(e) + std::size_t(k)]]) all.push_back({place_in_chunk(b, e, k), i});
     }
     std::vector<std::size_t> order(all.size());
     for (std::size_t i = 0; i < order.size(); i++) order[i] = i;
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) { return all[x].record < all[y].record; });
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) { return all[x] < all[y]; });
     b.cut_corners.assign(m.cuts.size(), {});
     std::vector<std::uint32_t> place(all.size());
     c.kept.assign(c.count() + 1, 0);
     for (std::size_t i = 0; i < order.size(); i++) {
         place[order[i]] = std::uint32_t(i);
-        c.kept_corner.push_back(std::uint32_t(all[order[i]].record % records));
-        c.kept[all[order[i]].record / records + 1]++;
+        c.kept_corner.push_back(all[order[i]].place.record);
+        c.kept[all[order[i]].place.chunk + 1]++;
     }
     for (std::size_t i = 0; i < c.count(); i++) c.kept[i + 1] += c.kept[i];
     for (std::size_t i = 0; i < all.size(); i++) b.cut_corners[all[i].cut].push_back(place[i]);
@@ -134,6 +142,7 @@ Blocks block_up(const Model& m, int lanes) {
         b.parts.push_back(part_of(m, m.sheets[key.first], key.second));
         const Part& part = b.parts.back();
         for (std::size_t start = 0; start < members.size(); start += std::size_t(lanes)) {
+            if (start % elements_per_chunk == 0) b.chunks.block.push_back(std::uint32_t(b.count()));
             const std::size_t block = b.part_of.size();
             b.part_of.push_back(std::uint32_t(b.parts.size() - 1));
             b.offset.push_back(offset);
@@ -147,6 +156,7 @@ Blocks block_up(const Model& m, int lanes) {
         }
     }
     b.offset.push_back(offset);
+    b.chunks.block.push_back(std::uint32_t(b.count()));
     // copies run with the last real element of the part, and nobody reads their forces
     b.nodes.resize(4 * b.element_of.size());
     std::int64_t last = 0;

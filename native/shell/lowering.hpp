@@ -6,15 +6,20 @@
 
 namespace crumple::shell {
 
+// Elements of a chunk: their corner forces fit the first caches, and a mesh of a few thousand elements has enough
+// chunks to share them evenly.  A multiple of any number of lanes.
+constexpr std::size_t elements_per_chunk = 128;
+
 // Blocks are handled in chunks.  The forces at the corners of a chunk's elements are summed per node while they lie in
-// the cache; a node that several chunks touch has a sum in each.  The chunks do not depend on the number of threads.
+// the cache; a node that several chunks touch has a sum in each.  Which elements form a chunk depends neither on the
+// number of threads nor on that of lanes.
 struct Chunks {
-    std::size_t blocks = 0;                      // in each
+    std::vector<std::uint32_t> block;            // [chunk] first block; one more entry: their number
     std::vector<std::uint32_t> sums;             // [chunk] first sum; one more entry: their number
     std::vector<std::uint32_t> first, corner_of; // CSR: corner records, counted from the chunk's first, of each sum
     std::vector<std::uint32_t> kept;             // [chunk] first corner that a cut looks at; one more entry
     std::vector<std::uint32_t> kept_corner;      // corner record of each, counted from the chunk's first
-    std::size_t count() const { return sums.size() - 1; }
+    std::size_t count() const { return block.size() - 1; }
 };
 
 struct Blocks {

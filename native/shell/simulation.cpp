@@ -133,7 +133,7 @@ ElementReport Simulation::move_elements(Range chunks, double dt, double* corner)
     const SumStage sums = {corner, c.first.data(), c.corner_of.data(), sum_.data()};
     ElementReport report;
     for (std::size_t i = chunks.first; i < chunks.last; i++) {
-        const ElementReport r = kernels_.elements(stage, i * c.blocks, std::min((i + 1) * c.blocks, blocks_.count()));
+        const ElementReport r = kernels_.elements(stage, c.block[i], c.block[i + 1]);
         if (report.bad_block < 0) report.bad_block = r.bad_block;
         report.frequency = std::max(report.frequency, r.frequency);
         kernels_.sums(sums, c.sums[i], c.sums[i + 1]);

@@ -75,7 +75,7 @@ private:
     void start_elements();
     ElementStage element_stage(double dt, double* corner);
     // room for the forces at the corners of a chunk's elements
-    aligned_vector<double> chunk_corners() const { return aligned_vector<double>(std::size_t(4 * corner_record * blocks_.lanes) * blocks_.chunks.blocks); }
+    aligned_vector<double> chunk_corners() const { return aligned_vector<double>(std::size_t(4 * corner_record) * elements_per_chunk); }
     ElementReport move_elements(Range chunks, double dt, double* corner);
     NodeStage node_stage();
     void move_nodes(Range range);
