@@ -118,8 +118,7 @@ bool Stepper::descend(int limit, bool bold) {
 
 void Stepper::solve_once() {
     work_ = bias_;
-    solver_.factor(middle_.data(), impedance_.data());
-    solver_.solve(work_.data(), rhs_.data(), next_.data());
+    solver_.solve(impedance_.data(), work_.data(), rhs_.data(), next_.data());
     solves_++;
     if (!rows_.empty()) constrain(next_.data(), 0);
 }
@@ -130,7 +129,7 @@ void Stepper::constrain(double* w, size_t first) {
     const size_t n = rows_.size() - first, m = w_.size();
     auto rates = [&](const double* rate, double* out) {
         model_.tree.twists(middle_.data(), rate, twist_.data());
-        for (size_t k = 0; k < n; k++) out[k] = row_rate(rows_[first + k], middle_.data());
+        for (size_t k = 0; k < n; k++) out[k] = row_rate(rows_[first + k], middle_.data(), twist_.data());
     };
     for (size_t k = 0; k < n; k++) {
         const Row& row = rows_[first + k];
@@ -142,7 +141,7 @@ void Stepper::constrain(double* w, size_t first) {
         };
         push(row.body, row.point, 1);
         if (row.other >= 0) push(row.other, row.other_point, -1);
-        solver_.solve(work_.data(), zero_.data(), &row_rates_[k * m]);
+        solver_.solve_again(work_.data(), zero_.data(), &row_rates_[k * m]);
         rates(&row_rates_[k * m], &row_matrix_[k * n]);
     }
     rates(w, row_force_.data());

@@ -19,6 +19,19 @@ double step_tolerance(double accuracy) { return accuracy * std::min(1.0, std::sq
 // Turn [rad] by which a locked hinge may creep; the strongest hinge's work over it is no energy worth balancing.
 constexpr double negligible_turn = 1e-9;
 constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
+
+// length and error of a step that was made
+struct Attempt {
+    double h = 0, e = 0;
+};
+
+// Power of the step with which its error goes: three, but down to one where velocities jump, which two lengths from
+// the same state tell.
+double error_order(const Attempt& rejected, const Attempt& present) {
+    if (rejected.h == 0 || !(present.e > 1)) return 3;
+    return std::clamp(std::log(rejected.e / present.e) / std::log(rejected.h / present.h), 1.0, 3.0);
+}
+
 constexpr long poll_interval = 100'000;  // solves times bodies between calls of `poll`: some 10 ms
 
 double kinetic_norm(const Tree& tree, const std::vector<Twist>& a, const std::vector<Twist>* b) {
@@ -38,6 +51,7 @@ Simulation::Simulation(Model model, const Settings& settings)
     : model_(std::move(model)), settings_(settings), stepper_(model_), step_tolerance_(step_tolerance(settings.accuracy)) {
     const std::vector<double> rest(static_cast<size_t>(model_.tree.dofs()), 0.0);
     state_ = stepper_.start(model_.q0.data(), rest.data());
+    between_.resize(rest.size());
     set_damping();
 }
 
@@ -104,7 +118,20 @@ double Simulation::error(const State& coarse, const State& fine) const {
     return e / step_tolerance_;
 }
 
+// A step of length h, and two halves that start from the rates it found.  After a rejected step `between_` holds
+// rates of its middle: they know already which hinges come loose.
+bool Simulation::step_twice(double h, bool again) {
+    coarse_ = state_;
+    fine_ = state_;
+    if (!stepper_.step(coarse_, h, again ? between_.data() : state_.w.data(), Stepper::most_passes)) return false;
+    for (size_t k = 0; k < between_.size(); k++) between_[k] = (state_.w[k] + coarse_.w[k]) / 2;
+    if (!stepper_.step(fine_, h / 2, between_.data(), 1)) return false;
+    between_ = fine_.w;
+    return stepper_.step(fine_, h / 2, coarse_.w.data(), 1);
+}
+
 bool Simulation::advance(double target, Record& record, const std::function<bool(double)>& poll) {
+    Attempt rejected;
     while (state_.t < target) {
         const long done = stepper_.solves() * model_.tree.bodies();
         if (done > poll_at_ && poll) {
@@ -117,9 +144,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
         const double left = target - state_.t;
         const bool last = h_ >= left * (1 - 1e-9);
         const double h = last ? left : (h_ > left / 2 ? left / 2 : h_);
-        coarse_ = state_;
-        fine_ = state_;
-        const bool solved = stepper_.step(coarse_, h) && stepper_.step(fine_, h / 2) && stepper_.step(fine_, h / 2);
+        const bool solved = step_twice(h, rejected.h > 0);
         const double e = solved ? error(coarse_, fine_) : INFINITY;
         const bool smallest = h <= settings_.minimum_step * 1.001;
         if (std::isnan(e)) {
@@ -132,15 +157,17 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
             record.reason = "the equations of a step did not converge at the smallest step";
             return false;
         }
-        const double factor = e > 0 ? safety * std::pow(e, -1.0 / 3) : growth_limit;
+        const double factor = e > 0 ? safety * std::pow(e, -1 / error_order(rejected, {h, e})) : growth_limit;
         const double next = std::clamp(h * std::clamp(factor, shrink_limit, growth_limit), settings_.minimum_step,
                                        settings_.maximum_step);
         if (e > 1 && !smallest) {
             record.rejected++;
+            rejected = solved ? Attempt{h, e} : Attempt{};
             h_ = std::min(next, 0.7 * h);
             if (h_ < settings_.minimum_step) h_ = settings_.minimum_step;
             continue;
         }
+        rejected = {};
         if (e > 1) record.forced++;
         if (last) fine_.t = target;
         std::swap(state_, fine_);

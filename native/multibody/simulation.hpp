@@ -58,6 +58,7 @@ private:
     void set_damping();
     void set_critical_damping(bool all);
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
+    bool step_twice(double h, bool again);
     double error(const State& coarse, const State& fine) const;
     void show_first_moments();
     void store(Record& record) const;
@@ -68,6 +69,7 @@ private:
     Stepper stepper_;
     State state_, coarse_, fine_;
     std::vector<Critical> critical_;  // stops whose damper is left to the solver
+    std::vector<double> between_;     // rates
     double step_tolerance_;  // of the error measure
     double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, work_max_ = 0, residual_max_ = 0, negligible_energy_ = 0;
     long poll_at_ = 0;  // work at which `poll` is asked next

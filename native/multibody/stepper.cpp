@@ -7,9 +7,6 @@ namespace crumple::multibody {
 
 namespace {
 
-// Passes over the frozen quantities: the second takes them at the middle of the motion that the first found,
-// which makes the step second order.
-constexpr int passes = 2;
 // Turn [rad] over which a constraint's error is mended to 1/e: short against any rotation of interest.
 constexpr double mending_turn = 0.02;
 
@@ -86,8 +83,8 @@ void Stepper::project(const State& at, const Twist* velocity, const Twist* impul
         const Vec2 linear = b.mass * velocity[i].v + impulse[i].v;
         work_[static_cast<size_t>(i)] = {b.inertia * velocity[i].w + impulse[i].w + cross(c, linear), linear};
     }
-    solver_.factor(at.pose.data(), impedance_.data());
-    solver_.solve(work_.data(), rhs_.data(), w);
+    solver_.place(at.pose.data());
+    solver_.solve(impedance_.data(), work_.data(), rhs_.data(), w);
     keep_joined(at, w);
 }
 
@@ -104,14 +101,14 @@ double Stepper::effective_inertia(const State& at, int dof) {
     std::fill(rhs_.begin(), rhs_.end(), 0.0);
     std::fill(work_.begin(), work_.end(), Twist{});
     rhs_[static_cast<size_t>(dof)] = 1;
-    solver_.factor(at.pose.data(), impedance_.data());
-    solver_.solve(work_.data(), rhs_.data(), column_.data());
+    solver_.place(at.pose.data());
+    solver_.solve(impedance_.data(), work_.data(), rhs_.data(), column_.data());
     keep_joined(at, column_.data());
     return 1 / column_[static_cast<size_t>(dof)];
 }
 
-bool Stepper::step(State& s, double h) {
-    w_ = s.w;
+bool Stepper::step(State& s, double h, const double* guess, int passes) {
+    w_.assign(guess, guess + w_.size());
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         hint_[2 * j] = s.hinge[j].hint[0];
         hint_[2 * j + 1] = s.hinge[j].hint[1];
@@ -130,23 +127,20 @@ bool Stepper::step(State& s, double h) {
 
 void Stepper::predict(const State& s, double h) {
     const Tree& tree = model_.tree;
-    const size_t m = w_.size();
-    for (size_t k = 0; k < m; k++) dq_[k] = h * (s.w[k] + w_[k]) / 4;
-    tree.place_near(s.pose.data(), s.q.data(), dq_.data(), middle_.data());
-    for (size_t k = 0; k < m; k++) dq_[k] *= 2;
-    tree.place_near(s.pose.data(), s.q.data(), dq_.data(), end_.data());
+    for (size_t k = 0; k < w_.size(); k++) dq_[k] = h * (s.w[k] + w_[k]) / 4;
+    tree.place_ahead(s.pose.data(), s.q.data(), dq_.data(), middle_.data(), end_.data());
     tree.twists(middle_.data(), w_.data(), twist_.data());
-    tree.to_centres(middle_.data(), twist_.data());
     tree.twists(end_.data(), w_.data(), end_twist_.data());
-    tree.to_centres(end_.data(), end_twist_.data());
     for (int i = 0; i < tree.bodies(); i++) {
         const Body& b = tree[i];
         const auto k = static_cast<size_t>(i);
+        const Vec2 arm = middle_[k].turned(b.centre), end_arm = end_[k].turned(b.centre);
         // T1 w1 - T_mid w1 is lagged: then M (V1 - V0) is the whole change of momentum
-        const Vec2 v = s.velocity[k].v - (end_twist_[k].v - twist_[k].v) + h * model_.gravity;
-        const Vec2 linear = b.mass * v;
-        bias_[k] = {b.inertia * s.velocity[k].w + cross(middle_[k].turned(b.centre), linear), linear};
+        const Vec2 ahead = end_twist_[k].v + turn(end_twist_[k].w, end_arm) - twist_[k].v - turn(twist_[k].w, arm);
+        const Vec2 linear = b.mass * (s.velocity[k].v - ahead + h * model_.gravity);
+        bias_[k] = {b.inertia * s.velocity[k].w + cross(arm, linear), linear};
     }
+    solver_.place(middle_.data());
     for (const Load& load : model_.loads) {
         int hint = 0;
         const double impulse = h * load.value.at(s.t + h / 2, hint);
@@ -166,10 +160,8 @@ void Stepper::aim_rows(const State& s, double h) {
     for (const double w : s.w) turning = std::max(turning, std::fabs(w));
     const double joint_mending = std::min(turning / mending_turn, 1 / (2 * h));
     const double drive_mending = 1 / std::max(2 * h, drift_time_);
-    model_.tree.twists(middle_.data(), w_.data(), twist_.data());
-    for (size_t k = 0; k < rows_.size(); k++) row_target_[k] = row_rate(rows_[k], middle_.data());
-    model_.tree.twists(end_.data(), w_.data(), twist_.data());
     for (size_t k = 0; k < rows_.size(); k++) {
+        row_target_[k] = row_rate(rows_[k], middle_.data(), twist_.data()) - row_rate(rows_[k], end_.data(), end_twist_.data());
         double place = 0, rate = 0, mending = joint_mending;
         if (k < model_.drives.size()) {
             const Drive& drive = model_.drives[k];
@@ -179,7 +171,7 @@ void Stepper::aim_rows(const State& s, double h) {
             mending = drive_mending;
         }
         const double astray = relative(rows_[k], s.pose.data()) - rows_[k].origin - place;
-        row_target_[k] += rate - row_rate(rows_[k], end_.data()) - astray * mending;
+        row_target_[k] += rate - astray * mending;
     }
 }
 
@@ -193,11 +185,11 @@ double Stepper::relative(const Row& row, const Pose* pose) const {
     return row.direction.w * (a.phi - b.phi) + dot(row.direction.v, a.at(row.point) - b.at(row.other_point));
 }
 
-// Relative rate in the constrained direction, for the body twists in twist_.
-double Stepper::row_rate(const Row& row, const Pose* pose) const {
-    double rate = point_rate(row.direction, twist_[static_cast<size_t>(row.body)], arm(row.body, row.point, pose));
+// Relative rate in the constrained direction.
+double Stepper::row_rate(const Row& row, const Pose* pose, const Twist* twist) const {
+    const double rate = point_rate(row.direction, twist[row.body], arm(row.body, row.point, pose));
     if (row.other < 0) return rate;
-    return rate - point_rate(row.direction, twist_[static_cast<size_t>(row.other)], arm(row.other, row.other_point, pose));
+    return rate - point_rate(row.direction, twist[row.other], arm(row.other, row.other_point, pose));
 }
 
 void Stepper::freeze(const State& s, double h) {

@@ -76,14 +76,19 @@ Energies energies(const Model& model, const State& state);
 
 class Stepper {
 public:
+    // Passes over the frozen quantities: the second takes them at the middle of the motion that the first found,
+    // which makes the step second order.
+    static constexpr int most_passes = 2;
     explicit Stepper(const Model& model);
 
     // a state at rest or in motion from joint coordinates and rates
     State start(const double* q, const double* w) const;
     // joint rates nearest, in kinetic energy, to given velocities of the centres of mass plus body impulses at them
     void project(const State& at, const Twist* velocity, const Twist* impulse, double* w);
-    // one step of length h; false when the equations did not converge (the state is then unchanged)
-    bool step(State& state, double h);
+    // One step of length h; false when the equations did not converge (the state is then unchanged).  `guess`: end
+    // rates from which the solution starts; where they err by O(h^2) at most, one pass is enough.
+    bool step(State& state, double h) { return step(state, h, state.w.data(), most_passes); }
+    bool step(State& state, double h, const double* guess, int passes);
     // inertia that the joint coordinate feels with all other hinges free: 1 / (J M^-1 J^T)
     double effective_inertia(const State& at, int dof);
     // least time in which drives make up for drift; without it twice the step, so that the drift of a long step
@@ -107,7 +112,7 @@ private:
     };
     void add_row(const Row& row);
     double relative(const Row& row, const Pose* pose) const;
-    double row_rate(const Row& row, const Pose* pose) const;
+    double row_rate(const Row& row, const Pose* pose, const Twist* twist) const;
     void aim_rows(const State& s, double h);
     void constrain(double* w, size_t first);
     void keep_joined(const State& at, double* w);

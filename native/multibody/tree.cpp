@@ -14,8 +14,8 @@ inline void sine_cosine(double a, double& s, double& c) {
         return;
     }
     const double b = a * a;
-    s = a * (1 - b / 6 * (1 - b / 20 * (1 - b / 42 * (1 - b / 72 * (1 - b / 110)))));
-    c = 1 - b / 2 * (1 - b / 12 * (1 - b / 30 * (1 - b / 56 * (1 - b / 90 * (1 - b / 132)))));
+    s = a - a * b * (1.0 / 6 - b * (1.0 / 120 - b * (1.0 / 5040 - b * (1.0 / 362880))));
+    c = 1 - b * (0.5 - b * (1.0 / 24 - b * (1.0 / 720 - b * (1.0 / 40320 - b * (1.0 / 3628800)))));
 }
 
 // Inverse of a symmetric positive definite 3x3 matrix, stored full.
@@ -58,24 +58,32 @@ void Tree::place(const double* q, Pose* pose) const {
     }
 }
 
-void Tree::place_near(const Pose* from, const double* q, const double* dq, Pose* pose) const {
+void Tree::place_ahead(const Pose* from, const double* q, const double* dq, Pose* middle, Pose* end) const {
     for (int i = 0; i < bodies(); i++) {
         const Body& b = (*this)[i];
-        Pose& p = pose[i];
-        double dphi = dq[b.dof];
-        p.origin = b.anchor;
+        const Pose& f = from[i];
+        Pose &m = middle[i], &e = end[i];
+        double turn = dq[b.dof];
+        m.origin = e.origin = b.anchor;
         if (b.parent >= 0) {
-            dphi += pose[b.parent].phi - from[b.parent].phi;
-            p.origin = pose[b.parent].at(b.anchor);
+            turn += middle[b.parent].phi - from[b.parent].phi;
+            m.origin = middle[b.parent].at(b.anchor);
+            e.origin = end[b.parent].at(b.anchor);
         }
         if (b.joint == Joint::free) {
-            p.origin = p.origin + Vec2{q[b.dof + 1] + dq[b.dof + 1], q[b.dof + 2] + dq[b.dof + 2]};
+            const Vec2 moved{dq[b.dof + 1], dq[b.dof + 2]}, to = Vec2{q[b.dof + 1], q[b.dof + 2]} + moved;
+            m.origin = m.origin + to;
+            e.origin = e.origin + to + moved;
         }
         double s, c;
-        sine_cosine(dphi, s, c);
-        p.phi = from[i].phi + dphi;
-        p.c = from[i].c * c - from[i].s * s;
-        p.s = from[i].s * c + from[i].c * s;
+        sine_cosine(turn, s, c);
+        m.phi = f.phi + turn;
+        m.c = f.c * c - f.s * s;
+        m.s = f.s * c + f.c * s;
+        // the same turn again, from the middle
+        e.phi = m.phi + turn;
+        e.c = m.c * c - m.s * s;
+        e.s = m.s * c + m.c * s;
     }
 }
 
@@ -97,71 +105,84 @@ void Tree::to_centres(const Pose* pose, Twist* twist) const {
 ArticulatedSolver::ArticulatedSolver(const Tree& tree)
     : tree_(tree),
       row_(static_cast<size_t>(tree.bodies())),
+      own_(static_cast<size_t>(tree.bodies())),
       articulated_(static_cast<size_t>(tree.bodies())),
       rhs_(static_cast<size_t>(tree.bodies())),
       twist_(static_cast<size_t>(tree.bodies())),
       free_factor_(static_cast<size_t>(9 * tree.bodies())) {}
 
-void ArticulatedSolver::absorb(int parent, const Inertia& a, Vec2 r) {
-    Inertia& p = articulated_[static_cast<size_t>(parent)];
-    const double rx = a.rx - r.y * a.xx + r.x * a.xy, ry = a.ry - r.y * a.xy + r.x * a.yy;
-    p.rr += a.rr + r.x * (a.ry + ry) - r.y * (a.rx + rx);
-    p.rx += rx;
-    p.ry += ry;
-    p.xx += a.xx;
-    p.xy += a.xy;
-    p.yy += a.yy;
-}
-
-void ArticulatedSolver::factor(const Pose* pose, const double* impedance) {
-    const int n = tree_.bodies();
-    for (int i = 0; i < n; i++) {
+void ArticulatedSolver::place(const Pose* pose) {
+    for (int i = 0; i < tree_.bodies(); i++) {
         const Body& b = tree_[i];
         const Vec2 c = pose[i].turned(b.centre), mc = b.mass * c;
-        articulated_[static_cast<size_t>(i)] = {b.inertia + dot(c, mc), -mc.y, mc.x, b.mass, 0, b.mass};
-    }
-    for (int i = n - 1; i >= 0; i--) {
-        const Body& b = tree_[i];
-        Inertia a = articulated_[static_cast<size_t>(i)];
-        Row& row = row_[static_cast<size_t>(i)];
-        row.arm = b.parent >= 0 ? pose[i].origin - pose[b.parent].origin : Vec2{};
-        const double* z = impedance + b.dof;
-        if (b.joint == Joint::free) {
-            a.rr += z[0];
-            a.xx += z[1];
-            a.yy += z[2];
-            invert(a, &free_factor_[static_cast<size_t>(9 * i)]);
-            continue;  // a free body hands nothing to its parent
-        }
-        row.rr = a.rr;
-        row.rx = a.rx;
-        row.ry = a.ry;
-        row.inverse = 1 / (a.rr + z[0]);
-        row.kept = z[0] * row.inverse;
-        if (b.parent < 0) continue;
-        const double fx = a.rx * row.inverse, fy = a.ry * row.inverse;
-        absorb(b.parent,
-               {a.rr * row.kept, a.rx * row.kept, a.ry * row.kept, a.xx - a.rx * fx, a.xy - a.rx * fy, a.yy - a.ry * fy},
-               row.arm);
+        own_[static_cast<size_t>(i)] = {b.inertia + dot(c, mc), -mc.y, mc.x, b.mass, 0, b.mass};
+        row_[static_cast<size_t>(i)].arm = b.parent >= 0 ? pose[i].origin - pose[b.parent].origin : Vec2{};
     }
 }
 
-void ArticulatedSolver::solve(Twist* b, const double* r, double* w) {
-    const int n = tree_.bodies();
-    for (int i = n - 1; i >= 0; i--) {
-        const Body& body = tree_[i];
-        const Row& row = row_[static_cast<size_t>(i)];
-        if (body.joint == Joint::free) continue;
-        const double u = r[body.dof] + b[i].w;
-        rhs_[static_cast<size_t>(i)] = u;
-        if (body.parent < 0) continue;
-        const double g = u * row.inverse;
-        const Vec2 linear{b[i].v.x - row.rx * g, b[i].v.y - row.ry * g};
-        Twist& p = b[body.parent];
-        p.w += b[i].w * row.kept - row.rr * row.inverse * r[body.dof] + cross(row.arm, linear);
-        p.v = p.v + linear;
+// Eliminates joint i, all bodies further out being done: what is left of the inertia goes to the parent.
+inline void ArticulatedSolver::eliminate(int i, const double* impedance) {
+    const Body& b = tree_[i];
+    Inertia& a = articulated_[static_cast<size_t>(i)];
+    Row& row = row_[static_cast<size_t>(i)];
+    const double* z = impedance + b.dof;
+    if (b.joint == Joint::free) {  // hangs on the ground and hands nothing to it
+        a.rr += z[0];
+        a.xx += z[1];
+        a.yy += z[2];
+        invert(a, &free_factor_[static_cast<size_t>(9 * i)]);
+        return;
     }
-    for (int i = 0; i < n; i++) {
+    row.rr = a.rr;
+    row.rx = a.rx;
+    row.ry = a.ry;
+    row.inverse = 1 / (a.rr + z[0]);
+    row.kept = z[0] * row.inverse;
+    if (b.parent < 0) return;
+    const Vec2 r = row.arm;
+    const double fx = a.rx * row.inverse, fy = a.ry * row.inverse;
+    const double xx = a.xx - a.rx * fx, xy = a.xy - a.rx * fy, yy = a.yy - a.ry * fy;
+    const double kx = a.rx * row.kept, ky = a.ry * row.kept;
+    const double rx = kx - r.y * xx + r.x * xy, ry = ky - r.y * xy + r.x * yy;
+    Inertia& p = articulated_[static_cast<size_t>(b.parent)];
+    p.rr += a.rr * row.kept + r.x * (ky + ry) - r.y * (kx + rx);
+    p.rx += rx;
+    p.ry += ry;
+    p.xx += xx;
+    p.xy += xy;
+    p.yy += yy;
+}
+
+inline void ArticulatedSolver::eliminate_impulse(int i, Twist* b, const double* r) {
+    const Body& body = tree_[i];
+    if (body.joint == Joint::free) return;
+    const Row& row = row_[static_cast<size_t>(i)];
+    const double u = r[body.dof] + b[i].w;
+    rhs_[static_cast<size_t>(i)] = u;
+    if (body.parent < 0) return;
+    const double g = u * row.inverse;
+    const Vec2 linear{b[i].v.x - row.rx * g, b[i].v.y - row.ry * g};
+    Twist& p = b[body.parent];
+    p.w += b[i].w * row.kept - row.rr * row.inverse * r[body.dof] + cross(row.arm, linear);
+    p.v = p.v + linear;
+}
+
+void ArticulatedSolver::solve(const double* impedance, Twist* b, const double* r, double* w) {
+    articulated_ = own_;
+    for (int i = tree_.bodies() - 1; i >= 0; i--) {
+        eliminate(i, impedance);
+        eliminate_impulse(i, b, r);
+    }
+    substitute(b, r, w);
+}
+
+void ArticulatedSolver::solve_again(Twist* b, const double* r, double* w) {
+    for (int i = tree_.bodies() - 1; i >= 0; i--) eliminate_impulse(i, b, r);
+    substitute(b, r, w);
+}
+
+void ArticulatedSolver::substitute(const Twist* b, const double* r, double* w) {
+    for (int i = 0; i < tree_.bodies(); i++) {
         const Body& body = tree_[i];
         const Row& row = row_[static_cast<size_t>(i)];
         Twist t;

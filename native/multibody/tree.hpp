@@ -71,8 +71,8 @@ public:
 
     // poses from joint coordinates
     void place(const double* q, Pose* pose) const;
-    // poses at q = q_from + dq, cheaper than `place` for small turns
-    void place_near(const Pose* from, const double* q, const double* dq, Pose* pose) const;
+    // poses at q + dq and at q + 2 dq, cheaper than `place`; `from` holds those at q
+    void place_ahead(const Pose* from, const double* q, const double* dq, Pose* middle, Pose* end) const;
     // twists of the body origins from joint rates
     void twists(const Pose* pose, const double* w, Twist* twist) const;
     // velocities of the centres of mass (w unchanged) from twists of the origins
@@ -83,14 +83,17 @@ private:
     int dofs_ = 0;
 };
 
-// Factorisation and workspace of the articulated-body recursion for one configuration.
+// Factorisation and workspace of the articulated-body recursion.
 class ArticulatedSolver {
 public:
     explicit ArticulatedSolver(const Tree& tree);
-    // impedance Z per joint coordinate, >= 0
-    void factor(const Pose* pose, const double* impedance);
-    // body impulses b about the body origins (overwritten), joint impulses r; gives the joint rates w
-    void solve(Twist* b, const double* r, double* w);
+    // the configuration in which all that follows is solved
+    void place(const Pose* pose);
+    // Gives the joint rates w for impedances Z >= 0 per joint coordinate, body impulses b about the body origins
+    // (overwritten) and joint impulses r.
+    void solve(const double* impedance, Twist* b, const double* r, double* w);
+    // the same for further impulses, with the impedances of the last `solve`
+    void solve_again(Twist* b, const double* r, double* w);
 
 private:
     struct Row {
@@ -99,11 +102,13 @@ private:
         double kept;           // Z / (rr + Z)
         Vec2 arm;              // from the parent's origin to this body's
     };
-    void absorb(int parent, const Inertia& reduced, Vec2 arm);
+    void eliminate(int i, const double* impedance);
+    void eliminate_impulse(int i, Twist* b, const double* r);
+    void substitute(const Twist* b, const double* r, double* w);
 
     const Tree& tree_;
     std::vector<Row> row_;
-    std::vector<Inertia> articulated_;
+    std::vector<Inertia> own_, articulated_;  // about the body origins, alone and with all that hangs on it
     std::vector<double> rhs_;
     std::vector<Twist> twist_;
     std::vector<double> free_factor_;  // 3x3 inverse of every free joint
