@@ -19,11 +19,11 @@ constexpr double smallest_episode = 1e-2;
 double present_capacity(const Hinge& hinge, const HingeState& s, int sense, double u, int& hint) {
     const Curve& curve = sense == 0 ? hinge.positive : hinge.negative;
     switch (hinge.softening) {
-        case Softening::rotation: return curve.at(std::fabs(u), hint);
-        case Softening::accumulated: return curve.at(s.accumulated, hint);
+        case Softening::rotation: return hinge.scale * curve.at(std::fabs(u), hint);
+        case Softening::accumulated: return hinge.scale * curve.at(s.accumulated, hint);
         case Softening::peak: break;
     }
-    return curve.at(u < 0 ? std::max(s.peak[0], s.peak[1]) : std::max(s.peak[sense], u), hint);
+    return hinge.scale * curve.at(u < 0 ? std::max(s.peak[0], s.peak[1]) : std::max(s.peak[sense], u), hint);
 }
 
 // Mean capacity while the hinge turns by `turn` > 0 in one sense from u.
@@ -32,8 +32,9 @@ double mean_capacity(const Hinge& hinge, const HingeState& s, int sense, double 
     const double end = u + turn;
     auto odd = [&](double v) { return v < 0 ? -curve.integral(-v, hint) : curve.integral(v, hint); };
     switch (hinge.softening) {
-        case Softening::rotation: return (odd(end) - odd(u)) / turn;
-        case Softening::accumulated: return (curve.integral(s.accumulated + turn, hint) - curve.integral(s.accumulated, hint)) / turn;
+        case Softening::rotation: return hinge.scale * (odd(end) - odd(u)) / turn;
+        case Softening::accumulated:
+            return hinge.scale * (curve.integral(s.accumulated + turn, hint) - curve.integral(s.accumulated, hint)) / turn;
         case Softening::peak: break;
     }
     const double peak = s.peak[sense];
@@ -41,7 +42,7 @@ double mean_capacity(const Hinge& hinge, const HingeState& s, int sense, double 
     if (u < 0) work += (std::min(end, 0.0) - u) * curve.at(std::max(s.peak[0], s.peak[1]), hint);
     if (u < peak && end > 0) work += (std::min(end, peak) - std::max(u, 0.0)) * curve.at(peak, hint);
     if (end > peak) work += curve.integral(end, hint) - curve.integral(std::max(u, peak), hint);
-    return work / turn;
+    return hinge.scale * work / turn;
 }
 
 double step_polynomial(double x) {

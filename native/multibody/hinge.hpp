@@ -58,6 +58,7 @@ struct Hinge {
     Form form = Form::set_valued;
     Softening softening = Softening::peak;
     Curve positive, negative;
+    double scale = 1;               // of both capacities
     double stiffness = 0;           // elastic-plastic form [N m/rad]
     double ramp_rate = 0.05;        // regularised form [rad/s]
     double rate_reference = std::numeric_limits<double>::infinity(), rate_exponent = 1;

@@ -107,7 +107,7 @@ double Simulation::error(const State& coarse, const State& fine) const {
         for (int k = 0; k < n; k++) {
             const auto dof = static_cast<size_t>(b.dof + k);
             const double e = std::fabs(fine.q[dof] - coarse.q[dof]);
-            worst = std::max(worst, k == 0 ? e : e / settings_.length);
+            worst = std::max(worst, k == 0 ? e : e / model_.length);
         }
     }
     for (size_t j = 0; j < model_.hinges.size(); j++) {
@@ -211,6 +211,12 @@ void Simulation::store(Record& r) const {
     const Energies e = energies(model_, state_);
     r.energy.insert(r.energy.end(), {e.kinetic, e.elastic, e.dissipated, e.damped, e.stop, e.external_work});
     r.drive.insert(r.drive.end(), state_.drive_impulse.begin(), state_.drive_impulse.end());
+}
+
+Record Simulation::present() const {
+    Record record;
+    store(record);
+    return record;
 }
 
 // Before the first step a rigid hinge has no moment and no hinge a sense in which it turns; what it will carry at once

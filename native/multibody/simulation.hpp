@@ -9,13 +9,12 @@
 
 namespace crumple::multibody {
 
-enum class Outcome { complete, step_collapsed, not_finite, cancelled };
+enum class Outcome { complete, step_collapsed, not_finite, cancelled, refused };
 
 struct Settings {
     double accuracy = 1e-3;      // allowed error of the motion, relative to the largest rotation
     double minimum_step = 1e-9;  // [s]
     double maximum_step = 1e30;  // [s]
-    double length = 1;           // [m] turns translations of free bodies into angles for the error measure
     double scale_floor = 2e-3;   // [rad] smallest rotation that counts as large
 };
 
@@ -44,11 +43,14 @@ public:
     const Model& model() const { return model_; }
     Stepper& stepper() { return stepper_; }
     State& state() { return state_; }
+    const State& state() const { return state_; }
     // joint rates at time 0 from velocities and impulses at the centres of mass; returns the energy lost in fitting
     double set_motion(const Twist* velocity, const Twist* impulse);
     void set_rates(const double* w);
     // runs to the last of the times; `poll` gets the time reached and returns false to cancel
     Record run(const std::vector<double>& times, const std::function<bool(double)>& poll);
+    // the present state alone
+    Record present() const;
 
 private:
     struct Critical {

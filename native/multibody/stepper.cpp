@@ -69,7 +69,7 @@ State Stepper::start(const double* q, const double* w) const {
     model_.tree.to_centres(s.pose.data(), s.velocity.data());
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         int hint = 0;
-        s.hinge[j].capacity = model_.hinges[j].positive.at(0, hint);
+        s.hinge[j].capacity = model_.hinges[j].scale * model_.hinges[j].positive.at(0, hint);
     }
     return s;
 }
@@ -143,7 +143,7 @@ void Stepper::predict(const State& s, double h) {
     solver_.place(middle_.data());
     for (const Load& load : model_.loads) {
         int hint = 0;
-        const double impulse = h * load.value.at(s.t + h / 2, hint);
+        const double impulse = h * load.scale * load.value.at(s.t + h / 2, hint);
         Twist& b = bias_[static_cast<size_t>(load.body)];
         b.v = b.v + impulse * load.direction.v;
         b.w += impulse * (load.direction.w + cross(arm(load.body, load.point, middle_.data()), load.direction.v));
@@ -229,7 +229,7 @@ void Stepper::commit(State& s, double h) {
     }
     for (const Load& load : model_.loads) {
         int hint = 0;
-        s.external_work += h * load.value.at(s.t + h / 2, hint) * mean_rate(load.body, load.point, load.direction);
+        s.external_work += h * load.scale * load.value.at(s.t + h / 2, hint) * mean_rate(load.body, load.point, load.direction);
     }
     for (size_t d = 0; d < model_.drives.size(); d++) {
         const Drive& drive = model_.drives[d];

@@ -20,6 +20,7 @@ struct Load {
     Vec2 point;
     Twist direction;
     Curve value;
+    double scale = 1;
 };
 
 // Prescribed motion of a point of a body in one direction.  The rate is piecewise linear and the displacement its
@@ -55,6 +56,7 @@ struct Model {
     std::vector<Weld> welds;
     Vec2 gravity;
     std::vector<double> q0;  // reference joint coordinates
+    double length = 1;       // [m] turns translations of free bodies into angles for the error measure
 };
 
 struct State {

@@ -41,6 +41,13 @@ Tree::Tree(std::vector<Body> bodies) : body_(std::move(bodies)) {
     }
 }
 
+void Tree::set_mass(int i, Vec2 centre, double mass, double inertia) {
+    Body& b = body_[static_cast<size_t>(i)];
+    b.centre = centre;
+    b.mass = mass;
+    b.inertia = inertia;
+}
+
 void Tree::place(const double* q, Pose* pose) const {
     for (int i = 0; i < bodies(); i++) {
         const Body& b = (*this)[i];

@@ -68,6 +68,7 @@ public:
     int bodies() const { return static_cast<int>(body_.size()); }
     int dofs() const { return dofs_; }
     const Body& operator[](int i) const { return body_[static_cast<size_t>(i)]; }
+    void set_mass(int i, Vec2 centre, double mass, double inertia);
 
     // poses from joint coordinates
     void place(const double* q, Pose* pose) const;

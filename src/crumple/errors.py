@@ -74,6 +74,7 @@ class Status(Enum):
     NOT_CONVERGED = "stopped: the step's equations did not converge"
     NOT_FINITE = "stopped: a state became infinite or not a number"
     CANCELLED = "cancelled by the caller"
+    REFUSED = "refused: the input cannot be solved"
 
     @property
     def ok(self) -> bool:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 class _Multibody:
-    class Simulation:
+    class Model:
         def __init__(
             self,
             parent: NDArray[np.int64],
@@ -20,10 +20,12 @@ class _Multibody:
             holds: list[tuple[Any, ...]],
             welds: list[tuple[Any, ...]],
             gravity: Sequence[float],
-            accuracy: float,
-            minimum_step: float,
-            maximum_step: float,
             length: float,
+        ) -> None: ...
+
+    class Simulation:
+        def __init__(
+            self, model: _Multibody.Model, accuracy: float, minimum_step: float, maximum_step: float
         ) -> None: ...
         def set_motion(self, velocity: NDArray[np.float64], impulse: NDArray[np.float64]) -> float: ...
         def set_rates(self, w: Sequence[float]) -> None: ...
@@ -39,6 +41,24 @@ class _Multibody:
         def q(self) -> list[float]: ...
         @property
         def w(self) -> list[float]: ...
+
+    def solve_many(
+        self,
+        models: list[Model],
+        model_of: NDArray[np.int64],
+        end: float,
+        velocity: NDArray[np.float64] | None,
+        impulse: NDArray[np.float64] | None,
+        capacity_scale: NDArray[np.float64] | None,
+        load_scale: NDArray[np.float64] | None,
+        bodies: NDArray[np.float64] | None,
+        gravity: NDArray[np.float64] | None,
+        accuracy: float,
+        minimum_step: float,
+        maximum_step: float,
+        threads: int,
+        poll: Callable[[float], bool] | None,
+    ) -> dict[str, Any]: ...
 
 multibody: _Multibody
 shell: Any

@@ -38,6 +38,7 @@ class Outcome(IntEnum):
     STEP_COLLAPSED = 1
     NOT_FINITE = 2
     CANCELLED = 3
+    REFUSED = 4
 
 
 @dataclass(frozen=True)
@@ -76,6 +77,8 @@ class TreeHinge:
     viscous_damping: float = 0.0
     stop_positive: tuple[float, ...] = ()
     stop_negative: tuple[float, ...] = ()
+    capacity_scale: float = 1.0
+    """Times both curves."""
 
     def as_dict(self) -> dict[str, Any]:
         """As the kernel takes it."""
@@ -103,6 +106,7 @@ _PLAIN = (
     "rate_reference",
     "rate_exponent",
     "viscous_damping",
+    "capacity_scale",
 )
 
 
@@ -229,23 +233,9 @@ class Simulation:
         minimum_step: float = MINIMUM_STEP,
         maximum_step: float = math.inf,
     ) -> None:
-        rows = [(*b.anchor, *b.centre, b.mass, b.inertia) for b in model.bodies]
         self.model = model
         self._kernel = _kernels.multibody.Simulation(
-            np.array([b.parent for b in model.bodies], dtype=np.int64),
-            np.array([b.joint for b in model.bodies], dtype=np.int64),
-            np.array(rows, dtype=float),
-            [0.0] * model.dofs,
-            [hinge.as_dict() for hinge in model.hinges],
-            [_load(load) for load in model.loads],
-            [(*_load(drive), drive.rates.tolist()) for drive in model.drives],
-            [(hold.body, list(hold.point), list(hold.direction)) for hold in model.holds],
-            [(weld.body, weld.other, list(weld.point), list(weld.other_point)) for weld in model.welds],
-            list(model.gravity),
-            accuracy,
-            minimum_step,
-            maximum_step,
-            model.length,
+            kernel_model(model), accuracy, minimum_step, maximum_step
         )
 
     def set_motion(self, velocity: Floats, impulse: Floats) -> float:
@@ -289,6 +279,23 @@ class Simulation:
     def w(self) -> Floats:
         """Joint rates, (dofs,)."""
         return np.array(self._kernel.w)
+
+
+def kernel_model(model: TreeModel) -> Any:
+    """The compiled form of a model; frozen, and shared by any number of runs."""
+    return _kernels.multibody.Model(
+        np.array([b.parent for b in model.bodies], dtype=np.int64),
+        np.array([b.joint for b in model.bodies], dtype=np.int64),
+        np.array([(*b.anchor, *b.centre, b.mass, b.inertia) for b in model.bodies], dtype=float),
+        [0.0] * model.dofs,
+        [hinge.as_dict() for hinge in model.hinges],
+        [_load(load) for load in model.loads],
+        [(*_load(drive), drive.rates.tolist()) for drive in model.drives],
+        [(hold.body, list(hold.point), list(hold.direction)) for hold in model.holds],
+        [(weld.body, weld.other, list(weld.point), list(weld.other_point)) for weld in model.welds],
+        list(model.gravity),
+        model.length,
+    )
 
 
 def _load(load: TreeLoad) -> tuple[Any, ...]:

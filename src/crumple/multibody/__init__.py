@@ -8,6 +8,7 @@ from crumple.multibody.model import start_of, tree_hinge, tree_model
 from crumple.multibody.plane import Plane
 from crumple.multibody.solve import Run, solve_multibody
 from crumple.multibody.timing import stepping_seconds
+from crumple.multibody.variants import VariantTable, solve_variants
 
 __all__ = [
     "Link",
@@ -15,8 +16,10 @@ __all__ = [
     "Piece",
     "Plane",
     "Run",
+    "VariantTable",
     "lower",
     "solve_multibody",
+    "solve_variants",
     "start_of",
     "stepping_seconds",
     "tree_hinge",

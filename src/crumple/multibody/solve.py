@@ -37,6 +37,7 @@ STATUS = {
     Outcome.STEP_COLLAPSED: Status.STEP_COLLAPSED,
     Outcome.NOT_FINITE: Status.NOT_FINITE,
     Outcome.CANCELLED: Status.CANCELLED,
+    Outcome.REFUSED: Status.REFUSED,
 }
 
 

@@ -12,6 +12,7 @@ For a solver:
 - `MultibodySettings`, `ShellSettings` and `Outputs` -> what the solver is told beside the structure.
 """
 
+from crumple.structure.change import changed, value_at
 from crumple.structure.checks import output_problems, problems_in, shell_problems
 from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges import HingePlace, PlacedHinge, hinge_places, placed_hinges
@@ -111,6 +112,7 @@ __all__ = [
     "WallSpec",
     "WeldSpec",
     "WierzbickiLaw",
+    "changed",
     "frame_of",
     "gap",
     "hinge_places",
@@ -119,4 +121,5 @@ __all__ = [
     "problems_in",
     "shell_problems",
     "stage_problems",
+    "value_at",
 ]

@@ -1,0 +1,166 @@
+#include "multibody/batch.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace crumple::multibody {
+
+namespace {
+
+// Variants that a thread takes at a time: some milliseconds of work, so that threads seldom meet.
+constexpr size_t share = 16;
+constexpr auto poll_pause = std::chrono::milliseconds(20);
+
+Model varied(const Variations& v, size_t row) {
+    Model model = *v.models[v.model ? static_cast<size_t>(v.model[row]) : 0];
+    const auto bodies = static_cast<size_t>(model.tree.bodies());
+    if (v.bodies) {
+        for (size_t i = 0; i < bodies; i++) {
+            const double* b = v.bodies + 4 * (row * bodies + i);
+            model.tree.set_mass(static_cast<int>(i), {b[0], b[1]}, b[2], b[3]);
+        }
+    }
+    for (size_t j = 0; v.capacity_scale && j < model.hinges.size(); j++) {
+        model.hinges[j].scale *= v.capacity_scale[row * model.hinges.size() + j];
+    }
+    for (size_t j = 0; v.load_scale && j < model.loads.size(); j++) {
+        model.loads[j].scale *= v.load_scale[row * model.loads.size() + j];
+    }
+    if (v.gravity) model.gravity = {v.gravity[2 * row], v.gravity[2 * row + 1]};
+    return model;
+}
+
+// whether the equations make sense: positive masses and capacities, finite loads
+bool sensible(const Model& model) {
+    auto positive = [](double x) { return x > 0 && std::isfinite(x); };
+    for (int i = 0; i < model.tree.bodies(); i++) {
+        const Body& b = model.tree[i];
+        if (!positive(b.mass) || !positive(b.inertia) || !std::isfinite(b.centre.x) || !std::isfinite(b.centre.y)) return false;
+    }
+    for (const Hinge& h : model.hinges) {
+        if (!positive(h.scale)) return false;
+    }
+    for (const Load& l : model.loads) {
+        if (!std::isfinite(l.scale)) return false;
+    }
+    return std::isfinite(model.gravity.x) && std::isfinite(model.gravity.y);
+}
+
+std::vector<Twist> twists(const double* rows, size_t row, size_t bodies, bool& finite) {
+    std::vector<Twist> out(bodies);
+    for (size_t i = 0; rows && i < bodies; i++) {
+        const double* t = rows + 3 * (row * bodies + i);
+        out[i] = {t[0], {t[1], t[2]}};
+        finite = finite && std::isfinite(t[0]) && std::isfinite(t[1]) && std::isfinite(t[2]);
+    }
+    return out;
+}
+
+void put(std::vector<double>& all, size_t row, const std::vector<double>& values) {
+    std::copy(values.begin(), values.end(), all.begin() + static_cast<std::ptrdiff_t>(row * values.size()));
+}
+
+void solve_row(const Variations& v, size_t row, double end, const Settings& settings,
+               const std::function<bool(double)>& go_on, Finals& out) {
+    Model model = varied(v, row);
+    const auto bodies = static_cast<size_t>(model.tree.bodies());
+    bool finite = true;
+    const std::vector<Twist> velocity = twists(v.velocity, row, bodies, finite);
+    const std::vector<Twist> impulse = twists(v.impulse, row, bodies, finite);
+    out.outcome[row] = static_cast<int>(Outcome::refused);
+    if (!finite || !sensible(model)) return;
+    Simulation simulation(std::move(model), settings);
+    out.lost[row] = simulation.set_motion(velocity.data(), impulse.data());
+    const Record record = simulation.run({end}, go_on), last = simulation.present();
+    out.time[row] = last.time.back();
+    put(out.q, row, last.q);
+    put(out.w, row, last.w);
+    put(out.pose, row, last.pose);
+    put(out.velocity, row, last.velocity);
+    put(out.hinge, row, last.hinge);
+    put(out.energy, row, last.energy);
+    put(out.summary, row, hinge_summary(simulation));
+    out.residual[row] = record.residual;
+    out.steps[row] = record.steps;
+    out.outcome[row] = static_cast<int>(record.outcome);
+}
+
+Finals sized(const Variations& v) {
+    const Model& model = *v.models.front();
+    const size_t n = v.count, bodies = static_cast<size_t>(model.tree.bodies()), dofs = static_cast<size_t>(model.tree.dofs());
+    Finals out;
+    for (auto* column : {&out.time, &out.residual, &out.lost}) column->assign(n, 0.0);
+    for (auto* column : {&out.q, &out.w}) column->assign(n * dofs, 0.0);
+    for (auto* column : {&out.pose, &out.velocity}) column->assign(n * bodies * 3, 0.0);
+    out.hinge.assign(n * model.hinges.size() * hinge_columns, 0.0);
+    out.summary.assign(n * model.hinges.size() * summary_columns, 0.0);
+    out.energy.assign(n * 6, 0.0);
+    out.steps.assign(n, 0);
+    out.outcome.assign(n, static_cast<int>(Outcome::cancelled));
+    return out;
+}
+
+}  // namespace
+
+std::vector<double> hinge_summary(const Simulation& simulation) {
+    std::vector<double> out;
+    const std::vector<HingeState>& states = simulation.state().hinge;
+    for (size_t j = 0; j < states.size(); j++) {
+        const HingeState& s = states[j];
+        out.insert(out.end(), {s.rotation_max, s.moment_max, s.rest_time, turning(simulation.model().hinges[j], s) ? 1.0 : 0.0,
+                               s.dissipated + s.damped + s.stop_dissipated});
+    }
+    return out;
+}
+
+Finals solve_many(const Variations& v, double end, const Settings& settings, int threads,
+                  const std::function<bool(double)>& poll) {
+    Finals out = sized(v);
+    std::atomic<size_t> next{0}, done{0};
+    std::atomic<bool> cancelled{false};
+    const std::function<bool(double)> go_on = [&](double) { return !cancelled.load(std::memory_order_relaxed); };
+    auto work = [&] {
+        for (size_t begin = next.fetch_add(share); begin < v.count; begin = next.fetch_add(share)) {
+            for (size_t row = begin; row < std::min(begin + share, v.count); row++) {
+                if (!go_on(0)) return;
+                solve_row(v, row, end, settings, go_on, out);
+                done++;
+            }
+        }
+    };
+    std::mutex mutex;
+    std::condition_variable ended;
+    int working = std::max(1, threads);
+    std::vector<std::thread> team;
+    for (int i = working; i > 0; i--) {
+        team.emplace_back([&] {
+            work();
+            const std::lock_guard<std::mutex> lock(mutex);
+            working--;
+            ended.notify_one();
+        });
+    }
+    std::exception_ptr failed;
+    std::unique_lock<std::mutex> lock(mutex);
+    while (!ended.wait_for(lock, poll_pause, [&] { return working == 0; })) {
+        try {
+            if (poll && !poll(static_cast<double>(done) / static_cast<double>(v.count))) cancelled = true;
+        } catch (...) {
+            failed = std::current_exception();
+            cancelled = true;
+            break;
+        }
+    }
+    lock.unlock();
+    for (std::thread& thread : team) thread.join();
+    if (failed) std::rethrow_exception(failed);
+    return out;
+}
+
+}  // namespace crumple::multibody

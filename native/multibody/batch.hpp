@@ -1,0 +1,45 @@
+// Many variants of a model, each solved as one run would solve it, on several threads.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "multibody/simulation.hpp"
+
+namespace crumple::multibody {
+
+// What varies, one row per variant; a null pointer leaves the model's own.
+struct Variations {
+    size_t count = 0;
+    std::vector<const Model*> models;       // of one topology
+    const int64_t* model = nullptr;         // (count): which of the models
+    const double* velocity = nullptr;       // (count, bodies, 3): at the start, at the centres of mass
+    const double* impulse = nullptr;        // (count, bodies, 3)
+    const double* capacity_scale = nullptr; // (count, hinges): times the model's
+    const double* load_scale = nullptr;     // (count, loads): times the model's
+    const double* bodies = nullptr;         // (count, bodies, 4): centre x, y, mass, inertia
+    const double* gravity = nullptr;        // (count, 2)
+};
+
+// columns: largest absolute rotation, largest absolute moment, time of rest, 1 while still turning, dissipated
+constexpr int summary_columns = 5;
+
+// Where every variant ended, row by row; a row of a variant that was not solved holds zeros.
+struct Finals {
+    std::vector<double> time, q, w;     // (count), (count, dofs)
+    std::vector<double> pose;           // (count, bodies, 3): angle, x, y of the origin
+    std::vector<double> velocity;       // (count, bodies, 3), at the centres of mass
+    std::vector<double> hinge;          // (count, hinges, hinge_columns)
+    std::vector<double> summary;        // (count, hinges, summary_columns)
+    std::vector<double> energy;         // (count, 6)
+    std::vector<double> residual, lost; // (count); lost: energy that the joints took from the motion at the start
+    std::vector<int64_t> outcome, steps;
+};
+
+std::vector<double> hinge_summary(const Simulation& simulation);
+
+// `poll` gets the share done, now and then, on the calling thread, and returns false to cancel.
+Finals solve_many(const Variations& variations, double end, const Settings& settings, int threads,
+                  const std::function<bool(double)>& poll);
+
+}  // namespace crumple::multibody

@@ -1,0 +1,101 @@
+// Python face of `solve_many`.
+#include "multibody/bind_batch.hpp"
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <optional>
+
+#include "multibody/batch.hpp"
+
+namespace crumple::multibody {
+
+namespace {
+
+using Rows = std::optional<Array>;
+
+// rows of a variant's values, (count, ...) in all, or null
+const double* rows(const Rows& given, size_t count, size_t each, const char* what) {
+    if (!given) return nullptr;
+    require(given->size() == count * each && given->ndim() > 0 && given->shape(0) == count, what);
+    return given->data();
+}
+
+void require_one_topology(const std::vector<const Model*>& models) {
+    require(!models.empty(), "at least one model is needed");
+    const Model& first = *models.front();
+    for (const Model* m : models) {
+        bool same = m->tree.bodies() == first.tree.bodies() && m->tree.dofs() == first.tree.dofs() &&
+                    m->hinges.size() == first.hinges.size() && m->loads.size() == first.loads.size() &&
+                    m->drives.size() == first.drives.size();
+        for (int i = 0; same && i < first.tree.bodies(); i++) same = m->tree[i].parent == first.tree[i].parent;
+        require(same, "all models of a batch must have the same bodies, hinges, loads and drives");
+    }
+}
+
+nb::dict to_dict(const Finals& f, const Model& model, size_t n) {
+    const size_t bodies = static_cast<size_t>(model.tree.bodies()), dofs = static_cast<size_t>(model.tree.dofs());
+    const size_t hinges = model.hinges.size();
+    nb::dict d;
+    d["time"] = array(f.time, {n});
+    d["q"] = array(f.q, {n, dofs});
+    d["w"] = array(f.w, {n, dofs});
+    d["pose"] = array(f.pose, {n, bodies, 3});
+    d["velocity"] = array(f.velocity, {n, bodies, 3});
+    d["hinge"] = array(f.hinge, {n, hinges, static_cast<size_t>(hinge_columns)});
+    d["summary"] = array(f.summary, {n, hinges, static_cast<size_t>(summary_columns)});
+    d["energy"] = array(f.energy, {n, 6});
+    d["residual"] = array(f.residual, {n});
+    d["lost"] = array(f.lost, {n});
+    d["outcome"] = f.outcome;
+    d["steps"] = f.steps;
+    return d;
+}
+
+nb::dict solve(const std::vector<const Model*>& models, const Integers& model_of, double end, const Rows& velocity,
+               const Rows& impulse, const Rows& capacity_scale, const Rows& load_scale, const Rows& bodies,
+               const Rows& gravity, double accuracy, double minimum_step, double maximum_step, int threads,
+               nb::object poll) {
+    require_one_topology(models);
+    require(end > 0, "the end must come after the start");
+    const Model& first = *models.front();
+    const auto n = static_cast<size_t>(first.tree.bodies());
+    Variations v;
+    v.count = model_of.shape(0);
+    v.models = models;
+    v.model = model_of.data();
+    for (size_t i = 0; i < v.count; i++) {
+        require(v.model[i] >= 0 && static_cast<size_t>(v.model[i]) < models.size(), "a variant names an unknown model");
+    }
+    v.velocity = rows(velocity, v.count, 3 * n, "velocity must have shape (variants, bodies, 3)");
+    v.impulse = rows(impulse, v.count, 3 * n, "impulse must have shape (variants, bodies, 3)");
+    v.capacity_scale = rows(capacity_scale, v.count, first.hinges.size(), "capacity_scale must have shape (variants, hinges)");
+    v.load_scale = rows(load_scale, v.count, first.loads.size(), "load_scale must have shape (variants, loads)");
+    v.bodies = rows(bodies, v.count, 4 * n, "bodies must have shape (variants, bodies, 4)");
+    v.gravity = rows(gravity, v.count, 2, "gravity must have shape (variants, 2)");
+    std::function<bool(double)> ask;
+    if (!poll.is_none()) {
+        ask = [&poll](double share) {
+            nb::gil_scoped_acquire locked;
+            return nb::cast<bool>(poll(share));
+        };
+    }
+    Finals finals;
+    {
+        nb::gil_scoped_release released;
+        finals = solve_many(v, end, make_settings(accuracy, minimum_step, maximum_step), threads, ask);
+    }
+    return to_dict(finals, first, v.count);
+}
+
+}  // namespace
+
+void bind_batch(nb::module_& m) {
+    m.def("solve_many", &solve, nb::arg("models"), nb::arg("model_of"), nb::arg("end"), nb::arg("velocity").none(),
+          nb::arg("impulse").none(), nb::arg("capacity_scale").none(), nb::arg("load_scale").none(), nb::arg("bodies").none(),
+          nb::arg("gravity").none(), nb::arg("accuracy"), nb::arg("minimum_step"), nb::arg("maximum_step"), nb::arg("threads"),
+          nb::arg("poll").none(), "Solve every variant as one run would, on several threads.");
+}
+
+}  // namespace crumple::multibody

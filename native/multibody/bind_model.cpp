@@ -1,0 +1,134 @@
+// The frozen model of a planar tree, from plain Python data; nothing here decides physics.
+#include "multibody/bind_model.hpp"
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <cstring>
+
+namespace crumple::multibody {
+
+namespace {
+
+// bodies: columns anchor x, y, centre x, y, mass, inertia
+Tree make_tree(const Integers& parent, const Integers& joint, const Array& bodies) {
+    require(bodies.ndim() == 2 && bodies.shape(1) == 6, "bodies must have shape (n, 6)");
+    const size_t n = bodies.shape(0);
+    require(parent.shape(0) == n && joint.shape(0) == n, "parent and joint must have one entry per body");
+    std::vector<Body> out(n);
+    for (size_t i = 0; i < n; i++) {
+        const double* b = bodies.data() + 6 * i;
+        const auto p = static_cast<int>(parent.data()[i]);
+        require(p >= -1 && p < static_cast<int>(i), "a parent must come before its children");
+        const Joint kind = joint.data()[i] == 0 ? Joint::revolute : Joint::free;
+        require(kind == Joint::revolute || p == -1, "a free joint must hang on the ground");
+        require(b[4] > 0 && b[5] > 0, "mass and inertia must be positive");
+        out[i] = {p, kind, 0, {b[0], b[1]}, {b[2], b[3]}, b[4], b[5]};
+    }
+    return Tree(std::move(out));
+}
+
+Curve make_curve(const Doubles& x, const Doubles& y) {
+    require(!x.empty() && x.size() == y.size(), "a curve needs as many values as places, at least one");
+    for (size_t i = 1; i < x.size(); i++) require(x[i] > x[i - 1], "the places of a curve must increase");
+    return Curve(x, y);
+}
+
+Hinge make_hinge(const nb::dict& d) {
+    Hinge h;
+    auto number = [&](const char* key) { return nb::cast<double>(d[key]); };
+    auto numbers = [&](const char* key) { return nb::cast<Doubles>(d[key]); };
+    h.dof = nb::cast<int>(d["dof"]);
+    h.form = static_cast<Form>(nb::cast<int>(d["form"]));
+    h.softening = static_cast<Softening>(nb::cast<int>(d["softening"]));
+    h.positive = make_curve(numbers("positive_rotation"), numbers("positive_moment"));
+    h.negative = make_curve(numbers("negative_rotation"), numbers("negative_moment"));
+    h.stiffness = number("elastic_stiffness");
+    h.ramp_rate = number("regularisation_rate");
+    h.rate_reference = number("rate_reference");
+    h.rate_exponent = number("rate_exponent");
+    h.damping = number("viscous_damping");
+    h.scale = number("capacity_scale");
+    const char* keys[2] = {"stop_positive", "stop_negative"};
+    for (int k = 0; k < 2; k++) {
+        const Doubles s = numbers(keys[k]);  // empty: no stop
+        if (s.empty()) continue;
+        require(s.size() == 5, "a stop has rotation, stiffness, exponent, damping, penetration");
+        h.stop[k] = {s[0], s[1], s[2], s[3], s[4]};
+    }
+    return h;
+}
+
+Load make_load(const nb::tuple& t) {
+    const Doubles at = nb::cast<Doubles>(t[1]), along = nb::cast<Doubles>(t[2]);
+    return {nb::cast<int>(t[0]), {at.at(0), at.at(1)}, {along.at(0), {along.at(1), along.at(2)}},
+            make_curve(nb::cast<Doubles>(t[3]), nb::cast<Doubles>(t[4])), 1};
+}
+
+Drive make_drive(const nb::tuple& t) {
+    const Load load = make_load(t);
+    const double start = nb::cast<Doubles>(t[4]).at(0);
+    return {load.body, load.point, load.direction, start, make_curve(nb::cast<Doubles>(t[3]), nb::cast<Doubles>(t[5]))};
+}
+
+Hold make_hold(const nb::tuple& t) {
+    const Doubles at = nb::cast<Doubles>(t[1]), along = nb::cast<Doubles>(t[2]);
+    return {nb::cast<int>(t[0]), {at.at(0), at.at(1)}, {along.at(0), {along.at(1), along.at(2)}}};
+}
+
+Weld make_weld(const nb::tuple& t) {
+    const Doubles a = nb::cast<Doubles>(t[2]), b = nb::cast<Doubles>(t[3]);
+    return {nb::cast<int>(t[0]), nb::cast<int>(t[1]), {a.at(0), a.at(1)}, {b.at(0), b.at(1)}};
+}
+
+Model make_model(const Integers& parent, const Integers& joint, const Array& bodies, const Doubles& q0,
+                 const nb::list& hinges, const nb::list& loads, const nb::list& drives, const nb::list& holds,
+                 const nb::list& welds, const Doubles& gravity, double length) {
+    Model model{make_tree(parent, joint, bodies), {}, {}, {}, {}, {}, {gravity.at(0), gravity.at(1)}, q0, length};
+    require(q0.size() == static_cast<size_t>(model.tree.dofs()), "q0 must have one entry per joint coordinate");
+    for (nb::handle h : hinges) model.hinges.push_back(make_hinge(nb::cast<nb::dict>(h)));
+    for (nb::handle l : loads) model.loads.push_back(make_load(nb::cast<nb::tuple>(l)));
+    for (nb::handle d : drives) model.drives.push_back(make_drive(nb::cast<nb::tuple>(d)));
+    for (nb::handle d : holds) model.holds.push_back(make_hold(nb::cast<nb::tuple>(d)));
+    for (nb::handle w : welds) model.welds.push_back(make_weld(nb::cast<nb::tuple>(w)));
+    auto known = [&](int body) { return body >= 0 && body < model.tree.bodies(); };
+    for (const Hinge& h : model.hinges) require(h.dof >= 0 && h.dof < model.tree.dofs(), "a hinge names an unknown coordinate");
+    for (const Load& l : model.loads) require(known(l.body), "a load names an unknown body");
+    for (const Drive& d : model.drives) require(known(d.body), "a drive names an unknown body");
+    for (const Hold& d : model.holds) require(known(d.body), "a hold names an unknown body");
+    for (const Weld& w : model.welds) {
+        require(known(w.body) && (w.other == -1 || known(w.other)), "a weld names an unknown body");
+    }
+    return model;
+}
+
+}  // namespace
+
+nb::object array(const Doubles& v, std::initializer_list<size_t> shape) {
+    auto* data = new double[v.empty() ? 1 : v.size()];
+    if (!v.empty()) std::memcpy(data, v.data(), v.size() * sizeof(double));
+    nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<double*>(p); });
+    return nb::cast(nb::ndarray<nb::numpy, double>(data, shape.size(), shape.begin(), owner));
+}
+
+Settings make_settings(double accuracy, double minimum_step, double maximum_step) {
+    Settings settings;
+    settings.accuracy = accuracy;
+    settings.minimum_step = minimum_step;
+    settings.maximum_step = maximum_step;
+    return settings;
+}
+
+void bind_model(nb::module_& m) {
+    nb::class_<Model>(m, "Model", "Constants of a planar tree of bodies.")
+        .def("__init__",
+             [](Model* self, const Integers& parent, const Integers& joint, const Array& bodies, const Doubles& q0,
+                const nb::list& hinges, const nb::list& loads, const nb::list& drives, const nb::list& holds,
+                const nb::list& welds, const Doubles& gravity, double length) {
+                 new (self) Model(make_model(parent, joint, bodies, q0, hinges, loads, drives, holds, welds, gravity, length));
+             },
+             nb::arg("parent"), nb::arg("joint"), nb::arg("bodies"), nb::arg("q0"), nb::arg("hinges"), nb::arg("loads"),
+             nb::arg("drives"), nb::arg("holds"), nb::arg("welds"), nb::arg("gravity"), nb::arg("length"));
+}
+
+}  // namespace crumple::multibody

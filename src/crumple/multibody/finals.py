@@ -1,0 +1,62 @@
+"""Where runs ended, as named quantities: the channels of a history whose rows are runs in place of times."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crumple._core.batch import TreeFinals
+from crumple._core.tree import Outcome, TreeRecord
+from crumple.multibody.histories import energy_channels, hinge_channels, node_channels, section_channels
+from crumple.multibody.lowered import Lowered
+from crumple.multibody.rigid import Floats
+from crumple.structure import Outputs
+
+OF_HINGES = ("rotation", "plastic_rotation", "moment", "capacity", "energy")
+OF_NODES = ("displacement", "rotation")
+
+
+def part_of(finals: TreeFinals, rows: NDArray[np.int64]) -> TreeFinals:
+    """Some of the rows."""
+    return replace(finals, **{field.name: getattr(finals, field.name)[rows] for field in fields(finals)})
+
+
+def final_quantities(model: Lowered, finals: TreeFinals, outputs: Outputs) -> dict[str, Floats]:
+    """Named quantities of runs that share a model, (n,) each."""
+    record = TreeRecord(
+        time=np.arange(finals.time.size, dtype=float),  # no row follows from the one before
+        q=finals.q,
+        w=finals.w,
+        pose=finals.pose,
+        velocity=finals.velocity,
+        hinge=finals.hinge,
+        energy=finals.energy,
+        drive=np.zeros((finals.time.size, 0)),
+        summary=finals.summary,
+        outcome=Outcome.COMPLETE,
+        reason="",
+        residual=0.0,
+        steps=0,
+        rejected=0,
+        forced=0,
+        solves=0,
+    )
+    found: dict[str, Floats] = {}
+    for channel in hinge_channels(model.mechanism, record):
+        if channel.name.rsplit(".", 1)[1] in OF_HINGES:
+            found[channel.name] = channel.values
+    for k, (name, _) in enumerate(model.hinges):
+        found[f"hinge.{name}.rotation_max"] = finals.summary[:, k, 0]
+        found[f"hinge.{name}.moment_max"] = finals.summary[:, k, 1]
+    for channel in energy_channels(record):
+        if channel.name != "energy.residual":
+            found[channel.name] = channel.values
+    for channel in node_channels(model.structure, model.mechanism, record, outputs.nodes):
+        if channel.name.split(".")[2] in OF_NODES:
+            found[channel.name] = channel.values
+    for channel in section_channels(model.structure, model.mechanism, record, outputs):
+        found[channel.name] = channel.values
+    found["energy_residual"] = finals.residual
+    return found

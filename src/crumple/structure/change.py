@@ -1,0 +1,91 @@
+"""A structure with some of its numbers changed, by their places in the input."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping
+from typing import Any
+
+from crumple.errors import InputError, Problem
+from crumple.structure.spec import Spec
+from crumple.structure.structure import Structure
+
+
+def changed(structure: Structure, values: Mapping[str, Any]) -> Structure:
+    """Copy of a structure with other values, checked like any other.
+
+    Parameters
+    ----------
+    values
+        By path, as in the input: ``materials.steel.yield_stress``, ``nodes.tip.0``,
+        ``initial_velocity.0.rotation``.  Numbers are SI.
+
+    Raises
+    ------
+    InputError
+        If a path leads nowhere, or the changed structure is refused.
+    """
+    found: Structure = _changed(
+        structure, {tuple(path.split(".")): value for path, value in values.items()}, ""
+    )
+    return found
+
+
+def value_at(structure: Structure, path: str) -> float:
+    """Number at a path of the input.
+
+    Raises
+    ------
+    InputError
+        If the path leads nowhere or to something that is not a number.
+    """
+    part: Any = structure
+    for head in path.split("."):
+        part = _inside(part, head, path)
+    if isinstance(part, bool) or not isinstance(part, int | float):
+        raise InputError(_not_a_number(path, part))
+    return float(part)
+
+
+def _changed(part: Any, values: Mapping[tuple[str, ...], Any], where: str) -> Any:
+    groups: dict[str, dict[tuple[str, ...], Any]] = defaultdict(dict)
+    for (head, *rest), value in values.items():
+        groups[head][tuple(rest)] = value
+    new: dict[str, Any] = {}
+    for head, inner in groups.items():
+        here = f"{where}.{head}" if where else head
+        old = _inside(part, head, here)
+        new[head] = inner[()] if () in inner else _changed(old, inner, here)
+    if isinstance(part, Spec):
+        return part.model_copy(update=new)
+    if isinstance(part, Mapping):
+        return {**part, **new}
+    return tuple(new.get(str(i), item) for i, item in enumerate(part))
+
+
+def _inside(part: Any, head: str, path: str) -> Any:
+    """What is called ``head`` in a part of the input."""
+    if isinstance(part, Spec):
+        names = list(type(part).model_fields)
+        if head in names:
+            return getattr(part, head)
+    elif isinstance(part, Mapping):
+        names = list(part)
+        if head in part:
+            return part[head]
+    elif isinstance(part, tuple):
+        names = [str(i) for i in range(len(part))]
+        if head in names:
+            return part[int(head)]
+    else:
+        raise InputError(_not_a_number(path, part))
+    raise InputError(
+        Problem("this path leads nowhere", head, ", ".join(names), "write the path as in the input", path)
+    )
+
+
+def _not_a_number(path: str, part: Any) -> Problem:
+    allowed = "the path of a number of the input, such as materials.steel.yield_stress"
+    return Problem(
+        "this path does not lead to a number", f"{part!r:.60}", allowed, "lengthen or shorten it", path
+    )

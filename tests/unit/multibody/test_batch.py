@@ -1,0 +1,139 @@
+"""The batch solves every variant with the bits of a single run, whatever the number of threads."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+from tests.verification.chains import m2
+
+from crumple._core.batch import TreeVariants, solve_many
+from crumple._core.tree import Outcome, Simulation, TreeLoad
+
+COUNT, BARS, END = 40, 4, 0.05
+LOAD = TreeLoad(3, (0.1, 0.0), (0.0, 0.0, 1.0), np.array([0.0, END]), np.array([0.0, 400.0]))
+
+
+@pytest.fixture(scope="module")
+def variants():
+    """A loaded chain, two models of it, and everything varied."""
+    model = replace(m2(BARS).model, loads=(LOAD,))
+    softer = replace(model, hinges=tuple(replace(hinge, rate_reference=50.0) for hinge in model.hinges))
+    rng = np.random.default_rng(3)
+    rows = np.array([(*body.centre, body.mass, body.inertia) for body in model.bodies])
+    return TreeVariants(
+        models=(model, softer),
+        model_of=np.arange(COUNT) % 2,
+        velocity=rng.uniform(0.0, 4.0, (COUNT, BARS, 3)),
+        impulse=rng.uniform(0.0, 1.0, (COUNT, BARS, 3)),
+        capacity_scale=rng.uniform(0.5, 2.0, (COUNT, BARS)),
+        load_scale=rng.uniform(-1.0, 1.0, (COUNT, 1)),
+        bodies=rows * rng.uniform(0.8, 1.2, (COUNT, BARS, 4)),
+        gravity=rng.uniform(-10.0, 10.0, (COUNT, 2)),
+    )
+
+
+def same(a, b):
+    return all(np.array_equal(getattr(a, field.name), getattr(b, field.name)) for field in fields(a))
+
+
+def test_same_bits_as_single_runs(variants):
+    finals = solve_many(variants, END)
+    assert set(finals.outcome) == {Outcome.COMPLETE}
+    for row in range(0, COUNT, 7):
+        model = variants.models[variants.model_of[row]]
+        bodies = tuple(
+            replace(body, centre=(float(x), float(y)), mass=float(mass), inertia=float(inertia))
+            for body, (x, y, mass, inertia) in zip(model.bodies, variants.bodies[row], strict=True)
+        )
+        hinges = tuple(
+            replace(hinge, capacity_scale=float(scale))
+            for hinge, scale in zip(model.hinges, variants.capacity_scale[row], strict=True)
+        )
+        load = replace(LOAD, values=LOAD.values * variants.load_scale[row, 0])
+        gravity = tuple(map(float, variants.gravity[row]))
+        single = Simulation(replace(model, bodies=bodies, hinges=hinges, gravity=gravity, loads=(load,)))
+        lost = single.set_motion(variants.velocity[row], variants.impulse[row])
+        record = single.run(np.array([END]))
+        assert finals.lost[row] == lost
+        assert finals.steps[row] == record.steps
+        for name in ("pose", "hinge", "velocity"):
+            # a scaled load rounds otherwise than scaled values of it
+            np.testing.assert_allclose(
+                getattr(finals, name)[row], getattr(record, name)[0], rtol=1e-12, atol=1e-12
+            )
+        unloaded = TreeVariants(
+            variants.models, variants.model_of, variants.velocity, load_scale=np.zeros((COUNT, 1))
+        )
+        assert row or same_as_single(unloaded, model)
+
+
+def same_as_single(unloaded, model):
+    """The first row of variants without load, bit by bit."""
+    single = Simulation(replace(model, loads=()))
+    single.set_motion(unloaded.velocity[0], np.zeros((BARS, 3)))
+    single.run(np.array([END]))
+    finals = solve_many(unloaded, END)
+    return np.array_equal(finals.q[0], single.q) and np.array_equal(finals.w[0], single.w)
+
+
+@pytest.mark.parametrize("threads", [2, 3, 100])
+def test_same_bits_from_any_number_of_threads(variants, threads):
+    assert same(solve_many(variants, END), solve_many(variants, END, threads=threads))
+
+
+def test_a_row_that_makes_no_sense_fails_alone(variants):
+    scale, bodies = variants.capacity_scale.copy(), variants.bodies.copy()
+    velocity, gravity = variants.velocity.copy(), variants.gravity.copy()
+    scale[3, 1], bodies[5, 0, 2], velocity[7, 0, 0], gravity[9, 1] = -1.0, 0.0, np.nan, np.inf
+    broken = replace(variants, capacity_scale=scale, bodies=bodies, velocity=velocity, gravity=gravity)
+    sound, found = solve_many(variants, END), solve_many(broken, END, threads=2)
+    wrong = [3, 5, 7, 9]
+    assert set(found.outcome[wrong]) == {Outcome.REFUSED}
+    assert not found.q[wrong].any()
+    rest = np.setdiff1d(np.arange(COUNT), wrong)
+    np.testing.assert_array_equal(found.q[rest], sound.q[rest])
+    assert all(np.isfinite(getattr(found, field.name)).all() for field in fields(found))
+
+
+def test_a_row_that_cannot_step_keeps_what_it_had(variants):
+    finals = solve_many(replace(variants, velocity=variants.velocity * 1e150), END)
+    assert Outcome.COMPLETE not in finals.outcome
+    assert np.isfinite(finals.q).all()
+
+
+def test_cancel_leaves_the_rest_undone(variants):
+    shares = []
+
+    def poll(share):
+        shares.append(share)
+        return False
+
+    many = TreeVariants(variants.models, np.zeros(20_000, np.int64), np.tile(variants.velocity, (500, 1, 1)))
+    finals = solve_many(many, END, poll=poll)
+    assert len(shares) == 1
+    assert finals.outcome[-1] == Outcome.CANCELLED
+    assert (finals.outcome == Outcome.COMPLETE).any()
+
+
+def test_an_error_in_poll_comes_through(variants):
+    def poll(share):
+        raise RuntimeError("stop here")
+
+    many = TreeVariants(variants.models, np.zeros(20_000, np.int64), np.tile(variants.velocity, (500, 1, 1)))
+    with pytest.raises(RuntimeError, match="stop here"):
+        solve_many(many, END, poll=poll)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"models": ()}, "at least one model"),
+        ({"model_of": np.full(COUNT, 2)}, "unknown model"),
+        ({"gravity": np.zeros((COUNT, 3))}, "gravity must have shape"),
+        ({"velocity": np.zeros((COUNT, BARS + 1, 3))}, "velocity must have shape"),
+        ({"models": (m2(BARS).model, m2(BARS + 1).model)}, "same bodies"),
+    ],
+)
+def test_arrays_of_other_shapes_are_refused(variants, change, message):
+    with pytest.raises(ValueError, match=message):
+        solve_many(replace(variants, **change), END)
