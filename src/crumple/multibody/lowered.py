@@ -59,9 +59,9 @@ def lowered(structure: Structure, duration: float) -> Lowered:
 def raw_mass(model: Lowered) -> RawMass:
     """Mass, momentum and impulse of every body about its joint, (bodies, 10).
 
-    Columns: mass [kg], mass times centre x, y [kg m], inertia about the joint [kg m^2]; angular momentum about
-    the joint [N m s] and momentum x, y [N s] at the start; the same of the impulses.  All are sums over parts,
-    so linear in each lump.
+    Columns: mass [kg], mass times centre x, y [kg m], inertia about the joint [kg m^2]; angular momentum
+    about the joint [N m s] and momentum x, y [N s] at the start; the same of the impulses.  All are sums
+    over parts, so linear in each lump.
     """
     rows = []
     given = zip(model.tree.bodies, model.start.velocity, model.start.impulse, strict=True)
