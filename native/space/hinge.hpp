@@ -1,0 +1,103 @@
+// Plastic hinge with one to four components: the impulse that it gives against its rates at the end of the step.
+//
+// A component is one of the six relative freedoms of a joint: axial slip, or a rotation about the member's local x, y
+// or z.  Forces and moments tau, one per component, lie in a convex set K = {tau : g(tau_k/C_k) <= 1}; C_k is the
+// capacity of a component in the sense in which it is loaded, g the section's surface (`Surface`).  As in the planar
+// hinge (multibody/hinge.hpp) all that is not convex is frozen over a step of length h.  What remains, with x = tau/C,
+//   set-valued       P = h tau,  tau = argmax over K of tau.w_e - (width C_ref/2) |x|^2
+//   regularised      P = h Q(D(w_e)/(C_ref w_reg)) tau,  tau = argmax over K of tau.w_e,  D that maximum, Q HAVSIN
+//   elastic-plastic  P = h (tau_0 + tau_1)/2,  tau_1 the point of K nearest in elastic energy to tau_0 + k h (w_0 + w)/2
+// is the gradient of a convex potential, plus each component's damper and stops.  w_e = a w_0 + (1 - a) w: the end rate
+// for a hinge that comes to rest, the mean for one whose axis merely turns, which keeps second order there.
+// One component, and components without coupling, are planar hinges, each by itself.
+//
+// Softening.  One component: its own plastic rotation, largest so far in each sense.  Coupled components: one measure s of
+// the plastic rotation vector e, the work D_0(e) that turning straight to e takes at the first capacities.  Each curve
+// is read at s/C_k(0), the rotation about its own axis that would take that work.  `peak`: the largest s so far, both
+// senses together; `rotation`: the present one; `accumulated`: the sum over all increments of e.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "multibody/hinge.hpp"
+#include "space/surface.hpp"
+
+namespace crumple::space {
+
+constexpr int most_components = 4;
+
+using multibody::Form;
+using multibody::Softening;
+
+// A component: which of the relative freedoms (translations along x, y, z: 0, 1, 2; rotations about them: 3, 4, 5), and
+// its curves, stiffness, rate factor, damper and stops, as of a planar hinge.  `dof` of the law is not used.
+struct Component {
+    int freedom = 4;
+    multibody::Hinge law;
+};
+
+// Constants of one hinge.  Form and softening are the first component's; all have the same.
+struct SpaceHinge {
+    std::vector<Component> components;
+    Surface surface;
+    double fracture = std::numeric_limits<double>::infinity();  // plastic rotation [rad] at which it opens for good
+};
+
+// What one hinge remembers.  Of each component: plastic rotation, moment (mean over the last step; elastic-plastic: at its
+// end), total_moment (with damper and stops), capacity, energies dissipated, damped and stop_dissipated.
+struct SpaceHingeState {
+    multibody::HingeState component[most_components];
+    double softening = 0;       // coupled: the measure s [J], largest or accumulated
+    double episode = 0, accumulated = 0;  // coupled: work since it last came to rest, and ever [J]
+    double rotation_max = 0;    // of the length of the rotation vector [rad]
+    double opening_time = -1, rest_time = 0;  // first plastic flow (-1: none yet), last end of it [s]
+    double fracture_time = -1;  // -1: whole
+    double fracture_energy = 0;  // dissipated within the step in which it opened [J]; part of `dissipated`
+    bool sliding = false;
+};
+
+// A hinge over one step, all that is not convex frozen.
+struct FrozenSpaceHinge {
+    double h = 0;
+    int n = 0;
+    double width = 0;           // half-width of the ramp [rad/s]; change it with `widen`
+    double reference = 0;       // C_ref: the largest capacity of a rotation (of the slip, where it is alone)
+    double lead = 0;            // a, weight of the start rate
+    double intact = 1;          // share of the step before it opens; 0: open
+    double w0[most_components] = {}, tau0[most_components] = {};
+    multibody::FrozenHinge component[most_components];  // capacities of both senses, stops, damper
+    int hint[most_components][2] = {};
+};
+
+// number of components
+inline int size(const SpaceHinge& hinge) { return static_cast<int>(hinge.components.size()); }
+// half-width of the ramp of the rigid forms [rad/s]
+double ramp_width(const SpaceHinge& hinge);
+// q0, w0, w1: relative rotation (components of the rotation vector) or slip at the start, rates at start and (predicted) end
+FrozenSpaceHinge freeze(const SpaceHinge& hinge, const SpaceHingeState& state, double h, const double* q0, const double* w0,
+                        const double* w1);
+void widen(FrozenSpaceHinge& f, double width);
+// impulse (n), tangent (n x n, symmetric and positive semidefinite) and potential at end rates w; any may be null.  The
+// potential's derivative is the impulse
+void respond(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+             double* potential);
+// g of the trial state: below 1 the hinge is locked (or elastic), above it flows, and the more the farther above
+double load_factor(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w);
+// scale [N m s or N s] against which an error of a component's impulse counts
+double impulse_scale(const FrozenSpaceHinge& f, int k);
+// d impulse_i / d ln C_j at fixed rates and ramp (n x n, row i): for implicit differentiation of a converged step
+void capacity_sensitivity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* derivative);
+// advances the memory; `turn` (n): the rotations and slip over the step, h (w0 + w1)/2
+void commit(const SpaceHinge& hinge, const FrozenSpaceHinge& f, SpaceHingeState& state, double t0, const double* q0,
+            const double* w1, double* turn);
+// energies [J]: in the elastic springs; in the stops at relative rotations q; lost so far to plastic flow, dampers and stops
+double elastic_energy(const SpaceHinge& hinge, const SpaceHingeState& state);
+double stop_energy(const SpaceHinge& hinge, const double* q);
+double dissipated(const SpaceHinge& hinge, const SpaceHingeState& state);
+double damped(const SpaceHinge& hinge, const SpaceHingeState& state);
+double stop_dissipated(const SpaceHinge& hinge, const SpaceHingeState& state);
+// whether it is in plastic flow that counts
+bool turning(const SpaceHinge& hinge, const SpaceHingeState& state);
+
+}  // namespace crumple::space
