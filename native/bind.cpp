@@ -9,11 +9,16 @@ void bind(nb::module_& m);
 namespace crumple::shell {
 void bind(nb::module_& m);
 }
+namespace crumple::space {
+void bind_hinge(nb::module_& m);
+}
 
 NB_MODULE(_kernels, m) {
     m.doc() = "Compiled kernels of Crumple; use them through crumple.multibody and crumple.shell.";
     auto multibody = m.def_submodule("multibody", "Implicit convex stepper for trees of rigid bodies with plastic hinges.");
     crumple::multibody::bind(multibody);
+    auto space = m.def_submodule("space", "Hinges with several components.");
+    crumple::space::bind_hinge(space);
     auto shell = m.def_submodule("shell", "Explicit stepper for thin shells.");
     crumple::shell::bind(shell);
 }

@@ -28,34 +28,10 @@ Tree make_tree(const Integers& parent, const Integers& joint, const Array& bodie
     return Tree(std::move(out));
 }
 
-Curve make_curve(const Doubles& x, const Doubles& y) {
-    require(!x.empty() && x.size() == y.size(), "a curve needs as many values as places, at least one");
-    for (size_t i = 1; i < x.size(); i++) require(x[i] > x[i - 1], "the places of a curve must increase");
-    return Curve(x, y);
-}
-
-Hinge make_hinge(const nb::dict& d) {
-    Hinge h;
-    auto number = [&](const char* key) { return nb::cast<double>(d[key]); };
-    auto numbers = [&](const char* key) { return nb::cast<Doubles>(d[key]); };
+Hinge make_tree_hinge(const nb::dict& d) {
+    Hinge h = make_hinge(d, static_cast<Form>(nb::cast<int>(d["form"])), static_cast<Softening>(nb::cast<int>(d["softening"])));
     h.dof = nb::cast<int>(d["dof"]);
-    h.form = static_cast<Form>(nb::cast<int>(d["form"]));
-    h.softening = static_cast<Softening>(nb::cast<int>(d["softening"]));
-    h.positive = make_curve(numbers("positive_rotation"), numbers("positive_moment"));
-    h.negative = make_curve(numbers("negative_rotation"), numbers("negative_moment"));
-    h.stiffness = number("elastic_stiffness");
-    h.ramp_rate = number("regularisation_rate");
-    h.rate_reference = number("rate_reference");
-    h.rate_exponent = number("rate_exponent");
-    h.damping = number("viscous_damping");
-    h.scale = number("capacity_scale");
-    const char* keys[2] = {"stop_positive", "stop_negative"};
-    for (int k = 0; k < 2; k++) {
-        const Doubles s = numbers(keys[k]);  // empty: no stop
-        if (s.empty()) continue;
-        require(s.size() == 5, "a stop has rotation, stiffness, exponent, damping, penetration");
-        h.stop[k] = {s[0], s[1], s[2], s[3], s[4]};
-    }
+    h.scale = nb::cast<double>(d["capacity_scale"]);
     return h;
 }
 
@@ -86,7 +62,7 @@ Model make_model(const Integers& parent, const Integers& joint, const Array& bod
                  const nb::list& welds, const Doubles& gravity, double length) {
     Model model{make_tree(parent, joint, bodies), {}, {}, {}, {}, {}, {gravity.at(0), gravity.at(1)}, q0, length};
     require(q0.size() == static_cast<size_t>(model.tree.dofs()), "q0 must have one entry per joint coordinate");
-    for (nb::handle h : hinges) model.hinges.push_back(make_hinge(nb::cast<nb::dict>(h)));
+    for (nb::handle h : hinges) model.hinges.push_back(make_tree_hinge(nb::cast<nb::dict>(h)));
     for (nb::handle l : loads) model.loads.push_back(make_load(nb::cast<nb::tuple>(l)));
     for (nb::handle d : drives) model.drives.push_back(make_drive(nb::cast<nb::tuple>(d)));
     for (nb::handle d : holds) model.holds.push_back(make_hold(nb::cast<nb::tuple>(d)));

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <vector>
 
+#include "multibody/bind_hinge.hpp"
 #include "multibody/simulation.hpp"
 
 namespace crumple::multibody {
@@ -15,11 +16,6 @@ namespace nb = nanobind;
 
 using Array = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
 using Integers = nb::ndarray<const int64_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-using Doubles = std::vector<double>;
-
-inline void require(bool ok, const char* what) {
-    if (!ok) throw nb::value_error(what);
-}
 
 // a NumPy array of its own memory
 nb::object array(const Doubles& values, std::initializer_list<size_t> shape);

@@ -6,6 +6,7 @@ namespace crumple::multibody {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double half_pi = 1.57079632679489661923;
 // Below this turn [rad] the mean capacity is the present one: differences of areas would cancel.
 constexpr double smallest_mean = 1e-7;
@@ -73,20 +74,67 @@ double clamped(const FrozenHinge& f, double m) { return std::min(std::max(m, -f.
 // HAVSIN ramp and its integral, for a rate of x > 0 half-widths.
 double ramp(double x) { return x < 1 ? std::sin(half_pi * x) : 1; }
 double ramp_integral(double x) { return x < 1 ? (1 - std::cos(half_pi * x)) / half_pi : 1 / half_pi + x - 1; }
+double mean_ramp(double x0, double x) { return (ramp_integral(x) - ramp_integral(x0)) / (x - x0); }
+
+// Integral of the mean ramp from x0 to x, x0 < x: by Gauss points within the ramp, in closed form beyond it.
+double mean_ramp_integral(double x0, double x) {
+    static constexpr double place[4] = {0.18343464249564980494, 0.52553240991632898582, 0.79666647741362673959, 0.96028985649753623168};
+    static constexpr double weight[4] = {0.36268378337836198297, 0.31370664587788728734, 0.22238103445337447054, 0.10122853629037625915};
+    double sum = 0;
+    const double inner = std::min(x, 1.0);
+    if (x0 < inner) {
+        const double middle = (x0 + inner) / 2, half = (inner - x0) / 2;
+        for (int i = 0; i < 4; i++) sum += half * weight[i] * (mean_ramp(x0, middle - half * place[i]) + mean_ramp(x0, middle + half * place[i]));
+    }
+    if (x <= 1) return sum;
+    const double start = std::max(x0, 1.0);
+    // beyond the ramp the mean is 1 less what the ramp took, over the way
+    const double lost = x0 < 1 ? ramp_integral(x0) - x0 - 1 / half_pi + 1 : 0;
+    return sum + (x - start) - (lost > 0 ? lost * std::log((x - x0) / (start - x0)) : 0);
+}
 
 // The regularised form takes the ramp at the end rate while it slows down, which decays however stiff the ramp is.
 // While it speeds up it takes the mean over the rates passed: a step may leap over the whole ramp.
-Response ramp_response(const FrozenHinge& f, double w, double capacity) {
-    const double x = std::fabs(w) / f.width, x0 = std::fabs(f.w0) / f.width, sign = w < 0 ? -1 : 1;
-    const double most = f.h * capacity;
-    if (w * f.w0 < 0 || x - x0 < 1e-6) {
-        return {sign * most * ramp(x), x < 1 ? most * half_pi / f.width * std::cos(half_pi * x) : 0};
+Ramp ramp_of(const FrozenHinge& f, double w) {
+    const double x = std::fabs(w) / f.width, x0 = std::fabs(f.w0) / f.width;
+    return ramp_over(w * f.w0 < 0 ? x : x0, x);
+}
+
+// Rate in the sense of a stop at which its spring and damper, taken without letting go, push with no force; below it the
+// stop has let go.  Needs a damper: the force then grows with the rate.
+double release_rate(const Stop& stop, const FrozenHinge& f, int k) {
+    const double start = std::max(f.gap[k], 0.0), sign = k == 0 ? 1 : -1;
+    auto force = [&](double v) {
+        const double g = (start + std::max(penetration_at_end(f, k, sign * v), 0.0)) / 2;
+        return (g > 0 ? stop.force(g) : 0) + f.stop_damping[k] * v;
+    };
+    double low = -1, high = 0;
+    while (force(low) > 0) low *= 2;
+    for (int i = 0; i < 200 && high - low > 1e-16 * std::fabs(low); i++) {
+        const double middle = (low + high) / 2;
+        (force(middle) > 0 ? high : low) = middle;
     }
-    const double mean = (ramp_integral(x) - ramp_integral(x0)) / (x - x0);
-    return {sign * most * mean, most * (ramp(x) - mean) / (x - x0) / f.width};
+    return (low + high) / 2;
+}
+
+// Integral over the rate of a stop's force, taken without letting go.
+double stop_integral(const Stop& stop, const FrozenHinge& f, int k, double v) {
+    const double sign = k == 0 ? 1 : -1, start = std::max(f.gap[k], 0.0), end = penetration_at_end(f, k, sign * v);
+    const double damper = f.stop_damping[k] * v * v / 2;
+    // rate at which the end leaves the stop
+    const double edge = -sign * f.w0 - 2 * f.gap[k] / f.h;
+    const double outside = start > 0 ? stop.force(start / 2) * (std::min(v, edge) - edge) : 0;
+    const double inside = end > 0 ? 4 / f.h * (stop.energy((start + end) / 2) - stop.energy(start / 2)) : 0;
+    return damper + outside + inside;
 }
 
 }  // namespace
+
+Ramp ramp_over(double x0, double x) {
+    if (x - x0 < 1e-6) return {ramp(x), x < 1 ? half_pi * std::cos(half_pi * x) : 0, ramp_integral(x)};
+    const double mean = mean_ramp(x0, x);
+    return {mean, (ramp(x) - mean) / (x - x0), ramp_integral(x0) + mean_ramp_integral(x0, x)};
+}
 
 double ramp_width(const Hinge& hinge) { return hinge.form == Form::regularised ? hinge.ramp_rate : stick_rate; }
 
@@ -117,38 +165,30 @@ double Curve::integral(double v, int& hint) const {
     return area_[k] + d * (y_[k] + (y_[k + 1] - y_[k]) * d / (x_[k + 1] - x_[k]) / 2);
 }
 
-FrozenHinge freeze(const Hinge& hinge, const HingeState& s, double h, double q0, double w0, double w1, int* hint) {
-    FrozenHinge f;
-    f.h = h;
-    f.w0 = w0;
-    f.m0 = s.moment;
-    f.width = ramp_width(hinge);
-    if (hinge.damping > 0) f.damper_weight = end_weight(h * hinge.damping / hinge.damped_inertia);
-    const double mean_rate = (w0 + w1) / 2, turn = h * mean_rate;
+// Capacities before it flows, in the sense of the flow the mean over it; the elastic form needs that at the end of the
+// step, where its moment M1 stands.
+void set_capacity(const Hinge& hinge, const HingeState& s, double flow, int* hint, FrozenHinge& f) {
     for (int k = 0; k < 2; k++) f.capacity[k] = present_capacity(hinge, s, k, k == 0 ? s.plastic : -s.plastic, hint[k]);
-    double flow = turn;
-    if (hinge.form == Form::elastic_plastic) {
-        flow -= (clamped(f, elastic_moment(hinge, f, w1)) - s.moment) / hinge.stiffness;
+    if (flow == 0) return;
+    const int k = flow > 0 ? 0 : 1;
+    const double u = k == 0 ? s.plastic : -s.plastic, ahead = std::fabs(flow);
+    if (hinge.form != Form::elastic_plastic) {
+        if (ahead > smallest_mean) f.capacity[k] = mean_capacity(hinge, s, k, u, ahead, hint[k]);
+    } else {
+        HingeState end = s;
+        end.plastic += flow;
+        end.accumulated += ahead;
+        f.capacity[k] = present_capacity(hinge, end, k, u + ahead, hint[k]);
     }
-    if (flow != 0) {
-        // the elastic form needs the capacity at the end of the step, where its moment M1 stands
-        const int k = flow > 0 ? 0 : 1;
-        const double u = k == 0 ? s.plastic : -s.plastic, ahead = std::fabs(flow);
-        if (hinge.form != Form::elastic_plastic) {
-            if (ahead > smallest_mean) f.capacity[k] = mean_capacity(hinge, s, k, u, ahead, hint[k]);
-        } else {
-            HingeState end = s;
-            end.plastic += flow;
-            end.accumulated += ahead;
-            f.capacity[k] = present_capacity(hinge, end, k, u + ahead, hint[k]);
-        }
-    }
-    const double rate = std::fabs(mean_rate) / hinge.rate_reference;
-    if (rate > 0) {
-        const double factor = 1 + std::pow(rate, 1 / hinge.rate_exponent);
-        f.capacity[0] *= factor;
-        f.capacity[1] *= factor;
-    }
+}
+
+double rate_factor(const Hinge& hinge, double rate) {
+    const double share = std::fabs(rate) / hinge.rate_reference;
+    return share > 0 ? 1 + std::pow(share, 1 / hinge.rate_exponent) : 1;
+}
+
+void freeze_beside(const Hinge& hinge, double q0, double turn, FrozenHinge& f) {
+    if (hinge.damping > 0) f.damper_weight = end_weight(f.h * hinge.damping / hinge.damped_inertia);
     for (int k = 0; k < 2; k++) {
         const double sign = k == 0 ? 1 : -1;
         const Stop& stop = hinge.stop[k];
@@ -159,6 +199,24 @@ FrozenHinge freeze(const Hinge& hinge, const HingeState& s, double h, double q0,
         f.touched[k] = start > 0 && end > 0 ? 1 : 2 * g / std::fabs(turn);
         f.stop_damping[k] = stop.damping * (stop.penetration > 0 ? step_polynomial(g / stop.penetration) : 1);
     }
+}
+
+FrozenHinge freeze(const Hinge& hinge, const HingeState& s, double h, double q0, double w0, double w1, int* hint) {
+    FrozenHinge f;
+    f.h = h;
+    f.w0 = w0;
+    f.m0 = s.moment;
+    f.width = ramp_width(hinge);
+    const double mean_rate = (w0 + w1) / 2, turn = h * mean_rate;
+    double flow = turn;
+    if (hinge.form == Form::elastic_plastic) {
+        set_capacity(hinge, s, 0, hint, f);
+        flow -= (clamped(f, elastic_moment(hinge, f, w1)) - s.moment) / hinge.stiffness;
+    }
+    set_capacity(hinge, s, flow, hint, f);
+    const double factor = rate_factor(hinge, mean_rate);
+    for (double& capacity : f.capacity) capacity *= factor;
+    freeze_beside(hinge, q0, turn, f);
     return f;
 }
 
@@ -168,7 +226,11 @@ Response law_response(const Hinge& hinge, const FrozenHinge& f, double w) {
         const double trial = elastic_moment(hinge, f, w), m1 = clamped(f, trial);
         return {f.h * (f.m0 + m1) / 2, m1 == trial ? f.h * f.h * hinge.stiffness / 4 : 0};
     }
-    if (hinge.form == Form::regularised) return ramp_response(f, w, c);
+    if (hinge.form == Form::regularised) {
+        const Ramp ramp = ramp_of(f, w);
+        const double most = f.h * c;
+        return {w < 0 ? -most * ramp.value : most * ramp.value, most * ramp.slope / f.width};
+    }
     const double x = w / f.width;
     if (std::fabs(x) >= 1) return {w > 0 ? f.h * c : -f.h * c, 0};
     return {f.h * c * x, f.h * c / f.width};
@@ -191,10 +253,37 @@ Response stop_response(const Hinge& hinge, const FrozenHinge& f, double w) {
     return r;
 }
 
-Response respond(const Hinge& hinge, const FrozenHinge& f, double w) {
-    const Response law = law_response(hinge, f, w), stop = stop_response(hinge, f, w);
+Response beside_response(const Hinge& hinge, const FrozenHinge& f, double w) {
+    const Response stop = stop_response(hinge, f, w);
     const double damping = f.h * hinge.damping;
-    return {law.impulse + stop.impulse + damping * damper_rate(f, w), law.slope + stop.slope + damping * f.damper_weight};
+    return {stop.impulse + damping * damper_rate(f, w), stop.slope + damping * f.damper_weight};
+}
+
+Response respond(const Hinge& hinge, const FrozenHinge& f, double w) {
+    const Response law = law_response(hinge, f, w), beside = beside_response(hinge, f, w);
+    return {law.impulse + beside.impulse, law.slope + beside.slope};
+}
+
+double law_potential(const Hinge& hinge, const FrozenHinge& f, double w) {
+    const double c = w >= 0 ? f.capacity[0] : f.capacity[1], x = std::fabs(w) / f.width;
+    if (hinge.form == Form::elastic_plastic) {
+        const double trial = elastic_moment(hinge, f, w), m1 = clamped(f, trial);
+        return f.h * f.m0 * w / 2 + m1 * (trial - m1 / 2) / hinge.stiffness;
+    }
+    if (hinge.form == Form::regularised) return f.h * c * f.width * ramp_of(f, w).integral;
+    return f.h * c * f.width * (x < 1 ? x * x / 2 : x - 0.5);
+}
+
+double beside_potential(const Hinge& hinge, const FrozenHinge& f, double w) {
+    double sum = f.h * hinge.damping * w * ((1 - f.damper_weight) * f.w0 + f.damper_weight * w / 2);
+    for (int k = 0; k < 2; k++) {
+        if (f.touched[k] == 0) continue;
+        const double v = k == 0 ? w : -w, let_go = f.stop_damping[k] > 0 ? release_rate(hinge.stop[k], f, k) : -infinity;
+        if (v <= let_go) continue;
+        sum += f.h * f.touched[k] * stop_integral(hinge.stop[k], f, k, v);
+        if (f.stop_damping[k] > 0) sum -= f.h * f.touched[k] * stop_integral(hinge.stop[k], f, k, let_go);
+    }
+    return sum;
 }
 
 int kinks(const Hinge& hinge, const FrozenHinge& f, double* rates) {
@@ -264,13 +353,18 @@ double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0
     if (!s.sliding) s.episode = 0;
     s.peak[0] = std::max(s.peak[0], s.plastic);
     s.peak[1] = std::max(s.peak[1], -s.plastic);
+    commit_beside(hinge, f, s, q0, turn, w1);
+    return turn;
+}
+
+void commit_beside(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double q0, double turn, double w1) {
+    const double mean_rate = (f.w0 + w1) / 2, stop = stop_response(hinge, f, w1).impulse;
     s.damped += f.h * hinge.damping * damper_rate(f, w1) * mean_rate;
     // also where the stop has let go and its spring relaxes into its damper
     s.stop_dissipated += stop * mean_rate - (stop_energy(hinge, q0 + turn) - stop_energy(hinge, q0));
     s.total_moment = s.moment + hinge.damping * damper_rate(f, w1) + stop / f.h;
     s.rotation_max = std::max(s.rotation_max, std::fabs(q0 + turn));
     s.moment_max = std::max(s.moment_max, std::fabs(s.total_moment));
-    return turn;
 }
 
 double elastic_energy(const Hinge& hinge, const HingeState& s) {

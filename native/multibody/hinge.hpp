@@ -95,18 +95,35 @@ struct Response {
     double impulse, slope;
 };
 
+// HAVSIN over x >= 0 half-widths, from x0 >= 0: its value at x, or its mean from x0 to x where it speeds up; with the
+// slope over x and the integral from 0 of that value.
+struct Ramp {
+    double value, slope, integral;
+};
+
 // half-width of the ramp of the rigid forms [rad/s]
 double ramp_width(const Hinge& hinge);
+Ramp ramp_over(double x0, double x);
 FrozenHinge freeze(const Hinge& hinge, const HingeState& state, double h, double q0, double w0, double w1, int* hint);
-// impulse of the law alone, of the stops alone, and of everything
+// its parts: capacities of both senses over a plastic flow, without the rate factor; that factor; damper and stops
+void set_capacity(const Hinge& hinge, const HingeState& state, double flow, int* hint, FrozenHinge& f);
+double rate_factor(const Hinge& hinge, double rate);
+void freeze_beside(const Hinge& hinge, double q0, double turn, FrozenHinge& f);
+// impulse of the law alone, of damper and stops alone, of the stops, and of everything
 Response law_response(const Hinge& hinge, const FrozenHinge& f, double w);
+Response beside_response(const Hinge& hinge, const FrozenHinge& f, double w);
 Response stop_response(const Hinge& hinge, const FrozenHinge& f, double w);
 Response respond(const Hinge& hinge, const FrozenHinge& f, double w);
+// convex potentials whose derivatives over w are the impulses of the law, and of damper and stops
+double law_potential(const Hinge& hinge, const FrozenHinge& f, double w);
+double beside_potential(const Hinge& hinge, const FrozenHinge& f, double w);
 // rates at which the slope of the response changes; returns how many (at most 10)
 int kinks(const Hinge& hinge, const FrozenHinge& f, double* rates);
 // advances the memory; returns the rotation over the step.  `guided`: prescribed motion, not the hinge's own moment,
 // may have brought it to rest
 double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& state, double t0, double q0, double w1, bool guided);
+// its part for damper and stops, the law's moment being known
+void commit_beside(const Hinge& hinge, const FrozenHinge& f, HingeState& state, double q0, double turn, double w1);
 // elastic energy in the law's spring and in both stops at rotation q
 double elastic_energy(const Hinge& hinge, const HingeState& state);
 double stop_energy(const Hinge& hinge, double q);

@@ -53,37 +53,44 @@ struct SpaceHingeState {
     double rotation_max = 0;    // of the length of the rotation vector [rad]
     double opening_time = -1, rest_time = 0;  // first plastic flow (-1: none yet), last end of it [s]
     double fracture_time = -1;  // -1: whole
-    double fracture_energy = 0;  // dissipated within the step in which it opened [J]; part of `dissipated`
+    double fracture_energy = 0;  // elastic energy that its opening let go [J]; part of what is dissipated
     bool sliding = false;
 };
 
 // A hinge over one step, all that is not convex frozen.
 struct FrozenSpaceHinge {
     double h = 0;
-    int n = 0;
     double width = 0;           // half-width of the ramp [rad/s]; change it with `widen`
     double reference = 0;       // C_ref: the largest capacity of a rotation (of the slip, where it is alone)
     double lead = 0;            // a, weight of the start rate
+    double power0 = 0;          // regularised: D(w0)
     double intact = 1;          // share of the step before it opens; 0: open
     double w0[most_components] = {}, tau0[most_components] = {};
+    double top[2] = {0, 0};     // tension flange: the first capacity of the moment in both senses
     multibody::FrozenHinge component[most_components];  // capacities of both senses, stops, damper
     int hint[most_components][2] = {};
 };
 
 // number of components
 inline int size(const SpaceHinge& hinge) { return static_cast<int>(hinge.components.size()); }
+// whether one surface joins its components
+bool coupled(const SpaceHinge& hinge);
 // half-width of the ramp of the rigid forms [rad/s]
 double ramp_width(const SpaceHinge& hinge);
 // q0, w0, w1: relative rotation (components of the rotation vector) or slip at the start, rates at start and (predicted) end
 FrozenSpaceHinge freeze(const SpaceHinge& hinge, const SpaceHingeState& state, double h, const double* q0, const double* w0,
                         const double* w1);
-void widen(FrozenSpaceHinge& f, double width);
-// impulse (n), tangent (n x n, symmetric and positive semidefinite) and potential at end rates w; any may be null.  The
-// potential's derivative is the impulse
+void widen(const SpaceHinge& hinge, FrozenSpaceHinge& f, double width);
+// impulse (n), tangent (n x n, symmetric and positive semidefinite) and potential at end rates w, of everything and of the
+// law alone, without dampers and stops; any may be null.  The potential's derivative is the impulse
 void respond(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
              double* potential);
+void law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+         double* potential);
 // g of the trial state: below 1 the hinge is locked (or elastic), above it flows, and the more the farther above
 double load_factor(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w);
+// power D(w) that a coupled hinge takes at rates w where it flows
+double power_at_capacity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w);
 // scale [N m s or N s] against which an error of a component's impulse counts
 double impulse_scale(const FrozenSpaceHinge& f, int k);
 // d impulse_i / d ln C_j at fixed rates and ramp (n x n, row i): for implicit differentiation of a converged step

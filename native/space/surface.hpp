@@ -1,4 +1,4 @@
-// Convex surfaces of interaction g(x) = 1 in the shares x = tau/C of the capacities, and the points of them that a hinge needs.
+// Convex surfaces of interaction g = 1, and the points of them that a hinge needs.
 //
 // The one problem is
 //     maximise  y.x - 1/2 sum_k m_k x_k^2   subject to   g(x) <= 1,      m_k >= 0,
@@ -10,31 +10,39 @@
 namespace crumple::space {
 
 enum class Coupling {
-    none,            // |x_k| <= 1, each for itself
-    ellipsoid,       // |x|
+    none,            // each component for itself
+    ellipsoid,       // |x|, x the shares of the capacities
     ball,            // |x| with one capacity, which runs on the angle of the relative rotation
-    section,         // ([sum_rows |a.(n, m_y, m_z)|^p]^(r/p) + |t|^r)^(1/r)
-    tension_flange,  // |M| + N arm <= C (N compression), |M| <= the first C, -N_t <= N <= N_c
+    section,         // ([sum over rows a of |a.x|^p]^(r/p) + |t|^r)^(1/r), t the torque's share
+    tension_flange,  // the fold turns about its tension flange, see `Flange`
 };
 
 struct Surface {
     Coupling coupling = Coupling::none;
-    std::vector<double> rows;  // section: (rows, n) over the components in their order; torsion's column is zero
+    std::vector<double> rows;  // section: (rows, n) over the components in their order; the torque's column is zero
     double power = 2, torque_power = 2;
     int torsion = -1;          // section: component that is the torque, or -1
-    double arm = 0;            // tension flange: distance from the centroid to the flange that it turns about [m]
+    double arm = 0;            // tension flange: its distance from the centroid [m]
 };
 
-// Point x (n), its multiplier, and the derivative dx/dy (n x n, symmetric, positive semidefinite; may be null).
+// A maximum: its place x, its value, the multiplier of g <= 1 (zero inside).
 struct SurfacePoint {
     double x[4] = {0, 0, 0, 0};
-    double value = 0;       // of the maximum
-    double multiplier = 0;  // of g <= 1; zero inside
+    double value = 0, multiplier = 0;
 };
 
-// g and its gradient (may be null); not for the tension flange
+// g of the ellipsoid, ball or section; gradient may be null
 double gauge(const Surface& s, int n, const double* x, double* gradient);
-// `guess`: direction of a point to start from, or null
+// `guess` (null: none): direction in which to start; `derivative` (n x n, null: not wanted): dx/dy, symmetric and positive
+// semidefinite.  Closed form for the ellipsoid with equal m, Newton's method else
 SurfacePoint nearest(const Surface& s, int n, const double* y, const double* m, const double* guess, double* derivative);
+
+// Set of (M, N), N positive in tension: |M| <= top, |M| - N arm <= moment, -crush <= N <= pull.
+struct Flange {
+    int axial = 0;  // which of the two components is N
+    double moment = 0, top = 0, arm = 0, crush = 0, pull = 0;
+};
+double gauge(const Flange& f, const double* x);
+SurfacePoint nearest(const Flange& f, const double* y, const double* m, double* derivative);
 
 }  // namespace crumple::space

@@ -61,4 +61,5 @@ class _Multibody:
     ) -> dict[str, Any]: ...
 
 multibody: _Multibody
+space: Any
 shell: Any

@@ -1,0 +1,50 @@
+// A hinge from the plain values that Python hands over.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <vector>
+
+#include "multibody/hinge.hpp"
+
+namespace crumple::multibody {
+
+using Doubles = std::vector<double>;
+
+inline void require(bool ok, const char* what) {
+    if (!ok) throw nanobind::value_error(what);
+}
+
+inline Curve make_curve(const Doubles& x, const Doubles& y) {
+    require(!x.empty() && x.size() == y.size(), "a curve needs as many values as places, at least one");
+    for (size_t i = 1; i < x.size(); i++) require(x[i] > x[i - 1], "the places of a curve must increase");
+    return Curve(x, y);
+}
+
+// curves, stiffness, rate factor, damper and stops
+inline Hinge make_hinge(const nanobind::dict& d, Form form, Softening softening) {
+    Hinge h;
+    h.form = form;
+    h.softening = softening;
+    auto number = [&](const char* key) { return nanobind::cast<double>(d[key]); };
+    auto numbers = [&](const char* key) { return nanobind::cast<Doubles>(d[key]); };
+    h.positive = make_curve(numbers("positive_rotation"), numbers("positive_moment"));
+    h.negative = make_curve(numbers("negative_rotation"), numbers("negative_moment"));
+    h.stiffness = number("elastic_stiffness");
+    h.ramp_rate = number("regularisation_rate");
+    h.rate_reference = number("rate_reference");
+    h.rate_exponent = number("rate_exponent");
+    h.damping = number("viscous_damping");
+    const char* keys[2] = {"stop_positive", "stop_negative"};
+    for (int k = 0; k < 2; k++) {
+        const Doubles s = numbers(keys[k]);  // empty: no stop
+        if (s.empty()) continue;
+        require(s.size() == 5, "a stop has rotation, stiffness, exponent, damping, penetration");
+        h.stop[k] = {s[0], s[1], s[2], s[3], s[4]};
+    }
+    return h;
+}
+
+}  // namespace crumple::multibody

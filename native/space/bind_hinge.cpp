@@ -1,0 +1,167 @@
+#include "space/bind_hinge.hpp"
+
+#include <nanobind/ndarray.h>
+
+#include <cmath>
+
+#include "multibody/bind_hinge.hpp"
+
+namespace nb = nanobind;
+
+namespace crumple::space {
+
+namespace {
+
+using multibody::Doubles;
+using multibody::require;
+
+// One hinge that is led along given rates.
+struct Element {
+    SpaceHinge hinge;
+    SpaceHingeState state;
+    FrozenSpaceHinge frozen;
+    double time = 0;
+    Doubles q;
+};
+
+const double* checked(const Element& e, const Doubles& values) {
+    require(values.size() == static_cast<size_t>(size(e.hinge)), "one value per component is needed");
+    return values.data();
+}
+
+nb::tuple answer(const Element& e, const Doubles& w, bool alone) {
+    const auto n = static_cast<size_t>(size(e.hinge));
+    Doubles impulse(n), tangent(n * n);
+    double potential = 0;
+    (alone ? law : respond)(e.hinge, e.frozen, checked(e, w), impulse.data(), tangent.data(), &potential);
+    return nb::make_tuple(impulse, tangent, potential);
+}
+
+Doubles committed(Element& e, const Doubles& w1) {
+    Doubles turn(w1.size());
+    commit(e.hinge, e.frozen, e.state, e.time, e.q.data(), checked(e, w1), turn.data());
+    e.time += e.frozen.h;
+    for (size_t k = 0; k < turn.size(); k++) e.q[k] += turn[k];
+    return turn;
+}
+
+nb::dict state_of(const Element& e) {
+    const SpaceHingeState& s = e.state;
+    Doubles plastic, moment, total, capacity;
+    for (int k = 0; k < size(e.hinge); k++) {
+        const multibody::HingeState& c = s.component[k];
+        plastic.push_back(c.plastic);
+        moment.push_back(c.moment);
+        total.push_back(c.total_moment);
+        capacity.push_back(c.capacity);
+    }
+    nb::dict d;
+    d["plastic"] = plastic;
+    d["moment"] = moment;
+    d["total_moment"] = total;
+    d["capacity"] = capacity;
+    d["softening"] = s.softening;
+    d["dissipated"] = dissipated(e.hinge, s);
+    d["damped"] = damped(e.hinge, s);
+    d["stop_dissipated"] = stop_dissipated(e.hinge, s);
+    d["elastic"] = elastic_energy(e.hinge, s);
+    d["stop"] = stop_energy(e.hinge, e.q.data());
+    d["rotation_max"] = s.rotation_max;
+    d["opening_time"] = s.opening_time;
+    d["rest_time"] = s.rest_time;
+    d["fracture_time"] = s.fracture_time;
+    d["fracture_energy"] = s.fracture_energy;
+    d["sliding"] = s.sliding;
+    d["turning"] = turning(e.hinge, s);
+    return d;
+}
+
+Surface make_surface(const nb::dict& d, int n) {
+    Surface s;
+    const int kind = nb::cast<int>(d["coupling"]);
+    require(kind >= 0 && kind <= static_cast<int>(Coupling::tension_flange), "unknown coupling");
+    s.coupling = static_cast<Coupling>(kind);
+    s.rows = nb::cast<Doubles>(d["rows"]);
+    s.power = nb::cast<double>(d["power"]);
+    s.torque_power = nb::cast<double>(d["torque_power"]);
+    s.torsion = nb::cast<int>(d["torsion"]);
+    s.arm = nb::cast<double>(d["arm"]);
+    if (s.coupling == Coupling::section) {
+        require(!s.rows.empty() && s.rows.size() % static_cast<size_t>(n) == 0, "rows must have one column per component");
+        require(s.power >= 2 && s.torque_power >= 2, "the powers of a surface are at least 2");
+        require(s.torsion >= -1 && s.torsion < n, "the torque is no component");
+    }
+    return s;
+}
+
+}  // namespace
+
+SpaceHinge make_hinge(const nb::dict& d) {
+    SpaceHinge h;
+    const int form = nb::cast<int>(d["form"]), softening = nb::cast<int>(d["softening"]);
+    int slips = 0, turns = 0;
+    for (nb::handle item : nb::cast<nb::list>(d["components"])) {
+        const auto c = nb::cast<nb::dict>(item);
+        h.components.push_back({nb::cast<int>(c["freedom"]),
+                                multibody::make_hinge(c, static_cast<Form>(form), static_cast<Softening>(softening))});
+        const Component& last = h.components.back();
+        require(last.freedom >= 0 && last.freedom < 6, "a freedom is one of six");
+        require(form != 1 || (last.law.stiffness > 0 && std::isfinite(last.law.stiffness)), "an elastic hinge needs a stiffness");
+        (last.freedom < 3 ? slips : turns)++;
+    }
+    require(size(h) >= 1 && size(h) <= most_components, "a hinge has one to four components");
+    h.surface = make_surface(d, size(h));
+    h.fracture = nb::cast<double>(d["fracture"]);
+    require(h.surface.coupling != Coupling::ball || slips == 0, "a ball hinge has rotations only");
+    require(h.surface.coupling != Coupling::tension_flange || (slips == 1 && turns == 1 && form != 2 && h.surface.arm > 0),
+            "a hinge about its tension flange has one slip and one rotation, an arm, and is not regularised");
+    return h;
+}
+
+void bind_hinge(nb::module_& m) {
+    nb::class_<Element>(m, "HingeElement")
+        .def("__init__",
+             [](Element* self, const nb::dict& d) {
+                 new (self) Element{make_hinge(d), {}, {}, 0, {}};
+                 self->q.assign(static_cast<size_t>(size(self->hinge)), 0.0);
+             })
+        .def("freeze",
+             [](Element& e, double h, const Doubles& w0, const Doubles& w1) {
+                 e.frozen = freeze(e.hinge, e.state, h, e.q.data(), checked(e, w0), checked(e, w1));
+             })
+        .def("widen", [](Element& e, double width) { widen(e.hinge, e.frozen, width); })
+        .def("scale_capacity",
+             [](Element& e, int k, double factor) {
+                 for (double& c : e.frozen.component[k].capacity) c *= factor;
+                 if (e.hinge.components[static_cast<size_t>(k)].freedom < 3) return;
+                 for (double& top : e.frozen.top) top *= factor;
+             })
+        .def("respond", [](const Element& e, const Doubles& w) { return answer(e, w, false); })
+        .def("law", [](const Element& e, const Doubles& w) { return answer(e, w, true); })
+        .def("load_factor", [](const Element& e, const Doubles& w) { return load_factor(e.hinge, e.frozen, checked(e, w)); })
+        .def("capacity_sensitivity",
+             [](const Element& e, const Doubles& w) {
+                 Doubles d(w.size() * w.size());
+                 capacity_sensitivity(e.hinge, e.frozen, checked(e, w), d.data());
+                 return d;
+             })
+        .def("commit", &committed)
+        .def_prop_ro("lead", [](const Element& e) { return e.frozen.lead; })
+        .def_prop_ro("q", [](const Element& e) { return e.q; })
+        .def_prop_ro("state", &state_of);
+    m.def("surface_point", [](const nb::dict& d, const Doubles& y, const Doubles& metric) {
+        const auto n = y.size();
+        const Surface s = make_surface(d, static_cast<int>(n));
+        Doubles derivative(n * n);
+        const SurfacePoint p = nearest(s, static_cast<int>(n), y.data(), metric.data(), nullptr, derivative.data());
+        return nb::make_tuple(Doubles(p.x, p.x + n), p.value, p.multiplier, derivative);
+    });
+    m.def("surface_gauge", [](const nb::dict& d, const Doubles& x) {
+        const Surface s = make_surface(d, static_cast<int>(x.size()));
+        Doubles gradient(x.size());
+        const double g = gauge(s, static_cast<int>(x.size()), x.data(), gradient.data());
+        return nb::make_tuple(g, gradient);
+    });
+}
+
+}  // namespace crumple::space

@@ -1,0 +1,13 @@
+// Spatial hinges from Python's plain values, and one hinge by itself for tests of the element.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include "space/hinge.hpp"
+
+namespace crumple::space {
+
+SpaceHinge make_hinge(const nanobind::dict& d);
+void bind_hinge(nanobind::module_& m);
+
+}  // namespace crumple::space

@@ -1,0 +1,260 @@
+// What a hinge gives at end rates, all else frozen: impulse, tangent, potential, and the derivative over its capacities.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "space/hinge.hpp"
+
+namespace crumple::space {
+
+namespace {
+
+constexpr int most = most_components;
+
+// The problem of surface.hpp that a step's rates pose.  Components are x = tau/scale, impulses h scale x.
+struct Trial {
+    double scale[most] = {}, y[most] = {}, m[most] = {};
+    double y_rate[most] = {};  // dy_k/dw_k
+    double guess[most] = {};
+    Flange flange;
+};
+
+bool on_flange(const SpaceHinge& hinge) { return hinge.surface.coupling == Coupling::tension_flange; }
+
+Flange flange_of(const SpaceHinge& hinge, const FrozenSpaceHinge& f, double moment_sign) {
+    Flange out;
+    out.axial = hinge.components[0].freedom < 3 ? 0 : 1;
+    const int sense = moment_sign < 0 ? 1 : 0;
+    out.arm = hinge.surface.arm;
+    out.moment = f.component[1 - out.axial].capacity[sense];
+    out.top = std::max(f.top[sense], out.moment);
+    out.pull = f.component[out.axial].capacity[0];
+    out.crush = f.component[out.axial].capacity[1];
+    return out;
+}
+
+// A component's capacity in the sense of its load.  The tension flange joins both senses of N, so it keeps to plain
+// forces, weighed by the larger capacity.
+Trial trial_of(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w) {
+    Trial t;
+    const int n = size(hinge);
+    const Form form = hinge.components[0].law.form;
+    double drive[most], load = 0;
+    for (int k = 0; k < n; k++) {
+        const multibody::Hinge& law = hinge.components[static_cast<size_t>(k)].law;
+        drive[k] = form == Form::elastic_plastic ? f.tau0[k] + law.stiffness * f.h * (f.w0[k] + w[k]) / 2
+                                                 : f.lead * f.w0[k] + (1 - f.lead) * w[k];
+        if (hinge.components[static_cast<size_t>(k)].freedom >= 3) load = drive[k];
+    }
+    if (on_flange(hinge)) t.flange = flange_of(hinge, f, load);
+    for (int k = 0; k < n; k++) {
+        const multibody::Hinge& law = hinge.components[static_cast<size_t>(k)].law;
+        const double* both = f.component[k].capacity;
+        const double capacity = on_flange(hinge) ? std::max(both[0], both[1]) : both[drive[k] < 0 ? 1 : 0];
+        const double c = on_flange(hinge) ? 1 : capacity;
+        t.scale[k] = c;
+        if (form == Form::elastic_plastic) {
+            t.m[k] = c * c / law.stiffness;
+            t.y[k] = c * drive[k] / law.stiffness;
+            t.y_rate[k] = c * f.h / 2;
+        } else {
+            t.m[k] = form == Form::set_valued ? f.width * f.reference * c * c / (capacity * capacity) : 0;
+            t.y[k] = c * drive[k];
+            t.y_rate[k] = c * (1 - f.lead);
+        }
+        t.guess[k] = f.tau0[k] / c;
+    }
+    return t;
+}
+
+SurfacePoint point_of(const SpaceHinge& hinge, const Trial& t, double* derivative) {
+    if (on_flange(hinge)) return nearest(t.flange, t.y, t.m, derivative);
+    return nearest(hinge.surface, size(hinge), t.y, t.m, t.guess, derivative);
+}
+
+void scaled_block(int n, const Trial& t, double factor, const double* block, double* tangent) {
+    for (int j = 0; j < n; j++) {
+        for (int k = 0; k < n; k++) tangent[j * n + k] = factor * t.scale[j] * block[j * n + k] * t.y_rate[k];
+    }
+}
+
+// Capacity times ramp, the ramp over the power that the hinge would take at full capacity.
+void regularised_law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+                     double* potential) {
+    const int n = size(hinge);
+    const Trial t = trial_of(hinge, f, w);
+    const double full = f.width * f.reference;
+    double block[most * most];
+    const SurfacePoint p = point_of(hinge, t, tangent != nullptr ? block : nullptr);
+    const multibody::Ramp ramp = multibody::ramp_over(f.power0 / full, p.value / full);
+    for (int k = 0; k < n && impulse != nullptr; k++) impulse[k] = f.h * ramp.value * t.scale[k] * p.x[k];
+    if (potential != nullptr) *potential = f.h * full * ramp.integral / (1 - f.lead);
+    if (tangent == nullptr) return;
+    scaled_block(n, t, f.h * ramp.value, block, tangent);
+    for (int j = 0; j < n; j++) {
+        // at rest no direction is given: that of an ellipsoid holds for all
+        if (p.value == 0) tangent[j * n + j] = f.h * ramp.slope / full * t.scale[j] * t.y_rate[j];
+        for (int k = 0; k < n; k++) tangent[j * n + k] += f.h * ramp.slope / full * t.scale[j] * p.x[j] * p.x[k] * t.y_rate[k];
+    }
+}
+
+void coupled_law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+                 double* potential) {
+    const int n = size(hinge);
+    const Form form = hinge.components[0].law.form;
+    if (form == Form::regularised) return regularised_law(hinge, f, w, impulse, tangent, potential);
+    const bool elastic = form == Form::elastic_plastic;
+    const Trial t = trial_of(hinge, f, w);
+    double block[most * most];
+    const SurfacePoint p = point_of(hinge, t, tangent != nullptr ? block : nullptr);
+    const double share = elastic ? f.h / 2 : f.h;
+    double sum = elastic ? p.value : f.h * p.value / (1 - f.lead);
+    for (int k = 0; k < n; k++) {
+        const double start = elastic ? share * f.tau0[k] : 0;
+        sum += start * w[k];
+        if (impulse != nullptr) impulse[k] = start + share * t.scale[k] * p.x[k];
+    }
+    if (potential != nullptr) *potential = sum;
+    if (tangent != nullptr) scaled_block(n, t, share, block, tangent);
+}
+
+// Open, what is left of an elastic moment acts as if it fell to zero over the step.
+void open_law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+              double* potential) {
+    const int n = size(hinge);
+    const bool elastic = hinge.components[0].law.form == Form::elastic_plastic;
+    double sum = 0;
+    for (int k = 0; k < n; k++) {
+        const double left = elastic ? f.h * f.tau0[k] / 2 : 0;
+        sum += left * w[k];
+        if (impulse != nullptr) impulse[k] = left;
+    }
+    if (potential != nullptr) *potential = sum;
+    if (tangent != nullptr) std::fill(tangent, tangent + n * n, 0.0);
+}
+
+void separate_law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+                  double* potential) {
+    const int n = size(hinge);
+    if (tangent != nullptr) std::fill(tangent, tangent + n * n, 0.0);
+    if (potential != nullptr) *potential = 0;
+    for (int k = 0; k < n; k++) {
+        const multibody::Hinge& law = hinge.components[static_cast<size_t>(k)].law;
+        const multibody::Response r = multibody::law_response(law, f.component[k], w[k]);
+        if (impulse != nullptr) impulse[k] = r.impulse;
+        if (tangent != nullptr) tangent[k * n + k] = r.slope;
+        if (potential != nullptr) *potential += multibody::law_potential(law, f.component[k], w[k]);
+    }
+}
+
+bool falls_open(const SpaceHinge& hinge, const FrozenSpaceHinge& f) {
+    return f.intact <= 0 || (f.intact < 1 && hinge.components[0].law.form == Form::elastic_plastic);
+}
+
+}  // namespace
+
+void law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+         double* potential) {
+    if (falls_open(hinge, f)) return open_law(hinge, f, w, impulse, tangent, potential);
+    if (coupled(hinge)) return coupled_law(hinge, f, w, impulse, tangent, potential);
+    separate_law(hinge, f, w, impulse, tangent, potential);
+}
+
+void respond(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+             double* potential) {
+    law(hinge, f, w, impulse, tangent, potential);
+    const int n = size(hinge);
+    for (int k = 0; k < n; k++) {
+        const multibody::Hinge& one = hinge.components[static_cast<size_t>(k)].law;
+        const multibody::Response r = multibody::beside_response(one, f.component[k], w[k]);
+        if (impulse != nullptr) impulse[k] += r.impulse;
+        if (tangent != nullptr) tangent[k * n + k] += r.slope;
+        if (potential != nullptr) *potential += multibody::beside_potential(one, f.component[k], w[k]);
+    }
+}
+
+double power_at_capacity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w) {
+    Trial t = trial_of(hinge, f, w);
+    std::fill(t.m, t.m + most, 0.0);
+    return point_of(hinge, t, nullptr).value;
+}
+
+double load_factor(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w) {
+    if (falls_open(hinge, f)) return std::numeric_limits<double>::infinity();
+    const int n = size(hinge);
+    const Form form = hinge.components[0].law.form;
+    if (!coupled(hinge)) {
+        double most_loaded = 0;
+        for (int k = 0; k < n; k++) {
+            const multibody::FrozenHinge& c = f.component[k];
+            double share = std::fabs(w[k]) / f.width;
+            if (form == Form::elastic_plastic) {
+                const double stiffness = hinge.components[static_cast<size_t>(k)].law.stiffness;
+                const double trial = c.m0 + stiffness * c.h * (c.w0 + w[k]) / 2;
+                share = std::fabs(trial) / c.capacity[trial < 0 ? 1 : 0];
+            }
+            most_loaded = std::max(most_loaded, share);
+        }
+        return most_loaded;
+    }
+    if (form == Form::regularised) return power_at_capacity(hinge, f, w) / (f.width * f.reference);
+    const Trial t = trial_of(hinge, f, w);
+    double x[most];
+    for (int k = 0; k < n; k++) x[k] = t.y[k] / t.m[k];
+    return on_flange(hinge) ? gauge(t.flange, x) : gauge(hinge.surface, n, x, nullptr);
+}
+
+double impulse_scale(const FrozenSpaceHinge& f, int k) { return f.h * (f.component[k].capacity[0] + f.component[k].capacity[1]); }
+
+void capacity_sensitivity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* derivative) {
+    const int n = size(hinge);
+    std::fill(derivative, derivative + n * n, 0.0);
+    if (falls_open(hinge, f)) return;
+    const bool elastic = hinge.components[0].law.form == Form::elastic_plastic;
+    double impulse[most];
+    law(hinge, f, w, impulse, nullptr, nullptr);
+    if (!coupled(hinge)) {
+        for (int k = 0; k < n; k++) {
+            const double end = 2 * impulse[k] / f.h - f.component[k].m0;
+            const multibody::Hinge& one = hinge.components[static_cast<size_t>(k)].law;
+            const bool bound = multibody::law_response(one, f.component[k], w[k]).slope == 0;
+            derivative[k * n + k] = !elastic ? impulse[k] : bound ? f.h * end / 2 : 0;
+        }
+        return;
+    }
+    if (on_flange(hinge)) {
+        // the point is linear in the capacities while it keeps to its side or corner
+        constexpr double change = 1e-6;
+        const Trial t = trial_of(hinge, f, w);
+        for (int j = 0; j < n; j++) {
+            double ends[2][most];
+            for (int side = 0; side < 2; side++) {
+                Trial other = t;
+                const double factor = side == 0 ? 1 - change : 1 + change;
+                if (j == t.flange.axial) other.flange.pull *= factor, other.flange.crush *= factor;
+                else other.flange.moment *= factor, other.flange.top *= factor;
+                const SurfacePoint p = point_of(hinge, other, nullptr);
+                std::copy(p.x, p.x + n, ends[side]);
+            }
+            for (int i = 0; i < n; i++) derivative[i * n + j] = (elastic ? f.h / 2 : f.h) * (ends[1][i] - ends[0][i]) / (2 * change);
+        }
+        return;
+    }
+    const Trial t = trial_of(hinge, f, w);
+    double block[most * most];
+    const SurfacePoint p = point_of(hinge, t, block);
+    const double full = f.width * f.reference;
+    const bool ramped = hinge.components[0].law.form == Form::regularised;
+    const multibody::Ramp ramp = ramped ? multibody::ramp_over(f.power0 / full, p.value / full) : multibody::Ramp{1, 0, 0};
+    const double share = (elastic ? f.h / 2 : f.h) * ramp.value;
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n; j++) {
+            const double load = elastic ? t.y[j] - 2 * t.m[j] * p.x[j] : t.y[j];
+            derivative[i * n + j] = share * t.scale[i] * block[i * n + j] * load;
+            derivative[i * n + j] += f.h * ramp.slope / full * t.scale[i] * p.x[i] * p.x[j] * t.y[j];
+        }
+        derivative[i * n + i] += share * t.scale[i] * p.x[i];
+    }
+}
+
+}  // namespace crumple::space

@@ -1,0 +1,362 @@
+#include "space/surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace crumple::space {
+
+namespace {
+
+constexpr int most = 4;
+// Newton steps on the surface; a handful is usual, the rest is for edges of high powers.
+constexpr int newton_limit = 80;
+// Residual over the load y at which a point counts as found: a few rounding errors of the sum over rows.
+constexpr double converged = 1e-15;
+
+double to_power(double v, double p) {
+    if (p == 1) return v;
+    const int whole = static_cast<int>(p);
+    if (whole != p) return std::pow(v, p);
+    double result = 1;
+    for (int k = whole; k > 0; k >>= 1, v *= v) {
+        if (k & 1) result *= v;
+    }
+    return result;
+}
+
+double dot(int n, const double* a, const double* b) {
+    double sum = 0;
+    for (int k = 0; k < n; k++) sum += a[k] * b[k];
+    return sum;
+}
+
+double length(int n, const double* a) { return std::sqrt(dot(n, a, a)); }
+
+// Solves a x = b by elimination with pivots, a (n x n) and b (n x columns) overwritten.  A zero pivot becomes tiny.
+void solve(int n, double a[][most + 1], double b[][most + 1], int columns) {
+    for (int j = 0; j < n; j++) {
+        int p = j;
+        for (int i = j + 1; i < n; i++) {
+            if (std::fabs(a[i][j]) > std::fabs(a[p][j])) p = i;
+        }
+        for (int k = 0; k < n; k++) std::swap(a[j][k], a[p][k]);
+        for (int k = 0; k < columns; k++) std::swap(b[j][k], b[p][k]);
+        if (a[j][j] == 0) a[j][j] = 1e-300;
+        for (int i = j + 1; i < n; i++) {
+            const double factor = a[i][j] / a[j][j];
+            if (factor == 0) continue;
+            for (int k = j; k < n; k++) a[i][k] -= factor * a[j][k];
+            for (int k = 0; k < columns; k++) b[i][k] -= factor * b[j][k];
+        }
+    }
+    for (int i = n - 1; i >= 0; i--) {
+        for (int k = 0; k < columns; k++) {
+            for (int j = i + 1; j < n; j++) b[i][k] -= a[i][j] * b[j][k];
+            b[i][k] /= a[i][i];
+        }
+    }
+}
+
+struct Shape {
+    double g = 0;
+    double gradient[most] = {};
+    double curvature[most][most] = {};
+};
+
+// p-norm of the rows' forms with gradient and curvature.
+Shape direct_shape(const Surface& s, int n, const double* x, bool curved) {
+    Shape out;
+    const std::size_t rows = s.rows.size() / static_cast<std::size_t>(n);
+    const double* a = s.rows.data();
+    double largest = 0;
+    for (std::size_t i = 0; i < rows; i++) largest = std::max(largest, std::fabs(dot(n, a + i * static_cast<std::size_t>(n), x)));
+    if (largest == 0) return out;
+    // the largest form taken out, so that high powers neither overflow nor vanish
+    double total = 0;
+    for (std::size_t i = 0; i < rows; i++, a += n) {
+        const double ratio = dot(n, a, x) / largest, size = std::fabs(ratio);
+        const double low = to_power(size, s.power - 2), slope = low * ratio;
+        total += slope * ratio;
+        for (int j = 0; j < n; j++) {
+            out.gradient[j] += slope * a[j];
+            if (!curved) continue;
+            for (int k = 0; k <= j; k++) out.curvature[j][k] += low * a[j] * a[k];
+        }
+    }
+    const double root = std::pow(total, 1 / s.power);
+    out.g = largest * root;
+    const double slope_scale = root / total, bend = (s.power - 1) * root / (total * largest);
+    for (int j = 0; j < n; j++) out.gradient[j] *= slope_scale;
+    if (!curved) return out;
+    for (int j = 0; j < n; j++) {
+        for (int k = 0; k <= j; k++) {
+            out.curvature[j][k] = bend * out.curvature[j][k] - (s.power - 1) / out.g * out.gradient[j] * out.gradient[k];
+            out.curvature[k][j] = out.curvature[j][k];
+        }
+    }
+    return out;
+}
+
+// g = (d^r + |t|^r)^(1/r) of the direct part d and the torque t.
+Shape with_torque(const Surface& s, int n, const double* x, Shape d, bool curved) {
+    const double torque = x[s.torsion], r = s.torque_power;
+    const double t = std::fabs(torque), top = std::max(d.g, t);
+    Shape out;
+    if (top == 0) return out;
+    out.g = top * std::pow(std::pow(d.g / top, r) + std::pow(t / top, r), 1 / r);
+    const double u = d.g / out.g, v = t / out.g, sign = torque < 0 ? -1 : 1;
+    const double by_d = std::pow(u, r - 1), by_t = sign * std::pow(v, r - 1);
+    for (int j = 0; j < n; j++) out.gradient[j] = by_d * d.gradient[j];
+    out.gradient[s.torsion] = by_t;
+    if (!curved) return out;
+    const double bend = (r - 1) / out.g, flat = std::pow(u, r - 2), dd = bend * (flat - by_d * by_d), dt = -bend * by_d * by_t;
+    for (int j = 0; j < n; j++) {
+        // without direct load its norm has a kink, which r >= 2 smooths: the rows' plain sum stands for it
+        for (int k = 0; k < n; k++) out.curvature[j][k] = dd * d.gradient[j] * d.gradient[k] + by_d * d.curvature[j][k];
+        out.curvature[j][s.torsion] = out.curvature[s.torsion][j] = dt * d.gradient[j];
+    }
+    if (d.g == 0) {
+        for (std::size_t i = 0; i < s.rows.size(); i += static_cast<std::size_t>(n)) {
+            for (int j = 0; j < n; j++) {
+                for (int k = 0; k < n; k++) out.curvature[j][k] += flat / out.g * s.rows[i + static_cast<std::size_t>(j)] * s.rows[i + static_cast<std::size_t>(k)];
+            }
+        }
+    }
+    out.curvature[s.torsion][s.torsion] = bend * (std::pow(v, r - 2) - by_t * by_t);
+    return out;
+}
+
+Shape shape(const Surface& s, int n, const double* x, bool curved) {
+    const Shape direct = direct_shape(s, n, x, curved);
+    return s.torsion < 0 ? direct : with_torque(s, n, x, direct, curved);
+}
+
+double objective(int n, const double* y, const double* m, const double* x) {
+    double f = 0;
+    for (int k = 0; k < n; k++) f += (y[k] - m[k] * x[k] / 2) * x[k];
+    return f;
+}
+
+// Matrix of Newton's method in (x, multiplier): [M + multiplier H, normal; normal^T, 0].
+void bordered(int n, const double* m, double multiplier, const Shape& at, double a[][most + 1]) {
+    for (int j = 0; j < n; j++) {
+        for (int k = 0; k < n; k++) a[j][k] = multiplier * at.curvature[j][k] + (j == k ? m[j] : 0);
+        a[j][n] = a[n][j] = at.gradient[j];
+    }
+    a[n][n] = 0;
+}
+
+void inverse_block(int n, const double* m, double multiplier, const Shape& at, double* derivative) {
+    double a[most + 1][most + 1], b[most + 1][most + 1] = {};
+    bordered(n, m, multiplier, at, a);
+    for (int k = 0; k < n; k++) b[k][k] = 1;
+    solve(n + 1, a, b, n);
+    for (int j = 0; j < n; j++) {
+        for (int k = 0; k < n; k++) derivative[j * n + k] = (b[j][k] + b[k][j]) / 2;
+    }
+}
+
+// Newton's method along the surface: a step in the tangent plane, then along the ray back to g = 1.  The multiplier is that
+// of the radial direction, which is exact at the solution.  The maximum never falls, so it comes in from anywhere.
+SurfacePoint on_section(const Surface& s, int n, const double* y, const double* m, const double* guess, double* derivative) {
+    SurfacePoint p;
+    const double load = length(n, y);
+    double best = -1, free[most] = {0, 0, 0, 0};
+    for (int k = 0; k < n; k++) free[k] = m[k] > 0 ? y[k] / m[k] : 0;
+    const double* starts[] = {y, free, guess};
+    for (const double* start : starts) {
+        if (start == nullptr) continue;
+        double trial[most];
+        const double g = gauge(s, n, start, nullptr);
+        if (!(g > 0)) continue;
+        for (int k = 0; k < n; k++) trial[k] = start[k] / g;
+        const double f = objective(n, y, m, trial);
+        if (f > best) {
+            best = f;
+            std::copy(trial, trial + n, p.x);
+        }
+    }
+    Shape at = shape(s, n, p.x, true);
+    auto residual = [&](const double* x, const Shape& here, double* r) {
+        double multiplier = 0;
+        for (int k = 0; k < n; k++) multiplier += x[k] * (y[k] - m[k] * x[k]);
+        for (int k = 0; k < n; k++) r[k] = y[k] - m[k] * x[k] - multiplier * here.gradient[k];
+        return multiplier;
+    };
+    double r[most];
+    p.multiplier = residual(p.x, at, r);
+    double left = length(n, r);
+    for (int iteration = 0; iteration < newton_limit && left > converged * load; iteration++) {
+        double a[most + 1][most + 1], b[most + 1][most + 1] = {};
+        bordered(n, m, std::max(p.multiplier, 1e-3 * load), at, a);
+        for (int k = 0; k < n; k++) b[k][0] = r[k];
+        solve(n + 1, a, b, 1);
+        double step[most], along = 0;
+        for (int k = 0; k < n; k++) step[k] = b[k][0], along += step[k] * r[k];
+        double share = std::min(1.0, 0.5 * length(n, p.x) / length(n, step));
+        bool moved = false;
+        for (; share > 1e-9 && !moved; share /= 2) {
+            double trial[most], trial_r[most];
+            for (int k = 0; k < n; k++) trial[k] = p.x[k] + share * step[k];
+            const double g = gauge(s, n, trial, nullptr);
+            for (int k = 0; k < n; k++) trial[k] /= g;
+            const double f = objective(n, y, m, trial);
+            const Shape there = shape(s, n, trial, true);
+            const double multiplier = residual(trial, there, trial_r), remains = length(n, trial_r);
+            // rises as far as the slope promises; close to the top, where a rise drowns in rounding, the residual decides
+            if (!(f >= best + 1e-4 * share * along) && !(remains < 0.5 * left && f >= best - 1e-12 * load)) continue;
+            std::copy(trial, trial + n, p.x);
+            std::copy(trial_r, trial_r + n, r);
+            moved = f > best || remains < left;
+            best = f, at = there, p.multiplier = multiplier, left = remains;
+        }
+        if (!moved) break;
+    }
+    p.value = objective(n, y, m, p.x);
+    if (derivative != nullptr) inverse_block(n, m, p.multiplier, at, derivative);
+    return p;
+}
+
+// Secular equation |y/(m + multiplier)| = 1: the inverse of its left side is concave, so Newton's method rises to the root.
+SurfacePoint on_ellipsoid(int n, const double* y, const double* m, double* derivative) {
+    SurfacePoint p;
+    bool equal = true;
+    for (int k = 1; k < n; k++) equal = equal && m[k] == m[0];
+    const double load = length(n, y);
+    if (equal) {
+        p.multiplier = load - m[0];
+    } else {
+        // no share is above 1, so the multiplier is at least this
+        p.multiplier = 1e-300;
+        for (int k = 0; k < n; k++) p.multiplier = std::max(p.multiplier, std::fabs(y[k]) - m[k]);
+        for (int iteration = 0; iteration < newton_limit; iteration++) {
+            double square = 0, weighed = 0;
+            for (int k = 0; k < n; k++) {
+                const double d = m[k] + p.multiplier, x = y[k] / d;
+                square += x * x;
+                weighed += x * x / d;
+            }
+            const double size = std::sqrt(square), rise = square / weighed * (size - 1);
+            if (!(rise > 1e-16 * p.multiplier)) break;
+            p.multiplier += rise;
+        }
+    }
+    for (int k = 0; k < n; k++) p.x[k] = y[k] / (m[k] + p.multiplier);
+    const double size = length(n, p.x);
+    for (int k = 0; k < n; k++) p.x[k] /= size;
+    p.value = objective(n, y, m, p.x);
+    if (derivative == nullptr) return p;
+    double across[most], weight = 0;
+    for (int k = 0; k < n; k++) across[k] = p.x[k] / (m[k] + p.multiplier), weight += across[k] * p.x[k];
+    for (int j = 0; j < n; j++) {
+        for (int k = 0; k < n; k++) derivative[j * n + k] = (j == k ? 1 / (m[j] + p.multiplier) : 0) - across[j] * across[k] / weight;
+    }
+    return p;
+}
+
+// Half-planes (along N, along M, bound) for M >= 0, into which the other half is mirrored.
+struct Side {
+    double a[2], bound;
+};
+
+void sides(const Flange& f, Side* out) {
+    out[0] = {{0, 1}, f.top};
+    out[1] = {{-f.arm, 1}, f.moment};
+    out[2] = {{-1, 0}, f.crush};
+    out[3] = {{1, 0}, f.pull};
+    out[4] = {{0, -1}, 0};
+}
+
+constexpr int flange_sides = 5;
+
+}  // namespace
+
+double gauge(const Surface& s, int n, const double* x, double* gradient) {
+    if (s.coupling == Coupling::section) {
+        const Shape at = shape(s, n, x, false);
+        if (gradient != nullptr) std::copy(at.gradient, at.gradient + n, gradient);
+        return at.g;
+    }
+    const double g = length(n, x);
+    for (int k = 0; k < n && gradient != nullptr; k++) gradient[k] = g > 0 ? x[k] / g : 0;
+    return g;
+}
+
+SurfacePoint nearest(const Surface& s, int n, const double* y, const double* m, const double* guess, double* derivative) {
+    SurfacePoint p;
+    bool inside = true;
+    for (int k = 0; k < n; k++) {
+        inside = inside && (m[k] > 0 || y[k] == 0);
+        p.x[k] = m[k] > 0 ? y[k] / m[k] : 0;
+    }
+    if (!inside || gauge(s, n, p.x, nullptr) > 1) {
+        return s.coupling == Coupling::section ? on_section(s, n, y, m, guess, derivative) : on_ellipsoid(n, y, m, derivative);
+    }
+    p.value = objective(n, y, m, p.x);
+    for (int k = 0; k < n * n && derivative != nullptr; k++) derivative[k] = 0;
+    for (int k = 0; k < n && derivative != nullptr; k++) derivative[k * n + k] = m[k] > 0 ? 1 / m[k] : 0;
+    return p;
+}
+
+double gauge(const Flange& f, const double* x) {
+    const double at[2] = {x[f.axial], std::fabs(x[1 - f.axial])};
+    Side side[flange_sides];
+    sides(f, side);
+    double g = 0;
+    for (int i = 0; i < flange_sides - 1; i++) g = std::max(g, dot(2, side[i].a, at) / side[i].bound);
+    return g;
+}
+
+// The best of the polygon's sides and corners.
+SurfacePoint nearest(const Flange& f, const double* y, const double* m, double* derivative) {
+    const int order[2] = {f.axial, 1 - f.axial};
+    const double sign = y[order[1]] < 0 ? -1 : 1;
+    const double load[2] = {y[order[0]], sign * y[order[1]]}, metric[2] = {m[order[0]], m[order[1]]};
+    Side side[flange_sides];
+    sides(f, side);
+    double best = -1, x[2] = {0, 0}, block[4] = {0, 0, 0, 0}, multiplier = 0;
+    auto offer = [&](double force, double moment, double factor, const double* normal) {
+        const double at[2] = {force, moment};
+        for (const Side& s : side) {
+            if (dot(2, s.a, at) > s.bound + 1e-12 * (f.top + f.arm * (f.crush + f.pull))) return;
+        }
+        const double value = objective(2, load, metric, at);
+        if (!(value > best)) return;
+        best = value, multiplier = factor;
+        x[0] = force, x[1] = moment;
+        for (double& b : block) b = 0;
+        if (normal == nullptr) return;
+        const double u[2] = {normal[0] / metric[0], normal[1] / metric[1]}, weight = dot(2, normal, u);
+        for (int i = 0; i < 2; i++) {
+            for (int j = 0; j < 2; j++) block[2 * i + j] = (i == j ? 1 / metric[i] : 0) - (weight > 0 ? u[i] * u[j] / weight : 0);
+        }
+    };
+    if (metric[0] > 0 && metric[1] > 0) {
+        const double none[2] = {0, 0}, free[2] = {load[0] / metric[0], load[1] / metric[1]};
+        offer(free[0], free[1], 0, none);
+        for (int i = 0; i < flange_sides - 1 && best < 0; i++) {
+            const double* a = side[i].a;
+            const double factor = (dot(2, a, free) - side[i].bound) / (a[0] * a[0] / metric[0] + a[1] * a[1] / metric[1]);
+            if (factor > 0) offer(free[0] - factor * a[0] / metric[0], free[1] - factor * a[1] / metric[1], factor, a);
+        }
+    }
+    for (int i = 0; i < flange_sides; i++) {
+        for (int j = 0; j < i; j++) {
+            const double *a = side[i].a, *b = side[j].a, area = a[0] * b[1] - a[1] * b[0];
+            if (area == 0) continue;
+            offer((side[i].bound * b[1] - side[j].bound * a[1]) / area, (a[0] * side[j].bound - b[0] * side[i].bound) / area,
+                  length(2, load), nullptr);
+        }
+    }
+    SurfacePoint p;
+    p.value = best;
+    p.multiplier = multiplier;
+    for (int i = 0; i < 2; i++) {
+        p.x[order[i]] = i == 0 ? x[0] : sign * x[1];
+        for (int j = 0; j < 2 && derivative != nullptr; j++) derivative[2 * order[i] + order[j]] = (i == j ? 1 : sign) * block[2 * i + j];
+    }
+    return p;
+}
+
+}  // namespace crumple::space
