@@ -1,0 +1,311 @@
+"""Typed face of the spatial kernel: one run of a `SpaceModel`, in stages."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Any
+
+import numpy as np
+
+from crumple._core import _kernels
+from crumple._core.space_model import (
+    Floats,
+    SpaceComponent,
+    SpaceDrive,
+    SpaceHinge,
+    SpaceJoint,
+    SpaceLoad,
+    SpaceModel,
+    SpaceObstacle,
+)
+from crumple._core.tree import Outcome
+
+MINIMUM_STEP = 1e-9
+"""Smallest step [s]; rates that jump are passed in one such step."""
+
+
+class Until(IntEnum):
+    """What ends a stage when it reaches a value."""
+
+    FORCE = 0
+    """Magnitude of the resultant contact force on an obstacle [N]."""
+    DRIVE_FORCE = 1
+    """Magnitude of the force (or moment) of a joint's driven or held freedoms [N, N m]: joint, translations."""
+    WORK = 2
+    """External work since the start of the stage [J]."""
+    DISTANCE = 3
+    """Change of the distance between two points of bodies [m]."""
+    DISPLACEMENT = 4
+    """Displacement in a freedom of a joint since the start of the stage [m, rad]."""
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceUntil:
+    """Ends a stage when its quantity reaches `value` (from below if positive, from above if negative).
+
+    Attributes
+    ----------
+    kind, value
+        Quantity and threshold.
+    index
+        Obstacle (FORCE) or joint (DRIVE_FORCE, DISPLACEMENT).
+    freedom
+        Freedom of the joint (DISPLACEMENT).
+    bodies, points
+        Two bodies and the points of them (2, 3) in the world at the start of the run (DISTANCE).
+    """
+
+    kind: Until
+    value: float
+    index: int = -1
+    freedom: int = 0
+    bodies: tuple[int, int] = (-1, -1)
+    points: Floats | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceRecord:
+    """Histories of a run; n output times, b bodies, c components of all hinges in their order.
+
+    Attributes
+    ----------
+    time
+        (n,) [s].
+    centre, rotation
+        Centres of mass (n, b, 3) and unit quaternions (w, x, y, z) from the start, (n, b, 4).
+    velocity, acceleration
+        (omega, v) at the centres, in world axes, (n, b, 6); the acceleration is the mean of the last step.
+    hinge_rotation, hinge_rate, hinge_plastic, hinge_moment, hinge_capacity
+        Per component, (n, c).
+    hinge_energy
+        Per hinge: dissipated (with dampers and stops), elastic, stop, (n, hinges, 3) [J].
+    joint_force
+        Force and moment of the held and hinged freedoms on the second body in the joint's frame, mean of the
+        last step, (n, joints, 6).
+    obstacle_force
+        Resultant of contact on every obstacle in world axes, (n, obstacles, 3).
+    energy
+        (n, 9): kinetic, elastic, dissipated, damped, stop, spring, contact, friction, external work [J].
+    summary
+        Per hinge: largest rotation (length of the rotation vector), largest moment, time of first flow (NaN:
+        none), time of rest, 1 if still turning, dissipated energy, time of fracture (NaN: whole), (hinges, 7).
+    peaks
+        Per component: largest absolute rotation, moment, (c, 2).
+    ended_by
+        Index of the condition that ended the run, -1 for none.
+    """
+
+    time: Floats
+    centre: Floats
+    rotation: Floats
+    velocity: Floats
+    acceleration: Floats
+    hinge_rotation: Floats
+    hinge_rate: Floats
+    hinge_plastic: Floats
+    hinge_moment: Floats
+    hinge_capacity: Floats
+    hinge_energy: Floats
+    joint_force: Floats
+    obstacle_force: Floats
+    energy: Floats
+    summary: Floats
+    peaks: Floats
+    outcome: Outcome
+    reason: str
+    ended_by: int
+    residual: float
+    steps: int
+    rejected: int
+    forced: int
+    solves: int
+
+
+class SpaceSimulation:
+    """One run of a model: state and adaptive stepper.
+
+    Parameters
+    ----------
+    model
+        Constants.
+    accuracy
+        Allowed error of the motion, relative to the largest rotation.
+    minimum_step, maximum_step
+        Bounds of the step [s].
+    """
+
+    def __init__(
+        self,
+        model: SpaceModel,
+        accuracy: float = 1e-3,
+        minimum_step: float = MINIMUM_STEP,
+        maximum_step: float = math.inf,
+    ) -> None:
+        self.model = model
+        self._kernel = _kernels.space.Simulation(_as_dict(model), accuracy, minimum_step, maximum_step)
+
+    def set_motion(self, velocity: Floats, impulse: Floats) -> float:
+        """Add velocities of the bodies and impulses on them, both (bodies, 6): (omega, v), (moment, force).
+
+        All are at the centres of mass in world axes.  The motion that the joints allow and that is nearest in
+        kinetic energy results.
+
+        Returns
+        -------
+        float
+            Energy [J] that the joints took from the given motion because it did not fit them.
+        """
+        return self._kernel.set_motion(np.ascontiguousarray(velocity), np.ascontiguousarray(impulse))
+
+    def stage(
+        self,
+        *,
+        quasi_static: bool = False,
+        drives: Sequence[int] | None = None,
+        obstacles: Sequence[int] | None = None,
+        until: Sequence[SpaceUntil] = (),
+    ) -> None:
+        """Begin a stage: functions of time count from now.
+
+        Parameters
+        ----------
+        quasi_static
+            Inertia is neglected: every step starts from rest; the stage ends at rest.
+        drives, obstacles
+            Those that act, by index; None: all.  Other drives hold where they are.
+        until
+            Conditions; the first that is met ends the run.
+        """
+        model = self.model
+        self._kernel.stage(
+            quasi_static,
+            list(range(len(model.drives)) if drives is None else drives),
+            list(range(len(model.obstacles)) if obstacles is None else obstacles),
+            [_until(condition) for condition in until],
+        )
+
+    def run(self, times: Floats, poll: Callable[[float], bool] | None = None) -> SpaceRecord:
+        """Step to the last of the increasing times [s]; ``poll(time)`` returns False to cancel."""
+        out = self._kernel.run(np.asarray(times, float).tolist(), poll)
+        return SpaceRecord(**out | {"outcome": Outcome(out["outcome"])})
+
+    def step(self, time_step: float) -> bool:
+        """Take one step of fixed length [s]; False when it did not converge and nothing changed."""
+        return self._kernel.step(time_step)
+
+    @property
+    def freedoms(self) -> tuple[int, int]:
+        """Degrees of freedom at the start (hinges free) and redundant constraints."""
+        return self._kernel.freedoms()
+
+    @property
+    def redundant(self) -> Floats:
+        """Redundant constraint directions in every joint, (joints,)."""
+        return np.array(self._kernel.redundant())
+
+    @property
+    def time(self) -> float:
+        """Time reached [s]."""
+        return self._kernel.time
+
+
+def _as_dict(model: SpaceModel) -> dict[str, Any]:
+    """As the kernel takes it."""
+    return {
+        "mass": np.array([body.mass for body in model.bodies], float),
+        "inertia": _stack([body.inertia for body in model.bodies], (3, 3)),
+        "centre": _stack([body.centre for body in model.bodies], (3,)),
+        "joints": [_joint(joint) for joint in model.joints],
+        "hinges": [_hinge(hinge) for hinge in model.hinges],
+        "loads": [_load(load) for load in model.loads],
+        "springs": [
+            (s.first, s.second, _list(s.first_point), _list(s.second_point), s.stiffness, s.free_length, s.damping)
+            for s in model.springs
+        ],
+        "drives": [_drive(drive) for drive in model.drives],
+        "obstacles": [_obstacle(obstacle) for obstacle in model.obstacles],
+        "capsules": [(c.body, _list(c.first), _list(c.second), c.radius) for c in model.capsules],
+        "pairs": [list(pair) for pair in model.contact.pairs],
+        "contact": (model.contact.friction, model.contact.restitution),
+        "gravity": list(model.gravity),
+        "length": model.length,
+    }
+
+
+def _list(values: Floats) -> list[Any]:
+    return np.asarray(values, float).tolist()
+
+
+def _stack(rows: list[Floats], shape: tuple[int, ...]) -> Floats:
+    return np.ascontiguousarray(rows, float).reshape((len(rows), *shape))
+
+
+def _joint(joint: SpaceJoint) -> tuple[Any, ...]:
+    axes = _list(np.asarray(joint.axes, float).reshape(9))
+    return (joint.first, joint.second, _list(joint.position), axes, list(joint.held), joint.cross)
+
+
+def _hinge(hinge: SpaceHinge) -> dict[str, Any]:
+    surface = hinge.surface
+    return {
+        "joint": hinge.joint,
+        "form": hinge.form,
+        "softening": hinge.softening,
+        "fracture": hinge.fracture,
+        "components": [_component(component) for component in hinge.components],
+        "coupling": int(surface.coupling),
+        "rows": _list(np.asarray(surface.rows, float).reshape(-1)),
+        "power": surface.power,
+        "torque_power": surface.torque_power,
+        "torsion": surface.torsion,
+        "arm": surface.arm,
+    }
+
+
+def _component(component: SpaceComponent) -> dict[str, Any]:
+    return {
+        "freedom": component.freedom,
+        "positive_rotation": _list(component.positive[0]),
+        "positive_moment": _list(component.positive[1]),
+        "negative_rotation": _list(component.negative[0]),
+        "negative_moment": _list(component.negative[1]),
+        "elastic_stiffness": component.elastic_stiffness,
+        "regularisation_rate": component.regularisation_rate,
+        "rate_reference": component.rate_reference,
+        "rate_exponent": component.rate_exponent,
+        "viscous_damping": component.viscous_damping,
+        "stop_positive": list(component.stop_positive),
+        "stop_negative": list(component.stop_negative),
+    }
+
+
+def _load(load: SpaceLoad) -> tuple[Any, ...]:
+    arrays = (load.point, load.force, load.moment, load.times, load.values)
+    return (load.body, *(_list(values) for values in arrays))
+
+
+def _drive(drive: SpaceDrive) -> tuple[Any, ...]:
+    return (drive.joint, drive.freedom, _list(drive.times), _list(drive.rates), drive.start)
+
+
+def _obstacle(obstacle: SpaceObstacle) -> dict[str, Any]:
+    return {
+        "kind": int(obstacle.kind),
+        "body": obstacle.body,
+        "point": _list(obstacle.point),
+        "direction": _list(obstacle.direction),
+        "edge": _list(obstacle.edge),
+        "radius": obstacle.radius,
+        "length": obstacle.length,
+        "friction": obstacle.friction,
+        "restitution": obstacle.restitution,
+        "capsules": None if obstacle.capsules is None else list(obstacle.capsules),
+    }
+
+
+def _until(until: SpaceUntil) -> tuple[Any, ...]:
+    points = np.zeros((2, 3)) if until.points is None else until.points
+    return (int(until.kind), until.value, until.index, until.freedom, list(until.bodies), _list(points))

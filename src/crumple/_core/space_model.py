@@ -1,0 +1,292 @@
+"""Constants of the spatial kernel's model: rigid bodies in space, joints, hinges, loads, obstacles.
+
+Everything is given in world axes as it stands at the start; the kernel carries it along with the bodies.
+Body -1 is the ground.  The six relative freedoms of a joint are numbered 0, 1, 2: translations along its local
+x, y, z, and 3, 4, 5: rotations about them; the motion is that of the second body relative to the first.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
+
+GROUND = -1
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceBody:
+    """Rigid body: mass [kg], inertia about its centre in world axes at the start (3, 3), centre (3,)."""
+
+    mass: float
+    inertia: Floats
+    centre: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceJoint:
+    """Connection of two bodies at a point.
+
+    Attributes
+    ----------
+    first, second
+        Bodies; one of them may be the ground (-1).
+    position
+        Point [m] at the start, (3,).
+    axes
+        Rows are the local x, y, z in the world at the start, (3, 3).
+    held
+        Which of the six relative freedoms are held.  With one rotation held, turning about the other two axes
+        has no twist about the held one (constant-velocity joint) unless `cross`.
+    cross
+        Universal joint with a cross: the next axis after the held one stays with the first body, the one after
+        that with the second, at right angles.
+    """
+
+    first: int
+    second: int
+    position: Floats
+    axes: Floats
+    held: tuple[bool, bool, bool, bool, bool, bool]
+    cross: bool = False
+
+
+def _joint(held: str, first: int, second: int, position: ArrayLike, axes: ArrayLike | None) -> SpaceJoint:
+    rows = np.eye(3) if axes is None else np.asarray(axes, float)
+    mask = tuple(letter == "1" for letter in held)
+    return SpaceJoint(first, second, np.asarray(position, float), rows, mask)  # type: ignore[arg-type]
+
+
+def frame_of(axis: ArrayLike) -> Floats:
+    """Right-handed axes (rows x, y, z) whose x lies along a direction; y and z are arbitrary."""
+    x = np.asarray(axis, float) / np.linalg.norm(axis)
+    y = np.cross(np.eye(3)[np.argmin(np.abs(x))], x)
+    y /= np.linalg.norm(y)
+    return np.array([x, y, np.cross(x, y)])
+
+
+def fixed(first: int, second: int, position: ArrayLike, axes: ArrayLike | None = None) -> SpaceJoint:
+    """No relative motion."""
+    return _joint("111111", first, second, position, axes)
+
+
+def revolute(first: int, second: int, position: ArrayLike, axis: ArrayLike) -> SpaceJoint:
+    """Rotation about an axis, which is the joint's local x."""
+    return _joint("111011", first, second, position, frame_of(axis))
+
+
+def spherical(first: int, second: int, position: ArrayLike, axes: ArrayLike | None = None) -> SpaceJoint:
+    """Any rotation about a point."""
+    return _joint("111000", first, second, position, axes)
+
+
+def universal(
+    first: int, second: int, position: ArrayLike, first_axis: ArrayLike, second_axis: ArrayLike
+) -> SpaceJoint:
+    """Rotations about an axis (local y) of the first body and one (local z) of the second, at right angles."""
+    y, z = (np.asarray(a, float) / np.linalg.norm(a) for a in (first_axis, second_axis))
+    axes = np.array([np.cross(y, z), y, z])
+    held = (True, True, True, True, False, False)
+    return SpaceJoint(first, second, np.asarray(position, float), axes, held, cross=True)
+
+
+def prismatic(first: int, second: int, position: ArrayLike, axis: ArrayLike) -> SpaceJoint:
+    """Translation along an axis, which is the joint's local x."""
+    return _joint("011111", first, second, position, frame_of(axis))
+
+
+def cylindrical(first: int, second: int, position: ArrayLike, axis: ArrayLike) -> SpaceJoint:
+    """Translation along and rotation about an axis, which is the joint's local x."""
+    return _joint("011011", first, second, position, frame_of(axis))
+
+
+def planar(first: int, second: int, position: ArrayLike, normal: ArrayLike) -> SpaceJoint:
+    """Motion in a plane: its normal is the joint's local x."""
+    return _joint("100011", first, second, position, frame_of(normal))
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceComponent:
+    """One component of a hinge: curves (rotation or slip, moment or force) in both senses, and the rest.
+
+    A stop is (place, stiffness, exponent, damping, penetration): empty for none, damping NaN for critical.
+    """
+
+    freedom: int
+    positive: tuple[Floats, Floats]
+    negative: tuple[Floats, Floats]
+    elastic_stiffness: float = math.inf
+    regularisation_rate: float = 0.05
+    rate_reference: float = math.inf
+    rate_exponent: float = 1.0
+    viscous_damping: float = 0.0
+    stop_positive: tuple[float, ...] = ()
+    stop_negative: tuple[float, ...] = ()
+
+
+class Coupling(IntEnum):
+    """How the components of a hinge share their capacity; native/space/surface.hpp."""
+
+    NONE = 0
+    ELLIPSOID = 1
+    BALL = 2
+    SECTION = 3
+    TENSION_FLANGE = 4
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceSurface:
+    """Surface of interaction; `rows` (k, components), the column of component `torsion` is zero."""
+
+    coupling: Coupling = Coupling.NONE
+    rows: Floats = field(default_factory=lambda: np.zeros((0, 0)))
+    power: float = 2.0
+    torque_power: float = 2.0
+    torsion: int = -1
+    arm: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceHinge:
+    """Plastic hinge in freedoms of a joint that are not held.
+
+    Codes of form and softening variable are those of `crumple._core.tree.TreeHinge`.  It opens for good at the
+    plastic rotation `fracture` [rad].
+    """
+
+    joint: int
+    components: tuple[SpaceComponent, ...]
+    surface: SpaceSurface = SpaceSurface()
+    form: int = 0
+    softening: int = 0
+    fracture: float = math.inf
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceLoad:
+    """Force [N] and moment [N m] on a body at a point, directions fixed in the world, times a factor of time."""
+
+    body: int
+    point: Floats
+    force: Floats
+    moment: Floats
+    times: Floats
+    values: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceSpring:
+    """Linear spring [N/m] with a damper [N s/m] between two points; a body may be the ground."""
+
+    first: int
+    second: int
+    first_point: Floats
+    second_point: Floats
+    stiffness: float
+    free_length: float
+    damping: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceDrive:
+    """Prescribed motion of one held freedom of a joint.
+
+    The freedom's displacement is ``start`` plus the integral of ``rates``, piecewise linear over ``times``,
+    which count from the start of a stage and keep their last value.
+    """
+
+    joint: int
+    freedom: int
+    times: Floats
+    rates: Floats
+    start: float = 0.0
+
+
+class ObstacleKind(IntEnum):
+    """Shape of an obstacle."""
+
+    PLANE = 0
+    CYLINDER = 1
+    SPHERE = 2
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceObstacle:
+    """Solid on a body (-1: the ground; driven and guided obstacles are bodies with a joint to the ground).
+
+    Attributes
+    ----------
+    kind, body
+        Shape; body it belongs to.
+    point, direction
+        Point, and a plane's outward normal or a cylinder's axis, in the world at the start, (3,).
+    edge
+        Plane: it ends at `point` across this direction; zero for none.
+    radius, length
+        Of cylinder or sphere [m]; length 0: without end.
+    friction, restitution
+        Coefficients.
+    capsules
+        Indices of the capsules that may touch it; None: all that are not on its own body.
+    """
+
+    kind: ObstacleKind
+    body: int
+    point: Floats
+    direction: Floats = field(default_factory=lambda: np.zeros(3))
+    edge: Floats = field(default_factory=lambda: np.zeros(3))
+    radius: float = 0.0
+    length: float = 0.0
+    friction: float = 0.0
+    restitution: float = 0.0
+    capsules: tuple[int, ...] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceCapsule:
+    """Segment with a radius on a body, ends in the world at the start; a sphere if both ends are one point."""
+
+    body: int
+    first: Floats
+    second: Floats
+    radius: float
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceContact:
+    """Contact of capsules with one another: pairs of capsule indices that may touch."""
+
+    pairs: tuple[tuple[int, int], ...] = ()
+    friction: float = 0.0
+    restitution: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceModel:
+    """Constants of a spatial model; frozen."""
+
+    bodies: tuple[SpaceBody, ...]
+    joints: tuple[SpaceJoint, ...] = ()
+    hinges: tuple[SpaceHinge, ...] = ()
+    loads: tuple[SpaceLoad, ...] = ()
+    springs: tuple[SpaceSpring, ...] = ()
+    drives: tuple[SpaceDrive, ...] = ()
+    obstacles: tuple[SpaceObstacle, ...] = ()
+    capsules: tuple[SpaceCapsule, ...] = ()
+    contact: SpaceContact = SpaceContact()
+    gravity: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    length: float = 1.0
+    """Turns displacements into angles for the error measure [m]."""
+
+    @property
+    def component_offsets(self) -> list[int]:
+        """First column of every hinge in arrays over components, and their number."""
+        offsets = [0]
+        for hinge in self.hinges:
+            offsets.append(offsets[-1] + len(hinge.components))
+        return offsets
