@@ -1,0 +1,239 @@
+#include "space/block_cholesky.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace crumple::space {
+
+namespace {
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+// Sizes known to the compiler for the commonest block, six rows.
+template <int N>
+struct Fixed {
+    operator int() const { return N; }
+};
+
+// target (n x m) -= a (n x k) b (m x k)^T
+template <class N, class M, class K>
+inline void subtract_product(double* target, const double* a, const double* b, N n, M m, K k) {
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < m; j++) {
+            double s = 0;
+            for (int l = 0; l < k; l++) s += a[i * k + l] * b[j * k + l];
+            target[i * m + j] -= s;
+        }
+    }
+}
+
+// b (n x k) := b L^-T, L lower triangular (k x k) with reciprocal diagonal
+template <class N, class K>
+inline void solve_rows(double* b, const double* lower, const double* reciprocal, N n, K k) {
+    for (int i = 0; i < n; i++) {
+        double* row = b + i * k;
+        for (int j = 0; j < k; j++) {
+            double s = row[j];
+            for (int l = 0; l < j; l++) s -= row[l] * lower[j * k + l];
+            row[j] = s * reciprocal[j];
+        }
+    }
+}
+
+}  // namespace
+
+void BlockCholesky::analyse(const std::vector<int>& size, const std::vector<std::vector<int>>& cliques) {
+    const int n = static_cast<int>(size.size());
+    size_ = size;
+    start_.assign(at(n) + 1, 0);
+    for (int i = 0; i < n; i++) start_[at(i) + 1] = start_[at(i)] + size[at(i)];
+    std::vector<std::vector<int>> near(at(n));
+    for (const auto& clique : cliques) {
+        for (const int a : clique) {
+            for (const int b : clique) {
+                if (a != b) near[at(a)].push_back(b);
+            }
+        }
+    }
+    for (auto& list : near) {
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+    eliminate(size, near);
+    values_.assign(values_.size(), 0.0);
+    inverse_.assign(at(start_.back()), 0.0);
+}
+
+// Minimum degree with the graph of the factor kept explicitly: `near` holds the neighbours that are not yet eliminated.
+void BlockCholesky::eliminate(const std::vector<int>& size, std::vector<std::vector<int>>& near) {
+    const int n = static_cast<int>(size.size());
+    order_.clear();
+    place_.assign(at(n), -1);
+    diagonal_.assign(at(n), 0);
+    std::set<std::pair<size_t, int>> queue;
+    for (int i = 0; i < n; i++) queue.insert({near[at(i)].size(), i});
+    std::vector<std::vector<int>> columns;
+    std::vector<int> merged;
+    while (!queue.empty()) {
+        const int node = queue.begin()->second;
+        queue.erase(queue.begin());
+        place_[at(node)] = static_cast<int>(order_.size());
+        order_.push_back(node);
+        const std::vector<int> column = std::move(near[at(node)]);
+        for (const int a : column) {
+            auto& list = near[at(a)];
+            queue.erase({list.size(), a});
+            merged.clear();
+            std::set_union(list.begin(), list.end(), column.begin(), column.end(), std::back_inserter(merged));
+            merged.erase(std::remove_if(merged.begin(), merged.end(), [&](int b) { return b == a || b == node; }), merged.end());
+            list = merged;
+            queue.insert({list.size(), a});
+        }
+        columns.push_back(column);
+    }
+    // places of the blocks, column by column
+    size_t next = 0;
+    first_.assign(1, 0);
+    below_.clear();
+    for (int k = 0; k < n; k++) {
+        const int node = order_[at(k)];
+        diagonal_[at(node)] = next;
+        next += at(size[at(node)] * size[at(node)]);
+        auto& column = columns[at(k)];
+        std::sort(column.begin(), column.end(), [&](int a, int b) { return place_[at(a)] < place_[at(b)]; });
+        for (const int a : column) {
+            below_.push_back({a, next});
+            next += at(size[at(a)] * size[at(node)]);
+        }
+        first_.push_back(below_.size());
+    }
+    values_.resize(next);
+    update_.clear();
+    first_update_.assign(1, 0);
+    for (int k = 0; k < n; k++) {
+        for (size_t p = first_[at(k)]; p < first_[at(k) + 1]; p++) {
+            for (size_t q = first_[at(k)]; q <= p; q++) {
+                const int a = below_[p].node, b = below_[q].node;
+                update_.push_back({block(a, b), below_[p].block, below_[q].block, size[at(a)], size[at(b)]});
+            }
+        }
+        first_update_.push_back(update_.size());
+    }
+}
+
+size_t BlockCholesky::block(int a, int b) const {
+    if (a == b) return diagonal_[at(a)];
+    if (!later(a, b)) std::swap(a, b);
+    const size_t k = at(place_[at(b)]);
+    const auto begin = below_.begin() + static_cast<long>(first_[k]), end = below_.begin() + static_cast<long>(first_[k + 1]);
+    const int wanted = place_[at(a)];
+    return std::lower_bound(begin, end, wanted, [&](const Entry& e, int place) { return place_[at(e.node)] < place; })->block;
+}
+
+void BlockCholesky::clear() { std::fill(values_.begin(), values_.end(), 0.0); }
+
+// Lower triangle in place; returns the number of redundant rows.
+int BlockCholesky::factor_diagonal(int node, double threshold) {
+    const int n = size_[at(node)];
+    double* a = &values_[diagonal_[at(node)]];
+    double* reciprocal = &inverse_[at(start_[at(node)])];
+    int weak = 0;
+    for (int j = 0; j < n; j++) {
+        double pivot = a[j * n + j];
+        for (int k = 0; k < j; k++) pivot -= a[j * n + k] * a[j * n + k];
+        // `reciprocal` held the diagonal before elimination
+        if (!(pivot > threshold * reciprocal[j])) {
+            weak++;
+            a[j * n + j] = 0;
+            reciprocal[j] = 0;
+            for (int i = j + 1; i < n; i++) a[i * n + j] = 0;
+            continue;
+        }
+        a[j * n + j] = std::sqrt(pivot);
+        reciprocal[j] = 1 / a[j * n + j];
+        for (int i = j + 1; i < n; i++) {
+            double s = a[i * n + j];
+            for (int k = 0; k < j; k++) s -= a[i * n + k] * a[j * n + k];
+            a[i * n + j] = s * reciprocal[j];
+        }
+    }
+    return weak;
+}
+
+int BlockCholesky::factor(double threshold, std::vector<int>* redundant) {
+    for (size_t node = 0; node < size_.size(); node++) {
+        const int n = size_[node];
+        for (int i = 0; i < n; i++) inverse_[at(start_[node] + i)] = values_[diagonal_[node] + at(i * n + i)];
+    }
+    int weak = 0;
+    for (size_t k = 0; k < order_.size(); k++) {
+        const int node = order_[k], n = size_[at(node)];
+        const int found = factor_diagonal(node, threshold);
+        weak += found;
+        if (redundant) (*redundant)[at(node)] = found;
+        const double *lower = &values_[diagonal_[at(node)]], *reciprocal = &inverse_[at(start_[at(node)])];
+        for (size_t p = first_[k]; p < first_[k + 1]; p++) {
+            double* b = &values_[below_[p].block];
+            const int rows = size_[at(below_[p].node)];
+            if (n == 6 && rows == 6) {
+                solve_rows(b, lower, reciprocal, Fixed<6>(), Fixed<6>());
+            } else {
+                solve_rows(b, lower, reciprocal, rows, n);
+            }
+        }
+        for (size_t p = first_update_[k]; p < first_update_[k + 1]; p++) {
+            const Update& u = update_[p];
+            double *target = &values_[u.target], *a = &values_[u.a], *b = &values_[u.b];
+            if (n == 6 && u.rows_a == 6 && u.rows_b == 6) {
+                subtract_product(target, a, b, Fixed<6>(), Fixed<6>(), Fixed<6>());
+            } else {
+                subtract_product(target, a, b, u.rows_a, u.rows_b, n);
+            }
+        }
+    }
+    return weak;
+}
+
+void BlockCholesky::solve(double* x) const {
+    for (size_t k = 0; k < order_.size(); k++) {
+        const int node = order_[k], n = size_[at(node)];
+        double* own = x + start_[at(node)];
+        const double *lower = &values_[diagonal_[at(node)]], *reciprocal = &inverse_[at(start_[at(node)])];
+        for (int j = 0; j < n; j++) {
+            double s = own[j];
+            for (int l = 0; l < j; l++) s -= lower[j * n + l] * own[l];
+            own[j] = s * reciprocal[j];
+        }
+        for (size_t p = first_[k]; p < first_[k + 1]; p++) {
+            const int rows = size_[at(below_[p].node)];
+            double* other = x + start_[at(below_[p].node)];
+            const double* b = &values_[below_[p].block];
+            for (int i = 0; i < rows; i++) {
+                double s = 0;
+                for (int l = 0; l < n; l++) s += b[i * n + l] * own[l];
+                other[i] -= s;
+            }
+        }
+    }
+    for (size_t k = order_.size(); k-- > 0;) {
+        const int node = order_[k], n = size_[at(node)];
+        double* own = x + start_[at(node)];
+        const double *lower = &values_[diagonal_[at(node)]], *reciprocal = &inverse_[at(start_[at(node)])];
+        for (size_t p = first_[k]; p < first_[k + 1]; p++) {
+            const int rows = size_[at(below_[p].node)];
+            const double *other = x + start_[at(below_[p].node)], *b = &values_[below_[p].block];
+            for (int i = 0; i < rows; i++) {
+                for (int l = 0; l < n; l++) own[l] -= b[i * n + l] * other[i];
+            }
+        }
+        for (int j = n - 1; j >= 0; j--) {
+            double s = own[j];
+            for (int l = j + 1; l < n; l++) s -= lower[l * n + j] * own[l];
+            own[j] = s * reciprocal[j];
+        }
+    }
+}
+
+}  // namespace crumple::space

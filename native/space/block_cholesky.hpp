@@ -1,0 +1,50 @@
+// Cholesky factors of a sparse symmetric matrix of small dense blocks, one node per connection of bodies.
+//
+// The pattern is analysed once: nodes are eliminated in the order of least degree, and every product of two blocks
+// knows where it goes, so factoring is a pass over flat lists and allocates nothing.  A chain costs O(N).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace crumple::space {
+
+using std::size_t;
+
+class BlockCholesky {
+public:
+    // `size`: rows of every node; `cliques`: sets of nodes that are coupled with one another (all around one body)
+    void analyse(const std::vector<int>& size, const std::vector<std::vector<int>>& cliques);
+    // where the block of two coupled nodes starts: row-major, rows of the node that is eliminated later
+    size_t block(int a, int b) const;
+    bool later(int a, int b) const { return place_[static_cast<size_t>(a)] > place_[static_cast<size_t>(b)]; }
+    double* values() { return values_.data(); }
+    size_t nonzeros() const { return values_.size(); }
+    // first row of a node in a right-hand side, and the number of all rows
+    int start(int node) const { return start_[static_cast<size_t>(node)]; }
+    int rows() const { return start_.back(); }
+    void clear();
+    // Pivots below `threshold` times the diagonal are redundant rows: they get no impulse, and are counted per node.
+    int factor(double threshold, std::vector<int>* redundant);
+    void solve(double* x) const;
+
+private:
+    struct Entry {
+        int node;
+        size_t block;
+    };
+    struct Update {
+        size_t target, a, b;  // target -= a b^T
+        int rows_a, rows_b;
+    };
+    void eliminate(const std::vector<int>& size, std::vector<std::vector<int>>& near);
+    int factor_diagonal(int node, double threshold);
+
+    std::vector<int> size_, start_, order_, place_;
+    std::vector<size_t> diagonal_, first_, first_update_;  // per node; per place in the order
+    std::vector<Entry> below_;
+    std::vector<Update> update_;
+    std::vector<double> values_, inverse_;  // blocks; reciprocals of the pivots
+};
+
+}  // namespace crumple::space

@@ -1,0 +1,45 @@
+// Eigenvalues of small symmetric matrices, by Jacobi's rotations.
+#pragma once
+
+#include <cmath>
+
+namespace crumple::space {
+
+// a (n x n, n <= 4, symmetric; destroyed), columns of v its eigenvectors
+inline void eigenvectors(int n, double* a, double* value, double* v) {
+    for (int i = 0; i < n * n; i++) v[i] = i % (n + 1) == 0 ? 1 : 0;
+    for (int sweep = 0; sweep < 20 && n > 1; sweep++) {
+        double off = 0, all = 0;
+        for (int i = 0; i < n; i++) {
+            for (int j = 0; j < n; j++) (i == j ? all : off) += a[i * n + j] * a[i * n + j];
+        }
+        if (off <= 1e-32 * all) break;
+        for (int p = 0; p < n; p++) {
+            for (int q = p + 1; q < n; q++) {
+                const double apq = a[p * n + q];
+                if (apq == 0) continue;
+                const double theta = (a[q * n + q] - a[p * n + p]) / (2 * apq);
+                const double t = (theta < 0 ? -1 : 1) / (std::fabs(theta) + std::sqrt(theta * theta + 1));
+                const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+                for (int k = 0; k < n; k++) {
+                    const double x = a[k * n + p], y = a[k * n + q];
+                    a[k * n + p] = c * x - s * y;
+                    a[k * n + q] = s * x + c * y;
+                }
+                for (int k = 0; k < n; k++) {
+                    const double x = a[p * n + k], y = a[q * n + k];
+                    a[p * n + k] = c * x - s * y;
+                    a[q * n + k] = s * x + c * y;
+                }
+                for (int k = 0; k < n; k++) {
+                    const double x = v[k * n + p], y = v[k * n + q];
+                    v[k * n + p] = c * x - s * y;
+                    v[k * n + q] = s * x + c * y;
+                }
+            }
+        }
+    }
+    for (int i = 0; i < n; i++) value[i] = a[i * (n + 1)];
+}
+
+}  // namespace crumple::space

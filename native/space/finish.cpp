@@ -1,0 +1,169 @@
+// The end of a step: positions, what laws remember, and energies.
+#include <algorithm>
+#include <cmath>
+
+#include "space/stepper.hpp"
+
+namespace crumple::space {
+
+namespace {
+
+// Newton steps that bring positions back to the held rows; the matrix is that of the unmended end.
+constexpr int mending_limit = 4;
+// Share of the model's length to which held points meet: rounding.
+constexpr double closed = 1e-14;
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+}  // namespace
+
+Energies energies(const Model& model, const State& s) {
+    Energies e;
+    for (size_t i = 0; i < model.bodies.size(); i++) {
+        const Body& b = model.bodies[i];
+        const Twist& v = s.velocity[i];
+        const Vec3 w = turned(conjugate(s.pose[i].q), v.w);
+        e.kinetic += (b.mass * dot(v.v, v.v) + dot(w, b.inertia * w)) / 2;
+    }
+    size_t first = 0;
+    for (size_t j = 0; j < model.hinges.size(); j++) {
+        const SpaceHinge& hinge = model.hinges[j];
+        e.elastic += elastic_energy(hinge, s.hinge[j]);
+        e.dissipated += dissipated(hinge, s.hinge[j]);
+        e.damped += damped(hinge, s.hinge[j]);
+        e.stop += stop_energy(hinge, &s.rotation[first]) + stop_dissipated(hinge, s.hinge[j]);
+        first += at(size(hinge));
+    }
+    for (const Spring& spring : model.springs) {
+        const Pose a = model.pose(s.pose, spring.body[0]), b = model.pose(s.pose, spring.body[1]);
+        const double stretch = norm(b.at(spring.arm[1]) - a.at(spring.arm[0])) - spring.length;
+        e.spring += spring.stiffness * stretch * stretch / 2;
+    }
+    e.damped += s.spring_damped;
+    e.external_work = s.external_work;
+    return e;
+}
+
+void Stepper::commit(State& s, double h) {
+    for (size_t i = 0; i < end_.size(); i++) end_[i] = moved(s.pose[i], (h / 2) * (s.velocity[i] + velocity_[i]));
+    // work of drives and dampers, from the impulses and mean rates of the step
+    for (size_t c = 0; c < connections_.size(); c++) {
+        const size_t index = at(connections_[c].index), first = at(start(c));
+        if (connections_[c].spring) {
+            const Spring& spring = model_.springs[index];
+            const double mean = (rate0_[first] + w_[first]) / 2, weight = spring_weight_[index];
+            s.spring_damped += h * spring.damping * ((1 - weight) * rate0_[first] + weight * w_[first]) * mean;
+        } else if (model_.joints[index].driven) {
+            for (int i = 0; i < model_.joints[index].held; i++) {
+                const size_t k = first + at(i);
+                s.external_work -= impulse_[k] * (rate0_[k] + target_[k]) / 2;
+            }
+        }
+    }
+    mend_end(s, h);
+    for (size_t j = 0; j < model_.hinges.size(); j++) {
+        const Joint& joint = model_.joints[at(model_.hinge_joint[j])];
+        const size_t k = at(component_[j]);
+        size_t row = 0;
+        for (size_t c = 0; c < connections_.size(); c++) {
+            if (!connections_[c].spring && connections_[c].index == model_.hinge_joint[j]) row = at(start(c) + joint.held);
+        }
+        double turn[most_components];
+        space::commit(model_.hinges[j], frozen_[j], s.hinge[j], s.t, &s.rotation[k], &w_[row], turn);
+        for (int i = 0; i < joint.laws; i++) {
+            s.rotation[k + at(i)] = error_[row + at(i)];
+            s.rate[k + at(i)] = w_[row + at(i)];
+        }
+    }
+    // gravity and loads act over the true way of their points
+    for (size_t i = 0; i < end_.size(); i++) s.external_work += model_.bodies[i].mass * dot(model_.gravity, end_[i].x - s.pose[i].x);
+    for (const Load& load : model_.loads) {
+        int hint = 0;
+        const size_t i = at(load.body);
+        const Vec3 way = end_[i].at(load.arm) - s.pose[i].at(load.arm);
+        const Vec3 turn = (h / 2) * (s.velocity[i].w + velocity_[i].w);
+        s.external_work += load.value.at(s.t + h / 2 - s.stage_start, hint) * (dot(load.force, way) + dot(load.moment, turn));
+    }
+    show_forces(s, h);
+    for (size_t i = 0; i < end_.size(); i++) {
+        s.acceleration[i] = (1 / h) * (velocity_[i] - s.velocity[i]);
+        s.velocity[i] = stage_.quasi_static ? Twist{} : velocity_[i];
+    }
+    s.pose = end_;
+    s.t += h;
+}
+
+// Positions and velocities back to the held rows at the end of the step, the nearest in kinetic energy with the laws'
+// tangents kept: a locked hinge stays locked.
+void Stepper::mend_end(State& s, double h) {
+    const std::vector<Link>& links = system_.links();
+    bool any = false;
+    for (const Link& link : links) any = any || link.held > 0;
+    locate_all(s, end_, s.t + h, rows_, error_.data());
+    if (!any) return;
+    set_mobilities(end_);
+    auto set_rows = [&] {
+        for (size_t c = 0; c < links.size(); c++) {
+            const int first = start(c), held = links[c].held, n = links[c].laws;
+            for (int i = 0; i < held; i++) system_.row(first + i) = rows_[at(first + i)];
+            for (int k = 0; k < n; k++) {
+                Row sum;
+                for (int j = 0; j < n; j++) {
+                    const Row& row = rows_[at(first + held + j)];
+                    const double f = tangent_[c].value[k] * tangent_[c].vectors[j * n + k];
+                    sum = {sum.t + f * row.t, sum.ma + f * row.ma, sum.mb + f * row.mb};
+                }
+                system_.row(first + held + k) = sum;
+            }
+        }
+    };
+    set_rows();
+    system_.factor();
+    for (int pass = 0; pass < mending_limit; pass++) {
+        double worst = 0;
+        for (size_t c = 0; c < links.size(); c++) {
+            for (int i = 0; i < links[c].rows(); i++) {
+                const size_t k = at(start(c) + i);
+                x_[k] = i < links[c].held ? error_[k] : 0;
+                worst = std::max(worst, std::fabs(x_[k]));
+            }
+        }
+        if (worst <= closed * model_.length) break;
+        system_.solve(x_.data(), closed * model_.length);
+        std::fill(direction_.begin(), direction_.end(), Twist{});
+        system_.push(x_.data(), direction_.data());
+        for (size_t i = 0; i < end_.size(); i++) end_[i] = moved(end_[i], direction_[i]);
+        locate_all(s, end_, s.t + h, rows_, error_.data());
+    }
+    if (stage_.quasi_static) return;
+    rates(rows_, velocity_.data(), x_.data());
+    for (size_t c = 0; c < links.size(); c++) {
+        const int first = start(c);
+        for (int i = 0; i < links[c].rows(); i++) {
+            const size_t k = at(first + i);
+            x_[k] = i < links[c].held ? x_[k] : 0;
+        }
+        if (connections_[c].spring || !model_.joints[at(connections_[c].index)].driven) continue;
+        const size_t index = at(connections_[c].index);
+        const Joint& joint = model_.joints[index];
+        const Target driven = target(joint, s, s.t + h);
+        const Pose a = model_.pose(end_, joint.body[0]);
+        for (int i = 0; i < joint.held; i++) x_[at(first + i)] -= target_rate(joint, a, geometry_[index], driven, i);
+    }
+    system_.solve(x_.data(), 1e-14 * speed_);
+    system_.push(x_.data(), velocity_.data());
+}
+
+// forces of the joints on their second bodies, mean over the step
+void Stepper::show_forces(State& s, double h) {
+    for (size_t c = 0; c < connections_.size(); c++) {
+        if (connections_[c].spring) continue;
+        const size_t index = at(connections_[c].index);
+        const Joint& joint = model_.joints[index];
+        double f[6] = {};
+        for (int i = 0; i < joint.rows(); i++) f[joint.freedom[i]] = -impulse_[at(start(c) + i)] / h;
+        s.joint_force[index] = {{f[3], f[4], f[5]}, {f[0], f[1], f[2]}};
+    }
+}
+
+}  // namespace crumple::space

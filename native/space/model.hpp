@@ -1,0 +1,85 @@
+// Constants of a spatial model, and the state that a run changes.
+#pragma once
+
+#include <vector>
+
+#include "space/hinge.hpp"
+#include "space/joint.hpp"
+
+namespace crumple::space {
+
+using multibody::Curve;
+using std::size_t;
+
+struct Body {
+    double mass = 1;
+    Mat3 inertia, inverse;  // about the centre, in the body's frame (the world's at the start)
+    Vec3 centre;            // at the start
+};
+
+// Force and moment on a body, directions fixed in the world, times a factor of time.
+struct Load {
+    int body = 0;
+    Vec3 arm, force, moment;
+    Curve value;
+};
+
+// Linear spring with a damper between two points.
+struct Spring {
+    int body[2] = {-1, -1};
+    Vec3 arm[2];
+    double stiffness = 0, length = 0, damping = 0;
+};
+
+// Prescribed displacement of one held freedom of a joint.  The rate is piecewise linear in time and the displacement
+// its integral: were both sampled by themselves, their difference over a short step would be a jerk.
+struct Drive {
+    int joint = 0, freedom = 0;
+    double start = 0;
+    Curve rate;
+};
+
+struct Model {
+    std::vector<Body> bodies;
+    std::vector<Joint> joints;
+    std::vector<SpaceHinge> hinges;
+    std::vector<int> hinge_joint;
+    std::vector<Load> loads;
+    std::vector<Spring> springs;
+    std::vector<Drive> drives;
+    Vec3 gravity;
+    double length = 1;  // [m] turns displacements into angles for the error measure
+
+    Pose pose(const std::vector<Pose>& poses, int body) const { return body < 0 ? Pose{} : poses[static_cast<size_t>(body)]; }
+    Twist twist(const std::vector<Twist>& twists, int body) const {
+        return body < 0 ? Twist{} : twists[static_cast<size_t>(body)];
+    }
+};
+
+// How a drive stands in the present stage: one that does not act holds where it is.
+struct DriveStage {
+    bool acts = true;
+    double origin = 0;  // displacement when it was halted
+};
+
+struct State {
+    double t = 0, stage_start = 0;
+    std::vector<Pose> pose;
+    std::vector<Twist> velocity, acceleration;  // at the centres, world axes; of the last step
+    std::vector<SpaceHingeState> hinge;
+    std::vector<double> rotation;               // of every hinge component, see JointGeometry::error
+    std::vector<double> rate;                   // of the same
+    std::vector<Twist> joint_force;             // moment and force on the second body, in the joint's frame, last step
+    double external_work = 0, spring_damped = 0;
+};
+
+struct Energies {
+    double kinetic = 0, elastic = 0, dissipated = 0, damped = 0, stop = 0, spring = 0, contact = 0, friction = 0, external_work = 0;
+    double balance() const {
+        return kinetic + elastic + dissipated + damped + stop + spring + contact + friction - external_work;
+    }
+};
+
+Energies energies(const Model& model, const State& state);
+
+}  // namespace crumple::space

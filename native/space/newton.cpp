@@ -1,0 +1,290 @@
+// The end velocities of a step: semismooth Newton on the convex potential that the frozen laws and bodies make.
+#include <algorithm>
+#include <cmath>
+
+#include "space/eigen.hpp"
+#include "space/stepper.hpp"
+
+namespace crumple::space {
+
+namespace {
+
+// Whole Newton steps before the guaranteed path is taken; they fail only by cycling, which is rare.
+constexpr int bold_limit = 16;
+// Newton steps per width of the ramps before the step is given up and shortened: a fixed number, and some per hinge,
+// since in the worst case (an impulse on the end of a long chain) hinges lock and let go one at a time.
+constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
+// Widening: from the largest rate down by this factor a time.
+constexpr double narrowing = 1e-1;
+// Relative accuracy of a law's impulse; piecewise linear laws reach rounding, curved ones converge to this.
+constexpr double impulse_tolerance = 1e-9;
+// Rates of held rows and of stiff laws are met to this share of the speed.
+constexpr double rate_tolerance = 1e-13;
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+}  // namespace
+
+void Stepper::respond(size_t link, const double* w, double* impulse, double* tangent) const {
+    const size_t index = at(connections_[link].index);
+    if (connections_[link].spring) {
+        impulse[0] = spring_force_[index] + spring_tangent_[index] * w[0];
+        if (tangent) tangent[0] = spring_tangent_[index];
+        return;
+    }
+    const size_t hinge = at(hinge_index(link));
+    space::respond(model_.hinges[hinge], frozen_[hinge], w, impulse, tangent, nullptr);
+}
+
+// above 1: a locked hinge must give way
+double Stepper::load(size_t link, const double* w) const {
+    if (connections_[link].spring) return 0;
+    const size_t hinge = at(hinge_index(link));
+    return load_factor(model_.hinges[hinge], frozen_[hinge], w);
+}
+
+// A locked hinge is nearly infinitely stiff, so a line search at the true ramps unlocks hinges one at a time.  So whole
+// steps are tried first; where they cycle, the ramps are widened and narrowed in steps, each a good start for the
+// next, with line search.
+bool Stepper::newton() {
+    const int limit = newton_limit + newton_limit_per_hinge * static_cast<int>(frozen_.size());
+    if (all_set_valued_ ? descend(bold_limit, true) : descend(limit, false)) return true;
+    double width = 1;
+    for (const double w : w_) width = std::max(width, std::fabs(w));
+    if (!std::isfinite(width)) return false;
+    for (bool narrowest = false; !narrowest; width *= narrowing) {
+        widen(width, narrowest);
+        if (!descend(limit, false)) return false;
+    }
+    return true;
+}
+
+void Stepper::widen(double width, bool& narrowest) {
+    narrowest = true;
+    for (size_t c = 0; c < connections_.size(); c++) {
+        if (!hinge_of(c)) continue;
+        const SpaceHinge& hinge = *hinge_of(c);
+        FrozenSpaceHinge& f = frozen_[at(hinge_index(c))];
+        const double least = ramp_width(hinge), wanted = std::max(width, least);
+        double* w = &w_[at(start(c) + system_.links()[c].held)];
+        double largest = 0;
+        for (int k = 0; k < size(hinge); k++) largest = std::max(largest, std::fabs(w[k]));
+        // inside the ramp the moment is kept, so the rate shrinks with the width
+        if (wanted < f.width && largest < f.width) {
+            for (int k = 0; k < size(hinge); k++) w[k] *= wanted / f.width;
+        }
+        space::widen(f, wanted);
+        if (wanted > least) narrowest = false;
+    }
+}
+
+// The tangent D = Q d Q^T of a law as root Q sqrt(d), and what the law gives beyond it.
+void Stepper::linearise(size_t link) {
+    const Link& l = system_.links()[link];
+    const int n = l.laws, first = start(link) + l.held;
+    Tangent& t = tangent_[link];
+    double matrix[most_components * most_components];
+    const double* w = &w_[at(first)];
+    respond(link, w, t.impulse, matrix);
+    for (int i = 0; i < n; i++) {
+        t.offset[i] = t.impulse[i];
+        for (int j = 0; j < n; j++) t.offset[i] -= matrix[i * n + j] * w[j];
+    }
+    eigenvectors(n, matrix, t.value, t.vectors);
+    for (int k = 0; k < n; k++) {
+        const double root = std::sqrt(std::max(t.value[k], 0.0));
+        Row sum;
+        for (int j = 0; j < n; j++) {
+            const Row& row = rows_[at(first + j)];
+            const double s = root * t.vectors[j * n + k];
+            sum = {sum.t + s * row.t, sum.ma + s * row.ma, sum.mb + s * row.mb};
+        }
+        system_.row(first + k) = sum;
+        t.value[k] = root;
+    }
+}
+
+// Newton steps, bold (whole steps, no guarantee) or with exact line search on the potential (always downhill).
+bool Stepper::descend(int limit, bool bold) {
+    for (int iteration = 0; iteration < limit; iteration++) {
+        solve_once();
+        double slope = 0;
+        const bool done = balanced(slope);
+        if (!std::isfinite(slope)) return false;
+        if (done) {
+            velocity_.swap(next_);
+            w_.swap(w_next_);
+            return true;
+        }
+        if (bold) {
+            take_whole_step();
+        } else if (iteration == 0 || slope <= 0) {
+            // the first step leads to the held rows
+            velocity_.swap(next_);
+            w_.swap(w_next_);
+        } else {
+            const double a = search(slope);
+            for (size_t i = 0; i < velocity_.size(); i++) velocity_[i] = velocity_[i] + a * (next_[i] - velocity_[i]);
+            for (size_t k = 0; k < w_.size(); k++) w_[k] += a * (w_next_[k] - w_[k]);
+        }
+    }
+    return false;
+}
+
+// velocities, rates and impulses with every law's tangent at w_
+void Stepper::solve_once() {
+    const std::vector<Link>& links = system_.links();
+    for (size_t c = 0; c < links.size(); c++) {
+        const int first = start(c);
+        for (int i = 0; i < links[c].held; i++) system_.row(first + i) = rows_[at(first + i)];
+        if (links[c].laws == 0) continue;
+        linearise(c);
+        for (int k = 0; k < links[c].laws; k++) impulse_[at(first + links[c].held + k)] = tangent_[c].offset[k];
+    }
+    next_ = free_;
+    system_.push(rows_, impulse_.data(), true, next_.data());
+    system_.factor();
+    solves_++;
+    system_.rates(next_.data(), x_.data());
+    for (size_t c = 0; c < links.size(); c++) {
+        const int first = start(c), held = links[c].held, n = links[c].laws;
+        for (int i = 0; i < held; i++) x_[at(first + i)] += bias_[at(first + i)] - target_[at(first + i)];
+        const Tangent& t = tangent_[c];
+        for (int k = 0; k < n; k++) {
+            for (int j = 0; j < n; j++) x_[at(first + held + k)] += t.value[k] * t.vectors[j * n + k] * bias_[at(first + held + j)];
+        }
+    }
+    system_.solve(x_.data(), rate_tolerance * speed_);
+    system_.push(x_.data(), next_.data());
+    // rates: stiff directions from their own unknown, which keeps the digits of a locked hinge
+    rates(rows_, next_.data(), w_next_.data());
+    for (size_t c = 0; c < links.size(); c++) {
+        const int first = start(c), held = links[c].held, n = links[c].laws;
+        for (int i = 0; i < held; i++) impulse_[at(first + i)] = x_[at(first + i)];
+        if (n == 0) continue;
+        const Tangent& t = tangent_[c];
+        double* w = &w_next_[at(first + held)];
+        double* p = &impulse_[at(first + held)];
+        double along[most_components];
+        for (int j = 0; j < n; j++) w[j] += bias_[at(first + held + j)];
+        for (int k = 0; k < n; k++) {
+            along[k] = 0;
+            for (int j = 0; j < n; j++) along[k] += t.vectors[j * n + k] * w[j];
+            const double y = x_[at(first + held + k)];
+            if (system_.diagonal(first + held + k) > 1) along[k] = y / t.value[k];
+            for (int j = 0; j < n; j++) p[j] += t.value[k] * t.vectors[j * n + k] * y;
+        }
+        for (int j = 0; j < n; j++) {
+            w[j] = 0;
+            for (int k = 0; k < n; k++) w[j] += t.vectors[j * n + k] * along[k];
+        }
+    }
+}
+
+// Whether the true impulses agree with their tangents at the new rates; `slope`: of the potential along the step.
+bool Stepper::balanced(double& slope) {
+    const std::vector<Link>& links = system_.links();
+    bool all = true;
+    slope = 0;
+    for (size_t c = 0; c < links.size(); c++) {
+        const int first = start(c) + links[c].held, n = links[c].laws;
+        if (n == 0) continue;
+        double p[most_components];
+        respond(c, &w_next_[at(first)], p, nullptr);
+        for (int k = 0; k < n; k++) {
+            const double left = p[k] - impulse_[at(first + k)];
+            const double scale = std::fabs(p[k]) + (hinge_of(c) ? impulse_scale(frozen_[at(hinge_index(c))], k) : 0);
+            if (!(std::fabs(left) <= impulse_tolerance * scale)) all = false;
+            slope += left * (w_next_[at(first + k)] - w_[at(first + k)]);
+        }
+    }
+    return all;
+}
+
+// Takes the whole Newton step, except that a hinge which would reverse is first put to rest, and that of
+// neighbouring locked hinges loaded beyond their capacity only the one loaded most is released: the moment falls
+// beside it, and releasing all of them would only send most back.
+void Stepper::take_whole_step() {
+    const std::vector<Link>& links = system_.links();
+    std::fill(overload_.begin(), overload_.end(), 0.0);
+    std::fill(worst_near_.begin(), worst_near_.end(), 0.0);
+    for (size_t c = 0; c < links.size(); c++) {
+        const int first = start(c) + links[c].held, n = links[c].laws;
+        if (n == 0) continue;
+        const bool locked = load(c, &w_[at(first)]) < 1;
+        double along = 0;
+        for (int k = 0; k < n; k++) along += w_[at(first + k)] * w_next_[at(first + k)];
+        if (!locked && along < 0) {
+            for (int k = 0; k < n; k++) w_next_[at(first + k)] = 0;
+        }
+        if (!locked) continue;
+        const double over = load(c, &w_next_[at(first)]);
+        if (over <= 1) continue;
+        overload_[c] = over;
+        for (const int body : links[c].body) {
+            if (body >= 0) worst_near_[at(body)] = std::max(worst_near_[at(body)], over);
+        }
+    }
+    for (size_t c = 0; c < links.size(); c++) {
+        if (overload_[c] == 0) continue;
+        bool largest = true;
+        for (const int body : links[c].body) largest = largest && (body < 0 || overload_[c] >= worst_near_[at(body)]);
+        if (largest) continue;
+        const int first = start(c) + links[c].held;
+        for (int k = 0; k < links[c].laws; k++) w_next_[at(first + k)] *= 0.999 / overload_[c];
+    }
+    velocity_.swap(next_);
+    w_.swap(w_next_);
+}
+
+// Root of the potential's slope along next_ - velocity_, in (0, 1); the slope grows along the way.
+double Stepper::search(double slope_end) {
+    const std::vector<Link>& links = system_.links();
+    double curvature = 0, linear_end = 0;
+    for (size_t i = 0; i < velocity_.size(); i++) {
+        const Twist d = next_[i] - velocity_[i];
+        curvature += model_.bodies[i].mass * dot(d.v, d.v) + dot(d.w, inertia_[i] * d.w);
+    }
+    for (size_t c = 0; c < links.size(); c++) {
+        const int first = start(c) + links[c].held;
+        for (int k = 0; k < links[c].laws; k++) {
+            linear_end -= impulse_[at(first + k)] * (w_next_[at(first + k)] - w_[at(first + k)]);
+        }
+    }
+    auto slope = [&](double a) {
+        double f = linear_end - (1 - a) * curvature;
+        for (size_t c = 0; c < links.size(); c++) {
+            const int first = start(c) + links[c].held, n = links[c].laws;
+            if (n == 0) continue;
+            double w[most_components], p[most_components];
+            for (int k = 0; k < n; k++) w[k] = w_[at(first + k)] + a * (w_next_[at(first + k)] - w_[at(first + k)]);
+            respond(c, w, p, nullptr);
+            for (int k = 0; k < n; k++) f += p[k] * (w_next_[at(first + k)] - w_[at(first + k)]);
+        }
+        return f;
+    };
+    double lo = 0, hi = 1, f_lo = slope(0), f_hi = slope_end;
+    if (!(f_lo < 0)) return 1;  // rounding: nothing to gain
+    // secant with halved weights (Illinois), bisection every third time: ramps of locked hinges are narrow
+    int side = 0;
+    for (int k = 0; k < 60 && hi - lo > 1e-14 * hi; k++) {
+        double a = k % 3 == 2 ? (lo + hi) / 2 : lo - f_lo * (hi - lo) / (f_hi - f_lo);
+        if (!(a > lo && a < hi)) a = (lo + hi) / 2;
+        const double f = slope(a);
+        if (std::fabs(f) <= 1e-12 * std::fabs(slope_end)) return a;
+        if (f > 0) {
+            hi = a;
+            f_hi = f;
+            if (side == 1) f_lo /= 2;
+            side = 1;
+        } else {
+            lo = a;
+            f_lo = f;
+            if (side == -1) f_hi /= 2;
+            side = -1;
+        }
+    }
+    return hi;
+}
+
+}  // namespace crumple::space

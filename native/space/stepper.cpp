@@ -1,0 +1,332 @@
+#include "space/stepper.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crumple::space {
+
+namespace {
+
+// Inertia that a quasi-static step keeps, relative to the true one.  Its momentum is lost at every step.
+constexpr double residual_inertia = 1e-6;
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+// Weight of the end rate that makes a damper's step over z = h c/m decay by e^-z.
+double end_weight(double z) { return z < 1e-3 ? 0.5 + z / 12 : 1 / (1 - std::exp(-z)) - 1 / z; }
+
+Mat3 world(const Quat& q, const Mat3& m) {
+    const Mat3 r = matrix(q);
+    return r * m * transposed(r);
+}
+
+}  // namespace
+
+Stepper::Stepper(const Model& model) : model_(model) {
+    std::vector<Link> links;
+    for (size_t j = 0; j < model.joints.size(); j++) {
+        const Joint& joint = model.joints[j];
+        if (joint.rows() == 0) continue;
+        links.push_back({{joint.body[0], joint.body[1]}, joint.held, joint.laws});
+        connections_.push_back({false, static_cast<int>(j)});
+    }
+    for (size_t k = 0; k < model.springs.size(); k++) {
+        links.push_back({{model.springs[k].body[0], model.springs[k].body[1]}, 0, 1});
+        connections_.push_back({true, static_cast<int>(k)});
+    }
+    system_.analyse(model.bodies.size(), links);
+    int components = 0;
+    for (const SpaceHinge& hinge : model.hinges) {
+        component_.push_back(components);
+        components += size(hinge);
+        all_set_valued_ = all_set_valued_ && hinge.components.front().law.form == Form::set_valued;
+    }
+    component_.push_back(components);
+    const size_t n = at(system_.rows()), bodies = model.bodies.size();
+    frozen_.resize(model.hinges.size());
+    for (auto* v : {&spring_force_, &spring_tangent_, &spring_weight_}) v->assign(model.springs.size(), 0.0);
+    tangent_.resize(links.size());
+    geometry_.resize(model.joints.size());
+    rows_.resize(n);
+    for (auto* v : {&middle_, &end_}) v->resize(bodies);
+    for (auto* v : {&free_, &velocity_, &next_, &direction_, &momentum_, &guess_}) v->resize(bodies);
+    for (auto* v : {&error_, &rate0_, &bias_, &target_, &w_, &w_next_, &impulse_, &x_, &work_}) v->assign(n, 0.0);
+    overload_.assign(links.size(), 0.0);
+    worst_near_.assign(bodies, 0.0);
+    stage_.drives.resize(model.drives.size());
+    // redundancy of the held rows, hinges free
+    inertia_.resize(bodies);
+    const State s = start();
+    redundant_rows_.assign(links.size(), 0);
+    std::vector<Row> rows(n);
+    locate_all(s, s.pose, 0, rows, error_.data());
+    set_mobilities(s.pose);
+    for (size_t c = 0; c < links.size(); c++) {
+        for (int i = 0; i < links[c].rows(); i++) system_.row(start(c) + i) = i < links[c].held ? rows[at(start(c) + i)] : Row{};
+    }
+    redundant_ = system_.factor(&redundant_rows_);
+}
+
+State Stepper::start() {
+    State s;
+    for (const Body& body : model_.bodies) s.pose.push_back({body.centre, {}});
+    s.velocity.resize(s.pose.size());
+    s.acceleration.resize(s.pose.size());
+    s.hinge.resize(model_.hinges.size());
+    s.rotation.assign(at(component_.back()), 0.0);
+    s.rate.assign(at(component_.back()), 0.0);
+    s.joint_force.resize(model_.joints.size());
+    for (size_t j = 0; j < model_.hinges.size(); j++) {
+        for (int k = 0; k < size(model_.hinges[j]); k++) {
+            int hint = 0;
+            s.hinge[j].component[k].capacity = model_.hinges[j].components[at(k)].law.positive.at(0, hint);
+        }
+    }
+    return s;
+}
+
+int Stepper::held_rows() const {
+    int held = 0;
+    for (const Link& link : system_.links()) held += link.held;
+    return held;
+}
+
+const SpaceHinge* Stepper::hinge_of(size_t link) const {
+    if (connections_[link].spring) return nullptr;
+    const int hinge = hinge_index(link);
+    return hinge < 0 ? nullptr : &model_.hinges[at(hinge)];
+}
+
+double Stepper::displacement(const Drive& drive, size_t index, const State& s, double t) const {
+    const DriveStage& stage = stage_.drives[index];
+    if (!stage.acts) return stage.origin;
+    int hint = 0;
+    return stage.origin + drive.rate.integral(t - s.stage_start, hint);
+}
+
+Target Stepper::target(const Joint& joint, const State& s, double t) const {
+    Target out;
+    for (int k = 0; k < 6; k++) {
+        if (joint.drive[k] < 0) continue;
+        const size_t index = at(joint.drive[k]);
+        const Drive& drive = model_.drives[index];
+        int hint = 0;
+        out.place[k] = displacement(drive, index, s, t);
+        out.rate[k] = stage_.drives[index].acts ? drive.rate.at(t - s.stage_start, hint) : 0;
+    }
+    return out;
+}
+
+void Stepper::locate_spring(const Spring& spring, const std::vector<Pose>& poses, Row& row, double* length) const {
+    const Pose a = model_.pose(poses, spring.body[0]), b = model_.pose(poses, spring.body[1]);
+    const Vec3 pa = a.at(spring.arm[0]), pb = b.at(spring.arm[1]), d = pb - pa;
+    *length = norm(d);
+    const Vec3 t = (*length > 0 ? 1 / *length : 0) * d;
+    row = {t, cross(pa - a.x, t), cross(pb - b.x, t)};
+}
+
+// rows of all links at the given places, the state's drives at time t
+void Stepper::locate_all(const State& s, const std::vector<Pose>& poses, double t, std::vector<Row>& rows, double* error) {
+    for (size_t c = 0; c < connections_.size(); c++) {
+        const size_t index = at(connections_[c].index), first = at(start(c));
+        if (connections_[c].spring) {
+            locate_spring(model_.springs[index], poses, rows[first], &error[first]);
+            continue;
+        }
+        const Joint& joint = model_.joints[index];
+        const Pose a = model_.pose(poses, joint.body[0]), b = model_.pose(poses, joint.body[1]);
+        double before[most_rows] = {};
+        for (int i = 0; i < joint.laws; i++) before[joint.held + i] = s.rotation[at(component_[at(joint.hinge)] + i)];
+        Target driven;
+        if (joint.driven) driven = target(joint, s, t);
+        JointGeometry& g = geometry_[index];
+        locate(joint, a, b, joint.driven ? &driven : nullptr, before, g);
+        for (int i = 0; i < joint.rows(); i++) {
+            rows[first + at(i)] = g.row[i];
+            error[first + at(i)] = g.error[i];
+        }
+    }
+}
+
+void Stepper::rates(const std::vector<Row>& rows, const Twist* v, double* out) const {
+    const std::vector<Link>& links = system_.links();
+    for (size_t c = 0; c < links.size(); c++) {
+        const Link& link = links[c];
+        const Twist a = link.body[0] < 0 ? Twist{} : v[link.body[0]], b = link.body[1] < 0 ? Twist{} : v[link.body[1]];
+        const int first = start(c);
+        for (int i = 0; i < link.rows(); i++) out[first + i] = rate(rows[at(first + i)], a, b);
+    }
+}
+
+void Stepper::set_mobilities(const std::vector<Pose>& poses) {
+    const double scale = stage_.quasi_static ? residual_inertia : 1;
+    for (size_t i = 0; i < model_.bodies.size(); i++) {
+        const Body& body = model_.bodies[i];
+        Mat3 inverse = world(poses[i].q, body.inverse);
+        for (Vec3& row : inverse.r) row = (1 / scale) * row;
+        system_.set_body(i, 1 / (scale * body.mass), inverse);
+        inertia_[i] = world(poses[i].q, body.inertia);
+    }
+}
+
+// middle and end of the motion, and the velocities without impulses of joints
+void Stepper::predict(const State& s, double h, const std::vector<Twist>& end) {
+    for (size_t i = 0; i < model_.bodies.size(); i++) {
+        const Twist mean = 0.5 * (s.velocity[i] + end[i]);
+        middle_[i] = moved(s.pose[i], (h / 2) * mean);
+        end_[i] = moved(s.pose[i], h * mean);
+    }
+    for (size_t i = 0; i < model_.bodies.size(); i++) momentum_[i] = {{}, h * model_.bodies[i].mass * model_.gravity};
+    for (const Load& load : model_.loads) {
+        int hint = 0;
+        const double factor = h * load.value.at(s.t + h / 2 - s.stage_start, hint);
+        const Vec3 arm = turned(middle_[at(load.body)].q, load.arm);
+        Twist& m = momentum_[at(load.body)];
+        m = m + factor * Twist{load.moment + cross(arm, load.force), load.force};
+    }
+}
+
+// V*: change of momentum between the true ends of the step, (I_1 w_1) - (I_0 w_0), told for the middle's inertia
+void Stepper::set_free(const State& s) {
+    for (size_t i = 0; i < free_.size(); i++) {
+        const Body& body = model_.bodies[i];
+        const Vec3 before = world(s.pose[i].q, body.inertia) * s.velocity[i].w;
+        const Vec3 after = world(end_[i].q, body.inertia) * guess_[i].w - inertia_[i] * guess_[i].w;
+        free_[i] = system_.mobility(i, {before - after + momentum_[i].w, body.mass * s.velocity[i].v + momentum_[i].v});
+    }
+}
+
+// Brings the predicted middle back to the held rows.  Needed where redundant constraints leave mobility only at
+// consistent places: Bricard's mechanism is locked at any other.
+void Stepper::mend_middle(const State& s, double t) {
+    locate_all(s, middle_, t, rows_, error_.data());
+    set_mobilities(middle_);
+    for (size_t c = 0; c < connections_.size(); c++) {
+        const Link& link = system_.links()[c];
+        for (int i = 0; i < link.rows(); i++) {
+            const size_t k = at(start(c) + i);
+            system_.row(start(c) + i) = i < link.held ? rows_[k] : Row{};
+            x_[k] = i < link.held ? error_[k] : 0;
+        }
+    }
+    system_.factor();
+    for (int pass = 0; pass < 2; pass++) {
+        system_.solve(x_.data(), 1e-14 * model_.length);
+        std::fill(direction_.begin(), direction_.end(), Twist{});
+        system_.push(x_.data(), direction_.data());
+        for (size_t i = 0; i < middle_.size(); i++) middle_[i] = moved(middle_[i], direction_[i]);
+        locate_all(s, middle_, t, rows_, error_.data());
+        for (size_t c = 0; c < connections_.size(); c++) {
+            const Link& link = system_.links()[c];
+            for (int i = 0; i < link.rows(); i++) x_[at(start(c) + i)] = i < link.held ? error_[at(start(c) + i)] : 0;
+        }
+    }
+}
+
+// rates that the rows must have at the end of the step
+void Stepper::aim(const State& s, double h) {
+    rates(rows_, s.velocity.data(), bias_.data());
+    for (size_t k = 0; k < bias_.size(); k++) bias_[k] -= rate0_[k];
+    std::fill(target_.begin(), target_.end(), 0.0);
+    for (size_t c = 0; c < connections_.size(); c++) {
+        if (connections_[c].spring) continue;
+        const size_t index = at(connections_[c].index);
+        const Joint& joint = model_.joints[index];
+        if (!joint.driven) continue;
+        Target end = target(joint, s, s.t + h);
+        if (stage_.quasi_static) {
+            // from rest: twice the mean rate
+            const Target begin = target(joint, s, s.t);
+            for (int k = 0; k < 6; k++) end.rate[k] = 2 * (end.place[k] - begin.place[k]) / h;
+        }
+        const Pose a = model_.pose(middle_, joint.body[0]);
+        for (int i = 0; i < joint.held; i++) target_[at(start(c) + i)] = target_rate(joint, a, geometry_[index], end, i);
+    }
+}
+
+void Stepper::freeze(const State& s, double h) {
+    for (size_t c = 0; c < connections_.size(); c++) {
+        const size_t index = at(connections_[c].index), first = at(start(c));
+        if (connections_[c].spring) {
+            const Spring& spring = model_.springs[index];
+            Row row;
+            double length = 0;
+            locate_spring(spring, s.pose, row, &length);
+            double mobility = 0;
+            for (int side = 0; side < 2; side++) {
+                if (spring.body[side] < 0) continue;
+                const Vec3 m = side == 0 ? rows_[first].ma : rows_[first].mb;
+                const Twist u = system_.mobility(at(spring.body[side]), {m, rows_[first].t});
+                mobility += dot(rows_[first].t, u.v) + dot(m, u.w);
+            }
+            const double weight = spring.damping > 0 ? end_weight(h * spring.damping * mobility) : 1;
+            spring_weight_[index] = weight;
+            spring_force_[index] = h * (spring.stiffness * (length - spring.length + h * rate0_[first] / 4) +
+                                        spring.damping * (1 - weight) * rate0_[first]);
+            spring_tangent_[index] = h * (spring.stiffness * h / 4 + spring.damping * weight);
+            continue;
+        }
+        const int hinge = hinge_index(c);
+        if (hinge < 0) continue;
+        const size_t held = at(system_.links()[c].held), k = at(component_[at(hinge)]);
+        frozen_[at(hinge)] = space::freeze(model_.hinges[at(hinge)], s.hinge[at(hinge)], h, &s.rotation[k], &rate0_[first + held],
+                                           &w_[first + held]);
+    }
+}
+
+bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
+    guess_ = guess ? *guess : s.velocity;
+    speed_ = 0;
+    for (size_t i = 0; i < s.velocity.size(); i++) {
+        speed_ = std::max({speed_, norm(s.velocity[i].v), norm(s.velocity[i].w) * model_.length, norm(guess_[i].v)});
+    }
+    // true rates at the start
+    locate_all(s, s.pose, s.t, rows_, error_.data());
+    rates(rows_, s.velocity.data(), rate0_.data());
+    for (int pass = guess ? 1 : 0; pass < 2; pass++) {
+        // positions, free-flight velocities and loads at the predicted middle
+        predict(s, h, guess_);
+        if (redundant_ > 0) mend_middle(s, s.t + h / 2);
+        set_mobilities(middle_);
+        set_free(s);
+        // directions there, and the rates they must have
+        locate_all(s, middle_, s.t + h / 2, rows_, error_.data());
+        aim(s, h);
+        rates(rows_, guess_.data(), w_.data());
+        for (size_t k = 0; k < w_.size(); k++) w_[k] += bias_[k];
+        // capacities, rate factors and stops
+        freeze(s, h);
+        // end velocities
+        if (!newton()) return false;
+        guess_ = velocity_;
+    }
+    commit(s, h);
+    return true;
+}
+
+void Stepper::add_motion(State& s, const Twist* velocity, const Twist* impulse) {
+    locate_all(s, s.pose, s.t, rows_, error_.data());
+    set_mobilities(s.pose);
+    for (size_t i = 0; i < s.velocity.size(); i++) s.velocity[i] = s.velocity[i] + velocity[i] + system_.mobility(i, impulse[i]);
+    rates(rows_, s.velocity.data(), x_.data());
+    for (size_t c = 0; c < connections_.size(); c++) {
+        const Link& link = system_.links()[c];
+        const size_t index = at(connections_[c].index);
+        Target driven;
+        if (!connections_[c].spring && model_.joints[index].driven) driven = target(model_.joints[index], s, s.t);
+        for (int i = 0; i < link.rows(); i++) {
+            const size_t k = at(start(c) + i);
+            system_.row(start(c) + i) = i < link.held ? rows_[k] : Row{};
+            if (i >= link.held) x_[k] = 0;
+            else if (model_.joints[index].driven) {
+                const Pose a = model_.pose(s.pose, model_.joints[index].body[0]);
+                x_[k] -= target_rate(model_.joints[index], a, geometry_[index], driven, i);
+            }
+        }
+    }
+    system_.factor();
+    system_.solve(x_.data(), 0);
+    system_.push(x_.data(), s.velocity.data());
+}
+
+}  // namespace crumple::space

@@ -1,0 +1,105 @@
+// One step of the spatial engine: a convex problem for the velocities of the bodies at the end of the step.
+//
+// With the motion over the step taken as trapezoidal (x1 = x0 + h (v0 + v1)/2, rotations likewise) and everything that
+// depends on position taken at its middle, the end velocities V1 minimise
+//     sum_bodies 1/2 |V - V*|^2_M  +  sum_laws Phi(J V + c)      subject to  G V + c = target,
+// V* being the velocities without impulses of joints, and c = J V0 - (true rates at the start), so that the rates
+// J V1 + c belong to the end of the step.  Held rows thus do no work over a step.  Afterwards positions and velocities
+// are brought back to the held rows at the end of the step, hinges keeping their tangents: errors of third order.
+#pragma once
+
+#include <vector>
+
+#include "space/model.hpp"
+#include "space/system.hpp"
+
+namespace crumple::space {
+
+struct Stage {
+    bool quasi_static = false;
+    std::vector<DriveStage> drives;
+};
+
+class Stepper {
+public:
+    explicit Stepper(const Model& model);
+
+    State start();
+    Stage& stage() { return stage_; }
+    // velocities nearest, in kinetic energy, to the state's plus those and impulses given; hinges free
+    void add_motion(State& state, const Twist* velocity, const Twist* impulse);
+    // One step of length h; false when the equations did not converge (the state is then undefined).  `guess`: end
+    // velocities known beforehand to first order; without them the step predicts them by a pass of its own.
+    bool step(State& state, double h, const std::vector<Twist>* guess);
+    // redundant held rows at the start: number, and per joint
+    int redundant() const { return redundant_; }
+    const std::vector<int>& redundant_rows() const { return redundant_rows_; }
+    int held_rows() const;
+    double displacement(const Drive& drive, size_t index, const State& s, double t) const;
+    long solves() const { return solves_; }
+
+private:
+    // A law's tangent P = offset + root root^T w at the rates where it was last asked.
+    struct Tangent {
+        double impulse[most_components] = {}, offset[most_components] = {};
+        double vectors[most_components * most_components] = {}, value[most_components] = {};
+    };
+    struct Connection {
+        bool spring = false;
+        int index = 0;  // joint or spring
+    };
+    void predict(const State& s, double h, const std::vector<Twist>& end);
+    void set_free(const State& s);
+    void set_mobilities(const std::vector<Pose>& poses);
+    void locate_all(const State& s, const std::vector<Pose>& poses, double t, std::vector<Row>& rows, double* error);
+    void locate_spring(const Spring& spring, const std::vector<Pose>& poses, Row& row, double* length) const;
+    Target target(const Joint& joint, const State& s, double t) const;
+    void aim(const State& s, double h);
+    void mend_middle(const State& s, double t);
+    void rates(const std::vector<Row>& rows, const Twist* v, double* out) const;
+    void freeze(const State& s, double h);
+    // newton.cpp
+    bool newton();
+    bool descend(int limit, bool bold);
+    void linearise(size_t link);
+    void solve_once();
+    bool balanced(double& slope);
+    void take_whole_step();
+    double search(double slope_end);
+    void widen(double width, bool& narrowest);
+    void respond(size_t link, const double* w, double* impulse, double* tangent) const;
+    double load(size_t link, const double* w) const;
+    // finish.cpp
+    void commit(State& s, double h);
+    void mend_end(State& s, double h);
+    void show_forces(State& s, double h);
+    int start(size_t link) const { return system_.start(link); }
+    const SpaceHinge* hinge_of(size_t link) const;
+    int hinge_index(size_t link) const { return model_.joints[static_cast<size_t>(connections_[link].index)].hinge; }
+
+    const Model& model_;
+    Stage stage_;
+    System system_;
+    std::vector<Connection> connections_;
+    std::vector<int> component_;             // first component of every hinge in State::rotation
+    std::vector<FrozenSpaceHinge> frozen_;   // per hinge
+    std::vector<double> spring_force_, spring_tangent_;  // impulse at zero rate, and its slope
+    std::vector<double> spring_weight_;      // of the end rate in the damper's
+    std::vector<Tangent> tangent_;           // per link
+    std::vector<Pose> middle_, end_;
+    std::vector<Twist> free_, velocity_, next_, direction_, momentum_, guess_;
+    std::vector<Mat3> inertia_;              // in world axes, where the mobilities were last set
+    std::vector<Row> rows_;                  // at the middle
+    std::vector<JointGeometry> geometry_;    // per joint, as last located
+    std::vector<double> error_;              // per row, as last located
+    std::vector<double> rate0_, bias_, target_;  // per row: true start rate, c, wanted rate at the end
+    std::vector<double> w_, w_next_;         // per row: rates at the end, linearised at and found
+    std::vector<double> impulse_, x_, work_, overload_, worst_near_;
+    bool all_set_valued_ = true;
+    int redundant_ = 0;
+    std::vector<int> redundant_rows_;
+    double speed_ = 0;                       // scale of rates
+    long solves_ = 0;
+};
+
+}  // namespace crumple::space

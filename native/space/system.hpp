@@ -1,0 +1,74 @@
+// The linear problem of a Newton step, in impulses along rows that link bodies two by two.
+//
+//     (J M^-1 J^T + diag) x = rhs,      v -= M^-1 J^T x
+//
+// Held rows have a small compliance on the diagonal: it makes redundant constraints solvable, and `solve` takes it out
+// again by refinement, so that consistent ones are met to rounding with the least impulses.  Rows of a law come with
+// the root of its tangent, J^ = L^T J with D = L L^T, and 1 on the diagonal: well conditioned from a free (D = 0) to a
+// locked hinge (D huge).
+#pragma once
+
+#include <vector>
+
+#include "space/block_cholesky.hpp"
+#include "space/joint.hpp"
+
+namespace crumple::space {
+
+struct Link {
+    int body[2] = {-1, -1};
+    int held = 0, laws = 0;
+    int rows() const { return held + laws; }
+};
+
+class System {
+public:
+    void analyse(size_t bodies, const std::vector<Link>& links);
+    const std::vector<Link>& links() const { return links_; }
+    int start(size_t link) const { return matrix_.start(static_cast<int>(link)); }
+    int rows() const { return matrix_.rows(); }
+    Row& row(int k) { return rows_[static_cast<size_t>(k)]; }
+    void set_body(size_t i, double inverse_mass, const Mat3& inverse_inertia) { bodies_[i] = {inverse_mass, inverse_inertia}; }
+    // assembles and factors; returns the redundant held rows if they are sought (then without compliance)
+    int factor(std::vector<int>* redundant = nullptr);
+    // x: right-hand side in, impulses out, refined until the held rows are met within `tolerance`
+    void solve(double* x, double tolerance);
+    // rates along the rows, and what impulses along the rows take from the velocities
+    void rates(const Twist* v, double* out) const;
+    void push(const double* x, Twist* v);
+    // the same for other rows of the same links: `row` per row, from impulses of laws only if `laws_only`
+    void push(const std::vector<Row>& rows, const double* x, bool laws_only, Twist* v);
+    Twist mobility(size_t i, const Twist& impulse) const {
+        return {bodies_[i].inverse_inertia * impulse.w, bodies_[i].inverse_mass * impulse.v};
+    }
+    // diagonal of J M^-1 J^T, as of the last assembly
+    double diagonal(int k) const { return diagonal_[static_cast<size_t>(k)]; }
+
+private:
+    struct Mobility {
+        double inverse_mass = 1;
+        Mat3 inverse_inertia;
+    };
+    // a link's rows at one of its bodies: as they are, and times the inverse mass; six numbers a row
+    struct Side {
+        double p[6 * most_rows], q[6 * most_rows];
+    };
+    struct Pair {
+        int a, b;       // sides: 2 link + (0 or 1)
+        int rows_a, rows_b;
+        size_t block;
+        bool negative;
+    };
+    void assemble(double compliance);
+
+    std::vector<Link> links_;
+    std::vector<Mobility> bodies_;
+    std::vector<Row> rows_;
+    std::vector<Side> sides_;
+    std::vector<Pair> pairs_;
+    BlockCholesky matrix_;
+    std::vector<double> residual_, correction_, diagonal_, rhs_;
+    std::vector<Twist> impulse_, impulse_sum_;
+};
+
+}  // namespace crumple::space
