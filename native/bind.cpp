@@ -10,6 +10,7 @@ namespace crumple::shell {
 void bind(nb::module_& m);
 }
 namespace crumple::space {
+void bind(nb::module_& m);
 void bind_hinge(nb::module_& m);
 }
 
@@ -17,7 +18,8 @@ NB_MODULE(_kernels, m) {
     m.doc() = "Compiled kernels of Crumple; use them through crumple.multibody and crumple.shell.";
     auto multibody = m.def_submodule("multibody", "Implicit convex stepper for trees of rigid bodies with plastic hinges.");
     crumple::multibody::bind(multibody);
-    auto space = m.def_submodule("space", "Hinges with several components.");
+    auto space = m.def_submodule("space", "Implicit convex stepper for rigid bodies in space with plastic hinges.");
+    crumple::space::bind(space);
     crumple::space::bind_hinge(space);
     auto shell = m.def_submodule("shell", "Explicit stepper for thin shells.");
     crumple::shell::bind(shell);

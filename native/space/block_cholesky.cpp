@@ -135,7 +135,7 @@ size_t BlockCholesky::block(int a, int b) const {
 void BlockCholesky::clear() { std::fill(values_.begin(), values_.end(), 0.0); }
 
 // Lower triangle in place; returns the number of redundant rows.
-int BlockCholesky::factor_diagonal(int node, double threshold) {
+int BlockCholesky::factor_diagonal(int node, double threshold, const double* floor) {
     const int n = size_[at(node)];
     double* a = &values_[diagonal_[at(node)]];
     double* reciprocal = &inverse_[at(start_[at(node)])];
@@ -144,7 +144,9 @@ int BlockCholesky::factor_diagonal(int node, double threshold) {
         double pivot = a[j * n + j];
         for (int k = 0; k < j; k++) pivot -= a[j * n + k] * a[j * n + k];
         // `reciprocal` held the diagonal before elimination
-        if (!(pivot > threshold * reciprocal[j])) {
+        if (floor[j] > 0) {
+            if (!(pivot > floor[j])) pivot = floor[j];
+        } else if (!(pivot > threshold * reciprocal[j])) {
             weak++;
             a[j * n + j] = 0;
             reciprocal[j] = 0;
@@ -162,7 +164,7 @@ int BlockCholesky::factor_diagonal(int node, double threshold) {
     return weak;
 }
 
-int BlockCholesky::factor(double threshold, std::vector<int>* redundant) {
+int BlockCholesky::factor(double threshold, const std::vector<double>& floor, std::vector<int>* redundant) {
     for (size_t node = 0; node < size_.size(); node++) {
         const int n = size_[node];
         for (int i = 0; i < n; i++) inverse_[at(start_[node] + i)] = values_[diagonal_[node] + at(i * n + i)];
@@ -170,7 +172,7 @@ int BlockCholesky::factor(double threshold, std::vector<int>* redundant) {
     int weak = 0;
     for (size_t k = 0; k < order_.size(); k++) {
         const int node = order_[k], n = size_[at(node)];
-        const int found = factor_diagonal(node, threshold);
+        const int found = factor_diagonal(node, threshold, &floor[at(start_[at(node)])]);
         weak += found;
         if (redundant) (*redundant)[at(node)] = found;
         const double *lower = &values_[diagonal_[at(node)]], *reciprocal = &inverse_[at(start_[at(node)])];

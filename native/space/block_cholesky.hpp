@@ -24,8 +24,9 @@ public:
     int start(int node) const { return start_[static_cast<size_t>(node)]; }
     int rows() const { return start_.back(); }
     void clear();
-    // Pivots below `threshold` times the diagonal are redundant rows: they get no impulse, and are counted per node.
-    int factor(double threshold, std::vector<int>* redundant);
+    // A row with a floor has pivots of at least that.  In other rows a pivot below `threshold` times the diagonal is
+    // redundant: the row gets no impulse, and is counted, for all and per node.
+    int factor(double threshold, const std::vector<double>& floor, std::vector<int>* redundant);
     void solve(double* x) const;
 
 private:
@@ -38,7 +39,7 @@ private:
         int rows_a, rows_b;
     };
     void eliminate(const std::vector<int>& size, std::vector<std::vector<int>>& near);
-    int factor_diagonal(int node, double threshold);
+    int factor_diagonal(int node, double threshold, const double* floor);
 
     std::vector<int> size_, start_, order_, place_;
     std::vector<size_t> diagonal_, first_, first_update_;  // per node; per place in the order

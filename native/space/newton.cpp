@@ -73,7 +73,7 @@ void Stepper::widen(double width, bool& narrowest) {
         if (wanted < f.width && largest < f.width) {
             for (int k = 0; k < size(hinge); k++) w[k] *= wanted / f.width;
         }
-        space::widen(f, wanted);
+        space::widen(hinge, f, wanted);
         if (wanted > least) narrowest = false;
     }
 }

@@ -60,10 +60,11 @@ Stepper::Stepper(const Model& model) : model_(model) {
     redundant_rows_.assign(links.size(), 0);
     std::vector<Row> rows(n);
     locate_all(s, s.pose, 0, rows, error_.data());
-    set_mobilities(s.pose);
-    for (size_t c = 0; c < links.size(); c++) {
-        for (int i = 0; i < links[c].rows(); i++) system_.row(start(c) + i) = i < links[c].held ? rows[at(start(c) + i)] : Row{};
-    }
+    rows_ = rows;
+    hold_rows();
+    // a matter of geometry: the same mass for all bodies
+    const double turns = 1 / (model.length * model.length);
+    for (size_t i = 0; i < bodies; i++) system_.set_body(i, 1, {{turns * axis(0), turns * axis(1), turns * axis(2)}});
     redundant_ = system_.factor(&redundant_rows_);
 }
 
@@ -196,30 +197,31 @@ void Stepper::set_free(const State& s) {
     }
 }
 
+// the system with held rows alone, laws free
+void Stepper::hold_rows() {
+    for (size_t c = 0; c < connections_.size(); c++) {
+        const Link& link = system_.links()[c];
+        for (int i = 0; i < link.rows(); i++) system_.row(start(c) + i) = i < link.held ? rows_[at(start(c) + i)] : Row{};
+    }
+}
+
 // Brings the predicted middle back to the held rows.  Needed where redundant constraints leave mobility only at
 // consistent places: Bricard's mechanism is locked at any other.
 void Stepper::mend_middle(const State& s, double t) {
     locate_all(s, middle_, t, rows_, error_.data());
     set_mobilities(middle_);
-    for (size_t c = 0; c < connections_.size(); c++) {
-        const Link& link = system_.links()[c];
-        for (int i = 0; i < link.rows(); i++) {
-            const size_t k = at(start(c) + i);
-            system_.row(start(c) + i) = i < link.held ? rows_[k] : Row{};
-            x_[k] = i < link.held ? error_[k] : 0;
-        }
-    }
+    hold_rows();
     system_.factor();
     for (int pass = 0; pass < 2; pass++) {
+        for (size_t c = 0; c < connections_.size(); c++) {
+            const Link& link = system_.links()[c];
+            for (int i = 0; i < link.rows(); i++) x_[at(start(c) + i)] = i < link.held ? error_[at(start(c) + i)] : 0;
+        }
         system_.solve(x_.data(), 1e-14 * model_.length);
         std::fill(direction_.begin(), direction_.end(), Twist{});
         system_.push(x_.data(), direction_.data());
         for (size_t i = 0; i < middle_.size(); i++) middle_[i] = moved(middle_[i], direction_[i]);
         locate_all(s, middle_, t, rows_, error_.data());
-        for (size_t c = 0; c < connections_.size(); c++) {
-            const Link& link = system_.links()[c];
-            for (int i = 0; i < link.rows(); i++) x_[at(start(c) + i)] = i < link.held ? error_[at(start(c) + i)] : 0;
-        }
     }
 }
 
@@ -311,22 +313,45 @@ void Stepper::add_motion(State& s, const Twist* velocity, const Twist* impulse) 
     rates(rows_, s.velocity.data(), x_.data());
     for (size_t c = 0; c < connections_.size(); c++) {
         const Link& link = system_.links()[c];
+        const int first = start(c);
+        for (int i = link.held; i < link.rows(); i++) x_[at(first + i)] = 0;
         const size_t index = at(connections_[c].index);
-        Target driven;
-        if (!connections_[c].spring && model_.joints[index].driven) driven = target(model_.joints[index], s, s.t);
-        for (int i = 0; i < link.rows(); i++) {
-            const size_t k = at(start(c) + i);
-            system_.row(start(c) + i) = i < link.held ? rows_[k] : Row{};
-            if (i >= link.held) x_[k] = 0;
-            else if (model_.joints[index].driven) {
-                const Pose a = model_.pose(s.pose, model_.joints[index].body[0]);
-                x_[k] -= target_rate(model_.joints[index], a, geometry_[index], driven, i);
-            }
-        }
+        if (connections_[c].spring || !model_.joints[index].driven) continue;
+        const Target driven = target(model_.joints[index], s, s.t);
+        const Pose a = model_.pose(s.pose, model_.joints[index].body[0]);
+        for (int i = 0; i < link.held; i++) x_[at(first + i)] -= target_rate(model_.joints[index], a, geometry_[index], driven, i);
     }
+    hold_rows();
     system_.factor();
     system_.solve(x_.data(), 0);
     system_.push(x_.data(), s.velocity.data());
+}
+
+double Stepper::effective_inertia(const State& s, size_t hinge, int component) {
+    locate_all(s, s.pose, s.t, rows_, error_.data());
+    set_mobilities(s.pose);
+    size_t link = 0;
+    while (connections_[link].spring || hinge_index(link) != static_cast<int>(hinge)) link++;
+    const Link& l = system_.links()[link];
+    const Row& row = rows_[at(start(link) + l.held + component)];
+    std::fill(direction_.begin(), direction_.end(), Twist{});
+    if (l.body[0] >= 0) direction_[at(l.body[0])] = system_.mobility(at(l.body[0]), {-row.ma, -row.t});
+    if (l.body[1] >= 0) direction_[at(l.body[1])] = system_.mobility(at(l.body[1]), {row.mb, row.t});
+    hold_rows();
+    system_.factor();
+    system_.rates(direction_.data(), x_.data());
+    system_.solve(x_.data(), 0);
+    system_.push(x_.data(), direction_.data());
+    const Twist a = model_.twist(direction_, l.body[0]), b = model_.twist(direction_, l.body[1]);
+    return 1 / rate(row, a, b);
+}
+
+double Stepper::relative(const State& s, int joint, int freedom) const {
+    const Joint& j = model_.joints[at(joint)];
+    const Pose a = model_.pose(s.pose, j.body[0]), b = model_.pose(s.pose, j.body[1]);
+    const Quat first = a.q * j.axes, second = b.q * j.axes;
+    if (freedom < 3) return turned(conjugate(first), b.at(j.arm[1]) - a.at(j.arm[0]))[freedom];
+    return rotation_vector(conjugate(first) * second)[freedom - 3];
 }
 
 }  // namespace crumple::space

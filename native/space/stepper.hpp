@@ -36,6 +36,14 @@ public:
     const std::vector<int>& redundant_rows() const { return redundant_rows_; }
     int held_rows() const;
     double displacement(const Drive& drive, size_t index, const State& s, double t) const;
+    // inertia (mass for a slip) that a hinge's component feels with all hinges free
+    double effective_inertia(const State& state, size_t hinge, int component);
+    // displacement in any freedom of a joint, in the axes of its first body
+    double relative(const State& state, int joint, int freedom) const;
+    // column of a hinge's first component
+    int first_component(size_t hinge) const { return component_[hinge]; }
+    const std::vector<Twist>& end_velocity() const { return velocity_; }
+    int rows() const { return system_.rows(); }
     long solves() const { return solves_; }
 
 private:
@@ -55,6 +63,7 @@ private:
     void locate_spring(const Spring& spring, const std::vector<Pose>& poses, Row& row, double* length) const;
     Target target(const Joint& joint, const State& s, double t) const;
     void aim(const State& s, double h);
+    void hold_rows();
     void mend_middle(const State& s, double t);
     void rates(const std::vector<Row>& rows, const Twist* v, double* out) const;
     void freeze(const State& s, double h);

@@ -6,10 +6,8 @@ namespace crumple::space {
 
 namespace {
 
-// Compliance of held rows relative to their own mobility: redundant directions keep four digits more than rounding.
-constexpr double compliance = 1e-12;
-// A pivot below this share of its diagonal is a redundant row.
-constexpr double redundancy = 1e-9;
+// A held row whose pivot is below this share of its diagonal is redundant: four digits above rounding.
+constexpr double redundancy = 1e-12;
 constexpr int refinements = 4;
 
 size_t at(int i) { return static_cast<size_t>(i); }
@@ -60,10 +58,13 @@ void System::analyse(size_t bodies, const std::vector<Link>& links) {
     const size_t n = at(matrix_.rows());
     rows_.resize(n);
     sides_.resize(2 * links.size());
-    for (auto* v : {&residual_, &correction_, &diagonal_, &rhs_}) v->assign(n, 0.0);
+    for (auto* v : {&residual_, &correction_, &diagonal_, &rhs_, &floor_}) v->assign(n, 0.0);
+    for (size_t c = 0; c < links.size(); c++) {
+        for (int i = links[c].held; i < links[c].rows(); i++) floor_[at(start(c) + i)] = 1;
+    }
 }
 
-void System::assemble(double soft) {
+void System::assemble() {
     for (size_t c = 0; c < links_.size(); c++) {
         const Link& link = links_[c];
         const Row* row = &rows_[at(start(c))];
@@ -97,14 +98,14 @@ void System::assemble(double soft) {
         for (int i = 0; i < n; i++) {
             double& d = block[i * n + i];
             diagonal_[at(start(c) + i)] = d;
-            d += i < links_[c].held ? soft * d : 1;
+            if (i >= links_[c].held) d += 1;
         }
     }
 }
 
 int System::factor(std::vector<int>* redundant) {
-    assemble(redundant ? 0 : compliance);
-    return matrix_.factor(redundant ? redundancy : compliance / 10, redundant);
+    assemble();
+    return matrix_.factor(redundancy, floor_, redundant);
 }
 
 void System::solve(double* x, double tolerance) {

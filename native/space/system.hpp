@@ -2,10 +2,9 @@
 //
 //     (J M^-1 J^T + diag) x = rhs,      v -= M^-1 J^T x
 //
-// Held rows have a small compliance on the diagonal: it makes redundant constraints solvable, and `solve` takes it out
-// again by refinement, so that consistent ones are met to rounding with the least impulses.  Rows of a law come with
-// the root of its tangent, J^ = L^T J with D = L L^T, and 1 on the diagonal: well conditioned from a free (D = 0) to a
-// locked hinge (D huge).
+// Held rows have nothing on the diagonal; those that others make redundant get no impulse, and are met because they are
+// consistent.  Rows of a law come with the root of its tangent, J^ = L^T J with D = L L^T, and 1 on the diagonal:
+// well conditioned from a free (D = 0) to a locked hinge (D huge).  Refinement takes rounding out.
 #pragma once
 
 #include <vector>
@@ -29,7 +28,7 @@ public:
     int rows() const { return matrix_.rows(); }
     Row& row(int k) { return rows_[static_cast<size_t>(k)]; }
     void set_body(size_t i, double inverse_mass, const Mat3& inverse_inertia) { bodies_[i] = {inverse_mass, inverse_inertia}; }
-    // assembles and factors; returns the redundant held rows if they are sought (then without compliance)
+    // assembles and factors; returns the number of redundant held rows, and per link if sought
     int factor(std::vector<int>* redundant = nullptr);
     // x: right-hand side in, impulses out, refined until the held rows are met within `tolerance`
     void solve(double* x, double tolerance);
@@ -59,7 +58,7 @@ private:
         size_t block;
         bool negative;
     };
-    void assemble(double compliance);
+    void assemble();
 
     std::vector<Link> links_;
     std::vector<Mobility> bodies_;
@@ -67,7 +66,7 @@ private:
     std::vector<Side> sides_;
     std::vector<Pair> pairs_;
     BlockCholesky matrix_;
-    std::vector<double> residual_, correction_, diagonal_, rhs_;
+    std::vector<double> residual_, correction_, diagonal_, rhs_, floor_;
     std::vector<Twist> impulse_, impulse_sum_;
 };
 

@@ -1,0 +1,280 @@
+// Python face of the spatial kernel.  Plain values come in; nothing here decides physics.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/function.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "multibody/bind_hinge.hpp"
+#include "space/bind_hinge.hpp"
+#include "space/simulation.hpp"
+
+namespace nb = nanobind;
+
+namespace crumple::space {
+
+namespace {
+
+using multibody::Doubles;
+using multibody::make_curve;
+using multibody::require;
+using Array = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
+
+Vec3 vector(const double* v) { return {v[0], v[1], v[2]}; }
+
+Vec3 vector(nb::handle h) {
+    const Doubles v = nb::cast<Doubles>(h);
+    require(v.size() == 3, "a vector has three components");
+    return vector(v.data());
+}
+
+// body's centre at the start; the origin for the ground
+Vec3 centre(const Model& model, int body) { return body < 0 ? Vec3{} : model.bodies[static_cast<size_t>(body)].centre; }
+
+void require_body(const Model& model, int body, bool ground) {
+    require(body >= (ground ? -1 : 0) && body < static_cast<int>(model.bodies.size()), "a body is unknown");
+}
+
+void add_bodies(Model& model, const nb::dict& d) {
+    const auto mass = nb::cast<Array>(d["mass"]), inertia = nb::cast<Array>(d["inertia"]), place = nb::cast<Array>(d["centre"]);
+    const size_t n = mass.size();
+    require(inertia.size() == 9 * n && place.size() == 3 * n, "every body has a mass, an inertia (3, 3) and a centre (3)");
+    for (size_t i = 0; i < n; i++) {
+        const double* j = inertia.data() + 9 * i;
+        Body body;
+        body.mass = mass.data()[i];
+        body.inertia = {{vector(j), vector(j + 3), vector(j + 6)}};
+        const Vec3 *r = body.inertia.r, minor = cross(r[0], r[1]);
+        require(body.mass > 0 && r[0].x > 0 && minor.z > 0 && dot(minor, r[2]) > 0, "mass and inertia must be positive");
+        body.inverse = inverse(body.inertia);
+        body.centre = vector(place.data() + 3 * i);
+        model.bodies.push_back(body);
+    }
+}
+
+void add_joint(Model& model, const nb::tuple& t) {
+    Joint joint;
+    const Vec3 place = vector(t[2]);
+    for (int k = 0; k < 2; k++) {
+        joint.body[k] = nb::cast<int>(t[k]);
+        require_body(model, joint.body[k], true);
+        joint.arm[k] = place - centre(model, joint.body[k]);
+    }
+    require(joint.body[0] != joint.body[1], "a joint needs two bodies");
+    const Doubles axes = nb::cast<Doubles>(t[3]);
+    require(axes.size() == 9, "axes must have shape (3, 3)");
+    const Mat3 rows = {{vector(axes.data()), vector(axes.data() + 3), vector(axes.data() + 6)}};
+    require(dot(cross(rows.r[0], rows.r[1]), rows.r[2]) > 0.999, "axes must be right-handed unit vectors at right angles");
+    joint.axes = quaternion(transposed(rows));
+    const auto held = nb::cast<std::vector<bool>>(t[4]);
+    require(held.size() == 6, "a joint has six freedoms");
+    int turns = 0;
+    for (int k = 0; k < 6; k++) {
+        if (!held[static_cast<size_t>(k)]) continue;
+        joint.freedom[joint.held++] = k;
+        if (k >= 3) turns++;
+        else joint.slotted = joint.slotted || !held[0] || !held[1] || !held[2];
+    }
+    joint.cross = nb::cast<bool>(t[5]);
+    require(!joint.cross || turns == 1, "a joint with a cross holds one rotation");
+    model.joints.push_back(joint);
+}
+
+// whether a freedom is among a joint's first rows
+bool has(const Joint& joint, int rows, int freedom) {
+    return std::find(joint.freedom, joint.freedom + rows, freedom) != joint.freedom + rows;
+}
+
+void add_hinge(Model& model, const nb::dict& d) {
+    const int index = nb::cast<int>(d["joint"]);
+    require(index >= 0 && index < static_cast<int>(model.joints.size()), "a hinge names an unknown joint");
+    Joint& joint = model.joints[static_cast<size_t>(index)];
+    require(joint.hinge < 0, "a joint has one hinge at most");
+    const SpaceHinge hinge = make_hinge(d);
+    for (const Component& c : hinge.components) {
+        require(!has(joint, joint.rows(), c.freedom), "a hinge needs freedoms that are not held");
+        joint.freedom[joint.held + joint.laws++] = c.freedom;
+        // a slip is small: its direction lies in the middle frame
+        if (c.freedom < 3) joint.slotted = false;
+    }
+    joint.hinge = static_cast<int>(model.hinges.size());
+    model.hinges.push_back(hinge);
+    model.hinge_joint.push_back(index);
+}
+
+void add_drive(Model& model, const nb::tuple& t) {
+    const int index = nb::cast<int>(t[0]), freedom = nb::cast<int>(t[1]);
+    require(index >= 0 && index < static_cast<int>(model.joints.size()), "a drive names an unknown joint");
+    Joint& joint = model.joints[static_cast<size_t>(index)];
+    require(has(joint, joint.held, freedom), "a driven freedom must be held");
+    joint.drive[freedom] = static_cast<int>(model.drives.size());
+    joint.driven = true;
+    joint.slotted = joint.slotted || freedom < 3;
+    model.drives.push_back({index, freedom, nb::cast<double>(t[4]), make_curve(nb::cast<Doubles>(t[2]), nb::cast<Doubles>(t[3]))});
+}
+
+void add_load(Model& model, const nb::tuple& t) {
+    const int body = nb::cast<int>(t[0]);
+    require_body(model, body, false);
+    const Curve value = make_curve(nb::cast<Doubles>(t[4]), nb::cast<Doubles>(t[5]));
+    model.loads.push_back({body, vector(t[1]) - centre(model, body), vector(t[2]), vector(t[3]), value});
+}
+
+void add_spring(Model& model, const nb::tuple& t) {
+    Spring s;
+    for (int k = 0; k < 2; k++) {
+        s.body[k] = nb::cast<int>(t[k]);
+        require_body(model, s.body[k], true);
+        s.arm[k] = vector(t[2 + k]) - centre(model, s.body[k]);
+    }
+    require(s.body[0] != s.body[1], "a spring needs two bodies");
+    s.stiffness = nb::cast<double>(t[4]);
+    s.length = nb::cast<double>(t[5]);
+    s.damping = nb::cast<double>(t[6]);
+    require(s.stiffness >= 0 && s.damping >= 0, "stiffness and damping must not be negative");
+    model.springs.push_back(s);
+}
+
+Model make_model(const nb::dict& d) {
+    Model model;
+    add_bodies(model, d);
+    for (nb::handle h : nb::cast<nb::list>(d["joints"])) add_joint(model, nb::cast<nb::tuple>(h));
+    for (nb::handle h : nb::cast<nb::list>(d["hinges"])) add_hinge(model, nb::cast<nb::dict>(h));
+    for (nb::handle h : nb::cast<nb::list>(d["drives"])) add_drive(model, nb::cast<nb::tuple>(h));
+    for (nb::handle h : nb::cast<nb::list>(d["loads"])) add_load(model, nb::cast<nb::tuple>(h));
+    for (nb::handle h : nb::cast<nb::list>(d["springs"])) add_spring(model, nb::cast<nb::tuple>(h));
+    model.gravity = vector(d["gravity"]);
+    model.length = nb::cast<double>(d["length"]);
+    require(model.length > 0, "the length must be positive");
+    return model;
+}
+
+Condition make_condition(const Model& model, const nb::tuple& t) {
+    Condition c;
+    const int kind = nb::cast<int>(t[0]);
+    require(kind >= 0 && kind <= static_cast<int>(Quantity::displacement), "unknown condition");
+    c.quantity = static_cast<Quantity>(kind);
+    c.value = nb::cast<double>(t[1]);
+    c.index = nb::cast<int>(t[2]);
+    c.freedom = nb::cast<int>(t[3]);
+    const auto bodies = nb::cast<std::vector<int>>(t[4]);
+    const auto points = nb::cast<std::vector<Doubles>>(t[5]);
+    for (size_t k = 0; k < 2; k++) {
+        c.body[k] = bodies.at(k);
+        require_body(model, c.body[k], true);
+        c.arm[k] = vector(points.at(k).data());
+    }
+    if (c.quantity == Quantity::drive_force || c.quantity == Quantity::displacement) {
+        require(c.index >= 0 && c.index < static_cast<int>(model.joints.size()), "a condition names an unknown joint");
+        require(c.freedom >= 0 && c.freedom < 6, "a freedom is one of six");
+    }
+    return c;
+}
+
+std::vector<Twist> to_twists(const Array& a, size_t bodies) {
+    require(a.ndim() == 2 && a.shape(0) == bodies && a.shape(1) == 6, "motions must have shape (bodies, 6)");
+    std::vector<Twist> out;
+    for (size_t i = 0; i < bodies; i++) out.push_back({vector(a.data() + 6 * i), vector(a.data() + 6 * i + 3)});
+    return out;
+}
+
+nb::object array(const Doubles& v, std::initializer_list<size_t> shape) {
+    auto* data = new double[v.empty() ? 1 : v.size()];
+    if (!v.empty()) std::memcpy(data, v.data(), v.size() * sizeof(double));
+    nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<double*>(p); });
+    return nb::cast(nb::ndarray<nb::numpy, double>(data, shape.size(), shape.begin(), owner));
+}
+
+nb::dict to_dict(const Simulation& sim, const Record& r) {
+    const Model& m = sim.model();
+    const size_t n = r.time.size(), bodies = m.bodies.size(), c = sim.peaks().size() / 2;
+    nb::dict d;
+    d["time"] = array(r.time, {n});
+    d["centre"] = array(r.centre, {n, bodies, 3});
+    d["rotation"] = array(r.rotation, {n, bodies, 4});
+    d["velocity"] = array(r.velocity, {n, bodies, 6});
+    d["acceleration"] = array(r.acceleration, {n, bodies, 6});
+    d["hinge_rotation"] = array(r.hinge_rotation, {n, c});
+    d["hinge_rate"] = array(r.hinge_rate, {n, c});
+    d["hinge_plastic"] = array(r.hinge_plastic, {n, c});
+    d["hinge_moment"] = array(r.hinge_moment, {n, c});
+    d["hinge_capacity"] = array(r.hinge_capacity, {n, c});
+    d["hinge_energy"] = array(r.hinge_energy, {n, m.hinges.size(), 3});
+    d["joint_force"] = array(r.joint_force, {n, m.joints.size(), 6});
+    d["obstacle_force"] = array(r.obstacle_force, {n, 0, 3});
+    d["energy"] = array(r.energy, {n, static_cast<size_t>(energy_columns)});
+    d["summary"] = array(sim.summary(), {m.hinges.size(), static_cast<size_t>(summary_columns)});
+    d["peaks"] = array(sim.peaks(), {c, 2});
+    d["outcome"] = static_cast<int>(r.outcome);
+    d["reason"] = r.reason;
+    d["ended_by"] = r.ended_by;
+    d["residual"] = r.residual;
+    d["steps"] = r.steps;
+    d["rejected"] = r.rejected;
+    d["forced"] = r.forced;
+    d["solves"] = r.solves;
+    return d;
+}
+
+void stage(Simulation& sim, bool quasi_static, const std::vector<int>& drives, const std::vector<int>&, const nb::list& until) {
+    std::vector<bool> acting(sim.model().drives.size());
+    for (const int k : drives) {
+        require(k >= 0 && static_cast<size_t>(k) < acting.size(), "a drive is unknown");
+        acting[static_cast<size_t>(k)] = true;
+    }
+    std::vector<Condition> conditions;
+    for (nb::handle h : until) conditions.push_back(make_condition(sim.model(), nb::cast<nb::tuple>(h)));
+    sim.begin_stage(quasi_static, acting, conditions);
+}
+
+nb::dict run(Simulation& sim, const Doubles& times, nb::object poll) {
+    require(!times.empty(), "at least one output time is needed");
+    std::function<bool(double)> ask;
+    if (!poll.is_none()) {
+        ask = [&poll](double t) {
+            nb::gil_scoped_acquire locked;
+            return nb::cast<bool>(poll(t));
+        };
+    }
+    Record record;
+    {
+        nb::gil_scoped_release released;
+        record = sim.run(times, ask);
+    }
+    return to_dict(sim, record);
+}
+
+}  // namespace
+
+void bind(nb::module_& m) {
+    nb::class_<Simulation>(m, "Simulation", "One run: a frozen model, its state, and the adaptive stepper.")
+        .def("__init__",
+             [](Simulation* self, const nb::dict& model, double accuracy, double minimum_step, double maximum_step) {
+                 Settings settings;
+                 settings.accuracy = accuracy;
+                 settings.minimum_step = minimum_step;
+                 settings.maximum_step = maximum_step;
+                 new (self) Simulation(make_model(model), settings);
+             })
+        .def("set_motion",
+             [](Simulation& s, const Array& velocity, const Array& impulse) {
+                 const size_t n = s.model().bodies.size();
+                 return s.set_motion(to_twists(velocity, n).data(), to_twists(impulse, n).data());
+             })
+        .def("stage", &stage)
+        .def("run", &run, nb::arg("times"), nb::arg("poll") = nb::none())
+        .def("step", &Simulation::step)
+        .def("freedoms",
+             [](Simulation& s) {
+                 const int held = s.stepper().held_rows(), redundant = s.stepper().redundant();
+                 return std::pair<int, int>(6 * static_cast<int>(s.model().bodies.size()) - held + redundant, redundant);
+             })
+        .def("redundant", [](Simulation& s) { return s.stepper().redundant_rows(); })
+        .def_prop_ro("time", [](Simulation& s) { return s.state().t; });
+}
+
+}  // namespace crumple::space

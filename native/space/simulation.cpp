@@ -1,0 +1,298 @@
+#include "space/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crumple::space {
+
+namespace {
+
+// Error that one step may add, measured by the difference between one step and two halves.  The local error goes
+// with h^3 and the error of the whole motion with h^2, so below `loosest_share` the share of a step shrinks with
+// the square root of the accuracy, as in the planar engine.
+constexpr double loosest_share = 1e-3;
+
+double step_tolerance(double accuracy) { return accuracy * std::min(1.0, std::sqrt(accuracy / loosest_share)); }
+
+// Turn [rad] by which a locked hinge may creep; the strongest hinge's work over it is no energy worth balancing.
+constexpr double negligible_turn = 1e-9;
+constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
+constexpr long poll_interval = 20'000;  // solves times rows between calls of `poll`: some 10 ms
+// A condition that ends a stage is met to this share of its value.
+constexpr double met = 1e-4;
+
+double kinetic_norm(const Model& model, const State& a, const State* b) {
+    double e = 0;
+    for (size_t i = 0; i < model.bodies.size(); i++) {
+        const Body& body = model.bodies[i];
+        const Twist v = b ? a.velocity[i] - b->velocity[i] : a.velocity[i];
+        const Vec3 w = turned(conjugate(a.pose[i].q), v.w);
+        e += body.mass * dot(v.v, v.v) + dot(w, body.inertia * w);
+    }
+    return std::sqrt(e);
+}
+
+double angle_between(const Quat& a, const Quat& b) { return norm(rotation_vector(conjugate(a) * b)); }
+
+}  // namespace
+
+Simulation::Simulation(Model model, const Settings& settings)
+    : model_(std::move(model)), settings_(settings), stepper_(model_), step_tolerance_(step_tolerance(settings.accuracy)) {
+    state_ = stepper_.start();
+    first_ = state_;
+    peak_.assign(2 * state_.rotation.size(), 0.0);
+    set_damping();
+}
+
+// The inertia that a damper feels is taken at the start.
+void Simulation::set_damping() {
+    for (size_t j = 0; j < model_.hinges.size(); j++) {
+        SpaceHinge& hinge = model_.hinges[j];
+        for (int k = 0; k < size(hinge); k++) {
+            multibody::Hinge& law = hinge.components[static_cast<size_t>(k)].law;
+            if (law.damping > 0) law.damped_inertia = stepper_.effective_inertia(state_, j, k);
+            for (multibody::Stop& stop : law.stop) {
+                if (std::isnan(stop.damping)) critical_.push_back({j, k, &stop});
+            }
+        }
+    }
+    set_critical_damping(true);
+}
+
+// A stop without a damper of its own gets the critical one, c = 2 sqrt(k m), m the inertia felt just before the
+// stop is touched (at the start, should that come without notice).
+void Simulation::set_critical_damping(bool all) {
+    for (const Critical& c : critical_) {
+        const SpaceHinge& hinge = model_.hinges[c.hinge];
+        const double sign = c.stop == &hinge.components[static_cast<size_t>(c.component)].law.stop[0] ? 1 : -1;
+        const size_t k = static_cast<size_t>(stepper_.first_component(c.hinge) + c.component);
+        const double gap = sign * state_.rotation[k] - c.stop->rotation;
+        const bool soon = gap <= 0 && gap + 2 * h_ * std::fabs(state_.rate[k]) > 0;
+        if (!all && !soon) continue;
+        c.stop->damping = 2 * std::sqrt(c.stop->stiffness * stepper_.effective_inertia(state_, c.hinge, c.component));
+    }
+}
+
+double Simulation::set_motion(const Twist* velocity, const Twist* impulse) {
+    State free = state_;
+    for (size_t i = 0; i < model_.bodies.size(); i++) {
+        const Body& body = model_.bodies[i];
+        const Quat& q = state_.pose[i].q;
+        const Vec3 spin = turned(q, body.inverse * turned(conjugate(q), impulse[i].w));
+        free.velocity[i] = free.velocity[i] + velocity[i] + Twist{spin, (1 / body.mass) * impulse[i].v};
+    }
+    const double given = energies(model_, free).kinetic;
+    stepper_.add_motion(state_, velocity, impulse);
+    return given - energies(model_, state_).kinetic;
+}
+
+void Simulation::begin_stage(bool quasi_static, const std::vector<bool>& drives, std::vector<Condition> until) {
+    Stage& stage = stepper_.stage();
+    std::vector<DriveStage> next(model_.drives.size());
+    for (size_t k = 0; k < next.size(); k++) {
+        next[k] = {drives[k], stepper_.displacement(model_.drives[k], k, state_, state_.t)};
+    }
+    stage = {quasi_static, next};
+    state_.stage_start = state_.t;
+    if (quasi_static) std::fill(state_.velocity.begin(), state_.velocity.end(), Twist{});
+    h_ = 0;
+    until_ = std::move(until);
+    for (Condition& c : until_) {
+        if (c.quantity == Quantity::distance) {
+            for (int k = 0; k < 2; k++) c.arm[k] = c.arm[k] - model_.pose(first_.pose, c.body[k]).x;
+        }
+        c.start = 0;
+        if (c.quantity != Quantity::force && c.quantity != Quantity::drive_force) c.start = quantity(c, state_);
+    }
+}
+
+double Simulation::quantity(const Condition& c, const State& s) const {
+    double q = 0;
+    if (c.quantity == Quantity::work) q = s.external_work;
+    if (c.quantity == Quantity::drive_force) q = norm(s.joint_force[static_cast<size_t>(c.index)].v);
+    if (c.quantity == Quantity::displacement) q = stepper_.relative(s, c.index, c.freedom);
+    if (c.quantity == Quantity::distance) {
+        q = norm(model_.pose(s.pose, c.body[1]).at(c.arm[1]) - model_.pose(s.pose, c.body[0]).at(c.arm[0]));
+    }
+    return q - c.start;
+}
+
+// Share of the step after which the first condition is met; above 1 for none.
+double Simulation::share_of_step(const State& before, const State& after, int* which) const {
+    double least = 2;
+    for (size_t k = 0; k < until_.size(); k++) {
+        const Condition& c = until_[k];
+        const double sign = c.value < 0 ? -1 : 1, b = sign * quantity(c, after), a = sign * quantity(c, before);
+        const double wanted = std::fabs(c.value);
+        if (b < wanted * (1 - met)) continue;
+        const double share = b > wanted * (1 + met) && b > a ? std::max((wanted - a) / (b - a), 0.0) : 1;
+        if (share < least) {
+            least = share;
+            *which = static_cast<int>(k);
+        }
+    }
+    return least;
+}
+
+double Simulation::worst_place(const State& a, const State& b) const {
+    double worst = 0;
+    for (size_t i = 0; i < a.pose.size(); i++) {
+        worst = std::max({worst, norm(a.pose[i].x - b.pose[i].x) / model_.length, angle_between(a.pose[i].q, b.pose[i].q)});
+    }
+    size_t k = 0;
+    for (const SpaceHinge& hinge : model_.hinges) {
+        for (const Component& c : hinge.components) {
+            const double e = std::fabs(a.rotation[k] - b.rotation[k]);
+            worst = std::max(worst, c.freedom < 3 ? e / model_.length : e);
+            k++;
+        }
+    }
+    return worst;
+}
+
+double Simulation::error(const State& coarse, const State& fine) const {
+    double worst = worst_place(coarse, fine);
+    for (size_t j = 0; j < fine.hinge.size(); j++) {
+        for (int k = 0; k < size(model_.hinges[j]); k++) {
+            worst = std::max(worst, fine.hinge[j].component[k].overrun - state_.hinge[j].component[k].overrun);
+        }
+    }
+    double e = worst / scale_;
+    if (speed_ > 0) e = std::max(e, kinetic_norm(model_, coarse, &fine) / speed_);
+    return e / step_tolerance_;
+}
+
+// one step and two halves; the halves know from the whole how the velocities change
+bool Simulation::solve(double h) {
+    coarse_ = state_;
+    if (!stepper_.step(coarse_, h, nullptr)) return false;
+    const std::vector<Twist>& end = stepper_.end_velocity();
+    guess_.resize(end.size());
+    const bool from_rest = stepper_.stage().quasi_static;
+    for (size_t i = 0; i < end.size(); i++) guess_[i] = from_rest ? end[i] : 0.5 * (state_.velocity[i] + end[i]);
+    fine_ = state_;
+    const std::vector<Twist> last = end;
+    return stepper_.step(fine_, h / 2, &guess_) && stepper_.step(fine_, h / 2, &last);
+}
+
+bool Simulation::advance(double target, Record& record, const std::function<bool(double)>& poll) {
+    const long rows = std::max(1, stepper_.rows());
+    while (state_.t < target) {
+        const long done = stepper_.solves() * rows;
+        if (done > poll_at_ && poll) {
+            poll_at_ = done + poll_interval;
+            if (!poll(state_.t)) {
+                record.outcome = Outcome::cancelled;
+                return false;
+            }
+        }
+        const double left = target - state_.t;
+        const bool last = h_ >= left * (1 - 1e-9);
+        const double h = last ? left : (h_ > left / 2 ? left / 2 : h_);
+        const bool solved = solve(h);
+        const double e = solved ? error(coarse_, fine_) : INFINITY;
+        const bool smallest = h <= settings_.minimum_step * 1.001;
+        if (std::isnan(e)) {
+            record.outcome = Outcome::not_finite;
+            record.reason = "the place of a body is not a number";
+            return false;
+        }
+        if (!solved && smallest) {
+            record.outcome = Outcome::step_collapsed;
+            record.reason = "the equations of a step did not converge at the smallest step";
+            return false;
+        }
+        const double factor = e > 0 ? safety * std::pow(e, -1.0 / 3) : growth_limit;
+        const double next = std::clamp(h * std::clamp(factor, shrink_limit, growth_limit), settings_.minimum_step,
+                                       settings_.maximum_step);
+        if (e > 1 && !smallest) {
+            record.rejected++;
+            h_ = std::max(std::min(next, 0.7 * h), settings_.minimum_step);
+            continue;
+        }
+        int which = -1;
+        const double share = share_of_step(state_, fine_, &which);
+        if (share < 1 && !smallest) {
+            h_ = std::max(share * h, settings_.minimum_step);
+            continue;
+        }
+        if (e > 1) record.forced++;
+        if (last) fine_.t = target;
+        std::swap(state_, fine_);
+        h_ = last && e <= 1 ? std::max(h_, next) : next;
+        record.steps++;
+        watch(record);
+        if (share <= 1) {
+            record.ended_by = which;
+            return false;
+        }
+        set_critical_damping(false);
+    }
+    return true;
+}
+
+void Simulation::watch(Record& record) {
+    scale_ = std::max(scale_, worst_place(state_, first_));
+    speed_ = std::max(speed_, kinetic_norm(model_, state_, nullptr));
+    for (size_t j = 0; j < model_.hinges.size(); j++) {
+        for (int k = 0; k < size(model_.hinges[j]); k++) {
+            const size_t c = static_cast<size_t>(stepper_.first_component(j) + k);
+            peak_[2 * c] = std::max(peak_[2 * c], std::fabs(state_.rotation[c]));
+            peak_[2 * c + 1] = std::max(peak_[2 * c + 1], std::fabs(state_.hinge[j].component[k].total_moment));
+        }
+    }
+    const Energies e = energies(model_, state_);
+    work_max_ = std::max(work_max_, std::fabs(e.external_work - start_work_));
+    const double reference = std::max(start_energy_ + start_work_ + work_max_, negligible_energy_);
+    residual_max_ = std::max(residual_max_, std::fabs(e.balance() - start_energy_));
+    if (reference > 0) record.residual = residual_max_ / reference;
+}
+
+// Before the first step a rigid hinge has no moment and no hinge a sense in which it turns; what it will carry at once
+// is seen by a step that is thrown away.
+void Simulation::show_first_moments() {
+    State probe = state_;
+    if (state_.t > 0 || !stepper_.step(probe, 100 * settings_.minimum_step, nullptr)) return;
+    for (size_t j = 0; j < model_.hinges.size(); j++) {
+        for (int k = 0; k < size(model_.hinges[j]); k++) {
+            multibody::HingeState &seen = probe.hinge[j].component[k], &own = state_.hinge[j].component[k];
+            own.capacity = seen.capacity;
+            if (model_.hinges[j].components.front().law.form != Form::elastic_plastic) own.total_moment = seen.total_moment;
+        }
+    }
+    state_.acceleration = probe.acceleration;
+    state_.joint_force = probe.joint_force;
+}
+
+Record Simulation::run(const std::vector<double>& times, const std::function<bool(double)>& poll) {
+    Record record;
+    const long solves = stepper_.solves();
+    const double duration = times.back() - state_.t;
+    // the rotation that the strongest hinge would need for all energy: what counts as large before anything has turned
+    double strongest = 0;
+    for (size_t j = 0; j < model_.hinges.size(); j++) {
+        for (int k = 0; k < size(model_.hinges[j]); k++) {
+            if (model_.hinges[j].components[static_cast<size_t>(k)].freedom < 3) continue;
+            strongest = std::max(strongest, state_.hinge[j].component[k].capacity);
+        }
+    }
+    negligible_energy_ = negligible_turn * strongest;
+    const Energies e = energies(model_, state_);
+    const double expected = strongest > 0 ? e.kinetic / strongest / 2 : 0;
+    scale_ = std::max(scale_, std::clamp(expected, settings_.scale_floor, 0.5));
+    speed_ = std::max(speed_, kinetic_norm(model_, state_, nullptr));
+    start_energy_ = e.balance();
+    start_work_ = e.external_work;
+    work_max_ = residual_max_ = 0;
+    if (h_ <= 0) h_ = std::clamp(duration / 100, settings_.minimum_step, settings_.maximum_step);
+    show_first_moments();
+    for (const double t : times) {
+        const bool reached = t <= state_.t || advance(t, record, poll);
+        if (reached || record.ended_by >= 0) store(record);
+        if (!reached) break;
+    }
+    record.solves = stepper_.solves() - solves;
+    return record;
+}
+
+}  // namespace crumple::space

@@ -1,0 +1,97 @@
+// A run of a spatial model: stages, adaptive steps to the requested output times, and what they record.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "space/stepper.hpp"
+
+namespace crumple::space {
+
+enum class Outcome { complete, step_collapsed, not_finite, cancelled };
+
+struct Settings {
+    double accuracy = 1e-3;      // allowed error of the motion, relative to the largest rotation
+    double minimum_step = 1e-9;  // [s]
+    double maximum_step = 1e30;  // [s]
+    double scale_floor = 2e-3;   // [rad] smallest rotation that counts as large
+};
+
+// What ends a stage; see crumple._core.space.Until.
+enum class Quantity { force, drive_force, work, distance, displacement };
+
+struct Condition {
+    Quantity quantity = Quantity::work;
+    double value = 0;
+    int index = -1, freedom = 0;
+    int body[2] = {-1, -1};
+    Vec3 arm[2];
+    double start = 0;  // of the quantity when the stage began
+};
+
+struct Record {
+    std::vector<double> time, centre, rotation, velocity, acceleration, hinge_rotation, hinge_rate, hinge_plastic, hinge_moment;
+    std::vector<double> hinge_capacity, hinge_energy, joint_force, obstacle_force, energy;
+    Outcome outcome = Outcome::complete;
+    std::string reason;
+    int ended_by = -1;
+    double residual = 0;         // largest |balance - start| over (start + largest external work)
+    long steps = 0, rejected = 0, forced = 0, solves = 0;
+};
+
+constexpr int energy_columns = 9, summary_columns = 7;
+
+class Simulation {
+public:
+    Simulation(Model model, const Settings& settings);
+    Simulation(const Simulation&) = delete;
+    Simulation& operator=(const Simulation&) = delete;
+
+    const Model& model() const { return model_; }
+    Stepper& stepper() { return stepper_; }
+    State& state() { return state_; }
+    // adds velocities and impulses at the centres of mass; returns the energy lost in fitting them to the joints
+    double set_motion(const Twist* velocity, const Twist* impulse);
+    void begin_stage(bool quasi_static, const std::vector<bool>& drives, std::vector<Condition> until);
+    // one fixed step of length h
+    bool step(double h) { return stepper_.step(state_, h, nullptr); }
+    // runs to the last of the times; `poll` gets the time reached and returns false to cancel
+    Record run(const std::vector<double>& times, const std::function<bool(double)>& poll);
+    // per hinge, and per component
+    std::vector<double> summary() const;
+    std::vector<double> peaks() const;
+
+private:
+    struct Critical {
+        size_t hinge;
+        int component;
+        multibody::Stop* stop;
+    };
+    void set_damping();
+    void set_critical_damping(bool all);
+    bool advance(double target, Record& record, const std::function<bool(double)>& poll);
+    bool solve(double h);
+    double error(const State& coarse, const State& fine) const;
+    double worst_place(const State& a, const State& b) const;
+    double quantity(const Condition& condition, const State& state) const;
+    double share_of_step(const State& before, const State& after, int* which) const;
+    void show_first_moments();
+    void store(Record& record) const;
+    void watch(Record& record);
+
+    Model model_;
+    Settings settings_;
+    Stepper stepper_;
+    State state_, coarse_, fine_, first_;
+    std::vector<Twist> guess_;
+    std::vector<Critical> critical_;  // stops whose damper is left to the solver
+    std::vector<Condition> until_;
+    std::vector<double> peak_;        // per component: largest rotation and moment
+    double step_tolerance_;           // of the error measure
+    double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, start_work_ = 0, work_max_ = 0, residual_max_ = 0;
+    double negligible_energy_ = 0;
+    long poll_at_ = 0;                // work at which `poll` is asked next
+};
+
+}  // namespace crumple::space
