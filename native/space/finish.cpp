@@ -12,6 +12,8 @@ namespace {
 constexpr int mending_limit = 4;
 // Share of the model's length to which held points meet: rounding.
 constexpr double closed = 1e-14;
+// Rates of held rows at the end of a step, relative to the speed.
+constexpr double mended = 1e-12;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -129,7 +131,7 @@ void Stepper::mend_end(State& s, double h) {
             }
         }
         if (worst <= closed * model_.length) break;
-        system_.solve(x_.data(), closed * model_.length);
+        system_.solve(x_.data(), 1e-3 * worst);
         std::fill(direction_.begin(), direction_.end(), Twist{});
         system_.push(x_.data(), direction_.data());
         for (size_t i = 0; i < end_.size(); i++) end_[i] = moved(end_[i], direction_[i]);
@@ -150,7 +152,7 @@ void Stepper::mend_end(State& s, double h) {
         const Pose a = model_.pose(end_, joint.body[0]);
         for (int i = 0; i < joint.held; i++) x_[at(first + i)] -= target_rate(joint, a, geometry_[index], driven, i);
     }
-    system_.solve(x_.data(), 1e-14 * speed_);
+    system_.solve(x_.data(), mended * speed_);
     system_.push(x_.data(), velocity_.data());
 }
 

@@ -18,8 +18,8 @@ constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
 constexpr double narrowing = 1e-1;
 // Relative accuracy of a law's impulse; piecewise linear laws reach rounding, curved ones converge to this.
 constexpr double impulse_tolerance = 1e-9;
-// Rates of held rows and of stiff laws are met to this share of the speed.
-constexpr double rate_tolerance = 1e-13;
+// Rates of held rows and of stiff laws are met to this share of the speed; what is left is mended at the step's end.
+constexpr double rate_tolerance = 1e-10;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 

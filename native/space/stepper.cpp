@@ -217,7 +217,7 @@ void Stepper::mend_middle(const State& s, double t) {
             const Link& link = system_.links()[c];
             for (int i = 0; i < link.rows(); i++) x_[at(start(c) + i)] = i < link.held ? error_[at(start(c) + i)] : 0;
         }
-        system_.solve(x_.data(), 1e-14 * model_.length);
+        system_.solve(x_.data(), 1e-12 * model_.length);
         std::fill(direction_.begin(), direction_.end(), Twist{});
         system_.push(x_.data(), direction_.data());
         for (size_t i = 0; i < middle_.size(); i++) middle_[i] = moved(middle_[i], direction_[i]);

@@ -112,6 +112,7 @@ void System::solve(double* x, double tolerance) {
     const size_t n = at(rows());
     std::copy(x, x + n, rhs_.begin());
     matrix_.solve(x);
+    double last = INFINITY;
     for (int pass = 0; pass < refinements; pass++) {
         std::fill(impulse_.begin(), impulse_.end(), Twist{});
         push(x, impulse_.data());
@@ -127,7 +128,9 @@ void System::solve(double* x, double tolerance) {
                 worst = std::max(worst, std::fabs(residual_[k]) / (held ? 1 : std::sqrt(1 + diagonal_[k])));
             }
         }
-        if (!(worst > tolerance)) return;
+        // rounding: no better to be had
+        if (!(worst > tolerance) || worst > last / 4) return;
+        last = worst;
         correction_ = residual_;
         matrix_.solve(correction_.data());
         for (size_t k = 0; k < n; k++) x[k] += correction_[k];
