@@ -14,7 +14,6 @@ from crumple._core.space_model import (
     SpaceBody,
     SpaceComponent,
     SpaceHinge,
-    SpaceJoint,
     SpaceModel,
     SpaceSurface,
     revolute,
@@ -22,7 +21,6 @@ from crumple._core.space_model import (
 )
 
 GRAVITY = 9.81
-MY = 4
 RX, RY, RZ = 3, 4, 5
 
 
@@ -32,7 +30,9 @@ def bar(first, second, mass=None, about_axis=1e-4, payload=0.0):
     length = float(np.linalg.norm(second - first))
     own = MASS_PER_LENGTH * length if mass is None else mass
     along = (second - first) / length
-    inertia = own * length**2 / 12 * (np.eye(3) - np.outer(along, along)) + about_axis * np.outer(along, along)
+    inertia = own * length**2 / 12 * (np.eye(3) - np.outer(along, along)) + about_axis * np.outer(
+        along, along
+    )
     return SpaceBody(own + payload, inertia, (first + second) / 2)
 
 
@@ -53,7 +53,13 @@ def component(freedom, envelope, stop=(), rate=0.05, **options):
     if not isinstance(envelope, tuple):
         envelope = (np.zeros(1), np.array([float(envelope)]))
     return SpaceComponent(
-        freedom, envelope, envelope, regularisation_rate=rate, stop_positive=stop, stop_negative=stop, **options
+        freedom,
+        envelope,
+        envelope,
+        regularisation_rate=rate,
+        stop_positive=stop,
+        stop_negative=stop,
+        **options,
     )
 
 
@@ -82,7 +88,7 @@ def started(model, velocity, accuracy=1e-3, **settings):
 
 
 def m2(number, accuracy=1e-3, form=REGULARISED, rate=0.05, error=1e-6, turn=None):
-    """Model M2 in space: chain along x, hinges about z, all as one with 15 rad/s; `turn` turns the whole model."""
+    """Model M2 in space: chain along x, hinges about z, all as one with 15 rad/s; `turn` turns it all."""
     turn = np.eye(3) if turn is None else np.asarray(turn, float)
     length = 0.1 * number
     whole = MASS_PER_LENGTH * length**3 / 3 + PAYLOAD * length**2
@@ -96,7 +102,9 @@ def m2(number, accuracy=1e-3, form=REGULARISED, rate=0.05, error=1e-6, turn=None
         bodies.append(body)
         joints.append(revolute(i - 1, i, ends[0], turn @ (0.0, 0.0, 1.0)))
         scale = root if i == 0 else 0.8 * root * (1 - 0.1 * i / length)
-        hinges.append(SpaceHinge(i, (softening_component(RX, scale, rate, error),), form=form, softening=ROTATION))
+        hinges.append(
+            SpaceHinge(i, (softening_component(RX, scale, rate, error),), form=form, softening=ROTATION)
+        )
     model = SpaceModel(tuple(bodies), tuple(joints), tuple(hinges), length=length)
     omega = turn @ (0.0, 0.0, 15.0)
     return started(model, [about((0, 0, 0), omega, body) for body in bodies], accuracy)
@@ -129,7 +137,11 @@ def m4(accuracy=1e-3, form=0, rate=0.05, error=1e-6, turn=None):
 def pendulum(accuracy=1e-6, joint=revolute):
     """Slender rod of 1.5 m on its end, from horizontal rest: swings like a point mass on 1 m."""
     body = bar((0, 0, 0), (1.5, 0, 0), mass=2.0, about_axis=0.01)
-    joints = (joint(GROUND, 0, np.zeros(3), (0, 1, 0)),) if joint is revolute else (spherical(GROUND, 0, np.zeros(3)),)
+    joints = (
+        (joint(GROUND, 0, np.zeros(3), (0, 1, 0)),)
+        if joint is revolute
+        else (spherical(GROUND, 0, np.zeros(3)),)
+    )
     model = SpaceModel((body,), joints, gravity=(0.0, 0.0, -GRAVITY), length=1.5)
     return SpaceSimulation(model, accuracy)
 
@@ -145,6 +157,3 @@ def random_turn(seed=0):
             [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
         ]
     )
-
-
-__all__ = ["GRAVITY", "SpaceJoint", "SpaceModel", "SpaceSimulation", "m2", "m4", "pendulum", "started"]

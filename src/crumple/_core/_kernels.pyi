@@ -77,6 +77,7 @@ class _Space:
         def redundant(self) -> list[int]: ...
         @property
         def time(self) -> float: ...
+
     HingeElement: Any
     surface_point: Any
     surface_gauge: Any

@@ -33,7 +33,7 @@ class Until(IntEnum):
     FORCE = 0
     """Magnitude of the resultant contact force on an obstacle [N]."""
     DRIVE_FORCE = 1
-    """Magnitude of the force (or moment) of a joint's driven or held freedoms [N, N m]: joint, translations."""
+    """Magnitude of the force of a joint [N], held and hinged translations together."""
     WORK = 2
     """External work since the start of the stage [J]."""
     DISTANCE = 3
@@ -83,15 +83,16 @@ class SpaceRecord:
     hinge_energy
         Per hinge: dissipated (with dampers and stops), elastic, stop, (n, hinges, 3) [J].
     joint_force
-        Force and moment of the held and hinged freedoms on the second body in the joint's frame, mean of the
-        last step, (n, joints, 6).
+        Force and moment of the held and hinged freedoms on the second body, along the joint's axes (midway
+        between both bodies), mean of the last step, (n, joints, 6).
     obstacle_force
         Resultant of contact on every obstacle in world axes, (n, obstacles, 3).
     energy
         (n, 9): kinetic, elastic, dissipated, damped, stop, spring, contact, friction, external work [J].
     summary
-        Per hinge: largest rotation (length of the rotation vector), largest moment, time of first flow (NaN:
-        none), time of rest, 1 if still turning, dissipated energy, time of fracture (NaN: whole), (hinges, 7).
+        Per hinge: largest rotation (length of the rotation vector), largest moment, time of first flow
+        (NaN: none), time of rest, 1 if still turning, dissipated energy, time of fracture (NaN: whole),
+        (hinges, 7).
     peaks
         Per component: largest absolute rotation, moment, (c, 2).
     ended_by
@@ -222,7 +223,15 @@ def _as_dict(model: SpaceModel) -> dict[str, Any]:
         "hinges": [_hinge(hinge) for hinge in model.hinges],
         "loads": [_load(load) for load in model.loads],
         "springs": [
-            (s.first, s.second, _list(s.first_point), _list(s.second_point), s.stiffness, s.free_length, s.damping)
+            (
+                s.first,
+                s.second,
+                _list(s.first_point),
+                _list(s.second_point),
+                s.stiffness,
+                s.free_length,
+                s.damping,
+            )
             for s in model.springs
         ],
         "drives": [_drive(drive) for drive in model.drives],
@@ -236,7 +245,8 @@ def _as_dict(model: SpaceModel) -> dict[str, Any]:
 
 
 def _list(values: Floats) -> list[Any]:
-    return np.asarray(values, float).tolist()
+    plain: list[Any] = np.asarray(values, float).tolist()
+    return plain
 
 
 def _stack(rows: list[Floats], shape: tuple[int, ...]) -> Floats:

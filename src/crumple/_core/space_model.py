@@ -1,8 +1,9 @@
 """Constants of the spatial kernel's model: rigid bodies in space, joints, hinges, loads, obstacles.
 
-Everything is given in world axes as it stands at the start; the kernel carries it along with the bodies.
-Body -1 is the ground.  The six relative freedoms of a joint are numbered 0, 1, 2: translations along its local
-x, y, z, and 3, 4, 5: rotations about them; the motion is that of the second body relative to the first.
+Everything is given in world axes as it stands at the start; the kernel carries it along with the
+bodies.  Body -1 is the ground.  The six relative freedoms of a joint are numbered 0, 1, 2: translations along
+its local x, y, z, and 3, 4, 5: rotations about them; the motion is that of the second body relative to the
+first.
 """
 
 from __future__ import annotations
@@ -44,8 +45,8 @@ class SpaceJoint:
         Which of the six relative freedoms are held.  With one rotation held, turning about the other two axes
         has no twist about the held one (constant-velocity joint) unless `cross`.
     cross
-        Universal joint with a cross: the next axis after the held one stays with the first body, the one after
-        that with the second, at right angles.
+        Universal joint with a cross: the next axis after the held one stays with the first body, the one
+        after that with the second, at right angles.
     """
 
     first: int
@@ -88,7 +89,7 @@ def spherical(first: int, second: int, position: ArrayLike, axes: ArrayLike | No
 def universal(
     first: int, second: int, position: ArrayLike, first_axis: ArrayLike, second_axis: ArrayLike
 ) -> SpaceJoint:
-    """Rotations about an axis (local y) of the first body and one (local z) of the second, at right angles."""
+    """Turns about an axis (local y) of the first body and one (local z) of the second, at right angles."""
     y, z = (np.asarray(a, float) / np.linalg.norm(a) for a in (first_axis, second_axis))
     axes = np.array([np.cross(y, z), y, z])
     held = (True, True, True, True, False, False)
@@ -155,8 +156,8 @@ class SpaceSurface:
 class SpaceHinge:
     """Plastic hinge in freedoms of a joint that are not held.
 
-    Codes of form and softening variable are those of `crumple._core.tree.TreeHinge`.  It opens for good at the
-    plastic rotation `fracture` [rad].
+    Codes of form and softening variable are those of `crumple._core.tree.TreeHinge`.  It opens for good at
+    the plastic rotation `fracture` [rad].
     """
 
     joint: int
@@ -169,7 +170,7 @@ class SpaceHinge:
 
 @dataclass(frozen=True, eq=False)
 class SpaceLoad:
-    """Force [N] and moment [N m] on a body at a point, directions fixed in the world, times a factor of time."""
+    """Force [N] and moment [N m] at a point of a body, fixed in the world's axes, times a factor of time."""
 
     body: int
     point: Floats
@@ -249,7 +250,7 @@ class SpaceObstacle:
 
 @dataclass(frozen=True, eq=False)
 class SpaceCapsule:
-    """Segment with a radius on a body, ends in the world at the start; a sphere if both ends are one point."""
+    """Segment with a radius on a body, ends in the world at the start; a sphere where both are the same."""
 
     body: int
     first: Floats
