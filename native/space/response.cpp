@@ -225,18 +225,16 @@ void capacity_sensitivity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, co
     if (on_flange(hinge)) {
         // the point is linear in the capacities while it keeps to its side or corner
         constexpr double change = 1e-6;
-        const Trial t = trial_of(hinge, f, w);
         for (int j = 0; j < n; j++) {
             double ends[2][most];
             for (int side = 0; side < 2; side++) {
-                Trial other = t;
+                FrozenSpaceHinge other = f;
                 const double factor = side == 0 ? 1 - change : 1 + change;
-                if (j == t.flange.axial) other.flange.pull *= factor, other.flange.crush *= factor;
-                else other.flange.moment *= factor, other.flange.top *= factor;
-                const SurfacePoint p = point_of(hinge, other, nullptr);
-                std::copy(p.x, p.x + n, ends[side]);
+                for (double& capacity : other.component[j].capacity) capacity *= factor;
+                for (double& top : other.top) top *= hinge.components[static_cast<size_t>(j)].freedom < 3 ? 1 : factor;
+                law(hinge, other, w, ends[side], nullptr, nullptr);
             }
-            for (int i = 0; i < n; i++) derivative[i * n + j] = (elastic ? f.h / 2 : f.h) * (ends[1][i] - ends[0][i]) / (2 * change);
+            for (int i = 0; i < n; i++) derivative[i * n + j] = (ends[1][i] - ends[0][i]) / (2 * change);
         }
         return;
     }

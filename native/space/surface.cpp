@@ -114,8 +114,8 @@ Shape with_torque(const Surface& s, int n, const double* x, Shape d, bool curved
     for (int j = 0; j < n; j++) {
         // without direct load its norm has a kink, which r >= 2 smooths: the rows' plain sum stands for it
         for (int k = 0; k < n; k++) out.curvature[j][k] = dd * d.gradient[j] * d.gradient[k] + by_d * d.curvature[j][k];
-        out.curvature[j][s.torsion] = out.curvature[s.torsion][j] = dt * d.gradient[j];
     }
+    for (int j = 0; j < n; j++) out.curvature[j][s.torsion] = out.curvature[s.torsion][j] = dt * d.gradient[j];
     if (d.g == 0) {
         for (std::size_t i = 0; i < s.rows.size(); i += static_cast<std::size_t>(n)) {
             for (int j = 0; j < n; j++) {
