@@ -11,6 +11,9 @@ namespace {
 constexpr int most = 4;
 // Newton steps on the surface; a handful is usual, the rest is for edges of high powers.
 constexpr int newton_limit = 80;
+constexpr int halvings = 40;
+// Loads below this count as none: their squares and inverses leave the range of numbers.
+constexpr double smallest_load = 1e-280;
 // Residual over the load y at which a point counts as found: a few rounding errors of the sum over rows.
 constexpr double converged = 1e-15;
 
@@ -196,7 +199,7 @@ SurfacePoint on_section(const Surface& s, int n, const double* y, const double* 
         for (int k = 0; k < n; k++) step[k] = b[k][0], along += step[k] * r[k];
         double share = std::min(1.0, 0.5 * length(n, p.x) / length(n, step));
         bool moved = false;
-        for (; share > 1e-9 && !moved; share /= 2) {
+        for (int halving = 0; halving < halvings && !moved; halving++, share /= 2) {
             double trial[most], trial_r[most];
             for (int k = 0; k < n; k++) trial[k] = p.x[k] + share * step[k];
             const double g = gauge(s, n, trial, nullptr);
@@ -290,8 +293,17 @@ SurfacePoint nearest(const Surface& s, int n, const double* y, const double* m, 
         inside = inside && (m[k] > 0 || y[k] == 0);
         p.x[k] = m[k] > 0 ? y[k] / m[k] : 0;
     }
-    if (!inside || gauge(s, n, p.x, nullptr) > 1) {
-        return s.coupling == Coupling::section ? on_section(s, n, y, m, guess, derivative) : on_ellipsoid(n, y, m, derivative);
+    double largest = 0;
+    for (int k = 0; k < n; k++) largest = std::max(largest, std::fabs(y[k]));
+    if (largest > smallest_load && (!inside || gauge(s, n, p.x, nullptr) > 1)) {
+        double load[most], metric[most];
+        for (int k = 0; k < n; k++) load[k] = y[k] / largest, metric[k] = m[k] / largest;
+        p = s.coupling == Coupling::section ? on_section(s, n, load, metric, guess, derivative)
+                                            : on_ellipsoid(n, load, metric, derivative);
+        p.value *= largest;
+        p.multiplier *= largest;
+        for (int k = 0; k < n * n && derivative != nullptr; k++) derivative[k] /= largest;
+        return p;
     }
     p.value = objective(n, y, m, p.x);
     for (int k = 0; k < n * n && derivative != nullptr; k++) derivative[k] = 0;

@@ -1,0 +1,237 @@
+"""The hinge of several components: convex, dissipative, its tangent and potential true, its moments on the surface."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tests.verification.hinge_rig import (
+    ABOUT_Y,
+    ABOUT_Z,
+    ACCUMULATED,
+    AXIAL,
+    BALL,
+    ELASTIC_PLASTIC,
+    ELLIPSOID,
+    NONE,
+    PEAK,
+    REGULARISED,
+    ROTATION,
+    SECTION,
+    SET_VALUED,
+    TENSION_FLANGE,
+    TORSION,
+    component,
+    hinge,
+    rig,
+)
+
+from crumple._core import _kernels
+
+FALLING = ([0.0, 0.5, 1.0], [100.0, 60.0, 50.0])
+WEAKER = ([0.0, 0.5, 1.0], [70.0, 30.0, 20.0])
+STIFFNESS = (4e3, 3e3, 5e3, 2e3)
+MIRRORED = [[0.9, 0.5, 0.3, 0.0], [0.6, -0.8, 0.5, 0.0], [0.2, 0.6, -0.9, 0.0], [0.5, 0.2, 0.8, 0.0]]
+ROWS = np.array([np.array(row) * [a, b, 1, 1] for row in MIRRORED for a in (1, -1) for b in (1, -1)])
+H = 1e-3
+
+
+def made(form, coupling, n, softening=PEAK, **more):
+    freedoms = [ABOUT_Y, ABOUT_Z, TORSION] if coupling == BALL else [AXIAL, ABOUT_Y, ABOUT_Z, TORSION]
+    parts = [
+        component(
+            freedom,
+            FALLING,
+            WEAKER if coupling != BALL else None,
+            elastic_stiffness=STIFFNESS[i] if form == ELASTIC_PLASTIC else np.inf,
+            **more,
+        )
+        for i, freedom in enumerate(freedoms[:n])
+    ]
+    extra = {"arm": 0.5} if coupling == TENSION_FLANGE else {}
+    if coupling == SECTION:
+        extra = {"rows": ROWS[:, :n].ravel().tolist(), "power": 6.0, "torsion": 3 if n == 4 else -1}
+    return hinge(*parts, form=form, softening=softening, coupling=coupling, **extra)
+
+
+KINDS = [(NONE, 1), (NONE, 3), (ELLIPSOID, 2), (ELLIPSOID, 4), (BALL, 3), (SECTION, 3), (SECTION, 4), (TENSION_FLANGE, 2)]
+CASES = [
+    (form, coupling, n)
+    for form in (SET_VALUED, ELASTIC_PLASTIC, REGULARISED)
+    for coupling, n in KINDS
+    if (form, coupling) != (REGULARISED, TENSION_FLANGE)
+]
+rates = st.lists(st.floats(-3.0, 3.0), min_size=4, max_size=4)
+
+
+@pytest.mark.parametrize(("form", "coupling", "n"), CASES)
+@given(before=rates, start=rates, end=rates)
+def test_response_is_the_gradient_of_a_convex_potential(form, coupling, n, before, start, end):
+    stops = {"stop_positive": [1e-3, 1e4, 1.0, 3.0, 0.0], "stop_negative": [1e-3, 1e4, 1.5, 3.0, 0.0]}
+    element = rig(made(form, coupling, n, viscous_damping=0.3, **stops))
+    element.led(0.05, before[:n])
+    element.element.freeze(0.02, start[:n], end[:n])
+    element.element.widen(1.0)
+    ends = np.array([start[:n], end[:n]]) + 1e-2
+    (p0, _, phi0), (p1, t1, phi1) = (element.element.respond(w.tolist()) for w in ends)
+    way = ends[1] - ends[0]
+    slack = 1e-12 * (abs(phi0) + abs(phi1) + 1.0)
+    # the potential lies above its tangents, so it is convex and its gradient the impulse
+    assert phi1 - phi0 >= np.dot(p0, way) - slack
+    assert phi0 - phi1 >= -np.dot(p1, way) - slack
+    tangent = np.reshape(t1, (n, n))
+    np.testing.assert_allclose(tangent, tangent.T, atol=1e-12 * np.abs(tangent).max())
+    assert np.linalg.eigvalsh((tangent + tangent.T) / 2).min() >= -1e-9 * np.abs(tangent).max()
+
+
+@pytest.mark.parametrize(("form", "coupling", "n"), CASES)
+def test_tangent_and_potential_against_differences(form, coupling, n):
+    generator = np.random.default_rng(17)
+    good = 0
+    for _ in range(40):
+        element = rig(made(form, coupling, n, viscous_damping=0.3))
+        element.led(0.05, generator.normal(size=n))
+        start, w = generator.normal(size=n), generator.normal(size=n) * 3.0
+        element.element.freeze(0.02, start.tolist(), w.tolist())
+        element.element.widen(1.0)
+        impulse, tangent, _ = element.element.respond(w.tolist())
+        slope, force = np.zeros((n, n)), np.zeros(n)
+        for k, d in enumerate(np.eye(n) * 1e-6):
+            up, down = element.element.respond((w + d).tolist()), element.element.respond((w - d).tolist())
+            slope[:, k] = (np.array(up[0]) - down[0]) / 2e-6
+            force[k] = (up[2] - down[2]) / 2e-6
+        np.testing.assert_allclose(force, impulse, atol=1e-6 * np.abs(impulse).max())
+        # a kink within the difference is no error of the tangent
+        good += np.abs(slope - np.reshape(tangent, (n, n))).max() <= 1e-5 * np.abs(tangent).max()
+    assert good >= 38
+
+
+@pytest.mark.parametrize("coupling", [ELLIPSOID, BALL, SECTION, TENSION_FLANGE])
+@given(w=rates, other=rates)
+def test_flow_is_normal_to_the_surface_and_dissipates(coupling, w, other):
+    """tau.w >= tau'.w for every tau' that the hinge can carry: associated flow, and dissipation >= 0."""
+    n = {TENSION_FLANGE: 2, BALL: 3}.get(coupling, 4)
+    w, other = np.array(w[:n]), np.array(other[:n])
+    element = rig(made(SET_VALUED, coupling, n))
+    element.led(0.1, w if w.any() else 1.0)
+    element.element.freeze(H, [0.0] * n, w.tolist())
+    tau, tau_other = (np.array(element.element.law(v.tolist())[0]) / H for v in (w, other))
+    assert tau @ w >= 0.0
+    assert tau @ w >= tau_other @ w - 1e-6 * (1.0 + abs(tau @ w))
+
+
+@pytest.mark.parametrize("coupling", [NONE, ELLIPSOID, SECTION])
+@pytest.mark.parametrize("form", [SET_VALUED, ELASTIC_PLASTIC, REGULARISED])
+def test_pure_loads_reach_the_capacities_of_their_axes(form, coupling):
+    """Led about one axis, the other components free of load: the curve of that axis, in both senses."""
+    for k in range(4):
+        for sense, curve in ((1.0, FALLING), (-1.0, WEAKER)):
+            constants = made(form, coupling, 4)
+            if coupling == SECTION:
+                # one row per axis: the surface passes through 1 on each
+                constants |= {"rows": np.diag([1.0, 1.0, 1.0, 0.0]).ravel().tolist()}
+            element = rig(constants)
+            rate = sense * np.eye(4)[k]
+            for _ in range(300):
+                element.led(H, rate)
+            state = element.state
+            wanted = sense * np.interp(abs(state["plastic"][k]), *curve) * np.eye(4)[k]
+            np.testing.assert_allclose(state["moment"], wanted, atol=2e-3 * abs(wanted).max())
+
+
+@pytest.mark.parametrize("form", [SET_VALUED, ELASTIC_PLASTIC, REGULARISED])
+@pytest.mark.parametrize("softening", [PEAK, ROTATION, ACCUMULATED])
+@pytest.mark.parametrize("coupling", [NONE, ELLIPSOID, SECTION, TENSION_FLANGE, BALL])
+def test_energy_is_balanced_through_cycles(form, softening, coupling):
+    """Led to and fro at changing rates, what is put in is what is stored and what is lost, term by term."""
+    if (form, coupling) == (REGULARISED, TENSION_FLANGE):
+        return
+    n = 2
+    stops = {"stop_positive": [0.25, 4e3, 1.5, 3.0, 0.01], "stop_negative": [0.3, 4e3, 1.0, 0.0, 0.0]}
+    element = rig(made(form, coupling, n, softening, viscous_damping=0.5, **stops))
+    lost = 0.0
+    for i in range(400):
+        t = i * 5e-3
+        element.led(5e-3, np.array([np.cos(3.0 * t), np.sin(2.0 * t)]))
+        now = element.state["dissipated"]
+        assert now >= lost - 1e-12
+        lost = now
+    assert lost > 10.0
+    assert element.energy == pytest.approx(0.0, abs=1e-10 * lost)
+
+
+def test_locked_hinge_carries_the_load_and_creeps_no_more_than_the_ramp():
+    element = rig(made(SET_VALUED, ELLIPSOID, 3), inertia=2.0)
+    load = np.array([40.0, -30.0, 20.0])
+    for _ in range(20):
+        element.step(1e-3, load)
+    np.testing.assert_allclose(element.state["moment"], load, rtol=1e-9)
+    assert np.abs(element.q).max() < 1e-8 * 0.02
+    assert not element.state["sliding"]
+
+
+def test_swing_of_an_elastic_hinge_keeps_its_energy():
+    element = rig(made(ELASTIC_PLASTIC, ELLIPSOID, 3), inertia=1.0, w=[0.3, -0.2, 0.25])
+    start = element.energy
+    for _ in range(500):
+        element.step(2e-3)
+    assert element.state["dissipated"] == pytest.approx(0.0, abs=1e-12 * start)
+    assert element.energy == pytest.approx(start, rel=1e-12)
+
+
+def test_capacity_sensitivity_against_differences():
+    generator = np.random.default_rng(23)
+    for form, coupling, n in CASES:
+        good = 0
+        for _ in range(20):
+            element = rig(made(form, coupling, n))
+            element.led(0.05, generator.normal(size=n))
+            start, w = generator.normal(size=n), generator.normal(size=n) * 3.0
+            element.element.freeze(0.02, start.tolist(), w.tolist())
+            found = np.reshape(element.element.capacity_sensitivity(w.tolist()), (n, n))
+            slope = np.zeros((n, n))
+            for k in range(n):
+                ends = []
+                for factor in (1.0 + 1e-6, 1.0 - 1e-6):
+                    element.element.scale_capacity(k, factor)
+                    ends.append(np.array(element.element.law(w.tolist())[0]))
+                    element.element.scale_capacity(k, 1.0 / factor)
+                slope[:, k] = (ends[0] - ends[1]) / 2e-6
+            good += np.abs(slope - found).max() <= 1e-6 * max(np.abs(found).max(), 1e-3)
+        assert good >= 18, (form, coupling, n)
+
+
+@pytest.mark.parametrize("form", [SET_VALUED, ELASTIC_PLASTIC])
+@pytest.mark.parametrize("coupling", [NONE, ELLIPSOID])
+def test_fracture_opens_the_hinge_for_good(form, coupling):
+    constants = made(form, coupling, 2) | {"fracture": 0.2}
+    element = rig(constants)
+    for _ in range(300):
+        element.led(1e-3, [0.0, 1.0])
+    state = element.state
+    assert state["fracture_time"] == pytest.approx(0.2, abs=0.01 if form == SET_VALUED else 0.06)
+    assert state["moment"] == [0.0, 0.0]
+    assert element.led(1e-3, [0.0, -1.0]).tolist() == [0.0, 0.0]
+    area = np.trapezoid(np.interp(np.linspace(0, 0.2, 2001), *FALLING), np.linspace(0, 0.2, 2001))
+    # the elastic form cannot place it within a step: half a step's work at most
+    one_step = 0.5 * 90.0 * 1e-3 if form == ELASTIC_PLASTIC else 1e-9
+    assert state["dissipated"] - state["fracture_energy"] == pytest.approx(area, abs=one_step)
+    assert element.energy == pytest.approx(0.0, abs=1e-10 * area)
+    if form == ELASTIC_PLASTIC:
+        assert state["fracture_energy"] > 0.0
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"components": []}, "one to four"),
+        ({"coupling": 9}, "unknown coupling"),
+        ({"coupling": SECTION, "rows": [1.0]}, "one column per component"),
+        ({"coupling": SECTION, "rows": [1.0, 1.0], "power": 1.0}, "at least 2"),
+        ({"coupling": TENSION_FLANGE}, "tension flange"),
+        ({"coupling": BALL}, "rotations only"),
+        ({"form": ELASTIC_PLASTIC}, "needs a stiffness"),
+    ],
+)
+def test_constants_that_make_no_sense_are_refused(change, message):
+    with pytest.raises(ValueError, match=message):
+        _kernels.space.HingeElement(made(SET_VALUED, NONE, 2) | change)

@@ -1,0 +1,132 @@
+"""One hinge by itself, on a small mass or led along given rates: what tests of the element share."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from crumple._core import _kernels
+
+SET_VALUED, ELASTIC_PLASTIC, REGULARISED = range(3)
+PEAK, ROTATION, ACCUMULATED = range(3)
+NONE, ELLIPSOID, BALL, SECTION, TENSION_FLANGE = range(5)
+AXIAL, TORSION, ABOUT_Y, ABOUT_Z = 0, 3, 4, 5
+
+FORMS = (SET_VALUED, ELASTIC_PLASTIC, REGULARISED)
+
+
+def component(freedom, positive, negative=None, **more):
+    """A component; a plain number is a constant capacity."""
+
+    def curve(given):
+        places, values = ([0.0, 1.0], [given, given]) if np.isscalar(given) else given
+        return list(map(float, places)), list(map(float, values))
+
+    up, down = curve(positive), curve(positive if negative is None else negative)
+    return {
+        "freedom": freedom,
+        "positive_rotation": up[0],
+        "positive_moment": up[1],
+        "negative_rotation": down[0],
+        "negative_moment": down[1],
+        "elastic_stiffness": math.inf,
+        "regularisation_rate": 0.05,
+        "rate_reference": math.inf,
+        "rate_exponent": 1.0,
+        "viscous_damping": 0.0,
+        "stop_positive": [],
+        "stop_negative": [],
+    } | more
+
+
+def hinge(*components, form=SET_VALUED, softening=PEAK, coupling=NONE, **more):
+    """Constants of a hinge as the kernel takes them."""
+    plain = {"rows": [], "power": 2.0, "torque_power": 2.0, "torsion": -1, "arm": 0.0, "fracture": math.inf}
+    plain |= {"form": form, "softening": softening, "coupling": coupling, "components": list(components)}
+    return plain | more
+
+
+class Rig:
+    """A hinge between the ground and a mass that feels nothing else."""
+
+    def __init__(self, constants, inertia=1.0, w=None):
+        self.element = _kernels.space.HingeElement(constants)
+        self.n = len(constants["components"])
+        self.inertia = np.diag(np.broadcast_to(np.asarray(inertia, float), self.n))
+        self.w = np.zeros(self.n) if w is None else np.array(w, float)
+        self.time = 0.0
+        self.work = 0.0
+
+    @property
+    def q(self):
+        return np.array(self.element.q)
+
+    @property
+    def state(self):
+        return self.element.state
+
+    @property
+    def energy(self):
+        """Kinetic, stored and dissipated energy less the work put in [J]."""
+        s = self.state
+        kept = ("elastic", "stop", "dissipated", "damped", "stop_dissipated")
+        return self.w @ self.inertia @ self.w / 2 + sum(s[name] for name in kept) - self.work
+
+    def step(self, h, force=0.0):
+        """One step of length h under a force on the mass."""
+        w0, w1 = self.w, self.w.copy()
+        push = h * np.broadcast_to(np.asarray(force, float), self.n)
+        for _ in range(2):
+            self.element.freeze(h, w0.tolist(), w1.tolist())
+            w1 = self._balanced(w0, w1, push)
+        turn = np.array(self.element.commit(w1.tolist()))
+        self.work += push @ (w0 + w1) / 2
+        self.w, self.time = w1, self.time + h
+        return turn
+
+    def led(self, h, rate):
+        """One step at a given constant rate; returns the forces that it takes."""
+        rate = np.broadcast_to(np.asarray(rate, float), self.n).tolist()
+        self.element.freeze(h, rate, rate)
+        impulse = np.array(self.element.respond(rate)[0])
+        self.work += impulse @ np.array(rate)
+        self.element.commit(rate)
+        self.time += h
+        return impulse / h
+
+    def _potential(self, w, w0, push):
+        impulse, tangent, potential = self.element.respond(w.tolist())
+        free = self.inertia @ (w - w0) - push
+        slope = free + np.array(impulse)
+        return (w - w0) @ free / 2 - (w - w0) @ push / 2 + potential, slope, np.reshape(tangent, (self.n, self.n))
+
+    def _balanced(self, w0, w, push):
+        """Newton with halving on the potential, the ramp narrowed step by step."""
+        width = self.ramp
+        for wide in sorted({max(width, 10.0**k) for k in range(-8, 2)}, reverse=True):
+            if self.set_valued:
+                self.element.widen(wide)
+            scale = np.abs(self.inertia).max() * (np.abs(w0).max() + 1e-6) + np.abs(push).max()
+            for _ in range(100):
+                value, slope, tangent = self._potential(w, w0, push)
+                if np.abs(slope).max() <= 1e-13 * scale:
+                    break
+                step = -np.linalg.solve(self.inertia + tangent, slope)
+                share = 1.0
+                while share > 1e-4 and self._potential(w + share * step, w0, push)[0] > value + 1e-14 * abs(value):
+                    share /= 2
+                w = w + share * step
+        return w
+
+    ramp = 1e-8
+    set_valued = True
+
+
+def rig(constants, inertia=1.0, w=None):
+    """A rig that knows its hinge's form."""
+    made = Rig(constants, inertia, w)
+    made.set_valued = constants["form"] == SET_VALUED
+    if not made.set_valued:
+        made.ramp = 10.0
+    return made
