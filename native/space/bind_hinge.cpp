@@ -136,6 +136,8 @@ void bind_hinge(nb::module_& m) {
                  if (e.hinge.components[static_cast<size_t>(k)].freedom < 3) return;
                  for (double& top : e.frozen.top) top *= factor;
              })
+        .def("set_damped_inertia",
+             [](Element& e, size_t k, double inertia) { e.hinge.components.at(k).law.damped_inertia = inertia; })
         .def("respond", [](const Element& e, const Doubles& w) { return answer(e, w, false); })
         .def("law", [](const Element& e, const Doubles& w) { return answer(e, w, true); })
         .def("load_factor", [](const Element& e, const Doubles& w) { return load_factor(e.hinge, e.frozen, checked(e, w)); })

@@ -82,7 +82,8 @@ FrozenSpaceHinge freeze(const SpaceHinge& hinge, const SpaceHingeState& state, d
                         const double* w1);
 void widen(const SpaceHinge& hinge, FrozenSpaceHinge& f, double width);
 // impulse (n), tangent (n x n, symmetric and positive semidefinite) and potential at end rates w, of everything and of the
-// law alone, without dampers and stops; any may be null.  The potential's derivative is the impulse
+// law alone, without dampers and stops; any may be null.  The potential's derivative is the impulse.  On a flat side of a
+// surface the tangent is as large as in a locked hinge while rates are not small: rounding of w is worth |tangent| |w| of it
 void respond(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
              double* potential);
 void law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from scipy.optimize import brentq
 
 from crumple._core import _kernels
 
@@ -95,31 +96,54 @@ class Rig:
         self.time += h
         return impulse / h
 
-    def _potential(self, w, w0, push):
-        impulse, tangent, potential = self.element.respond(w.tolist())
-        free = self.inertia @ (w - w0) - push
-        slope = free + np.array(impulse)
-        return (w - w0) @ free / 2 - (w - w0) @ push / 2 + potential, slope, np.reshape(tangent, (self.n, self.n))
+    def _slope(self, w, w0, push):
+        """Momentum left over, and its matrix."""
+        impulse, tangent, _ = self.element.respond(w.tolist())
+        slope = self.inertia @ (w - w0) - push + np.array(impulse)
+        return slope, self.inertia + np.reshape(tangent, (self.n, self.n))
 
     def _balanced(self, w0, w, push):
-        """Newton with halving on the potential, the ramp narrowed step by step."""
-        width = self.ramp
-        for wide in sorted({max(width, 10.0**k) for k in range(-8, 2)}, reverse=True):
+        if self.n == 1:
+            return self._root(w0, w, push)
+        # Newton's method, the ramp narrowed step by step
+        for width in self.widths:
             if self.set_valued:
-                self.element.widen(wide)
-            scale = np.abs(self.inertia).max() * (np.abs(w0).max() + 1e-6) + np.abs(push).max()
-            for _ in range(100):
-                value, slope, tangent = self._potential(w, w0, push)
-                if np.abs(slope).max() <= 1e-13 * scale:
-                    break
-                step = -np.linalg.solve(self.inertia + tangent, slope)
-                share = 1.0
-                while share > 1e-4 and self._potential(w + share * step, w0, push)[0] > value + 1e-14 * abs(value):
-                    share /= 2
-                w = w + share * step
+                self.element.widen(width)
+            w = self._newton(w0, w, push)
         return w
 
-    ramp = 1e-8
+    def _newton(self, w0, w, push):
+        """Whole steps where they lead down, else to the lowest point on the way."""
+        for _ in range(60):
+            slope, matrix = self._slope(w, w0, push)
+            # one rounding of a rate is worth tangent times rounding of impulse
+            noise = 1e-15 * np.abs(matrix) @ np.abs(w) + 1e-13 * (np.abs(push) + self.inertia @ np.abs(w0))
+            if np.all(np.abs(slope) <= noise):
+                break
+            step = -np.linalg.solve(matrix, slope)
+            at_start, low, high = slope @ step, 0.0, 1.0
+            share, found = 1.0, self._slope(w + step, w0, push)[0] @ step
+            for _ in range(100):
+                if found <= 0.0 and share == 1.0 or abs(found) <= 1e-12 * abs(at_start):
+                    break
+                low, high = (low, share) if found > 0.0 else (share, high)
+                share = (low + high) / 2.0
+                found = self._slope(w + share * step, w0, push)[0] @ step
+            w = w + share * step
+        return w
+
+    def _root(self, w0, w, push):
+        """The impulse grows with the rate: a bracket and Brent's method."""
+
+        def left(v):
+            return float(self.inertia[0, 0] * (v - w0[0]) - push[0] + self.element.respond([v])[0][0])
+
+        far = 1.0
+        while left(w[0] - far) > 0.0 or left(w[0] + far) < 0.0:
+            far *= 4.0
+        return np.array([brentq(left, w[0] - far, w[0] + far, xtol=1e-300, rtol=8.9e-16, maxiter=500)])
+
+    widths = tuple(10.0**k for k in range(1, -9, -1))
     set_valued = True
 
 
@@ -128,5 +152,5 @@ def rig(constants, inertia=1.0, w=None):
     made = Rig(constants, inertia, w)
     made.set_valued = constants["form"] == SET_VALUED
     if not made.set_valued:
-        made.ramp = 10.0
+        made.widths = (0.0,)
     return made
