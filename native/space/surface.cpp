@@ -320,55 +320,60 @@ double gauge(const Flange& f, const double* x) {
     return g;
 }
 
-// The best of the polygon's sides and corners.
+// Inside, on one of the polygon's sides, or the best of its corners.  A point on a side is found along it: from the
+// unbounded maximum, far outside, rounding would miss it.
 SurfacePoint nearest(const Flange& f, const double* y, const double* m, double* derivative) {
     const int order[2] = {f.axial, 1 - f.axial};
     const double sign = y[order[1]] < 0 ? -1 : 1;
     const double load[2] = {y[order[0]], sign * y[order[1]]}, metric[2] = {m[order[0]], m[order[1]]};
+    SurfacePoint p;
+    double x[2] = {0, 0}, block[4] = {0, 0, 0, 0}, best = -1;
+    auto finish = [&] {
+        p.value = objective(2, load, metric, x);
+        for (int i = 0; i < 2; i++) {
+            p.x[order[i]] = i == 0 ? x[0] : sign * x[1];
+            for (int j = 0; j < 2 && derivative != nullptr; j++) derivative[2 * order[i] + order[j]] = (i == j ? 1 : sign) * block[2 * i + j];
+        }
+        return p;
+    };
     Side side[flange_sides];
     sides(f, side);
-    double best = -1, x[2] = {0, 0}, block[4] = {0, 0, 0, 0}, multiplier = 0;
-    auto offer = [&](double force, double moment, double factor, const double* normal) {
-        const double at[2] = {force, moment};
-        for (const Side& s : side) {
-            if (dot(2, s.a, at) > s.bound + 1e-12 * (f.top + f.arm * (f.crush + f.pull))) return;
+    bool inside = metric[0] > 0 && metric[1] > 0;
+    if (inside) {
+        for (int i = 0; i < 2; i++) x[i] = load[i] / metric[i], block[3 * i] = 1 / metric[i];
+        for (const Side& s : side) inside = inside && dot(2, s.a, x) <= s.bound;
+        if (inside) return finish();
+        block[0] = block[3] = 0;
+    }
+    for (int i = 0; i < flange_sides - 1; i++) {
+        const double* a = side[i].a;
+        const double square = dot(2, a, a), foot[2] = {a[0] * side[i].bound / square, a[1] * side[i].bound / square}, along[2] = {-a[1], a[0]};
+        double low = -1e300, high = 1e300;
+        for (int j = 0; j < flange_sides; j++) {
+            const double slope = dot(2, side[j].a, along), left = side[j].bound - dot(2, side[j].a, foot);
+            if (j == i || (slope == 0 && left >= 0)) continue;
+            if (slope == 0) high = -1e300;
+            if (slope > 0) high = std::min(high, left / slope);
+            if (slope < 0) low = std::max(low, left / slope);
         }
-        const double value = objective(2, load, metric, at);
-        if (!(value > best)) return;
-        best = value, multiplier = factor;
-        x[0] = force, x[1] = moment;
-        for (double& b : block) b = 0;
-        if (normal == nullptr) return;
-        const double u[2] = {normal[0] / metric[0], normal[1] / metric[1]}, weight = dot(2, normal, u);
-        for (int i = 0; i < 2; i++) {
-            for (int j = 0; j < 2; j++) block[2 * i + j] = (i == j ? 1 / metric[i] : 0) - (weight > 0 ? u[i] * u[j] / weight : 0);
-        }
-    };
-    if (metric[0] > 0 && metric[1] > 0) {
-        const double none[2] = {0, 0}, free[2] = {load[0] / metric[0], load[1] / metric[1]};
-        offer(free[0], free[1], 0, none);
-        for (int i = 0; i < flange_sides - 1 && best < 0; i++) {
-            const double* a = side[i].a;
-            const double factor = (dot(2, a, free) - side[i].bound) / (a[0] * a[0] / metric[0] + a[1] * a[1] / metric[1]);
-            if (factor > 0) offer(free[0] - factor * a[0] / metric[0], free[1] - factor * a[1] / metric[1], factor, a);
+        if (!(low <= high)) continue;
+        const double stiffness = metric[0] * along[0] * along[0] + metric[1] * along[1] * along[1];
+        const double pull[2] = {load[0] - metric[0] * foot[0], load[1] - metric[1] * foot[1]};
+        const double place = stiffness > 0 ? dot(2, along, pull) / stiffness : high;
+        for (const double s : {place, low, high}) {
+            const double at[2] = {foot[0] + s * along[0], foot[1] + s * along[1]};
+            const double outward = a[0] * (load[0] - metric[0] * at[0]) + a[1] * (load[1] - metric[1] * at[1]);
+            const bool between = s > low && s < high;
+            if (s == place && !(between && outward >= 0)) continue;
+            const double value = objective(2, load, metric, at);
+            if (!between && !(value > best)) continue;
+            best = value, x[0] = at[0], x[1] = at[1], p.multiplier = outward / square;
+            if (!between) continue;
+            for (int j = 0; j < 4; j++) block[j] = along[j / 2] * along[j % 2] / stiffness;
+            return finish();
         }
     }
-    for (int i = 0; i < flange_sides; i++) {
-        for (int j = 0; j < i; j++) {
-            const double *a = side[i].a, *b = side[j].a, area = a[0] * b[1] - a[1] * b[0];
-            if (area == 0) continue;
-            offer((side[i].bound * b[1] - side[j].bound * a[1]) / area, (a[0] * side[j].bound - b[0] * side[i].bound) / area,
-                  length(2, load), nullptr);
-        }
-    }
-    SurfacePoint p;
-    p.value = best;
-    p.multiplier = multiplier;
-    for (int i = 0; i < 2; i++) {
-        p.x[order[i]] = i == 0 ? x[0] : sign * x[1];
-        for (int j = 0; j < 2 && derivative != nullptr; j++) derivative[2 * order[i] + order[j]] = (i == j ? 1 : sign) * block[2 * i + j];
-    }
-    return p;
+    return finish();
 }
 
 }  // namespace crumple::space

@@ -143,7 +143,7 @@ class Rig:
             far *= 4.0
         return np.array([brentq(left, w[0] - far, w[0] + far, xtol=1e-300, rtol=8.9e-16, maxiter=500)])
 
-    widths = tuple(10.0**k for k in range(1, -9, -1))
+    widths = (1.0, 1e-2, 1e-4, 1e-6, 1e-8)
     set_valued = True
 
 
