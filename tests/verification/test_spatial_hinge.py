@@ -69,7 +69,9 @@ def test_one_component_is_the_planar_hinge(form, softening):
     model = TreeModel((wheel(INERTIA), wheel(INERTIA)), (planar,), (push,), (idle,))
     simulation = Simulation(model)
     # the damper weighs its rates by the inertia that it feels
-    one = component(ABOUT_Y, CURVE, OTHER, **{k: list(v) if isinstance(v, tuple) else v for k, v in more.items()})
+    one = component(
+        ABOUT_Y, CURVE, OTHER, **{k: list(v) if isinstance(v, tuple) else v for k, v in more.items()}
+    )
     made = rig(hinge(one, **law), INERTIA)
     made.element.set_damped_inertia(0, INERTIA)
     step = 2e-3
@@ -99,7 +101,10 @@ def test_proportional_biaxial_stop_meets_the_closed_form(record_figure):
     w0 = np.array([3.0, 4.0])
     energy = w0 @ (inertia * w0) / 2
     made = rig(
-        hinge(*(component(f, curve(c)) for f, c in zip((ABOUT_Y, ABOUT_Z), first, strict=True)), coupling=ELLIPSOID),
+        hinge(
+            *(component(f, curve(c)) for f, c in zip((ABOUT_Y, ABOUT_Z), first, strict=True)),
+            coupling=ELLIPSOID,
+        ),
         inertia,
         w0,
     )
@@ -255,7 +260,9 @@ def test_fold_about_the_tension_flange_shortens_by_normality(record_figure):
     rotation = acceleration * duration**2 / 2
     record_figure("rotation", made.q[1], rotation, 1e-3, "rad", relative=True)
     record_figure("shortening over rotation", -made.q[0] / made.q[1], half_depth, 1e-6, "m", relative=True)
-    record_figure("work of the hinge over C rotation", made.state["dissipated"] / (capacity * made.q[1]), 1.0, 1e-3)
+    record_figure(
+        "work of the hinge over C rotation", made.state["dissipated"] / (capacity * made.q[1]), 1.0, 1e-3
+    )
     assert made.energy == pytest.approx(0.0, abs=1e-8 * capacity)
     # under tension the fold does not lengthen, and the hinge carries its first moment at most
     pulled = rig(constants, [mass, inertia])
@@ -273,7 +280,9 @@ def test_fracture_leaves_the_rest_of_the_motion(record_figure):
         made.step(5e-4)
     left = math.sqrt(rate**2 - 2 * moment * angle / INERTIA)
     record_figure("rate after fracture", made.w[0], left, 1e-4, "rad/s", relative=True)
-    record_figure("energy of the torn hinge", made.state["dissipated"], moment * angle, 1e-3, "J", relative=True)
+    record_figure(
+        "energy of the torn hinge", made.state["dissipated"], moment * angle, 1e-3, "J", relative=True
+    )
     assert made.energy == pytest.approx(INERTIA * rate**2 / 2, rel=1e-9)
 
 
@@ -282,7 +291,9 @@ def test_forms_agree_as_they_become_stiff():
     ends = []
     for form in FORMS:
         parts = [
-            component(f, c, elastic_stiffness=1e6 if form == ELASTIC_PLASTIC else math.inf, regularisation_rate=1e-4)
+            component(
+                f, c, elastic_stiffness=1e6 if form == ELASTIC_PLASTIC else math.inf, regularisation_rate=1e-4
+            )
             for f, c in ((ABOUT_Y, 500.0), (ABOUT_Z, 300.0))
         ]
         made = rig(hinge(*parts, form=form, coupling=ELLIPSOID), [2.0, 1.0], [8.0, 3.0])

@@ -53,7 +53,16 @@ def made(form, coupling, n, softening=PEAK, **more):
     return hinge(*parts, form=form, softening=softening, coupling=coupling, **extra)
 
 
-KINDS = [(NONE, 1), (NONE, 3), (ELLIPSOID, 2), (ELLIPSOID, 4), (BALL, 3), (SECTION, 3), (SECTION, 4), (TENSION_FLANGE, 2)]
+KINDS = [
+    (NONE, 1),
+    (NONE, 3),
+    (ELLIPSOID, 2),
+    (ELLIPSOID, 4),
+    (BALL, 3),
+    (SECTION, 3),
+    (SECTION, 4),
+    (TENSION_FLANGE, 2),
+]
 CASES = [
     (form, coupling, n)
     for form in (SET_VALUED, ELASTIC_PLASTIC, REGULARISED)

@@ -85,8 +85,12 @@ def test_derivative_is_that_of_the_point(name):
         block = np.reshape(space.surface_point(constants, y.tolist(), m.tolist())[3], (n, n))
         for k in range(n):
             step = np.eye(n)[k] * 1e-6
-            ends = [np.array(space.surface_point(constants, list(y + s * step), m.tolist())[0]) for s in (1, -1)]
-            np.testing.assert_allclose(block[:, k], (ends[0] - ends[1]) / 2e-6, atol=1e-6 * np.abs(block).max())
+            ends = [
+                np.array(space.surface_point(constants, list(y + s * step), m.tolist())[0]) for s in (1, -1)
+            ]
+            np.testing.assert_allclose(
+                block[:, k], (ends[0] - ends[1]) / 2e-6, atol=1e-6 * np.abs(block).max()
+            )
 
 
 def test_gauge_is_a_norm_and_its_gradient_is_true():
@@ -97,13 +101,23 @@ def test_gauge_is_a_norm_and_its_gradient_is_true():
             g, gradient = gauge(constants, a)
             assert gauge(constants, -2.0 * a)[0] == pytest.approx(2.0 * g, rel=1e-13)
             assert gauge(constants, a + b)[0] <= g + gauge(constants, b)[0] + 1e-13
-            slope = [(gauge(constants, a + d)[0] - gauge(constants, a - d)[0]) / 2e-6 for d in np.eye(n) * 1e-6]
+            slope = [
+                (gauge(constants, a + d)[0] - gauge(constants, a - d)[0]) / 2e-6 for d in np.eye(n) * 1e-6
+            ]
             np.testing.assert_allclose(gradient, slope, atol=1e-8)
 
 
 def test_tension_flange_against_a_general_optimiser():
     """|M| <= 100, |M| - 0.5 N <= 60, -80 <= N <= 150 at softened moment: by SciPy's SLSQP."""
-    from tests.verification.hinge_rig import ABOUT_Y, AXIAL, ELASTIC_PLASTIC, TENSION_FLANGE, component, hinge, rig
+    from tests.verification.hinge_rig import (
+        ABOUT_Y,
+        AXIAL,
+        ELASTIC_PLASTIC,
+        TENSION_FLANGE,
+        component,
+        hinge,
+        rig,
+    )
 
     constants = hinge(
         component(AXIAL, 150.0, 80.0, elastic_stiffness=900.0),
