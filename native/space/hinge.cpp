@@ -23,7 +23,7 @@ const multibody::Curve& curve_of(const multibody::Hinge& law, int sense) { retur
 
 double first_capacity(const SpaceHinge& hinge, int k, int sense) {
     int hint = 0;
-    return curve_of(law_of(hinge, k), sense).at(0, hint);
+    return law_of(hinge, k).scale * curve_of(law_of(hinge, k), sense).at(0, hint);
 }
 
 // Work D_0(e) that turning straight by e takes at the first capacities.
@@ -87,7 +87,7 @@ void set_coupled_capacity(const SpaceHinge& hinge, const SpaceHingeState& s, con
             const double per_work = 1 / first_capacity(hinge, k, sense);
             const double ahead = capacity_over(curve, from * per_work, to * per_work, at_end, f.hint[k][sense]);
             const double here = held > 0 && !at_end ? curve.at(from * per_work, f.hint[k][sense]) : 0;
-            f.component[k].capacity[sense] = at_end ? ahead : held * here + (1 - held) * ahead;
+            f.component[k].capacity[sense] = law_of(hinge, k).scale * (at_end ? ahead : held * here + (1 - held) * ahead);
         }
     }
 }

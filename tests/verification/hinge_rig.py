@@ -124,7 +124,7 @@ class Rig:
             at_start, low, high = slope @ step, 0.0, 1.0
             share, found = 1.0, self._slope(w + step, w0, push)[0] @ step
             for _ in range(100):
-                if found <= 0.0 and share == 1.0 or abs(found) <= 1e-12 * abs(at_start):
+                if (found <= 0.0 and share == 1.0) or abs(found) <= 1e-12 * abs(at_start):
                     break
                 low, high = (low, share) if found > 0.0 else (share, high)
                 share = (low + high) / 2.0

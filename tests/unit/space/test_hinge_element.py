@@ -1,4 +1,4 @@
-"""The hinge of several components: convex, dissipative, its tangent and potential true, its moments on the surface."""
+"""The hinge of several components: convex, dissipative, on its surface, its tangent and potential true."""
 
 import numpy as np
 import pytest
