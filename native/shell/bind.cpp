@@ -84,6 +84,15 @@ static Array rigid_states(const Simulation& s) {
     return to_array(std::move(v), {s.body_states().size(), 18});
 }
 
+// displacement, its rate, angle and its rate, force of the structure on it, penetration over half the wall (12)
+static Array obstacle_states(const Simulation& s) {
+    std::vector<double> v;
+    for (const ObstacleContact::State& o : s.contact().obstacles().states())
+        v.insert(v.end(), {o.shift.x, o.shift.y, o.shift.z, o.velocity.x, o.velocity.y, o.velocity.z, o.angle, o.rate, o.force.x,
+                           o.force.y, o.force.z, o.deepest});
+    return to_array(std::move(v), {s.contact().obstacles().states().size(), 12});
+}
+
 static nb::dict save(const Simulation& s) {
     Checkpoint c = s.save();
     nb::dict d;
@@ -101,7 +110,8 @@ static nb::dict save(const Simulation& s) {
     return d;
 }
 
-static void restore(Simulation& s, const nb::dict& d) {
+// `same`: of the same model, else of the stage before
+static void restore(Simulation& s, const nb::dict& d, bool same) {
     const Checkpoint size = s.save();
     Checkpoint c;
     auto get = [&](const char* name, std::vector<double>& v, std::size_t expected) {
@@ -113,9 +123,9 @@ static void restore(Simulation& s, const nb::dict& d) {
     get("elements", c.elements, size.elements.size());
     get("sums", c.sums, size.sums.size());
     get("bodies", c.bodies, size.bodies.size());
-    get("drives", c.drives, size.drives.size());
+    get("drives", c.drives, same ? size.drives.size() : 0);
     get("contact", c.contact, 0);
-    s.restore(c);
+    same ? s.restore(c) : s.go_on_from(c);
 }
 
 static nb::tuple thickness_points(int points, bool lobatto) {
@@ -128,6 +138,12 @@ static void deform(Simulation& s, const In& x, const In& v, const In& w, double 
     for (const In* a : {&x, &v, &w})
         if (a->size() != 3 * s.model().nodes()) throw std::invalid_argument("positions and velocities have shape (nodes, 3)");
     s.deform(x.data(), v.data(), w.data(), dt);
+}
+
+static void add_motion(Simulation& s, const In& v, const In& w) {
+    for (const In* a : {&v, &w})
+        if (a->size() != 3 * s.model().nodes()) throw std::invalid_argument("velocities have shape (nodes, 3)");
+    s.add_motion(v.data(), w.data());
 }
 
 static void bind_simulation(nb::module_& m) {
@@ -151,6 +167,10 @@ static void bind_simulation(nb::module_& m) {
         .def("rigid_states", &rigid_states)
         .def("save", &save)
         .def("restore", &restore)
+        .def("obstacle_states", &obstacle_states)
+        .def("add_motion", &add_motion)
+        .def("stop", &Simulation::stop)
+        .def("external_work", &Simulation::external_work)
         .def_prop_ro("time", &Simulation::time)
         .def_prop_ro("step", &Simulation::step)
         .def_prop_ro("first_step", &Simulation::first_step)

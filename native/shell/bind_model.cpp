@@ -95,10 +95,39 @@ static void set_contact(Model& m, const nb::dict& d) {
     m.contact.damping = nb::cast<double>(d["damping"]);
 }
 
-static void add_plane(Model& m, const In& point, const In& normal, double friction, double gap, const InIndex& nodes) {
-    const Vec3 n = vec3(normal);
-    if (!(norm(n) > 0.0)) throw std::invalid_argument("the normal of a plane has no length");
-    m.planes.push_back({vec3(point), (1.0 / norm(n)) * n, friction, gap, to_vector(nodes)});
+static Vec3 unit(const nb::handle& given, const char* what) {
+    const Vec3 v = vec3(nb::cast<In>(given));
+    if (!(norm(v) > 0.0)) throw std::invalid_argument(std::string("an obstacle's ") + what + " has no length");
+    return (1.0 / norm(v)) * v;
+}
+
+// curves come as pairs of arrays
+static Curve curve_of(const nb::handle& pair) { return curve(nb::cast<In>(pair[0]), nb::cast<In>(pair[1])); }
+
+static void add_obstacle(Model& m, const nb::dict& d) {
+    Obstacle o{};
+    o.shape = Shape(nb::cast<int>(d["shape"]));
+    o.point = vec3(nb::cast<In>(d["point"]));
+    o.axis = unit(d["axis"], "axis");
+    o.edge = unit(d["edge"], "edge");
+    o.radius = nb::cast<double>(d["radius"]);
+    o.length = nb::cast<double>(d["length"]);
+    o.friction = nb::cast<double>(d["friction"]);
+    o.gap = nb::cast<double>(d["gap"]);
+    o.mass = nb::cast<double>(d["mass"]);
+    o.guide = unit(d["guide"], "guide");
+    o.velocity = vec3(nb::cast<In>(d["velocity"]));
+    for (int i = 0; i < 3; i++) {
+        const nb::object motion = d["motion"][i];
+        if (!motion.is_none()) o.motion[i] = curve_of(motion);
+    }
+    o.turn_about = vec3(nb::cast<In>(d["turn_about"]));
+    o.turn_axis = unit(d["turn_axis"], "turning axis");
+    const nb::object turning = d["turning"];
+    if (!turning.is_none()) o.turning = curve_of(turning);
+    o.active = nb::cast<bool>(d["active"]);
+    o.nodes = to_vector(nb::cast<InIndex>(d["nodes"]));
+    m.obstacles.push_back(std::move(o));
 }
 
 void bind_model(nb::module_& module) {
@@ -113,7 +142,7 @@ void bind_model(nb::module_& module) {
         .def("motion", [](Model& m, bool rigid, Index target, int dof, const In& t, const In& v) {
             m.motions.push_back({rigid, target, dof, curve(t, v)});
         })
-        .def("plane", &add_plane)
+        .def("obstacle", &add_obstacle)
         .def("cut", [](Model& m, const InIndex& elements, const InIndex& nodes) { m.cuts.push_back({to_vector(elements), to_vector(nodes)}); })
         .def("contact", &set_contact)
         .def("settings", &set_settings);

@@ -1,17 +1,12 @@
-// Bucket search: elements are listed in the cells that their grown boxes cover, each node looks into its own cell.
-#include <algorithm>
-#include <array>
-#include <cmath>
+// Boxes are listed in the cells that they cover, each point looks into its own cell.
+#include "contact_search.hpp"
 
-#include "contact.hpp"
+#include <algorithm>
+#include <cmath>
 
 namespace crumple::shell {
 
 namespace {
-
-struct Box {
-    double low[3], high[3];
-};
 
 struct Grid {
     double origin[3], inverse;
@@ -25,22 +20,6 @@ struct Grid {
         return index;
     }
 };
-
-Box box_of(const double* position, int stride, const Index* quad, double grow) {
-    Box b;
-    for (int i = 0; i < 3; i++) {
-        b.low[i] = 1e300;
-        b.high[i] = -1e300;
-        for (int c = 0; c < 4; c++) {
-            const double x = position[std::size_t(stride) * quad[c] + std::size_t(i)];
-            b.low[i] = std::min(b.low[i], x);
-            b.high[i] = std::max(b.high[i], x);
-        }
-        b.low[i] -= grow;
-        b.high[i] += grow;
-    }
-    return b;
-}
 
 Grid grid_over(const std::vector<Box>& boxes) {
     Grid g{};
@@ -84,23 +63,21 @@ bool contains(const Box& b, const double* x) {
 
 }  // namespace
 
-PairList close_pairs(const double* position, int stride, std::size_t nodes, const std::vector<Index>& quads,
-                     const std::vector<std::uint8_t>& alive, double reach) {
-    const std::size_t elements = quads.size() / 4;
-    std::vector<Box> boxes(elements);
-    for (std::size_t e = 0; e < elements; e++) boxes[e] = box_of(position, stride, &quads[4 * e], reach);
+PairList points_in_boxes(const double* points, int stride, std::size_t count, const std::vector<Box>& boxes,
+                         const std::vector<std::uint8_t>& alive) {
+    PairList found;
+    if (boxes.empty()) return found;
     const Grid grid = grid_over(boxes);
-    // elements by cell, counted and then placed
+    // boxes by cell, counted and then placed
     std::vector<Index> first(std::size_t(grid.count[0] * grid.count[1] * grid.count[2]) + 1, 0);
-    for (std::size_t e = 0; e < elements; e++)
+    for (std::size_t e = 0; e < boxes.size(); e++)
         if (alive[e]) each_cell(grid, boxes[e], [&](std::size_t c) { first[c + 1]++; });
     for (std::size_t c = 1; c < first.size(); c++) first[c] += first[c - 1];
     std::vector<Index> member(first.back()), next(first.begin(), first.end() - 1);
-    for (std::size_t e = 0; e < elements; e++)
+    for (std::size_t e = 0; e < boxes.size(); e++)
         if (alive[e]) each_cell(grid, boxes[e], [&](std::size_t c) { member[next[c]++] = Index(e); });
-    PairList found;
-    for (std::size_t n = 0; n < nodes; n++) {
-        const double* x = position + std::size_t(stride) * n;
+    for (std::size_t n = 0; n < count; n++) {
+        const double* x = points + std::size_t(stride) * n;
         const std::size_t c = std::size_t(grid.cell(x));
         for (Index k = first[c]; k < first[c + 1]; k++)
             if (contains(boxes[member[k]], x)) found.emplace_back(Index(n), member[k]);

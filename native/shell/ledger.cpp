@@ -42,6 +42,7 @@ double Simulation::kinetic() const {
         const Kick k = kick_body(i, after);
         sum += of_body(bodies_[i], body_states_[i], after, k.velocity);
     }
+    if (contact_) sum += contact_->obstacles().kinetic(kick());
     return sum;
 }
 
@@ -88,7 +89,7 @@ Energies Simulation::energies() const {
     e.contact = contact_->work();
     e.damping = body_damping_;
     for (double d : damping_work_) e.damping += d;
-    e.external = outside_work_ + work_to_come() + gravity_work();
+    e.external = external_work();
     e.residual = e.kinetic + internal + e.hourglass + e.contact + e.damping - e.external - first_kinetic_;
     return e;
 }

@@ -53,17 +53,29 @@ struct Motion {                      // prescribed velocity of a node or a rigid
     Curve velocity;
 };
 
-struct Plane {                       // half space n . (x - point) < 0 is solid
-    Vec3 point, normal;
-    double friction, gap;            // gap: distance of the mid-surface at first touch [m]
-    std::vector<Index> nodes;
+enum class Shape : int { plane, edge, cylinder, pole, sphere };
+
+struct Obstacle {                    // rigid
+    Shape shape;                     // edge: a plane that ends; cylinder: with round ends; pole: without end
+    Vec3 point;                      // on the plane or its edge, on the axis, or the centre
+    Vec3 axis;                       // unit: normal out of the solid, or along the cylinder
+    Vec3 edge;                       // unit and across the axis: out of the solid beyond the edge
+    double radius, length;           // [m]
+    double friction, gap;            // gap: kept beside half the wall's thickness [m]
+    double mass;                     // 0: fixed or driven [kg]
+    Vec3 guide, velocity;            // of a mass: unit vector of its way, velocity at the start [m/s]
+    Curve motion[3];                 // prescribed velocity x, y, z; empty: none [m/s]
+    Vec3 turn_about, turn_axis;      // fixed axis of a prescribed turn, unit
+    Curve turning;                   // its rate [rad/s]; empty: none
+    bool active;                     // there from the start of this model
+    std::vector<Index> nodes;        // that can touch it
 };
 
-struct SelfContact {
-    bool on = false;
+struct ContactSettings {
+    bool on = false;                 // of walls with walls
     double gap = 0.0;                // 0: the thickness of the two walls, half each
     double stiffness = 0.1;          // share of the stability limit m / dt^2
-    double friction = 0.0;
+    double friction = 0.0;           // of walls
     double damping = 0.0;            // share of critical
 };
 
@@ -95,9 +107,9 @@ struct Model {
     std::vector<RigidSet> rigid_sets;
     std::vector<Load> loads;
     std::vector<Motion> motions;
-    std::vector<Plane> planes;
+    std::vector<Obstacle> obstacles;
     std::vector<Cut> cuts;
-    SelfContact contact;
+    ContactSettings contact;
     Settings settings;
 
     std::size_t nodes() const { return position.size() / 3; }

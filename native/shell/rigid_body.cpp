@@ -35,37 +35,43 @@ RigidBody make_body(const Model& model, const RigidSet& set, const Masses& masse
     return b;
 }
 
-// rigid motion with the members' momentum and angular momentum
-RigidState start_body(const RigidBody& b, const Model& model, const Masses& masses) {
+void push(const RigidBody& b, RigidState& s, const Masses& masses, const double* velocity, const double* spin) {
     double mass = 0.0;
     Vec3 moment, momentum;
-    for (Index n : b.nodes) {
+    for (std::size_t k = 0; k < b.nodes.size(); k++) {
+        const Index n = b.nodes[k];
         mass += masses.mass[n];
-        moment = moment + masses.mass[n] * read3(&model.position[3 * n]);
-        momentum = momentum + masses.mass[n] * read3(&model.velocity[3 * n]);
+        moment = moment + masses.mass[n] * (s.rotation * b.arm[k]);
+        momentum = momentum + masses.mass[n] * read3(velocity + 3 * n);
     }
-    RigidState s;
-    s.centre = b.centre0;
-    if (!(mass > 0.0)) return s;
-    const Vec3 centre = (1.0 / mass) * moment, velocity = (1.0 / mass) * momentum;
+    if (!(mass > 0.0)) return;
+    // of the members alone, about their own centre; the added mass moves with them
+    const Vec3 centre = (1.0 / mass) * moment;
     Mat3 J{{0, 0, 0, 0, 0, 0, 0, 0, 0}};
     Vec3 L;
     for (std::size_t k = 0; k < b.nodes.size(); k++) {
         const Index n = b.nodes[k];
-        const Vec3 r = read3(&model.position[3 * n]) - centre;
+        const Vec3 r = s.rotation * b.arm[k] - centre;
         add_point(J, masses.mass[n], r);
         for (int i = 0; i < 3; i++) J.m[4 * i] += b.member_inertia[k];
-        L = L + masses.mass[n] * cross(r, read3(&model.velocity[3 * n])) + b.member_inertia[k] * read3(&model.spin[3 * n]);
+        L = L + masses.mass[n] * cross(r, read3(velocity + 3 * n)) + b.member_inertia[k] * read3(spin + 3 * n);
     }
-    s.omega = solve(J, L);
-    s.velocity = velocity + cross(s.omega, b.centre0 - centre);
+    const Vec3 omega = solve(J, L), v = s.velocity + (1.0 / mass) * momentum - cross(omega, centre), w = s.omega + omega;
+    double free[6];
     for (int i = 0; i < 3; i++) {
-        double* v[] = {&s.velocity.x, &s.velocity.y, &s.velocity.z};
-        double* w[] = {&s.omega.x, &s.omega.y, &s.omega.z};
-        if (b.held & (1u << i)) *v[i] = 0.0;
-        if (b.held & (8u << i)) *w[i] = 0.0;
+        free[i] = b.held & (1u << i) ? s.velocity[i] : v[i];
+        free[i + 3] = b.held & (8u << i) ? s.omega[i] : w[i];
     }
-    s.angular_momentum = b.inertia * s.omega;
+    s.velocity = read3(free);
+    s.omega = read3(free + 3);
+    s.angular_momentum = world_inertia(b, s.rotation) * s.omega;
+}
+
+// rigid motion with the members' momentum and angular momentum
+RigidState start_body(const RigidBody& b, const Model& model, const Masses& masses) {
+    RigidState s;
+    s.centre = b.centre0;
+    push(b, s, masses, model.velocity.data(), model.spin.data());
     return s;
 }
 

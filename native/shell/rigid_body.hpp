@@ -27,6 +27,8 @@ struct Wrench {
 
 RigidBody make_body(const Model& model, const RigidSet& set, const Masses& masses);
 RigidState start_body(const RigidBody& body, const Model& model, const Masses& masses);
+// Adds rigid motion with the momentum and angular momentum of the members' velocities and spins (n, 3).
+void push(const RigidBody& body, RigidState& state, const Masses& masses, const double* velocity, const double* spin);
 // Inertia in world axes.
 Mat3 world_inertia(const RigidBody& body, const Mat3& rotation);
 // Angular velocity whose free components carry the angular momentum, the held ones given.

@@ -38,6 +38,13 @@ public:
 
     Checkpoint save() const;
     void restore(const Checkpoint& saved);
+    // Takes over the state of another model of the same mesh, bodies and obstacles: the next stage of a sequence.
+    void go_on_from(const Checkpoint& saved);
+    // Adds a velocity and spin (n, 3) to the motion; the energy counts as external work.
+    void add_motion(const double* velocity, const double* spin);
+    // Ends all motion; its energy counts as damped.
+    void stop();
+    double external_work() const { return outside_work_ + work_to_come() + gravity_work() + contact_->obstacles().external_work(); }
 
     const Model& model() const { return *model_; }
     const Blocks& blocks() const { return blocks_; }
@@ -92,7 +99,7 @@ private:
     double kinetic() const;
     double work_to_come() const;
     double gravity_work() const;
-    Motions motions() const { return {position_.data(), velocity_.data()}; }
+    Motions motions() const { return {position_.data(), velocity_.data(), dt_}; }
     double kick() const { return 0.5 * (dt_ + last_dt_); }
 
     std::shared_ptr<const Model> model_;

@@ -15,8 +15,9 @@ from crumple._core.shell_model import (
     Hourglass,
     NodalLoad,
     PrescribedVelocity,
-    RigidPlane,
+    RigidObstacle,
     RigidSet,
+    Shape,
     Sheet,
     ShellMaterial,
     ShellModel,
@@ -29,8 +30,9 @@ __all__ = [
     "Hourglass",
     "NodalLoad",
     "PrescribedVelocity",
-    "RigidPlane",
+    "RigidObstacle",
     "RigidSet",
+    "Shape",
     "Sheet",
     "ShellMaterial",
     "ShellModel",
@@ -222,6 +224,17 @@ class ShellState:
         return _array(self._core.rigid_states())
 
     @property
+    def obstacles(self) -> Floats:
+        """Per obstacle, (k, 12): displacement [m] and its rate, angle [rad] and its rate, force of the structure
+        on it [N], deepest penetration so far over half the wall's thickness."""
+        return _array(self._core.obstacle_states())
+
+    @property
+    def external_work(self) -> float:
+        """Work from outside so far [J], as in `energies` but at less cost."""
+        return float(self._core.external_work())
+
+    @property
     def internal_forces(self) -> Floats:
         """Internal force [N] and moment [N m] per node, (n, 6): what from outside would hold it."""
         return _array(self._core.node_forces())
@@ -238,8 +251,21 @@ class ShellState:
         """
         return {name: _array(values) for name, values in self._core.save().items()}
 
-    def restore(self, saved: Mapping[str, Floats]) -> None:
+    def add_motion(self, velocity: Floats, spin: Floats) -> None:
+        """Add velocities [m/s] and angular velocities [rad/s], (n, 3) each; what is held or driven stays so."""
+        self._core.add_motion(floats(velocity), floats(spin))
+
+    def stop(self) -> None:
+        """End all motion; its energy counts as damped."""
+        self._core.stop()
+
+    def restore(self, saved: Mapping[str, Floats], *, of_stage_before: bool = False) -> None:
         """Go back to a checkpoint of the same model.
+
+        Parameters
+        ----------
+        of_stage_before
+            Go on from a checkpoint of a model that differs in drives, loads, damping and present obstacles alone.
 
         Raises
         ------
@@ -247,7 +273,7 @@ class ShellState:
             If the checkpoint belongs to another model or instruction set.
         """
         try:
-            self._core.restore({name: floats(saved[name]) for name in saved})
+            self._core.restore({name: floats(saved[name]) for name in saved}, not of_stage_before)
         except ValueError as error:
             raise InputError(str(error)) from error
 

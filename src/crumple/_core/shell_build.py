@@ -9,7 +9,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple._core import _kernels
-from crumple._core.shell_model import Floats, Hourglass, Indices, ShellMaterial, ShellModel, ShellSettings
+from crumple._core.shell_model import (
+    Floats,
+    History,
+    Hourglass,
+    Indices,
+    RigidObstacle,
+    ShellMaterial,
+    ShellModel,
+    ShellSettings,
+)
 
 kernel: Any = _kernels.shell
 _DOFS = {"x": 0, "y": 1, "z": 2, "rx": 3, "ry": 4, "rz": 5}
@@ -82,11 +91,33 @@ def _add_sets(core: Any, model: ShellModel) -> None:
         core.motion(
             motion.rigid_set, motion.target, _DOFS[motion.dof], floats(motion.time), floats(motion.value)
         )
-    for plane in model.planes:
-        nodes = _indices(np.arange(len(model.position)) if plane.nodes is None else plane.nodes)
-        core.plane(floats(plane.point), floats(plane.normal), plane.friction, plane.gap, nodes)
+    for obstacle in model.obstacles:
+        core.obstacle(_obstacle(obstacle, _walls_nodes(model)))
     for cut in model.cuts:
         core.cut(_indices(cut.elements), _indices(cut.nodes))
+
+
+def _walls_nodes(model: ShellModel) -> Indices:
+    """Nodes that belong to an element: the others have no wall that could touch."""
+    return _indices(np.unique(model.elements))
+
+
+def _obstacle(obstacle: RigidObstacle, walls: Indices) -> dict[str, Any]:
+    vectors = ("point", "axis", "edge", "guide", "velocity", "turn_about", "turn_axis")
+    numbers = ("radius", "length", "friction", "gap", "mass", "active")
+    nodes = walls if obstacle.nodes is None else np.intersect1d(walls, obstacle.nodes)
+    return {
+        **{name: floats(getattr(obstacle, name)) for name in vectors},
+        **{name: getattr(obstacle, name) for name in numbers},
+        "shape": obstacle.shape.value,
+        "motion": [_history(history) for history in obstacle.motion],
+        "turning": _history(obstacle.turning),
+        "nodes": _indices(nodes),
+    }
+
+
+def _history(history: History | None) -> tuple[Floats, Floats] | None:
+    return None if history is None else (floats(history[0]), floats(history[1]))
 
 
 def _add_settings(core: Any, s: ShellSettings) -> None:

@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.uint32]
+History = tuple[ArrayLike, ArrayLike]
+"""Times and values."""
 
 _INFINITY = float("inf")
 
@@ -125,14 +127,60 @@ class PrescribedVelocity:
     rigid_set: bool = False
 
 
-@dataclass(frozen=True)
-class RigidPlane:
-    """Solid half space behind a plane; ``gap``: distance at first touch [m]; ``nodes`` None: all."""
+class Shape(Enum):
+    """Solid that an obstacle is: half space, its part behind an edge, capsule, endless cylinder, ball."""
 
+    PLANE = 0
+    EDGE = 1
+    CYLINDER = 2
+    POLE = 3
+    SPHERE = 4
+
+
+@dataclass(frozen=True)
+class RigidObstacle:
+    """Rigid solid that nodes can touch.
+
+    Attributes
+    ----------
+    shape, point
+        What it is; a point on the plane or its edge, on the axis (one end of a capsule's), or the centre [m].
+    axis
+        Normal out of the plane, or direction of the cylinder; of any length.
+    edge
+        Of an edge: direction out of the solid beyond it, across the axis.
+    radius, length
+        [m].
+    friction, gap
+        Coulomb coefficient; distance kept beside half the wall's thickness [m].
+    mass, guide, velocity
+        Mass on a guide [kg], the guide's direction, velocity at the start [m/s]; without mass it is fixed or driven.
+    motion
+        (times [s], velocities [m/s]) along x, y and z, None where it stays.
+    turn_about, turn_axis, turning
+        Axis of a prescribed rotation after the displacements, and (times, rates [rad/s]).
+    active
+        Whether it is there.
+    nodes
+        That can touch it; None: all.
+    """
+
+    shape: Shape
     point: tuple[float, float, float]
-    normal: tuple[float, float, float]
+    axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    edge: tuple[float, float, float] = (1.0, 0.0, 0.0)
+    radius: float = 0.0
+    length: float = 0.0
     friction: float = 0.0
     gap: float = 0.0
+    mass: float = 0.0
+    guide: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    motion: tuple[History | None, History | None, History | None] = (None, None, None)
+    turn_about: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    turn_axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    turning: History | None = None
+    active: bool = True
     nodes: Sequence[int] | Indices | None = None
 
 
@@ -229,6 +277,6 @@ class ShellModel:
     rigid_sets: Sequence[RigidSet] = ()
     loads: Sequence[NodalLoad] = ()
     motions: Sequence[PrescribedVelocity] = ()
-    planes: Sequence[RigidPlane] = ()
+    obstacles: Sequence[RigidObstacle] = ()
     cuts: Sequence[Cut] = ()
     settings: ShellSettings = field(default_factory=ShellSettings)

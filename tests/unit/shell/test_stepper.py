@@ -10,8 +10,9 @@ from crumple._core.shell import (
     Cut,
     NodalLoad,
     PrescribedVelocity,
-    RigidPlane,
+    RigidObstacle,
     RigidSet,
+    Shape,
     Sheet,
     ShellModel,
     ShellState,
@@ -187,8 +188,8 @@ def test_sheet_bounces_off_a_plane_and_friction_slows_it():
     x, quads = grid(3, 3, 0.03, 0.03)
     x[:, 2] = 0.002
     velocity = np.tile([5.0, 0.0, -10.0], (len(x), 1))
-    plane = RigidPlane((0, 0, 0), (0, 0, 2.0), friction=0.2, gap=1e-3)
-    state = ShellState(model(x, quads, 2e-3, velocity=velocity, planes=[plane]))
+    plane = RigidObstacle(Shape.PLANE, (0, 0, 0), axis=(0, 0, 2.0), friction=0.2)
+    state = ShellState(model(x, quads, 2e-3, velocity=velocity, obstacles=[plane]))
     first = state.energies["kinetic"]
     state.advance(5e-4)
     v = state.velocity[0].mean(axis=0)

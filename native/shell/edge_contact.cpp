@@ -1,0 +1,181 @@
+#include "edge_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace crumple::shell {
+
+namespace {
+
+// Cosine of the angle between two elements' normals below which their common edge is a crease (30 degrees):
+// flatter folds are still held by their nodes, since an edge that crosses them must pass a node first.
+constexpr double crease = 0.866;
+// Squared sine of the angle of two edges below which they are parallel and answer by their nodes (10 degrees).
+constexpr double parallel = 0.03;
+
+struct Crossing {
+    double s, t;                     // places along both segments, 0 to 1
+    Vec3 apart;                      // from the second to the first
+    bool inside;                     // within both segments and not parallel
+};
+
+Crossing crossing(Vec3 a0, Vec3 a1, Vec3 b0, Vec3 b1) {
+    const Vec3 u = a1 - a0, v = b1 - b0, r = a0 - b0;
+    const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), ur = dot(u, r), vr = dot(v, r), d = uu * vv - uv * uv;
+    Crossing c{};
+    if (!(d > parallel * uu * vv)) return c;
+    c.s = (uv * vr - vv * ur) / d;
+    c.t = (uu * vr - uv * ur) / d;
+    c.apart = r + c.s * u - c.t * v;
+    c.inside = c.s > 0.0 && c.s < 1.0 && c.t > 0.0 && c.t < 1.0;
+    return c;
+}
+
+}  // namespace
+
+EdgeContact::EdgeContact(const Sheets& sheets, const WallContact& walls) : sheets_(sheets), walls_(walls) { list_edges(); }
+
+void EdgeContact::list_edges() {
+    const Model& model = sheets_.model;
+    std::map<std::pair<Index, Index>, std::size_t> known;
+    for (std::size_t e = 0; e < model.elements(); e++)
+        for (std::size_t c = 0; c < 4; c++) {
+            const Index a = model.quads[4 * e + c], b = model.quads[4 * e + (c + 1) % 4];
+            if (a == b) continue;
+            const auto [at, fresh] = known.try_emplace({std::min(a, b), std::max(a, b)}, edges_.size());
+            if (fresh) edges_.push_back({{std::min(a, b), std::max(a, b)}, 0.0, {}, {}});
+            Edge& edge = edges_[at->second];
+            edge.elements.push_back(Index(e));
+            edge.sense.push_back(a < b ? 1 : -1);
+        }
+    for (Edge& edge : edges_) {
+        for (Index e : edge.elements) edge.half += sheets_.half_of(e) / double(edge.elements.size());
+        if (model.contact.gap > 0.0) edge.half = 0.5 * model.contact.gap;
+    }
+}
+
+bool EdgeContact::stands_out(const Motions& m, const std::vector<std::uint8_t>& alive, const Edge& edge) const {
+    Vec3 normal[2];
+    int count = 0;
+    for (std::size_t k = 0; k < edge.elements.size(); k++) {
+        if (!alive[edge.elements[k]]) continue;
+        if (count < 2) {
+            Vec3 x[4];
+            sheets_.corners(m.position, position_record, edge.elements[k], x);
+            // two elements that look the same way run along their edge in opposite directions
+            normal[count] = (count == 0 ? double(edge.sense[k]) : -double(edge.sense[k])) * cross(x[2] - x[0], x[3] - x[1]);
+        }
+        count++;
+    }
+    if (count != 2) return count > 0;
+    return dot(normal[0], normal[1]) < crease * std::sqrt(dot(normal[0], normal[0]) * dot(normal[1], normal[1]));
+}
+
+bool EdgeContact::same_sheet(const Edge& a, const Edge& b) const {
+    auto near = [this](const Edge& from, const Edge& to) {
+        for (Index n : from.node)
+            for (Index e : to.elements)
+                if (walls_.neighbour(n, e)) return true;
+        return false;
+    };
+    return near(a, b) || near(b, a);
+}
+
+void EdgeContact::search(const Motions& m, const std::vector<std::uint8_t>& alive, double skin) {
+    std::vector<Index> out;
+    for (Index i = 0; i < edges_.size(); i++)
+        if (stands_out(m, alive, edges_[i])) out.push_back(i);
+    // middles of edges in the boxes of others, grown by what the halves of both can reach
+    double longest = 0.0;
+    std::vector<double> middle;
+    for (Index i : out) {
+        const Vec3 a = position_of(m, edges_[i].node[0]), b = position_of(m, edges_[i].node[1]), c = 0.5 * (a + b);
+        longest = std::max(longest, norm(b - a));
+        middle.insert(middle.end(), {c.x, c.y, c.z});
+    }
+    std::vector<Box> boxes;
+    const double far = walls_.reach() + skin;
+    for (Index i : out) boxes.push_back(box_around<2>(m.position, position_record, edges_[i].node, far + 0.5 * longest));
+    std::vector<Pair> pairs;
+    for (auto [p, q] : points_in_boxes(middle.data(), 3, out.size(), boxes, std::vector<std::uint8_t>(out.size(), 1))) {
+        if (p >= q) continue;
+        const Index i = out[p], j = out[q];
+        const Edge &a = edges_[i], &b = edges_[j];
+        const Vec3 ca = read3(&middle[3 * p]), cb = read3(&middle[3 * q]);
+        if (norm(ca - cb) > far + longest || same_sheet(a, b)) continue;
+        pairs.push_back({i, j, a.half + b.half, {}});
+    }
+    auto before = [](const Pair& a, const Pair& b) { return a.first != b.first ? a.first < b.first : a.second < b.second; };
+    std::sort(pairs.begin(), pairs.end(), before);
+    for (Pair& p : pairs) {
+        const auto old = std::lower_bound(pairs_.begin(), pairs_.end(), p, before);
+        if (old != pairs_.end() && !before(p, *old)) {
+            p = *old;
+            continue;
+        }
+        // an edge that has just become a crease beside another keeps the distance that it has
+        const Edge &a = edges_[p.first], &b = edges_[p.second];
+        const Crossing c = crossing(position_of(m, a.node[0]), position_of(m, a.node[1]), position_of(m, b.node[0]), position_of(m, b.node[1]));
+        if (c.inside) p.gap = std::min(p.gap, norm(c.apart));
+    }
+    pairs_ = std::move(pairs);
+    touch_.assign(pairs_.size(), Touch{});
+}
+
+void EdgeContact::evaluate(const Motions& m, std::size_t i) {
+    Pair& p = pairs_[i];
+    const Edge &a = edges_[p.first], &b = edges_[p.second];
+    Touch& touch = touch_[i];
+    touch.active = false;
+    const Vec3 a0 = position_of(m, a.node[0]), b0 = position_of(m, b.node[0]);
+    const Crossing c = crossing(a0, position_of(m, a.node[1]), b0, position_of(m, b.node[1]));
+    const double distance = norm(c.apart);
+    if (!c.inside || !(distance < p.gap) || !(distance > 0.0)) {
+        p.stick = {};
+        return;
+    }
+    const double w[4] = {1.0 - c.s, c.s, 1.0 - c.t, c.t};
+    double compliance = 0.0;
+    Vec3 slip;
+    for (std::size_t k = 0; k < 4; k++) {
+        const Index n = k < 2 ? a.node[k] : b.node[k - 2];
+        compliance += w[k] * w[k] / sheets_.mass[n];
+        slip = slip + (k < 2 ? w[k] : -w[k]) * velocity_of(m, n);
+    }
+    const ContactSettings& s = sheets_.model.contact;
+    const Bond bond = bond_of(s, 1.0 / compliance, sheets_.step, s.friction);
+    touch = {force_of(bond, p.gap - distance, (1.0 / distance) * c.apart, slip, m.step, p.stick), c.s, c.t,
+             (p.gap - distance) / (a.half + b.half), true};
+}
+
+double EdgeContact::commit(NodeForces& forces) const {
+    double deepest = 0.0;
+    for (std::size_t i = 0; i < touch_.size(); i++) {
+        const Touch& t = touch_[i];
+        if (!t.active) continue;
+        const Edge &a = edges_[pairs_[i].first], &b = edges_[pairs_[i].second];
+        deepest = std::max(deepest, t.depth);
+        forces.add(a.node[0], (1.0 - t.s) * t.force);
+        forces.add(a.node[1], t.s * t.force);
+        forces.add(b.node[0], (t.t - 1.0) * t.force);
+        forces.add(b.node[1], (-t.t) * t.force);
+    }
+    return deepest;
+}
+
+void EdgeContact::save(std::vector<double>& out) const {
+    out.push_back(double(pairs_.size()));
+    for (const Pair& p : pairs_) out.insert(out.end(), {double(p.first), double(p.second), p.gap, p.stick.x, p.stick.y, p.stick.z});
+}
+
+void EdgeContact::restore(const double*& in) {
+    pairs_.resize(std::size_t(*in++));
+    for (Pair& p : pairs_) {
+        p = {Index(in[0]), Index(in[1]), in[2], read3(in + 3)};
+        in += 6;
+    }
+    touch_.assign(pairs_.size(), Touch{});
+}
+
+}  // namespace crumple::shell

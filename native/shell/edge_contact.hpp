@@ -1,0 +1,52 @@
+// Edges against edges: rims of the sheet and creases, where two can cross between their nodes.
+//
+// Nodes against elements hold a wall against a wall and an edge against a wall; two edges that cross
+// have no node in contact.  An edge is a rim (one element), a branch (three and more) or a crease: its
+// elements now at an angle.  Theory: docs/theory/contact.md.
+#pragma once
+#include "wall_contact.hpp"
+
+namespace crumple::shell {
+
+class EdgeContact {
+public:
+    EdgeContact(const Sheets& sheets, const WallContact& walls);
+
+    std::size_t items() const { return pairs_.size(); }
+    void evaluate(const Motions& m, std::size_t item);
+    double commit(NodeForces& forces) const;
+    void search(const Motions& m, const std::vector<std::uint8_t>& alive, double skin);
+
+    void save(std::vector<double>& out) const;
+    void restore(const double*& in);
+
+private:
+    struct Edge {
+        Index node[2];
+        double half;                 // half the thickness there
+        std::vector<Index> elements;
+        std::vector<std::int8_t> sense;          // +1 where the element runs along the edge from first to second
+    };
+    struct Pair {
+        Index first, second;         // edges
+        double gap;                  // distance kept: that of the walls, or what it was when the pair was found
+        Vec3 stick;
+    };
+    struct Touch {
+        Vec3 force;                  // on the first edge
+        double s, t;                 // places along the edges
+        double depth;                // penetration over gap
+        bool active;
+    };
+    void list_edges();
+    bool stands_out(const Motions& m, const std::vector<std::uint8_t>& alive, const Edge& e) const;
+    bool same_sheet(const Edge& a, const Edge& b) const;
+
+    const Sheets& sheets_;
+    const WallContact& walls_;
+    std::vector<Edge> edges_;
+    std::vector<Pair> pairs_;        // in order of their edges
+    std::vector<Touch> touch_;
+};
+
+}  // namespace crumple::shell

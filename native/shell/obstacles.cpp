@@ -1,0 +1,256 @@
+#include "obstacles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace crumple::shell {
+
+namespace {
+
+// Walls heavier than so many times an obstacle's mass soften its penalty: the springs of all nodes act on the one
+// mass, and the sum of their shares of the stability limit must stay below that limit.
+constexpr double heaviest_walls = 4.0;
+
+// turn about a unit axis
+Mat3 turned(Vec3 k, double angle) {
+    const double c = std::cos(angle), s = std::sin(angle), d = 1.0 - c;
+    return Mat3{{c + d * k.x * k.x, d * k.x * k.y - s * k.z, d * k.x * k.z + s * k.y,
+                 d * k.y * k.x + s * k.z, c + d * k.y * k.y, d * k.y * k.z - s * k.x,
+                 d * k.z * k.x - s * k.y, d * k.z * k.y + s * k.x, c + d * k.z * k.z}};
+}
+
+Distance from_round(Vec3 apart, double radius, Vec3 otherwise) {
+    const double size = norm(apart);
+    return {size - radius, size > 0.0 ? (1.0 / size) * apart : otherwise};
+}
+
+}  // namespace
+
+Distance distance_from(const Obstacle& o, Vec3 x) {
+    const Vec3 r = x - o.point;
+    switch (o.shape) {
+        case Shape::plane: return {dot(r, o.axis), o.axis};
+        case Shape::edge: {
+            // the corner between the plane and the side below its edge
+            const double above = dot(r, o.axis), beyond = dot(r, o.edge);
+            if (above > 0.0 && beyond > 0.0) return from_round(above * o.axis + beyond * o.edge, 0.0, o.axis);
+            return above >= beyond ? Distance{above, o.axis} : Distance{beyond, o.edge};
+        }
+        case Shape::cylinder: return from_round(r - std::clamp(dot(r, o.axis), 0.0, o.length) * o.axis, o.radius, o.edge);
+        case Shape::pole: return from_round(r - dot(r, o.axis) * o.axis, o.radius, o.edge);
+        case Shape::sphere: return from_round(r, o.radius, o.edge);
+    }
+    return {};
+}
+
+ObstacleContact::ObstacleContact(const Sheets& sheets)
+    : sheets_(sheets), model_(sheets.model.obstacles), states_(model_.size()), turn_(model_.size()), present_(model_.size(), 0),
+      searched_at_(model_.size()) {
+    for (std::size_t i = 0; i < model_.size(); i++) {
+        const Obstacle& o = model_[i];
+        states_[i].velocity = o.mass > 0.0 ? o.velocity : Vec3{};
+        double walls = 0.0;
+        for (Index n : o.nodes) walls += sheets.mass[n];
+        soft_.push_back(o.mass > 0.0 ? std::min(1.0, heaviest_walls * o.mass / walls) : 1.0);
+        gap_.emplace_back(o.nodes.size(), 0.0);
+        stick_.emplace_back(o.nodes.size());
+    }
+}
+
+Vec3 ObstacleContact::in_frame(std::size_t o, Vec3 x) const {
+    const Vec3 c = model_[o].turn_about;
+    return c + transposed_times(turn_[o], x - c) - states_[o].shift;
+}
+
+void ObstacleContact::place(const Motions& m) {
+    for (std::size_t i = 0; i < model_.size(); i++) {
+        const bool appears = model_[i].active && !present_[i];
+        present_[i] = model_[i].active;
+        if (!appears) continue;
+        for (std::size_t k = 0; k < gap_[i].size(); k++) {
+            const Index n = model_[i].nodes[k];
+            const double distance = distance_from(model_[i], in_frame(i, position_of(m, n))).value;
+            gap_[i][k] = std::min(sheets_.half[n] + model_[i].gap, distance);
+            stick_[i][k] = {};
+        }
+    }
+}
+
+double ObstacleContact::acceleration(std::size_t i) const {
+    const Obstacle& o = model_[i];
+    return dot(states_[i].force, o.guide) / o.mass + dot(sheets_.model.settings.gravity, o.guide);
+}
+
+void ObstacleContact::move(double time, double kick, double drift) {
+    const double middle = time + 0.5 * drift;
+    for (std::size_t i = 0; i < model_.size(); i++) {
+        const Obstacle& o = model_[i];
+        State& s = states_[i];
+        if (!o.active) continue;
+        if (o.mass > 0.0) {
+            s.velocity = s.velocity + (kick * acceleration(i)) * o.guide;
+        } else {
+            const auto rate = [&](const Curve& c) { return c.time.empty() ? 0.0 : c.at(middle); };
+            s.velocity = {rate(o.motion[0]), rate(o.motion[1]), rate(o.motion[2])};
+            s.rate = rate(o.turning);
+        }
+        s.shift = s.shift + drift * s.velocity;
+        s.angle += drift * s.rate;
+        if (s.angle != 0.0) turn_[i] = turned(o.turn_axis, s.angle);
+    }
+}
+
+void ObstacleContact::evaluate(const Motions& m, std::size_t i) {
+    const Item item = items_[i];
+    const Obstacle& o = model_[item.obstacle];
+    const State& s = states_[item.obstacle];
+    const Index n = o.nodes[item.place];
+    const Vec3 x = position_of(m, n);
+    const Distance d = distance_from(o, in_frame(item.obstacle, x));
+    const double depth = gap_[item.obstacle][item.place] - d.value;
+    Vec3& stick = stick_[item.obstacle][item.place];
+    touch_[i].active = depth > 0.0;
+    if (!touch_[i].active) {
+        stick = {};
+        return;
+    }
+    const Vec3 surface = turn_[item.obstacle] * s.velocity + cross(s.rate * o.turn_axis, x - o.turn_about);
+    const double mass = soft_[item.obstacle] * sheets_.mass[n];
+    const Bond bond = bond_of(sheets_.model.contact, mass, sheets_.step, o.friction);
+    touch_[i].force = force_of(bond, depth, turn_[item.obstacle] * d.normal, velocity_of(m, n) - surface, m.step, stick);
+    touch_[i].moment = cross(x - o.turn_about, touch_[i].force);
+    touch_[i].depth = depth / sheets_.half[n];
+}
+
+double ObstacleContact::commit(NodeForces& forces) {
+    for (State& s : states_) {
+        s.force_before = s.force;
+        s.moment_before = s.moment;
+        s.force = s.moment = Vec3{};
+    }
+    double deepest = 0.0;
+    for (std::size_t i = 0; i < items_.size(); i++) {
+        if (!touch_[i].active) continue;
+        const Obstacle& o = model_[items_[i].obstacle];
+        State& s = states_[items_[i].obstacle];
+        forces.add(o.nodes[items_[i].place], touch_[i].force);
+        s.force = s.force - touch_[i].force;
+        s.moment = s.moment - touch_[i].moment;
+        s.deepest = std::max(s.deepest, touch_[i].depth);
+        deepest = std::max(deepest, touch_[i].depth);
+    }
+    return deepest;
+}
+
+double ObstacleContact::power(bool before) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < model_.size(); i++) {
+        const State& s = states_[i];
+        if (!model_[i].active) continue;
+        sum += dot(before ? s.force_before : s.force, turn_[i] * s.velocity);
+        sum += s.rate * dot(before ? s.moment_before : s.moment, model_[i].turn_axis);
+    }
+    return sum;
+}
+
+void ObstacleContact::book(double step) {
+    const Vec3 g = sheets_.model.settings.gravity;
+    for (std::size_t i = 0; i < model_.size(); i++) {
+        const State& s = states_[i];
+        if (!model_[i].active) continue;
+        if (model_[i].mass > 0.0)
+            outside_work_ += step * model_[i].mass * dot(g, s.velocity);
+        else
+            outside_work_ -= 0.5 * step * (dot(s.force + s.force_before, turn_[i] * s.velocity) +
+                                           s.rate * dot(s.moment + s.moment_before, model_[i].turn_axis));
+    }
+}
+
+double ObstacleContact::kinetic(double kick) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < model_.size(); i++) {
+        const Obstacle& o = model_[i];
+        if (!(o.mass > 0.0)) continue;
+        const double v = dot(states_[i].velocity, o.guide);
+        sum += 0.5 * o.mass * v * (o.active ? v + kick * acceleration(i) : v);
+    }
+    return sum;
+}
+
+double ObstacleContact::stop() {
+    const double lost = kinetic(0.0);
+    for (std::size_t i = 0; i < model_.size(); i++)
+        if (model_[i].mass > 0.0 && model_[i].active) states_[i].velocity = {};
+    return lost - kinetic(0.0);
+}
+
+double ObstacleContact::moved() const {
+    double most = 0.0;
+    for (std::size_t i = 0; i < model_.size(); i++) {
+        if (!model_[i].active) continue;
+        most = std::max(most, norm(states_[i].shift - searched_at_[i]));
+    }
+    return most;
+}
+
+// nodes beside an obstacle that turns are all listed: how far it sweeps depends on where they are
+void ObstacleContact::search(const Motions& m, double skin) {
+    items_.clear();
+    for (std::size_t i = 0; i < model_.size(); i++) {
+        searched_at_[i] = states_[i].shift;
+        if (!model_[i].active) continue;
+        const bool turns = !model_[i].turning.time.empty();
+        for (std::size_t k = 0; k < model_[i].nodes.size(); k++) {
+            const Vec3 x = in_frame(i, position_of(m, model_[i].nodes[k]));
+            if (turns || distance_from(model_[i], x).value < gap_[i][k] + skin)
+                items_.push_back({std::uint32_t(i), std::uint32_t(k)});
+            else
+                stick_[i][k] = {};
+        }
+    }
+    touch_.assign(items_.size(), Touch{});
+}
+
+void ObstacleContact::save(std::vector<double>& out) const {
+    out.push_back(outside_work_);
+    for (std::size_t i = 0; i < model_.size(); i++) {
+        const State& s = states_[i];
+        for (Vec3 v : {s.shift, s.velocity, s.force, s.moment, s.force_before, s.moment_before, searched_at_[i]})
+            out.insert(out.end(), {v.x, v.y, v.z});
+        out.insert(out.end(), {s.angle, s.rate, s.deepest, double(present_[i])});
+        for (std::size_t k = 0; k < gap_[i].size(); k++)
+            out.insert(out.end(), {gap_[i][k], stick_[i][k].x, stick_[i][k].y, stick_[i][k].z});
+    }
+    out.push_back(double(items_.size()));
+    for (const Item& item : items_) out.insert(out.end(), {double(item.obstacle), double(item.place)});
+}
+
+void ObstacleContact::restore(const double*& in) {
+    outside_work_ = *in++;
+    for (std::size_t i = 0; i < model_.size(); i++) {
+        State& s = states_[i];
+        for (Vec3* v : {&s.shift, &s.velocity, &s.force, &s.moment, &s.force_before, &s.moment_before, &searched_at_[i]}) {
+            *v = read3(in);
+            in += 3;
+        }
+        s.angle = in[0];
+        s.rate = in[1];
+        s.deepest = in[2];
+        present_[i] = in[3] != 0.0;
+        in += 4;
+        turn_[i] = s.angle != 0.0 ? turned(model_[i].turn_axis, s.angle) : Mat3{};
+        for (std::size_t k = 0; k < gap_[i].size(); k++, in += 4) {
+            gap_[i][k] = in[0];
+            stick_[i][k] = read3(in + 1);
+        }
+    }
+    items_.resize(std::size_t(*in++));
+    for (Item& item : items_) {
+        item = {std::uint32_t(in[0]), std::uint32_t(in[1])};
+        in += 2;
+    }
+    touch_.assign(items_.size(), Touch{});
+}
+
+}  // namespace crumple::shell

@@ -1,0 +1,67 @@
+// Nodes against elements.
+//
+// A node keeps the distance `gap` (half of both thicknesses) from every element but its neighbourhood in
+// the sheet: those within twice the gap at the start that hang together with it.  So elements may be
+// smaller than the wall is thick.  A node answers to the closest element and to the closest on its other
+// side, so that a wall between two walls is held by both.  Theory: docs/theory/contact.md.
+#pragma once
+#include "closest_point.hpp"
+#include "contact_search.hpp"
+#include "node_forces.hpp"
+
+namespace crumple::shell {
+
+class WallContact {
+public:
+    // Neighbourhood in the sheet over the gap: twice lets a fold of inner radius half a thickness still be seen
+    // (its points in contact were pi/2 thicknesses apart), and keeps compressed flat walls free of contact.
+    static constexpr double neighbourhood = 2.0;
+
+    explicit WallContact(const Sheets& sheets);
+
+    double reach() const { return reach_; }      // largest gap [m]
+    std::size_t items() const { return listed_.size(); }
+    void evaluate(const Motions& m, std::size_t item);
+    // Adds forces in fixed order; gives the deepest penetration over the gap.
+    double commit(NodeForces& forces) const;
+    void search(const Motions& m, const std::vector<std::uint8_t>& alive, double skin);
+    // Whether an element belongs to the node's own piece of sheet, or overlapped with it at the start.
+    bool neighbour(Index node, Index element) const;
+
+    void save(std::vector<double>& out) const;
+    void restore(const double*& in);
+
+private:
+    struct Candidate {
+        Index element;
+        std::int8_t side;            // side of the element on which the node is held, +1 or -1
+    };
+    struct Hit {
+        Closest at;
+        Vec3 direction;
+        double gap, depth;
+        Index element;
+    };
+    struct Touch {                   // force on the node; its opposite goes to the corners by weight
+        Vec3 force;
+        double weight[4];
+        double depth;                // penetration over gap
+        Index element;
+        bool active;
+    };
+    void list_neighbours();
+    double gap(Index node, Index element) const;
+    bool hit(const Motions& m, Index node, Candidate c, Hit& found) const;
+    Touch touch(const Motions& m, Index node, const Hit& hit, Vec3& stick) const;
+
+    const Sheets& sheets_;
+    double reach_ = 0.0;
+    std::vector<Index> neighbour_first_, neighbours_;
+    std::vector<Index> listed_;                  // nodes with candidates
+    std::vector<std::size_t> candidate_first_{0};
+    std::vector<Candidate> candidates_;
+    std::vector<Touch> touch_;                   // two for each listed node
+    std::vector<Vec3> stick_;                    // two for each node
+};
+
+}  // namespace crumple::shell
