@@ -32,6 +32,16 @@ Crossing crossing(Vec3 a0, Vec3 a1, Vec3 b0, Vec3 b1) {
     return c;
 }
 
+double segment_distance(Vec3 a0, Vec3 a1, Vec3 b0, Vec3 b1) {
+    const Crossing c = crossing(a0, a1, b0, b1);
+    if (c.inside) return norm(c.apart);
+    auto from = [](Vec3 p, Vec3 s0, Vec3 s1) {
+        const Vec3 u = s1 - s0;
+        return norm(p - s0 - std::clamp(dot(p - s0, u) / dot(u, u), 0.0, 1.0) * u);
+    };
+    return std::min({from(a0, b0, b1), from(a1, b0, b1), from(b0, a0, a1), from(b1, a0, a1)});
+}
+
 }  // namespace
 
 EdgeContact::EdgeContact(const Sheets& sheets, const WallContact& walls) : sheets_(sheets), walls_(walls) { list_edges(); }
@@ -102,8 +112,9 @@ void EdgeContact::search(const Motions& m, const std::vector<std::uint8_t>& aliv
         if (p >= q) continue;
         const Index i = out[p], j = out[q];
         const Edge &a = edges_[i], &b = edges_[j];
-        const Vec3 ca = read3(&middle[3 * p]), cb = read3(&middle[3 * q]);
-        if (norm(ca - cb) > far + longest || same_sheet(a, b)) continue;
+        const Vec3 a0 = position_of(m, a.node[0]), a1 = position_of(m, a.node[1]);
+        const Vec3 b0 = position_of(m, b.node[0]), b1 = position_of(m, b.node[1]);
+        if (segment_distance(a0, a1, b0, b1) > far || same_sheet(a, b)) continue;
         pairs.push_back({i, j, a.half + b.half, {}});
     }
     auto before = [](const Pair& a, const Pair& b) { return a.first != b.first ? a.first < b.first : a.second < b.second; };

@@ -98,10 +98,8 @@ void WallContact::search(const Motions& m, const std::vector<std::uint8_t>& aliv
         if (!(sheets_.half[n] > 0.0) || neighbour(n, e)) continue;
         Vec3 x[4];
         sheets_.corners(m.position, position_record, e, x);
-        const Vec3 p = position_of(m, n);
-        if (closest_on_quad(p, x).distance > far) continue;
-        const Vec3 centre = 0.25 * ((x[0] + x[1]) + (x[2] + x[3])), normal = cross(x[2] - x[0], x[3] - x[1]);
-        std::int8_t side = dot(p - centre, normal) >= 0.0 ? 1 : -1;
+        if (closest_on_quad(position_of(m, n), x).distance > far) continue;
+        std::int8_t side = 0;
         // a pair known already keeps its side, even where the node has been pressed through
         while (old < listed_.size() && listed_[old] < n) old++;
         if (old < listed_.size() && listed_[old] == n)
@@ -124,24 +122,32 @@ void WallContact::search(const Motions& m, const std::vector<std::uint8_t>& aliv
     touch_.assign(2 * listed_.size(), Touch{});
 }
 
-// Whether the node is nearer to the element than the gap, and how.
-bool WallContact::hit(const Motions& m, Index n, Candidate c, Hit& found) const {
+// Whether the node is nearer to the element than the gap, and how.  The side on which it is held is the one from
+// which it comes to lie over the element; beside the border there is none.
+bool WallContact::hit(const Motions& m, Index n, Candidate& c, Hit& found) const {
     const Vec3 p = position_of(m, n);
     const double g = gap(n, c.element);
     Vec3 x[4];
     sheets_.corners(m.position, position_record, c.element, x);
-    // reject by the ball around the element
-    const Vec3 centre = 0.25 * ((x[0] + x[1]) + (x[2] + x[3])), away = p - centre;
+    // reject by the slab and the ball around the element
+    const Vec3 centre = 0.25 * ((x[0] + x[1]) + (x[2] + x[3])), away = p - centre, across = cross(x[2] - x[0], x[3] - x[1]);
     double ball = 0.0;
     for (const Vec3& corner : x) ball = std::max(ball, dot(corner - centre, corner - centre));
     const double far = std::sqrt(ball) + g;
-    if (dot(away, away) > far * far) return false;
-    const Closest q = closest_on_quad(p, x);
-    if (q.distance >= g) return false;
-    const Vec3 across = cross(x[2] - x[0], x[3] - x[1]), normal = (double(c.side) / norm(across)) * across;
+    const double size = norm(across), high = std::abs(dot(away, across)), warp = std::abs(dot(x[0] - centre, across));
+    const bool near = high < g * size + warp && dot(away, away) < far * far;
+    const Closest q = near ? closest_on_quad(p, x) : Closest{};
+    if (!near || q.distance >= g) {
+        c.side = 0;
+        return false;
+    }
     const Vec3 d = p - q.point;
-    const bool through = q.inside && dot(d, normal) < 0.0, on_it = q.distance < 1e-9 * g;
-    found = {q, through || on_it ? normal : (1.0 / q.distance) * d, g, g - (through ? -q.distance : q.distance), c.element};
+    if (!q.inside) c.side = 0;
+    else if (c.side == 0) c.side = dot(d, across) >= 0.0 ? 1 : -1;
+    const Vec3 normal = (double(c.side) / size) * across;
+    const bool through = dot(d, normal) < 0.0, on_it = q.distance < 1e-9 * g;
+    found = {q, through || (on_it && q.inside) ? normal : (1.0 / std::max(q.distance, 1e-9 * g)) * d, g,
+             g - (through ? -q.distance : q.distance), c.element};
     return true;
 }
 

@@ -34,7 +34,7 @@ public:
 private:
     struct Candidate {
         Index element;
-        std::int8_t side;            // side of the element on which the node is held, +1 or -1
+        std::int8_t side;            // of the element on which the node is held, +1 or -1; 0: not over it
     };
     struct Hit {
         Closest at;
@@ -51,7 +51,7 @@ private:
     };
     void list_neighbours();
     double gap(Index node, Index element) const;
-    bool hit(const Motions& m, Index node, Candidate c, Hit& found) const;
+    bool hit(const Motions& m, Index node, Candidate& c, Hit& found) const;
     Touch touch(const Motions& m, Index node, const Hit& hit, Vec3& stick) const;
 
     const Sheets& sheets_;
