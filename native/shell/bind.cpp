@@ -84,13 +84,13 @@ static Array rigid_states(const Simulation& s) {
     return to_array(std::move(v), {s.body_states().size(), 18});
 }
 
-// displacement, its rate, angle and its rate, force of the structure on it, penetration over half the wall (12)
+// displacement, its rate, angle and its rate, force and impulse of the structure on it, deepest penetration (15)
 static Array obstacle_states(const Simulation& s) {
     std::vector<double> v;
     for (const ObstacleContact::State& o : s.contact().obstacles().states())
         v.insert(v.end(), {o.shift.x, o.shift.y, o.shift.z, o.velocity.x, o.velocity.y, o.velocity.z, o.angle, o.rate, o.force.x,
-                           o.force.y, o.force.z, o.deepest});
-    return to_array(std::move(v), {s.contact().obstacles().states().size(), 12});
+                           o.force.y, o.force.z, o.impulse.x, o.impulse.y, o.impulse.z, o.deepest});
+    return to_array(std::move(v), {s.contact().obstacles().states().size(), 15});
 }
 
 static nb::dict save(const Simulation& s) {

@@ -157,7 +157,8 @@ double ObstacleContact::power(bool before) const {
 void ObstacleContact::book(double step) {
     const Vec3 g = sheets_.model.settings.gravity;
     for (std::size_t i = 0; i < model_.size(); i++) {
-        const State& s = states_[i];
+        State& s = states_[i];
+        s.impulse = s.impulse + (0.5 * step) * (s.force + s.force_before);
         if (!model_[i].active) continue;
         if (model_[i].mass > 0.0)
             outside_work_ += step * model_[i].mass * dot(g, s.velocity);
@@ -216,7 +217,7 @@ void ObstacleContact::save(std::vector<double>& out) const {
     out.push_back(outside_work_);
     for (std::size_t i = 0; i < model_.size(); i++) {
         const State& s = states_[i];
-        for (Vec3 v : {s.shift, s.velocity, s.force, s.moment, s.force_before, s.moment_before, searched_at_[i]})
+        for (Vec3 v : {s.shift, s.velocity, s.force, s.moment, s.force_before, s.moment_before, s.impulse, searched_at_[i]})
             out.insert(out.end(), {v.x, v.y, v.z});
         out.insert(out.end(), {s.angle, s.rate, s.deepest, double(present_[i])});
         for (std::size_t k = 0; k < gap_[i].size(); k++)
@@ -230,7 +231,7 @@ void ObstacleContact::restore(const double*& in) {
     outside_work_ = *in++;
     for (std::size_t i = 0; i < model_.size(); i++) {
         State& s = states_[i];
-        for (Vec3* v : {&s.shift, &s.velocity, &s.force, &s.moment, &s.force_before, &s.moment_before, &searched_at_[i]}) {
+        for (Vec3* v : {&s.shift, &s.velocity, &s.force, &s.moment, &s.force_before, &s.moment_before, &s.impulse, &searched_at_[i]}) {
             *v = read3(in);
             in += 3;
         }

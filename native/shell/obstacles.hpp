@@ -22,6 +22,7 @@ public:
         double angle = 0.0, rate = 0.0;
         Vec3 force, moment;          // of the structure on it, moment about c
         Vec3 force_before, moment_before;
+        Vec3 impulse;                // of the structure on it so far [N s]
         double deepest = 0.0;        // penetration so far over half the wall's thickness
     };
 

@@ -225,8 +225,11 @@ class ShellState:
 
     @property
     def obstacles(self) -> Floats:
-        """Per obstacle, (k, 12): displacement [m] and its rate, angle [rad] and its rate, force of the structure
-        on it [N], deepest penetration so far over half the wall's thickness."""
+        """Motion of every obstacle and what acts on it, (k, 15).
+
+        Displacement [m] and its rate, angle [rad] and its rate, force [N] and impulse so far [N s] of the
+        structure on it, deepest penetration so far over half the wall's thickness.
+        """
         return _array(self._core.obstacle_states())
 
     @property
@@ -252,7 +255,7 @@ class ShellState:
         return {name: _array(values) for name, values in self._core.save().items()}
 
     def add_motion(self, velocity: Floats, spin: Floats) -> None:
-        """Add velocities [m/s] and angular velocities [rad/s], (n, 3) each; what is held or driven stays so."""
+        """Add velocities [m/s] and angular velocities [rad/s], (n, 3) each, but to what is held or driven."""
         self._core.add_motion(floats(velocity), floats(spin))
 
     def stop(self) -> None:
@@ -265,7 +268,7 @@ class ShellState:
         Parameters
         ----------
         of_stage_before
-            Go on from a checkpoint of a model that differs in drives, loads, damping and present obstacles alone.
+            Go on from a model that differs in drives, loads, damping and present obstacles alone.
 
         Raises
         ------

@@ -154,7 +154,7 @@ class RigidObstacle:
     friction, gap
         Coulomb coefficient; distance kept beside half the wall's thickness [m].
     mass, guide, velocity
-        Mass on a guide [kg], the guide's direction, velocity at the start [m/s]; without mass it is fixed or driven.
+        Mass on a guide [kg], the guide's direction, velocity at the start [m/s]; 0 kg: fixed or driven.
     motion
         (times [s], velocities [m/s]) along x, y and z, None where it stays.
     turn_about, turn_axis, turning

@@ -22,7 +22,7 @@ FIDELITIES = ("multibody", "shell")
 """Solvers by name."""
 UNSOLVED = {
     "multibody": ("obstacles", "member_contact", "analysis.stages"),
-    "shell": ("obstacles", "analysis.stages"),
+    "shell": (),
 }
 """Parts of a description that a solver does not take."""
 
@@ -144,5 +144,6 @@ def _shell(
         outputs=analysis.outputs,
         title=analysis.title,
         threads=threads,
+        stages=analysis.stages,
     )
     return solve_shell(analysis.structure, run, progress, cancel, long_run)

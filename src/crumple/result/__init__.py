@@ -7,6 +7,7 @@ from crumple.result.result import (
     OutputSummary,
     Provenance,
     Result,
+    StageSummary,
     States,
 )
 from crumple.result.store import read, write
@@ -19,6 +20,7 @@ __all__ = [
     "OutputSummary",
     "Provenance",
     "Result",
+    "StageSummary",
     "Standard",
     "States",
     "cfc",

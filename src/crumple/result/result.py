@@ -96,6 +96,16 @@ class HingeSummary:
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
+@dataclass(frozen=True)
+class StageSummary:
+    """One stage of a sequence: name, when it began and ended [s], and what ended it."""
+
+    name: str
+    start: float
+    end: float
+    ended_by: str
+
+
 @dataclass(frozen=True, eq=False)
 class States:
     """Deformed shapes at chosen times: a surface mesh of quadrilaterals (member walls).
@@ -189,6 +199,8 @@ class Result:
     provenance: Provenance
     output_names: tuple[str, ...] = ()
     """Names of the channels that the analysis asked for; they appear in `outputs` and summary.json."""
+    stages: tuple[StageSummary, ...] = ()
+    """Stages in their order, as far as the run came; empty where the analysis has none."""
 
     def __getitem__(self, name: str) -> Floats:
         """Values of one channel, shape (n_times,); KeyError with the nearest names when there is none."""

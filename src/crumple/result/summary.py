@@ -35,6 +35,7 @@ def summary(result: Result) -> dict[str, Any]:
         name: {"final": o.final, "max": o.max, "time_of_max": o.time_of_max, "unit": o.unit}
         for name, o in result.outputs.items()
     }
+    stages = [{"name": s.name, "start": s.start, "end": s.end, "ended_by": s.ended_by} for s in result.stages]
     content = {
         "title": result.title,
         "status": result.status.value,
@@ -44,6 +45,7 @@ def summary(result: Result) -> dict[str, Any]:
         "end_time": float(result.time[-1]) if result.time.size else None,
         "solve_seconds": result.solve_seconds,
         "energy_residual": result.energy_residual,
+        "stages": stages,
         "hinges": hinges,
         "outputs": outputs,
         "warnings": result.warnings,

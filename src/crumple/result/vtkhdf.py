@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crumple.errors import Status
-from crumple.result.result import Channel, HingeSummary, Provenance, Result, States
+from crumple.result.result import Channel, HingeSummary, Provenance, Result, StageSummary, States
 
 if TYPE_CHECKING:
     import h5py
@@ -153,6 +153,7 @@ def _write_rest(group: h5py.Group, result: Result, field_names: FieldNames) -> N
         "provenance": asdict(result.provenance),
         "channels": [[key, channel.name, channel.unit] for key, channel in channels],
         "hinges": hinges,
+        "stages": [asdict(stage) for stage in result.stages],
         "member_names": None if result.states is None else result.states.member_names,
         "fields": field_names,
     }
@@ -215,6 +216,8 @@ def read_vtkhdf(file: h5py.File) -> Result:
         time=time,
         states=None if text["member_names"] is None else _read_states(file, text),
         provenance=Provenance(**text["provenance"]),
+        # results of earlier versions have none
+        stages=tuple(StageSummary(**stage) for stage in text.get("stages", ())),
         reason=text["reason"],
         fidelity=text["fidelity"],
         title=text["title"],

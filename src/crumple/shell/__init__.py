@@ -7,7 +7,8 @@ structure becomes, `report_of` what the mesh is like.
 from crumple.shell.mesh import Mesh, Tube, mesh_of
 from crumple.shell.model import Lowered, lower
 from crumple.shell.quality import MeshReport, report_of
-from crumple.shell.solve import LongRun, Moment, ShellRun, solve_shell
+from crumple.shell.solve import solve_shell
+from crumple.shell.stepping import LongRun, Moment, ShellRun
 
 __all__ = [
     "LongRun",

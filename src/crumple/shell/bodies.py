@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -69,6 +69,23 @@ def _body(structure: Structure, mesh: Mesh, joint: Joint, number: int) -> Body:
         combined(lumps, place),
         tuple(freedom for freedom in FREEDOMS if freedom in held),
     )
+
+
+def moved(body: Body, before: Floats, now: Floats, row: Floats) -> Body:
+    """Body where its rigid set is now: the lump moves and turns with it.
+
+    Parameters
+    ----------
+    body
+        As it was at the start.
+    before, now
+        Position of its reference node at the start and now [m], (3,).
+    row
+        Of the stepper's rigid sets: centre of mass [m], velocity, angular velocity, rotation by rows, (18,).
+    """
+    turn, lump = row[9:].reshape(3, 3), body.lump
+    centre = now + turn @ (lump.centre - before)
+    return replace(body, lump=Lump(lump.mass, centre, turn @ lump.inertia @ turn.T))
 
 
 def combined(lumps: Iterable[Lump], place: Floats) -> Lump:

@@ -9,7 +9,7 @@ import numpy as np
 from crumple.result import Channel, HingeSummary
 from crumple.shell.contour import Floats
 from crumple.shell.places import HingeZone
-from crumple.shell.record import ENERGIES, Record, Sampler
+from crumple.shell.record import ENERGIES, IMPULSE, Record, Sampler
 from crumple.shell.sections import continuous, relative_rotation, rotation_vector
 from crumple.structure import Outputs, Structure
 
@@ -26,6 +26,7 @@ def channels_of(structure: Structure, sampler: Sampler, record: Record, outputs:
         *hinge_channels(sampler, record),
         *energy_channels(record),
         *cut_channels(sampler, record),
+        *obstacle_channels(structure, record),
         *node_channels(sampler, record),
         *section_channels(structure, sampler, record, outputs),
     ]
@@ -84,6 +85,26 @@ def cut_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
         for quantity, unit, column in (("force", "N", 0), ("moment", "N*m", 3)):
             for i, axis in enumerate(AXES):
                 yield Channel(f"{name}.{quantity}.{axis}", unit, record["cut"][:, k, column + i].copy())
+
+
+def obstacle_channels(structure: Structure, record: Record) -> Iterator[Channel]:
+    """Displacement and velocity of obstacles, and the structure's mean force on each since the last output.
+
+    Contact forces are spikes of single nodes; their mean keeps the impulse.
+    """
+    time = record["time"]
+    for k, name in enumerate(structure.obstacles):
+        rows = record["obstacle"][:, k]
+        steps = np.maximum(np.diff(time), np.finfo(float).tiny)[:, None]
+        force = np.concatenate([rows[:1, 8:11], np.diff(rows[:, IMPULSE], axis=0) / steps])
+        fields = (
+            ("force", "N", force),
+            ("displacement", "m", rows[:, :3]),
+            ("velocity", "m/s", rows[:, 3:6]),
+        )
+        for quantity, unit, values in fields:
+            for i, axis in enumerate(AXES):
+                yield Channel(f"obstacle.{name}.{quantity}.{axis}", unit, np.ascontiguousarray(values[:, i]))
 
 
 def node_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:

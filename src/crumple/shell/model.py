@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,10 +21,16 @@ from crumple.shell.drives import loads_of, motions_of
 from crumple.shell.joints import Kind
 from crumple.shell.mesh import Mesh, mesh_of
 from crumple.shell.metal import shell_material
+from crumple.shell.obstacles import obstacles_of, refuse_walls_inside
 from crumple.shell.places import HingeZone, hinge_zones
 from crumple.shell.quality import MeshReport, report_of, wall_thickness
 from crumple.shell.start import Start, start_of
-from crumple.structure import Outputs, ShellSettings, Structure
+from crumple.structure import Outputs, ShellSettings, Stage, Structure
+
+CONTACT_DAMPING = 0.1
+"""Damping of contact, share of critical: takes the chatter of single nodes, not the rebound of walls."""
+SLOW_DAMPING = 40.0
+"""Damping rate of a quasi-static stage times its duration: vibration loses 1/e within a twentieth of it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +50,7 @@ class Lowered:
     supports
         Names of the supports that the model's further cuts belong to.
     model
-        What the stepper takes.
+        What the stepper takes in the first stage.
     """
 
     mesh: Mesh
@@ -57,7 +63,11 @@ class Lowered:
 
 
 def lower(
-    structure: Structure, settings: ShellSettings, outputs: Outputs | None = None, duration: float = 1.0
+    structure: Structure,
+    settings: ShellSettings,
+    outputs: Outputs | None = None,
+    duration: float = 1.0,
+    stage: Stage | None = None,
 ) -> Lowered:
     """Mesh a structure and gather everything that the stepper needs.
 
@@ -70,17 +80,25 @@ def lower(
     outputs
         Stations that shall have a ring.
     duration
-        Functions of time are sampled over it [s].
+        Functions of time are sampled over it [s], where no stage is given.
+    stage
+        First stage.
 
     Raises
     ------
     InputError
-        If the structure cannot be meshed.
+        If the structure cannot be meshed, or its walls start inside an obstacle.
     """
+    stage = stage or Stage(name="run", duration=duration)
     mesh = mesh_of(structure, settings, outputs)
     report = report_of(structure, mesh)
     bodies = bodies_of(structure, mesh)
-    start = start_of(structure, mesh, bodies)
+    first = {
+        "initial_velocity": structure.initial_velocity + stage.initial_velocity,
+        "impulses": structure.impulses + stage.impulses,
+    }
+    start = start_of(structure.model_copy(update=first), mesh, bodies)
+    refuse_walls_inside(structure, mesh, stage)
     zones = hinge_zones(structure, mesh)
     supports = {name: _support_cut(mesh, support.node) for name, support in structure.supports.items()}
     cuts = [_cut(zone.cut_elements, zone.cut_nodes) for zone in zones]
@@ -96,12 +114,35 @@ def lower(
         velocity=start.velocity,
         spin=start.spin,
         rigid_sets=[_rigid_set(body) for body in bodies],
-        loads=list(loads_of(structure, mesh, duration)),
-        motions=list(motions_of(structure, bodies, duration)),
         cuts=[*cuts, *supports.values()],
         settings=_settings(structure, settings),
     )
-    return Lowered(mesh, report, bodies, start, zones, tuple(supports), model)
+    lowered = Lowered(mesh, report, bodies, start, zones, tuple(supports), model)
+    return replace(lowered, model=model_of_stage(structure, settings, lowered, stage, 0.0))
+
+
+def model_of_stage(
+    structure: Structure, settings: ShellSettings, lowered: Lowered, stage: Stage, begin: float
+) -> ShellModel:
+    """Model with the loads, drives, obstacles and damping of one stage.
+
+    Parameters
+    ----------
+    structure, settings, lowered
+        What is computed.
+    stage, begin
+        The stage, and the time at which it starts [s].
+    """
+    damping = settings.damping
+    if stage.kind == "quasi-static" and not damping:
+        damping = SLOW_DAMPING / stage.duration
+    return replace(
+        lowered.model,
+        loads=list(loads_of(structure, lowered.mesh, stage, begin)),
+        motions=list(motions_of(structure, lowered.bodies, stage, begin)),
+        obstacles=list(obstacles_of(structure, lowered.mesh, stage, begin)),
+        settings=replace(lowered.model.settings, damping=damping),
+    )
 
 
 def _sheets(
@@ -156,6 +197,7 @@ def _cut(elements: Integers, nodes: Integers) -> Cut:
 def _settings(structure: Structure, settings: ShellSettings) -> CoreSettings:
     coefficient = settings.hourglass_coefficient
     x, y, z = structure.gravity
+    friction = 0.0 if structure.member_contact is None else structure.member_contact.friction
     return CoreSettings(
         safety=settings.safety_factor,
         scaled_step=settings.mass_scaling or 0.0,
@@ -168,6 +210,7 @@ def _settings(structure: Structure, settings: ShellSettings) -> CoreSettings:
         hourglass_membrane=coefficient,
         hourglass_shear=coefficient,
         hourglass_bending=coefficient,
-        self_contact=settings.self_contact == "on",
-        contact_friction=settings.contact_friction,
+        self_contact=settings.self_contact == "on" or structure.member_contact is not None,
+        contact_friction=max(settings.contact_friction, friction),
+        contact_damping=CONTACT_DAMPING,
     )

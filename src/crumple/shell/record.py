@@ -19,6 +19,9 @@ ENERGIES = (
 )  # fmt: skip
 """Columns of the energies, by the stepper's names."""
 
+IMPULSE = slice(11, 14)
+"""Columns of the impulse in the stepper's states of obstacles."""
+
 Ring = tuple[str, int]
 
 
@@ -50,7 +53,10 @@ class Sampler:
         return cls(lowered, tuple(outputs.nodes), tuple(dict.fromkeys(rings)))
 
     def sample(self, state: ShellState) -> dict[str, Floats]:
-        """Histories now: time (), energy (9,), zone (h,), cut (c, 9), ring (r, 3, 3), node (k, 4, 3)."""
+        """Histories now.
+
+        time (), energy (9,), zone (h,), cut (c, 9), ring (r, 3, 3), node (k, 6, 3), obstacle (o, 15)
+        """
         mesh, position = self.lowered.mesh, state.position
         velocity = state.velocity[0]
         plastic = state.element_field("plastic_energy")
@@ -68,6 +74,7 @@ class Sampler:
             "cut": np.array(cuts).reshape(-1, 9),
             "ring": np.array(rotations).reshape(-1, 3, 3),
             "node": np.array(motions).reshape(-1, 6, 3),
+            "obstacle": state.obstacles,
         }
 
     def _motion(self, state: ShellState, name: str, position: Floats, velocity: Floats) -> Floats:

@@ -4,57 +4,85 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from zipfile import BadZipFile
 
 import numpy as np
 
-from crumple._core.shell import ShellState
 from crumple.errors import InputError, Problem
+from crumple.result import StageSummary
 from crumple.result.files import replacing
+from crumple.shell.contour import Floats
 from crumple.shell.record import Record
-from crumple.structure import Outputs, ShellSettings, Structure
+from crumple.structure import Outputs, ShellSettings, Stage, Structure
 
-FORMAT = 1
+FORMAT = 2
 """Version of the file; another one is refused."""
 
 
 def fingerprint(
-    structure: Structure, settings: ShellSettings, outputs: Outputs, duration: float, every: float
+    structure: Structure, settings: ShellSettings, outputs: Outputs, stages: Sequence[Stage], every: float
 ) -> str:
     """SHA-256 of everything that the bits of a run depend on, but for the machine."""
-    parts = [part.model_dump(mode="json") for part in (structure, settings, outputs)]
-    text = json.dumps([parts, duration, every], sort_keys=True, default=str)
+    parts = [part.model_dump(mode="json") for part in (structure, settings, outputs, *stages)]
+    text = json.dumps([parts, every], sort_keys=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def write_restart(path: Path, state: ShellState, record: Record, mark: str, seconds: float) -> None:
+@dataclass(frozen=True)
+class Saved:
+    """What a restart file holds.
+
+    Attributes
+    ----------
+    record
+        What the run had noted.
+    seconds
+        Wall time it had spent [s].
+    ended
+        Stages that were over.
+    state, watch
+        Arrays of the stepper and of the conditions of the stage that was under way.
+    isa
+        Instruction set that wrote it.
+    """
+
+    record: Record
+    seconds: float
+    ended: tuple[StageSummary, ...]
+    state: dict[str, Floats]
+    watch: dict[str, Floats]
+    isa: str
+
+
+def write_restart(path: Path, saved: Saved, mark: str) -> None:
     """Write a restart file, whole or not at all.
 
     Parameters
     ----------
     path
         File.
-    state, record
+    saved
         Of the run, between two steps.
     mark
         Fingerprint of the run.
-    seconds
-        Wall time spent so far [s].
     """
-    arrays = {f"state/{name}": values for name, values in state.checkpoint().items()} | record.to_arrays()
-    text = json.dumps({"format": FORMAT, "mark": mark, "isa": state.isa, "seconds": seconds})
+    arrays = {
+        f"{kind}/{name}": values
+        for kind in ("state", "watch")
+        for name, values in getattr(saved, kind).items()
+    }
+    arrays |= saved.record.to_arrays()
+    head = {"format": FORMAT, "mark": mark, "isa": saved.isa, "seconds": saved.seconds}
+    text = json.dumps({**head, "ended": [asdict(stage) for stage in saved.ended]})
     with replacing(path) as temporary, temporary.open("wb") as file:
         np.savez(file, allow_pickle=False, head=np.frombuffer(text.encode(), dtype=np.uint8), **arrays)
 
 
-def read_restart(path: Path, state: ShellState, mark: str) -> tuple[Record, float]:
-    """Put a state back where a restart file left it.
-
-    Returns
-    -------
-    record, seconds
-        What the run had noted, and the wall time it had spent [s].
+def read_restart(path: Path, mark: str, isa: str) -> Saved:
+    """Read a restart file.
 
     Raises
     ------
@@ -66,7 +94,8 @@ def read_restart(path: Path, state: ShellState, mark: str) -> tuple[Record, floa
             arrays = {name: file[name] for name in file.files}
         head = json.loads(arrays["head"].tobytes())
         found = {key: head[key] for key in ("format", "mark", "isa", "seconds")}
-    except (OSError, KeyError, ValueError, EOFError, BadZipFile) as error:
+        ended = tuple(StageSummary(**stage) for stage in head.get("ended", ()))
+    except (OSError, KeyError, TypeError, ValueError, EOFError, BadZipFile) as error:
         what, todo = "the restart file cannot be read", "give the file that an interrupted run wrote"
         raise InputError(
             Problem(what, f"{type(error).__name__}: {str(error)[:200]}", "", todo, file=str(path))
@@ -77,10 +106,12 @@ def read_restart(path: Path, state: ShellState, mark: str) -> tuple[Record, floa
             "restart with the input file that was interrupted",
         )
         raise InputError(Problem(what, todo=todo, file=str(path)))
-    if found["isa"] != state.isa:
+    if found["isa"] != isa:
         what, todo = "the restart file was written with another instruction set", "set CRUMPLE_ISA to it"
-        raise InputError(Problem(what, found["isa"], state.isa, todo, file=str(path)))
-    state.restore(
-        {name[len("state/") :]: values for name, values in arrays.items() if name.startswith("state/")}
-    )
-    return Record.from_arrays(arrays), float(found["seconds"])
+        raise InputError(Problem(what, found["isa"], isa, todo, file=str(path)))
+    of = {
+        kind: {name.removeprefix(f"{kind}/"): v for name, v in arrays.items() if name.startswith(f"{kind}/")}
+        for kind in ("state", "watch")
+    }
+    record = Record.from_arrays(arrays)
+    return Saved(record, float(found["seconds"]), ended, of["state"], of["watch"], isa)

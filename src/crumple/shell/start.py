@@ -115,7 +115,7 @@ def _rigid_motion(
             impulse = np.asarray(given.impulse, float)
             momentum = momentum + impulse
             angular = angular + np.asarray(given.angular_impulse, float)
-            angular = angular + np.cross(np.asarray(structure.nodes[body.node]) - centre, impulse)
+            angular = angular + np.cross(mesh.position[body.nodes[-1]] - centre, impulse)
     tensor = inertia.sum() * np.eye(3) + _about(mass, arm)
     tensor += body.lump.inertia + _about(np.array([body.lump.mass]), lump_arm[None])
     return centre, momentum / total, np.linalg.solve(tensor, angular)

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from crumple._core.shell import ShellState
+from crumple.result import StageSummary
 from crumple.shell.bodies import Body
 from crumple.shell.joints import Kind
 from crumple.shell.metal import in_words
 from crumple.shell.model import Lowered
+from crumple.shell.obstacles import too_sharp
 from crumple.shell.record import ENERGIES, Record
-from crumple.structure import ShellSettings, Structure
+from crumple.structure import ShellSettings, Stage, Structure
 
 LOST_SHARE = 5e-3
 """Share of the given energy that may vanish at the start before a warning."""
@@ -24,6 +28,8 @@ MASS_SHARE = 0.01
 """Difference of the meshed mass from that of the sections above which it is worth a warning."""
 OFF_CENTRE = 0.05
 """Distance of a held body's centre of mass from its node, over the section's size, worth a warning."""
+SLOW_SHARE = 0.05
+"""Kinetic or damped energy over the internal energy above which a stage is not quasi-static."""
 LEAST_ENERGY = 1e-9
 """Energy [J] below which nothing has been put in and shares mean nothing."""
 
@@ -84,6 +90,11 @@ def warnings(structure: Structure, lowered: Lowered, record: Record, state: Shel
         found.append(
             f"Walls pressed into each other by up to {depth:.0%} of the distance that contact keeps."
         )
+    for name, row in zip(structure.obstacles, state.obstacles, strict=True):
+        if row[-1] > 1.0:
+            found.append(
+                f"Walls went {row[-1]:.2g} half thicknesses into obstacle {name}: it could not hold them."
+            )
     if state.added_mass > ADDED_SHARE * state.mass:
         found.append(f"Mass scaling added {state.added_mass:.3g} kg to {state.mass:.3g} kg of walls.")
     kinetic, given = float(energy["kinetic"][0]), lowered.start.given_energy
@@ -93,6 +104,39 @@ def warnings(structure: Structure, lowered: Lowered, record: Record, state: Shel
             "not fit the supports and rigid sections."
         )
     return tuple(found)
+
+
+def slow_warnings(stages: Sequence[Stage], ended: Sequence[StageSummary], record: Record) -> tuple[str, ...]:
+    """Sentences on quasi-static stages that were run too fast to be free of inertia."""
+    found = []
+    for stage, summary in zip(stages, ended, strict=False):
+        if stage.kind != "quasi-static":
+            continue
+        kinetic, damped = slow_shares(record, summary)
+        if max(kinetic, damped) > SLOW_SHARE:
+            found.append(
+                f"Stage {stage.name} is not quasi-static: kinetic energy is up to {kinetic:.1%}, damping "
+                f"{damped:.1%} of the internal energy. Give it a longer duration."
+            )
+    return tuple(found)
+
+
+def slow_shares(record: Record, stage: StageSummary) -> tuple[float, float]:
+    """Largest kinetic energy after a stage's first tenth, and what it damped, over its internal energy."""
+    time, energy = record["time"], {name: record["energy"][:, i] for i, name in enumerate(ENERGIES)}
+    late = (time > stage.start + 0.1 * (stage.end - stage.start)) & (
+        time <= stage.end * (1 + 1e-9) + LEAST_ENERGY
+    )
+    if not late.any():
+        return 0.0, 0.0
+    inside = np.searchsorted(time, (stage.start, stage.end))
+    internal = float((energy["elastic"] + energy["plastic"])[late].max())
+    if internal <= LEAST_ENERGY:
+        return 0.0, 0.0
+    damped = (
+        energy["damping"][min(inside[1], len(time) - 1)] - energy["damping"][min(inside[0], len(time) - 1)]
+    )
+    return float(energy["kinetic"][late].max()) / internal, float(damped) / internal
 
 
 def _mesh_warnings(structure: Structure, lowered: Lowered) -> list[str]:
@@ -105,6 +149,8 @@ def _mesh_warnings(structure: Structure, lowered: Lowered) -> list[str]:
                 f"The mesh of member {name} has {area / section.area:.1%} of its section's area: "
                 "its corners are drawn coarsely."
             )
+    for name in too_sharp(structure, lowered.report.largest_side):
+        found.append(f"Obstacle {name} is slimmer than an element: it can pass between the nodes of a wall.")
     for body in lowered.bodies:
         distance = _off_centre(structure, lowered, body)
         if body.held and distance:

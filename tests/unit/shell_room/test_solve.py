@@ -7,7 +7,7 @@ from tests.unit.shell_room.structures import cantilever, knee, structure, tee, t
 from crumple._core.shell import ShellState
 from crumple.errors import InputError, Status
 from crumple.shell import LongRun, ShellRun, lower, solve_shell
-from crumple.shell.solve import _with_place
+from crumple.shell.stepping import with_place
 from crumple.structure import Outputs, ShellSettings
 
 COARSE = ShellSettings(element_size=24e-3)
@@ -186,8 +186,8 @@ def test_hopeless_step_ends_with_a_status_and_keeps_the_results():
 
 def test_reason_names_the_place_of_an_element():
     lowered = lower(thrown(), COARSE)
-    assert "(member tube," in _with_place("element 12 is not finite", lowered)
-    assert _with_place("nothing", lowered) == "nothing"
+    assert "(member tube," in with_place("element 12 is not finite", lowered)
+    assert with_place("nothing", lowered) == "nothing"
 
 
 def test_added_mass_is_reported():
@@ -209,7 +209,7 @@ def test_energy_lost_at_a_clamp_is_reported():
 
 def test_watcher_hears_where_a_run_is(monkeypatch):
     heard = []
-    monkeypatch.setattr("crumple.shell.solve.WATCH_EVERY", 0.0)
+    monkeypatch.setattr("crumple.shell.stepping.WATCH_EVERY", 0.0)
     solve_shell(thrown(), run(), long_run=LongRun(watch=heard.append))
     assert heard
     moment = heard[len(heard) // 2]

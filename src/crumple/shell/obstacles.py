@@ -1,0 +1,135 @@
+"""Obstacles as the stepper takes them: shape, motion of this stage, and the wall nodes that can touch."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from crumple._core.shell import RigidObstacle, Shape
+from crumple._core.shell_model import History
+from crumple.errors import InputError, Problem
+from crumple.shell.contour import Floats
+from crumple.shell.drives import velocity_of
+from crumple.shell.mesh import Mesh
+from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Stage, Structure, gap
+
+INSIDE = 1e-6
+"""Depth of a wall in an obstacle at the start that is still rounding [m]."""
+COARSE = 1.0
+"""Radius over the length of an element below which an obstacle can pass between the nodes of a wall."""
+
+
+def obstacles_of(structure: Structure, mesh: Mesh, stage: Stage, begin: float) -> Iterator[RigidObstacle]:
+    """Every obstacle in the order of the structure, those that this stage lacks too.
+
+    Parameters
+    ----------
+    structure, mesh
+        What is computed.
+    stage
+        Tells which are there and which are driven.
+    begin
+        Time at which the stage starts [s].
+    """
+    for name, obstacle in structure.obstacles.items():
+        runs = stage.drive is None or name in stage.drive
+        yield RigidObstacle(
+            **_shape_of(obstacle),
+            point=obstacle.point,
+            friction=obstacle.friction,
+            active=stage.obstacles is None or name in stage.obstacles,
+            nodes=touching(mesh, obstacle).astype(np.uint32),
+            **(
+                _mass(obstacle)
+                if obstacle.mass is not None
+                else _driven(obstacle, stage, begin)
+                if runs
+                else {}
+            ),
+        )
+
+
+def touching(mesh: Mesh, obstacle: Obstacle) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+    """Wall nodes of the members that can touch an obstacle."""
+    members = mesh.tubes if obstacle.members is None else obstacle.members
+    return np.unique(np.concatenate([mesh.tubes[member].nodes.reshape(-1) for member in members]))
+
+
+def refuse_walls_inside(structure: Structure, mesh: Mesh, stage: Stage) -> None:
+    """Refuse walls that start inside an obstacle of the first stage.
+
+    Raises
+    ------
+    InputError
+        Naming obstacle, depth and member.
+    """
+    problems = []
+    for name, obstacle in structure.obstacles.items():
+        if stage.obstacles is not None and name not in stage.obstacles:
+            continue
+        nodes = touching(mesh, obstacle)
+        depth = np.array([-gap(obstacle, mesh.position[node]) for node in nodes])
+        worst = int(np.argmax(depth))
+        if depth[worst] > INSIDE:
+            member = next(m for m, tube in mesh.tubes.items() if nodes[worst] in tube.nodes)
+            what, todo = f"walls of member {member} start inside the obstacle", "move the obstacle away"
+            came = f"{1e3 * depth[worst]:.4g} mm deep"
+            problems.append(Problem(what, came, "walls outside it", todo, f"obstacles.{name}"))
+    if problems:
+        raise InputError(problems)
+
+
+def too_sharp(structure: Structure, largest_side: float) -> list[str]:
+    """Obstacles that can pass between the nodes of a wall, by name."""
+    return [
+        name
+        for name, obstacle in structure.obstacles.items()
+        if getattr(obstacle, "radius", np.inf) < COARSE * largest_side
+    ]
+
+
+def _shape_of(obstacle: Obstacle) -> dict[str, Any]:
+    if isinstance(obstacle, PlaneObstacle):
+        if obstacle.edge is None:
+            return {"shape": Shape.PLANE, "axis": obstacle.normal}
+        return {"shape": Shape.EDGE, "axis": obstacle.normal, "edge": obstacle.edge}
+    assert isinstance(obstacle, CylinderObstacle | SphereObstacle)
+    radius = obstacle.radius
+    if isinstance(obstacle, CylinderObstacle):
+        if obstacle.length is None:
+            return {"shape": Shape.POLE, "axis": obstacle.axis, "radius": radius}
+        return {"shape": Shape.CYLINDER, "axis": obstacle.axis, "radius": radius, "length": obstacle.length}
+    return {"shape": Shape.SPHERE, "radius": radius}
+
+
+def _mass(obstacle: Obstacle) -> dict[str, Any]:
+    guide = obstacle.guide_direction
+    assert guide is not None
+    return {"mass": obstacle.mass, "guide": _triple(guide), "velocity": obstacle.velocity}
+
+
+def _driven(obstacle: Obstacle, stage: Stage, begin: float) -> dict[str, Any]:
+    """Prescribed velocities over a stage."""
+    motion: list[History | None] = [None, None, None]
+    for i, axis in enumerate("xyz"):
+        function = getattr(obstacle.motion, axis)
+        if function is not None:
+            motion[i] = velocity_of(function, stage.duration, begin)
+        elif obstacle.velocity[i]:
+            motion[i] = ([begin], [obstacle.velocity[i]])
+    given: dict[str, Any] = {"motion": tuple(motion)}
+    if obstacle.turning is not None:
+        turning = velocity_of(obstacle.turning.angle, stage.duration, begin)
+        given |= {
+            "turn_about": obstacle.turning.about,
+            "turn_axis": obstacle.turning.axis,
+            "turning": turning,
+        }
+    return given
+
+
+def _triple(vector: Floats) -> tuple[float, float, float]:
+    x, y, z = (float(value) for value in vector)
+    return x, y, z

@@ -1,0 +1,283 @@
+"""One run, stage after stage and output after output: the moving state and what is noted of it."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from crumple._core.shell import ShellState
+from crumple.errors import Status
+from crumple.result import StageSummary
+from crumple.shell import trust
+from crumple.shell.bodies import moved
+from crumple.shell.contour import Floats
+from crumple.shell.model import Lowered, model_of_stage
+from crumple.shell.record import Record, Sampler
+from crumple.shell.restart import Saved, fingerprint, read_restart, write_restart
+from crumple.shell.shapes import shape_of
+from crumple.shell.start import start_of
+from crumple.shell.until import LOOK_STEPS, Watch
+from crumple.structure import Outputs, ShellSettings, Stage, Structure
+
+Progress = Callable[[float], None]
+Cancel = Callable[[], bool]
+
+RUNAWAY = 0.5
+"""Energy residual over the energy put in at which a run is stopped: nothing after it means anything."""
+SAVE_EVERY = 300.0
+"""Wall time between two restart files [s]: what a power cut may cost."""
+WATCH_EVERY = 0.5
+"""Wall time between two looks at the energies [s]; a look costs about as much as ten steps."""
+TELL_EVERY = 0.1
+"""Wall time between two calls of what watches a run that is looked at more often [s]."""
+SAME_TIME = 1e-9
+"""Share of the duration below which two times are one."""
+
+
+@dataclass(frozen=True)
+class ShellRun:
+    """What the solver is told beside the structure: longest duration and output interval [s], settings."""
+
+    duration: float
+    every: float
+    settings: ShellSettings = field(default_factory=ShellSettings)
+    outputs: Outputs = field(default_factory=Outputs)
+    title: str = ""
+    threads: int = 1
+    stages: tuple[Stage, ...] = ()
+
+    @property
+    def sequence(self) -> tuple[Stage, ...]:
+        """Stages, one where none is described."""
+        return self.stages or (Stage(name="run", duration=self.duration),)
+
+
+@dataclass(frozen=True)
+class Moment:
+    """Where a run is: time and duration [s], time step [s], steps, energies [J], wall time left [s]."""
+
+    time: float
+    duration: float
+    time_step: float
+    steps: int
+    energies: Mapping[str, float]
+    seconds_left: float
+
+
+@dataclass(frozen=True)
+class LongRun:
+    """What a long run needs beside: where to go on from, where to save itself, who watches.
+
+    Attributes
+    ----------
+    restart_from
+        Restart file of an interrupted run of the same input.
+    restart_to
+        Written now and then and when the run is cancelled; removed when it ends.
+    watch
+        Called about twice a second.
+    """
+
+    restart_from: Path | None = None
+    restart_to: Path | None = None
+    watch: Callable[[Moment], None] | None = None
+
+
+def output_times(run: ShellRun, begin: float, duration: float) -> Floats:
+    """Times at which a stage's histories are noted [s]: the interval's multiples, its end, the pictures'."""
+    number = int(np.floor(duration / run.every * (1 + 1e-12)))
+    regular = begin + np.minimum(run.every * np.arange(number + 1), duration)
+    end = begin + duration
+    pictures = [t for t in picture_times(run) if begin < t < end]
+    wanted = np.unique(np.concatenate([regular, [end], pictures]))
+    apart = np.concatenate([[True], np.diff(wanted) > SAME_TIME * duration])
+    return np.asarray(wanted[apart])
+
+
+def picture_times(run: ShellRun) -> Floats:
+    """Times at which shapes are stored [s]: those asked for, else six."""
+    return np.array(run.outputs.pictures or np.linspace(0.0, run.duration, 6))
+
+
+@dataclass(frozen=True)
+class Hooks:
+    """Clock at the begin [s], and whom to tell and ask on the way."""
+
+    begin: float
+    progress: Progress | None
+    cancel: Cancel | None
+    long_run: LongRun
+
+
+class Stepping:
+    """One run: the moving state, what was noted of it, and the stages that are over."""
+
+    def __init__(
+        self, structure: Structure, run: ShellRun, lowered: Lowered, state: ShellState, hooks: Hooks
+    ) -> None:
+        self.structure, self.run, self.lowered, self.state = structure, run, lowered, state
+        self.begin, self.progress, self.cancel = hooks.begin, hooks.progress, hooks.cancel
+        self.long_run = hooks.long_run
+        self.sampler, self.record = Sampler.of(lowered, run.outputs), Record()
+        self.mark = fingerprint(structure, run.settings, run.outputs, run.sequence, run.every)
+        self.ended: tuple[StageSummary, ...] = ()
+        self.watch: Watch | None = None
+        self.spent_before = self.first_time = 0.0
+        self.saved = self.watched = self.told = self.begin
+        self.resumed: Saved | None = None
+        if self.long_run.restart_from is not None:
+            self._resume(self.long_run.restart_from)
+
+    @property
+    def seconds(self) -> float:
+        """Wall time spent, that before a restart included [s]."""
+        return self.spent_before + time.perf_counter() - self.begin
+
+    @property
+    def times(self) -> Floats:
+        """Output times so far [s]; the state is noted at its first step at or after each."""
+        return self.record["at"]
+
+    def run_to_end(self) -> tuple[Status, str]:
+        """Step through the stages; gives how it ended and why."""
+        for number in range(len(self.ended), len(self.run.sequence)):
+            status, reason = self._run_stage(number)
+            if not status.ok:
+                return status, reason
+        if self.long_run.restart_to is not None:
+            self.long_run.restart_to.unlink(missing_ok=True)
+        residual, bound = trust.energy_residual(self.record), self.run.settings.energy_residual_bound
+        if residual > bound:
+            return Status.RESIDUAL_EXCEEDED, f"energy residual {residual:.2e} above its bound {bound:.2e}"
+        return Status.COMPLETE, ""
+
+    def _run_stage(self, number: int) -> tuple[Status, str]:
+        stage = self.run.sequence[number]
+        begin = self.ended[-1].end if self.ended else 0.0
+        if self.resumed is None:
+            self._enter(stage, begin, number)
+        self.watch = Watch(self.structure, self.lowered, stage, self.state)
+        if self.resumed is not None:
+            self.watch.restore(self.resumed.watch)
+            self.resumed = None
+        why = ""
+        for at in output_times(self.run, begin, stage.duration):
+            if len(self.record) and at <= self.times[-1] + SAME_TIME * stage.duration:
+                continue
+            status, why = self._step_to(float(at), self.watch)
+            if status is Status.CANCELLED:
+                self._save()
+            if not status.ok:
+                return status, with_place(self.state.reason, self.lowered)
+            if not self._note(self.state.time if why else float(at), bool(why)):
+                return Status.RESIDUAL_EXCEEDED, f"the energies ran away at {self.state.time:.4g} s"
+            if why:
+                break
+        if stage.kind == "quasi-static":
+            self.state.stop()
+        self.ended += (StageSummary(stage.name, begin, float(self.times[-1]), why or "its duration"),)
+        return Status.COMPLETE, ""
+
+    def _enter(self, stage: Stage, begin: float, number: int) -> None:
+        """Make the state that of a stage: its drives, loads, obstacles, damping and added motion."""
+        if number > 0:
+            before = self.state.checkpoint()
+            self.state = self._state_of(stage, begin)
+            self.state.restore(before, of_stage_before=True)
+            if stage.initial_velocity or stage.impulses:
+                self._push(stage)
+        if stage.kind == "quasi-static":
+            self.state.stop()
+
+    def _state_of(self, stage: Stage, begin: float) -> ShellState:
+        return ShellState(
+            model_of_stage(self.structure, self.run.settings, self.lowered, stage, begin), self.state.isa
+        )
+
+    def _push(self, stage: Stage) -> None:
+        """Add a stage's velocity fields and impulses to the deformed structure."""
+        before, now = self.lowered.mesh.position, self.state.position
+        mesh = replace(self.lowered.mesh, position=now)
+        bodies = tuple(
+            moved(body, before[body.nodes[-1]], now[body.nodes[-1]], row)
+            for body, row in zip(self.lowered.bodies, self.state.rigid_sets, strict=True)
+        )
+        fields = {"initial_velocity": stage.initial_velocity, "impulses": stage.impulses}
+        added = start_of(self.structure.model_copy(update=fields), mesh, bodies)
+        self.state.add_motion(added.velocity, added.spin)
+
+    def _step_to(self, at: float, watch: Watch) -> tuple[Status, str]:
+        """Step to an output; gives how that went, and what ended the stage on the way."""
+        if not watch.stage.until:
+            return self.state.advance(
+                at, threads=self.run.threads, progress=self._look, cancel=self.cancel
+            ), ""
+        while self.state.time < at:
+            told = time.perf_counter() - self.told < TELL_EVERY
+            status = self.state.advance(
+                at,
+                threads=self.run.threads,
+                # looks lie at multiples, so that an interrupted run makes the same ones
+                steps=LOOK_STEPS - self.state.steps % LOOK_STEPS,
+                progress=None if told else self._look,
+                cancel=None if told else self.cancel,
+            )
+            if not status.ok:
+                return status, ""
+            met = watch.met(self.state) if self.state.steps % LOOK_STEPS == 0 else ""
+            if met:
+                return Status.COMPLETE, met
+        return Status.COMPLETE, ""
+
+    def _note(self, at: float, shape: bool) -> bool:
+        """Note the state; False when its energies mean nothing."""
+        self.record.add({"at": np.array(at), **self.sampler.sample(self.state)})
+        near = np.abs(picture_times(self.run) - at) <= SAME_TIME * self.run.duration
+        if shape or near.any():
+            self.record.add_shape(shape_of(self.state, self.lowered.mesh))
+        return trust.energy_residual(self.record) < RUNAWAY
+
+    def _look(self, state: ShellState) -> None:
+        """Tell the caller where the run is, and save it now and then."""
+        now = self.told = time.perf_counter()
+        if self.progress is not None:
+            self.progress(min(state.time / self.run.duration, 1.0))
+        if self.long_run.watch is not None and now - self.watched > WATCH_EVERY:
+            self.watched = now
+            self.long_run.watch(self._moment(now))
+        if self.long_run.restart_to is not None and now - self.saved > SAVE_EVERY:
+            self._save()
+
+    def _moment(self, now: float) -> Moment:
+        state = self.state
+        done = state.time - self.first_time
+        left = (self.run.duration - state.time) * (now - self.begin) / done if done > 0.0 else np.inf
+        return Moment(state.time, self.run.duration, state.time_step, state.steps, state.energies, left)
+
+    def _save(self) -> None:
+        if self.long_run.restart_to is not None:
+            watch = {} if self.watch is None else self.watch.to_arrays()
+            state = self.state
+            saved = Saved(self.record, self.seconds, self.ended, state.checkpoint(), watch, state.isa)
+            write_restart(self.long_run.restart_to, saved, self.mark)
+        self.saved = time.perf_counter()
+
+    def _resume(self, path: Path) -> None:
+        """Go back to where a restart file was written."""
+        saved = read_restart(path, self.mark, self.state.isa)
+        self.record, self.spent_before, self.ended = saved.record, saved.seconds, saved.ended
+        if saved.ended:
+            self.state = self._state_of(self.run.sequence[len(saved.ended)], saved.ended[-1].end)
+        self.state.restore(saved.state)
+        self.first_time, self.resumed = self.state.time, saved
+
+
+def with_place(reason: str, lowered: Lowered) -> str:
+    """A reason that names an element, with where the element lies."""
+    found = re.search(r"element (\d+)", reason)
+    return reason if found is None else f"{reason} ({lowered.mesh.place_of(int(found.group(1)))})"
