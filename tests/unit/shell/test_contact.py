@@ -132,3 +132,103 @@ def test_only_one_answer_with_threads():
         state.advance(1.0, steps=300, threads=threads)
     assert states[0].deepest_penetration > 0
     assert np.array_equal(states[0].position, states[1].position)
+
+
+def crossing_strips(height, **settings):
+    """Two upright strips, one across the other: their rims cross in the middle of elements."""
+    strip, quads = grid(6, 2, 0.06, 0.02)
+    below = strip[:, [0, 2, 1]] + [-0.035, 0.0, -0.02]  # rim at z = 0 along x
+    above = strip[:, [2, 0, 1]] + [0.0, -0.025, height]  # rim at z = height along y
+    x = np.concatenate([below, above])
+    velocity = np.zeros_like(x)
+    velocity[len(below) :, 2] = -10.0
+    m = model(
+        x, np.concatenate([quads, quads + len(below)]), T, ELASTIC, velocity=velocity,
+        settings={"self_contact": True, **settings},
+    )  # fmt: skip
+    return m, len(below)
+
+
+def test_rims_that_cross_between_their_nodes_hold_each_other():
+    m, below = crossing_strips(0.0025)
+    state = ShellState(m)
+    first, start = state.energies["kinetic"], momentum(m, state)
+    for _ in range(8):
+        state.advance(state.time + 5e-5)
+        # closest point of the two rims
+        lower, upper = state.position[:below][::3][2:5], state.position[below:][::3][2:5]
+        assert upper[:, 2].min() > lower[:, 2].max() + 0.5 * T
+    e = state.energies
+    assert abs(e["residual"]) < 1e-3 * first
+    assert momentum(m, state) == pytest.approx(start, abs=1e-9 * np.linalg.norm(start))
+    assert 0 < state.deepest_penetration < 0.5
+
+
+def test_crease_holds_a_crossing_crease():
+    """Two gutters, ridge against ridge at right angles: creases of walls that fold, not rims."""
+    x, quads = grid(6, 6, 0.06, 0.06)
+    x -= [0.035, 0.03, 0.0]
+    below = x.copy()
+    below[:, 2] = -np.abs(below[:, 1])  # ridge along x
+    above = x[:, [1, 0, 2]] * [1, 1, 1]
+    above[:, 2] = 0.0025 + np.abs(above[:, 0])  # ridge along y
+    m = model(
+        np.concatenate([below, above]), np.concatenate([quads, quads + len(below)]), T, ELASTIC,
+        velocity=np.concatenate([0 * below, np.tile([0.0, 0.0, -10.0], (len(above), 1))]),
+        settings={"self_contact": True},
+    )  # fmt: skip
+    state = ShellState(m)
+    first = state.energies["kinetic"]
+    for _ in range(10):
+        state.advance(state.time + 5e-5)
+        ridge = [abs(m.position[: len(below), 1]) < 1e-9, abs(m.position[len(below) :, 0]) < 1e-9]
+        p = [state.position[: len(below)][ridge[0]], state.position[len(below) :][ridge[1]]]
+        near = [q[np.abs(q[:, i]) < 0.015, 2] for i, q in enumerate(p)]
+        assert near[1].min() > near[0].max() + 0.5 * T
+    assert abs(state.energies["residual"]) < 1e-3 * first
+    assert 0 < state.deepest_penetration < 0.5
+
+
+def test_wall_between_two_walls_is_held_by_both():
+    """Three plates pressed together: the middle one keeps a thickness from each."""
+    x, quads = grid(5, 5, 0.05, 0.05)
+    stack = np.concatenate([x, x + [0.0031, 0.0017, 1.05 * T], x + [0.0012, 0.0043, 2.1 * T]])
+    velocity = np.zeros_like(stack)
+    velocity[: len(x), 2], velocity[2 * len(x) :, 2] = 4.0, -4.0
+    m = model(
+        stack, np.concatenate([quads + i * len(x) for i in range(3)]), T, ELASTIC, velocity=velocity,
+        settings={"self_contact": True, "contact_damping": 0.1},
+    )  # fmt: skip
+    state = ShellState(m)
+    first = state.energies["kinetic"]
+    for _ in range(6):
+        state.advance(state.time + 2e-5)
+        z = [state.position[i * len(x) : (i + 1) * len(x), 2] for i in range(3)]
+        assert z[1].min() - z[0].max() > 0.8 * T
+        assert z[2].min() - z[1].max() > 0.8 * T
+    assert abs(state.energies["residual"]) < 1e-3 * first
+
+
+def test_node_that_swings_around_a_rim_is_not_taken_for_one_pressed_through():
+    """A plate passes beside another's rim from below and comes over it from above: no force from the wrong side."""
+    plate, quads = grid(4, 4, 0.04, 0.04)
+    other = plate + [0.043, 0.001, -0.0025]
+    x = np.concatenate([plate, other])
+    velocity = np.zeros_like(x)
+    velocity[len(plate) :, 2] = 60.0
+    m = model(
+        x, np.concatenate([quads, quads + len(plate)]), T, ELASTIC, velocity=velocity,
+        settings={"self_contact": True},
+    )  # fmt: skip
+    state = ShellState(m)
+    state.advance(8e-5)
+    turn = np.zeros_like(x)
+    turn[len(plate) :] = [-60.0, 0.0, -70.0]
+    state.add_motion(turn, np.zeros_like(x))
+    first = state.energies["kinetic"]
+    for _ in range(25):
+        state.advance(state.time + 1e-5)
+        e = state.energies
+        assert abs(e["residual"]) < 1e-3 * first
+        assert e["kinetic"] + e["elastic"] < 1.005 * first
+    assert 0 < state.deepest_penetration < 0.9
