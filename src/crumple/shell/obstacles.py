@@ -17,8 +17,6 @@ from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereO
 
 INSIDE = 1e-6
 """Depth of a wall in an obstacle at the start that is still rounding [m]."""
-COARSE = 1.0
-"""Radius over the length of an element below which an obstacle can pass between the nodes of a wall."""
 
 
 def obstacles_of(structure: Structure, mesh: Mesh, stage: Stage, begin: float) -> Iterator[RigidObstacle]:
@@ -82,11 +80,15 @@ def refuse_walls_inside(structure: Structure, mesh: Mesh, stage: Stage) -> None:
 
 
 def too_sharp(structure: Structure, largest_side: float) -> list[str]:
-    """Obstacles that can pass between the nodes of a wall, by name."""
+    """Names of obstacles that press in between the nodes of a wall by more than half its thickness.
+
+    Nodes alone touch: between two that lie h apart on a radius R, h^2 / (8 R) is out of their sight.
+    """
+    thinnest = min(structure.section_of(member).thickness for member in structure.members)
     return [
         name
         for name, obstacle in structure.obstacles.items()
-        if getattr(obstacle, "radius", np.inf) < COARSE * largest_side
+        if largest_side**2 / (8.0 * getattr(obstacle, "radius", np.inf)) > thinnest / 2.0
     ]
 
 

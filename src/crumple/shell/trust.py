@@ -150,7 +150,9 @@ def _mesh_warnings(structure: Structure, lowered: Lowered) -> list[str]:
                 "its corners are drawn coarsely."
             )
     for name in too_sharp(structure, lowered.report.largest_side):
-        found.append(f"Obstacle {name} is slimmer than an element: it can pass between the nodes of a wall.")
+        found.append(
+            f"Obstacle {name} is round so tightly that it presses in between the nodes: use smaller elements."
+        )
     for body in lowered.bodies:
         distance = _off_centre(structure, lowered, body)
         if body.held and distance:

@@ -13,7 +13,7 @@ from crumple.shell.model import Lowered
 from crumple.shell.record import IMPULSE, ring_of_node
 from crumple.structure import Stage, Structure, Until
 
-LOOK_STEPS = 20
+LOOK_STEPS = 5
 """Steps between two looks: costs little beside them, and overshoots by less than a node's contact lasts."""
 FORCE_WINDOW = 5e-3
 """Share of a stage's longest duration over which forces are averaged: contact forces are spikes."""

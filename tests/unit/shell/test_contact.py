@@ -192,7 +192,7 @@ def test_crease_holds_a_crossing_crease():
 def test_wall_between_two_walls_is_held_by_both():
     """Three plates pressed together: the middle one keeps a thickness from each."""
     x, quads = grid(5, 5, 0.05, 0.05)
-    stack = np.concatenate([x, x + [0.0031, 0.0017, 1.05 * T], x + [0.0012, 0.0043, 2.1 * T]])
+    stack = np.concatenate([x, x + np.array([0.0031, 0.0017, 1.05 * T]), x + np.array([0.0012, 0.0043, 2.1 * T])])
     velocity = np.zeros_like(stack)
     velocity[: len(x), 2], velocity[2 * len(x) :, 2] = 4.0, -4.0
     m = model(
@@ -210,9 +210,9 @@ def test_wall_between_two_walls_is_held_by_both():
 
 
 def test_node_that_swings_around_a_rim_is_not_taken_for_one_pressed_through():
-    """A plate passes beside another's rim from below and comes over it from above: no force from the wrong side."""
+    """A plate passes beside another's rim from below and comes over it from above."""
     plate, quads = grid(4, 4, 0.04, 0.04)
-    other = plate + [0.043, 0.001, -0.0025]
+    other = plate + np.array([0.043, 0.001, -0.0025])
     x = np.concatenate([plate, other])
     velocity = np.zeros_like(x)
     velocity[len(plate) :, 2] = 60.0

@@ -175,14 +175,14 @@ def test_plane_ends_at_its_edge():
     edge = RigidObstacle(Shape.EDGE, (0.02, 0, 0), edge=(1, 0, 0))
     for shift, stopped in ((-0.03, True), (0.03, False)):
         m = block(edge, (0, 0, -10.0), height=1.5e-3)
-        state = ShellState(replace(m, position=m.position + [shift, 0, 0]))
+        state = ShellState(replace(m, position=m.position + np.array([shift, 0, 0])))
         state.advance(5e-4)
         speed = state.velocity[0][:, 2].mean()
         assert bool(speed > 0) is stopped
         assert state.deepest_penetration < 0.9
     # a node beside the edge and below it is pushed out sideways
     m = block(edge, (-10.0, 0, 0), height=-0.01)
-    state = ShellState(replace(m, position=m.position + [0.0215, 0, 0]))
+    state = ShellState(replace(m, position=m.position + np.array([0.0215, 0, 0])))
     state.advance(5e-4)
     assert state.velocity[0][:, 0].mean() > 0
 
