@@ -192,7 +192,8 @@ def test_crease_holds_a_crossing_crease():
 def test_wall_between_two_walls_is_held_by_both():
     """Three plates pressed together: the middle one keeps a thickness from each."""
     x, quads = grid(5, 5, 0.05, 0.05)
-    stack = np.concatenate([x, x + np.array([0.0031, 0.0017, 1.05 * T]), x + np.array([0.0012, 0.0043, 2.1 * T])])
+    shifts = np.array([[0, 0, 0], [0.0031, 0.0017, 1.05 * T], [0.0012, 0.0043, 2.1 * T]])
+    stack = np.concatenate([x + shift for shift in shifts])
     velocity = np.zeros_like(stack)
     velocity[: len(x), 2], velocity[2 * len(x) :, 2] = 4.0, -4.0
     m = model(
