@@ -1,5 +1,6 @@
 """Section and material to collapse law, with a source and a range, and to the record of the stepper."""
 
+from crumple.hinge.axial_collapse import AxialCollapse
 from crumple.hinge.axial_law import AxialLaw, CrushDistance, CrushRate, CrushValidity, absorbed_by
 from crumple.hinge.band import Band, Bound, ScaledLaw, band_of
 from crumple.hinge.energy import absorbed_energy, rotation_absorbing
@@ -25,30 +26,38 @@ from crumple.hinge.registry import (
     law_types,
     torsion_law_types,
 )
+from crumple.hinge.spatial_record import Coupling, Freedom, HingeComponent, HingeSurface, SpatialHingeRecord
+from crumple.hinge.spatial_recording import spatial_record
 from crumple.hinge.stop import Stop
 from crumple.hinge.table import plastic_part, read_table
 from crumple.hinge.torsion_law import TorsionLaw
 
 __all__ = [
     "AfterJamming",
+    "AxialCollapse",
     "AxialLaw",
     "Band",
     "Bound",
     "CircularLaw",
     "ConstantLaw",
+    "Coupling",
     "CrushDistance",
     "CrushRate",
     "CrushValidity",
     "Envelope",
     "Form",
+    "Freedom",
+    "HingeComponent",
     "HingeLaw",
     "HingeRate",
     "HingeRecord",
+    "HingeSurface",
     "KecmanLaw",
     "ObliqueLaw",
     "ScaledLaw",
     "SofteningVariable",
     "Source",
+    "SpatialHingeRecord",
     "Start",
     "Stop",
     "StoredLaw",
@@ -72,6 +81,7 @@ __all__ = [
     "read_table",
     "record_of",
     "rotation_absorbing",
+    "spatial_record",
     "stored_law",
     "torsion_law_types",
     "tributary_stiffness",

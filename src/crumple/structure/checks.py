@@ -13,8 +13,9 @@ from itertools import combinations, product
 import numpy as np
 
 from crumple.errors import Problem
+from crumple.structure.hinge_axes import AxisLaws, HingeAxes
 from crumple.structure.hinge_checks import inertia_problems, place_problems
-from crumple.structure.law import LAW_SPECS, LawReference
+from crumple.structure.law import LAW_SPECS
 from crumple.structure.obstacle_checks import obstacle_problems
 from crumple.structure.outputs import Outputs
 from crumple.structure.problems import one_of, outside, shown, suggestion, unknown
@@ -99,9 +100,9 @@ def _names(structure: Structure, known: Known) -> Iterator[Problem]:
             yield from unknown("node", node, known["nodes"], f"{where}.nodes[{i}]")
         yield from unknown("section", member.section, known["sections"], f"{where}.section")
         yield from unknown("material", member.material, known["materials"], f"{where}.material")
-        yield from _unknown_law(member.bars.law, laws, f"{where}.bars.law")
+        yield from _unknown_laws(member.bars, laws, f"{where}.bars")
         for i, hinge in enumerate(member.hinges):
-            yield from _unknown_law(hinge.law, laws, f"{where}.hinges[{i}].law")
+            yield from _unknown_laws(hinge, laws, f"{where}.hinges[{i}]")
             if isinstance(hinge.at, str) and hinge.at not in member.nodes:
                 what, allowed = f"'{shown(hinge.at)}' is no node of this member", one_of(member.nodes)
                 todo = suggestion(hinge.at, member.nodes) or "name one of its nodes, or a distance: '300 mm'"
@@ -225,6 +226,8 @@ def _carriers(structure: Structure) -> Iterator[tuple[str, str, str]]:
         yield f"impulses[{i}].node", struck.node, "the impulse"
 
 
-def _unknown_law(law: LawReference | None, known: Collection[str], where: str) -> Iterator[Problem]:
-    if isinstance(law, str):
-        yield from unknown("hinge law", law, known, where)
+def _unknown_laws(keys: HingeAxes, known: Collection[str], where: str) -> Iterator[Problem]:
+    own = keys.laws or AxisLaws()
+    for key, law in (("law", keys.law), ("laws.y", own.y), ("laws.z", own.z)):
+        if isinstance(law, str):
+            yield from unknown("hinge law", law, known, f"{where}.{key}")

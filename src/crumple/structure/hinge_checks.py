@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from functools import partial
 from itertools import pairwise, product
 
 from crumple.errors import InputError, Problem
-from crumple.structure.hinges import HingePlace, holds_rotation, law_of, member_hinge_places
+from crumple.structure.hinges import (
+    HingePlace,
+    holds_rotation,
+    law_of,
+    member_hinge_places,
+    spatial_record_of,
+)
 from crumple.structure.law import LAW_SPECS
 from crumple.structure.problems import outside
 from crumple.structure.structure import Structure
@@ -74,14 +82,24 @@ def _sound_members(structure: Structure) -> Iterator[str]:
 
 
 def _law_problems(structure: Structure, place: HingePlace) -> Iterator[Problem]:
-    """Why a law does not fit the section of its hinge; an unknown name is another check's."""
-    if isinstance(place.law, str) and place.law not in {*structure.hinge_laws, *LAW_SPECS}:
+    """Why laws and axes do not fit the section of their hinge; an unknown name is another check's."""
+    keys = place.keys
+    places = [replace(place, axis=axis, law=keys.law_about(axis)) for axis in keys.bending] or [place]
+    known = {*structure.hinge_laws, *LAW_SPECS}
+    if any(isinstance(about.law, str) and about.law not in known for about in places):
         return
+    found = [problem for about in places for problem in _refusals(partial(law_of, structure, about))]
+    where = f"{place.where}.law"
+    if not found:
+        found, where = _refusals(lambda: spatial_record_of(structure, place)), place.where
+    for problem in found:
+        key = f"{problem.where}: " if problem.where else ""
+        yield Problem(key + problem.what, problem.came, problem.allowed, problem.todo, where)
+
+
+def _refusals(build: Callable[[], object]) -> list[Problem]:
     try:
-        law_of(structure, place)
+        build()
     except InputError as error:
-        for problem in error.problems:
-            key = f"{problem.where}: " if problem.where else ""
-            yield Problem(
-                key + problem.what, problem.came, problem.allowed, problem.todo, f"{place.where}.law"
-            )
+        return list(error.problems)
+    return []

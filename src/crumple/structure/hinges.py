@@ -16,16 +16,20 @@ import numpy as np
 
 from crumple import hinge
 from crumple.errors import InputError, Problem
-from crumple.hinge import Form, HingeLaw, HingeRecord, SofteningVariable, Stop
+from crumple.hinge import Form, HingeLaw, HingeRecord, SofteningVariable, SpatialHingeRecord, Stop
 from crumple.material import Material
 from crumple.section import Axis, Section, half_fold_length
 from crumple.structure.bending import bending_axis
 from crumple.structure.geometry import Floats
+from crumple.structure.hinge_axes import HingeAxes
 from crumple.structure.law import LAW_SPECS, LawKeys, LawReference, Stops
 from crumple.structure.member import Hinge
 from crumple.structure.motion import FREEDOMS
+from crumple.structure.spatial_hinges import spatial_hinge_record
 from crumple.structure.structure import Structure
 
+PLAIN = HingeAxes()
+"""A hinge that bends about one axis, the one across the plane of bending."""
 DEFAULT_LAW = {"rectangular_tube": "kecman"}
 """Law type of a hinge that names none, by kind of section."""
 MADE = 1024
@@ -54,6 +58,8 @@ class HingePlace:
         Reference as the input gives it.
     where
         Path in the input, for messages.
+    keys
+        All that the input says of its axes.
     """
 
     name: str
@@ -62,6 +68,7 @@ class HingePlace:
     axis: Axis
     law: LawReference | None
     where: str
+    keys: HingeAxes = PLAIN
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,6 +90,9 @@ class PlacedHinge:
         Formula with source and range.
     record
         The law as the stepper takes it.
+    spatial
+        Of a hinge with several components, or one that breaks: all of them as the spatial stepper takes them;
+        `axis`, `law` and `record` are then those of its first bending axis.  None for all others.
     """
 
     name: str
@@ -94,6 +104,7 @@ class PlacedHinge:
     tributary_length: float
     law: HingeLaw
     record: HingeRecord
+    spatial: SpatialHingeRecord | None = None
 
 
 def hinge_places(structure: Structure) -> tuple[HingePlace, ...]:
@@ -109,17 +120,23 @@ def member_hinge_places(structure: Structure, member: str) -> list[HingePlace]:
     spec, length = structure.members[member], structure.frame_of(member).length
     bars, where, axis = spec.bars, f"members.{member}", bending_axis(structure, member)
     places = [
-        HingePlace(
-            f"{member}-{i}", member, length * i / bars.number, bars.axis or axis, bars.law, f"{where}.bars"
-        )
+        _place(f"{member}-{i}", member, length * i / bars.number, bars, f"{where}.bars", axis)
         for i in range(1, bars.number)
     ]
     for i, given in enumerate(spec.hinges):
         station = hinge_station(structure, member, given)
-        places.append(
-            HingePlace(given.name, member, station, given.axis or axis, given.law, f"{where}.hinges[{i}]")
-        )
+        places.append(_place(given.name, member, station, given, f"{where}.hinges[{i}]", axis))
     return sorted(places, key=lambda place: place.station)
+
+
+def _place(name: str, member: str, station: float, keys: HingeAxes, where: str, axis: Axis) -> HingePlace:
+    first = first_axis(keys) or axis
+    return HingePlace(name, member, station, first, keys.law_about(first), where, keys)
+
+
+def first_axis(keys: HingeAxes) -> Axis | None:
+    """Bending axis that a hinge names, the first of several."""
+    return keys.bending[0] if keys.bending else keys.axis
 
 
 def hinge_station(structure: Structure, member: str, given: Hinge) -> float:
@@ -129,7 +146,7 @@ def hinge_station(structure: Structure, member: str, given: Hinge) -> float:
         return given.at + (given.offset or 0.0)
     offset = given.offset
     if offset is None:
-        axis = given.axis or bending_axis(structure, member)
+        axis = first_axis(given) or bending_axis(structure, member)
         held = holds_rotation(structure, given.at, structure.frame_of(member).axis(axis))
         offset = half_fold_length(structure.section_of(member), axis) if held else 0.0
     return offset if given.at == spec.nodes[0] else structure.frame_of(member).length - offset
@@ -161,7 +178,7 @@ def placed_hinges(structure: Structure) -> tuple[PlacedHinge, ...]:
         stations = [place.station for place in places]
         for place, share in zip(places, tributary_lengths(stations, length), strict=True):
             try:
-                placed.append(_placed(structure, place, share))
+                placed.append(_placed(structure, place, share, length if len(places) == 1 else share))
             except InputError as error:
                 problems += error.problems
     if problems:
@@ -236,7 +253,8 @@ def _law(section: Section, material: Material, axis: Axis, spec: LawKeys) -> Hin
     return hinge.bounded(hinge.build_law(kind, section, material, axis, **given), spec.bound)
 
 
-def _placed(structure: Structure, place: HingePlace, share: float) -> PlacedHinge:
+def _bending(structure: Structure, place: HingePlace, share: float) -> tuple[HingeLaw, HingeRecord]:
+    """Law and record about one axis of a hinge that stands for a length of member [m]."""
     spec = law_spec(structure, place)
     rigidity = structure.flexural_rigidity(place.member, place.axis)
     law = law_of(structure, place)
@@ -245,6 +263,39 @@ def _placed(structure: Structure, place: HingePlace, share: float) -> PlacedHing
     by_length = spec.elastic_stiffness == "auto" and law.elastic_stiffness is None
     if record.form is Form.ELASTIC_PLASTIC and by_length:
         record = replace(record, elastic_stiffness=hinge.tributary_stiffness(rigidity, share))
+    return law, record
+
+
+def spatial_record_of(
+    structure: Structure, place: HingePlace, share: float = 1.0, stretch: float = 1.0
+) -> SpatialHingeRecord | None:
+    """All components of a hinge, None if it bends about one axis alone.
+
+    Parameters
+    ----------
+    structure, place
+        The hinge.
+    share, stretch
+        Length of member [m] that it stands for in bending, and in twist and along.
+
+    Raises
+    ------
+    InputError
+        If its laws and axes do not fit the section or each other.
+    """
+    if place.keys.plain:
+        return None
+
+    def record_about(axis: Axis) -> HingeRecord:
+        about = replace(place, axis=axis, law=place.keys.law_about(axis))
+        return _bending(structure, about, share)[1]
+
+    section, material = structure.section_of(place.member), structure.material_of(place.member)
+    return spatial_hinge_record(place.keys, record_about, place.axis, section, material, stretch)
+
+
+def _placed(structure: Structure, place: HingePlace, share: float, stretch: float) -> PlacedHinge:
+    law, record = _bending(structure, place, share)
     frame = structure.frame_of(place.member)
     return PlacedHinge(
         name=place.name,
@@ -256,6 +307,7 @@ def _placed(structure: Structure, place: HingePlace, share: float) -> PlacedHing
         tributary_length=share,
         law=law,
         record=record,
+        spatial=spatial_record_of(structure, place, share, stretch),
     )
 
 

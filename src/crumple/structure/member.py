@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import re
 from numbers import Integral
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema, field_validator
 
-from crumple.structure.law import LawReference
+from crumple.structure.hinge_axes import HingeAxes
 from crumple.structure.quantity import LENGTH, Angle, Direction, Length
 from crumple.structure.spec import Name, Spec, refuse
 
-BendingAxis = Literal["y", "z"]
-"""Section axis that the moment vector of a hinge lies along."""
 MOST_BARS = 10_000
 """Bars in one member; more is a slip of the pen and would fill the memory."""
 
@@ -45,8 +43,8 @@ Place = Annotated[
 """A node of the member (text), or a distance from its first node [m]."""
 
 
-class Hinge(Spec):
-    """Plastic hinge at a place of a member."""
+class Placed(Spec):
+    """Name and place of a hinge."""
 
     name: Name
     """Name, unique in the structure; its channels are `hinge.NAME.rotation` and so on."""
@@ -55,11 +53,10 @@ class Hinge(Spec):
     offset: Length | None = None
     """Shift from that place into the member (from a distance: towards the second node);
     without it half a fold length at a clamp, else 0."""
-    axis: BendingAxis | None = None
-    """Section axis that the moment vector lies along; without it the one across the plane of bending."""
-    law: LawReference | None = None
-    """Name of a hinge law or of a law type, or a law itself; without it the section's default (kecman for
-    rectangular tubes)."""
+
+
+class Hinge(HingeAxes, Placed):
+    """Plastic hinge at a place of a member."""
 
 
 def _plain(given: Any) -> Any:
@@ -67,15 +64,15 @@ def _plain(given: Any) -> Any:
     return int(given) if isinstance(given, Integral) and not isinstance(given, bool) else given
 
 
-class Bars(Spec):
-    """Division of a member into equal rigid bars, with a hinge between neighbours."""
+class Division(Spec):
+    """Into how many bars."""
 
     number: Annotated[int, Field(ge=1, le=MOST_BARS, strict=True), BeforeValidator(_plain)] = 1
     """How many bars; the hinge after bar i is named MEMBER-i."""
-    axis: BendingAxis | None = None
-    """Section axis of these hinges' moment vector; without it the one across the plane of bending."""
-    law: LawReference | None = None
-    """Law of these hinges; without it the section's default."""
+
+
+class Bars(HingeAxes, Division):
+    """Division of a member into equal rigid bars, with a hinge between neighbours."""
 
 
 def _number_of_bars(given: Any) -> Any:

@@ -1,0 +1,171 @@
+"""Axial slip of a hinge: force against shortening of a column that folds, and yield in tension.
+
+Unknown: the force P(u) over the shortening u, from a peak P_0, a mean P_m over the stroke S, and the first
+fold's half length H:
+
+    P = P_0 - (P_0 - P_1) u/u_1    0 <= u < u_1 = min(H, S P_m/P_0)
+    P = P_1                        u_1 <= u < S,      (P_0 + P_1) u_1/2 + P_1 (S - u_1) = P_m S
+    stop at u = S
+
+so that the energy over the stroke is that of the mean force, P_m S, whatever the peak; P_1 >= P_m/2.  Folds
+make the force swing about P_1; that is left out.  In tension the walls yield.  Limits: P_0 = P_m is a
+constant force.  Derived here; a column shorter than its fold, or one that bends aside, is another matter.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crumple.errors import InputError, Problem
+from crumple.hinge.axial_law import AxialLaw
+from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.rate import HingeRate, rate_factor
+from crumple.hinge.stop import Stop
+
+CHOSEN = Source("none", Trust.ASSUMED, "peak, mean and stroke are the user's choice")
+FIRST_FALL = 0.05
+"""Share of the stroke over which the peak falls where no fold length is known."""
+
+
+@dataclass(frozen=True)
+class AxialCollapse:
+    """Force [N] in place of a moment, shortening [m] in place of a rotation; see `HingeLaw`.
+
+    Attributes
+    ----------
+    peak, mean
+        P_0 and P_m [N].
+    stroke
+        S [m]; inf: never closed, the mean is held.
+    tension
+        Force in the other sense [N].
+    fall
+        u_1 [m].
+    stop
+        Closed folds, in shortening alone; None without a stroke.
+
+    References
+    ----------
+    docs/theory/spatial_hinge.md.  Verified in tests/unit/hinge/test_spatial_recording.py.
+    """
+
+    name: ClassVar[str] = "axial_collapse"
+    title: ClassVar[str] = "axial collapse"
+
+    peak: float
+    mean: float
+    stroke: float
+    tension: float
+    fall: float
+    stop: Stop | None = None
+    rate: HingeRate | None = None
+    source: Source = CHOSEN
+    validity: Validity = Validity(math.inf, "axial folding was not compared with tests here")  # noqa: RUF009
+    softening_variable: SofteningVariable = SofteningVariable.PEAK
+    elastic_stiffness: float | None = None
+    jamming_angle: float | None = None
+
+    @classmethod
+    def given(
+        cls,
+        peak: float,
+        mean: float,
+        stroke: float,
+        *,
+        tension: float | None = None,
+        fall: float | None = None,
+        closed_stiffness: float = 0.0,
+    ) -> AxialCollapse:
+        """Collapse of given forces.
+
+        Parameters
+        ----------
+        peak, mean, stroke
+            P_0 >= P_m [N] and S [m].
+        tension
+            Force in tension [N]; the peak without it.
+        fall
+            Half length of the first fold [m]; 5 % of the stroke without it.
+        closed_stiffness
+            Spring of the closed folds [N/m]; 0: no stop.
+
+        Raises
+        ------
+        InputError
+            If a number is not positive or the mean is above the peak.
+        """
+        numbers = {
+            "peak": peak,
+            "mean": mean,
+            "stroke": stroke,
+            "tension": peak if tension is None else tension,
+        }
+        problems = [
+            Problem(f"the {name} must be positive", f"{value:g}", "> 0", "", name)
+            for name, value in numbers.items()
+            if not value > 0.0
+        ]
+        if not problems and mean > peak:
+            what, todo = "the mean force is above the peak", "give a higher peak or a lower mean"
+            problems.append(Problem(what, f"{mean:g} N", f"at most {peak:g} N", todo, "mean"))
+        if problems:
+            raise InputError(problems)
+        endless = not math.isfinite(stroke)
+        first = 0.0 if endless else FIRST_FALL * stroke if fall is None else fall
+        stop = Stop(stroke, closed_stiffness) if closed_stiffness > 0.0 and not endless else None
+        return cls(peak, mean, stroke, numbers["tension"], min(first, stroke * mean / peak), stop)
+
+    @classmethod
+    def of(
+        cls, law: AxialLaw, length: float, *, tension: float, closed_stiffness: float = 0.0
+    ) -> AxialCollapse:
+        """Collapse of a column of a length [m] by an axial law, whose mean is over its effective stroke.
+
+        Notes
+        -----
+        The law's rate factor is one of the impact speed; here it is taken at the present speed of shortening.
+        A mean force above the peak (stout walls) is taken as the peak.
+        """
+        mean = min(law.mean_crushing_force, law.peak_force)
+        made = cls.given(
+            law.peak_force,
+            mean,
+            law.effective_stroke * length,
+            tension=tension,
+            fall=law.half_fold_length,
+            closed_stiffness=closed_stiffness,
+        )
+        rate = None
+        if law.rate is not None:
+            rate = HingeRate(law.rate.metal.D / law.rate.shape, law.rate.metal.q)
+        basis = Validity(math.inf, law.validity.basis, law.validity.warnings, law.validity.uncertainty)
+        return cls(made.peak, mean, made.stroke, tension, made.fall, made.stop, rate, law.source, basis)
+
+    @property
+    def after(self) -> float:
+        """P_1 [N]."""
+        if self.fall == 0.0:
+            return self.mean
+        return (self.mean * self.stroke - self.peak * self.fall / 2.0) / (self.stroke - self.fall / 2.0)
+
+    def kinks(self, sense: int = 1) -> tuple[float, ...]:
+        """Where the peak has fallen."""
+        return (self.fall,) if sense < 0 and 0.0 < self.fall < math.pi else ()
+
+    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
+        """Force [N] at a slip [m]: sense -1 is shortening."""
+        u = np.asarray(rotation, np.float64)
+        if sense > 0:
+            return np.full_like(u, self.tension)
+        if self.fall == 0.0:
+            return np.full_like(u, self.after)
+        return np.asarray(np.interp(u, [0.0, self.fall], [self.peak, self.after]), np.float64)
+
+    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
+        """Factor at a speed of slip [m/s]."""
+        return rate_factor(self.rate, rotation_rate)

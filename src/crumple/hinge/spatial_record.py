@@ -1,0 +1,142 @@
+"""A hinge of several components as the spatial stepper knows it: one record per component and a surface."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from enum import Enum, IntEnum
+
+import numpy as np
+
+from crumple.hinge.law import Floats, SofteningVariable
+from crumple.hinge.record import Form, HingeRecord
+
+
+class Freedom(IntEnum):
+    """Relative freedom of a hinge's two sides, in the member's local axes; second side against first."""
+
+    AXIAL = 0
+    """Lengthening along x [m]; its force is positive in tension."""
+    X = 3
+    """Twist about x [rad]."""
+    Y = 4
+    """Bending about y [rad]; a positive moment stretches +z."""
+    Z = 5
+    """Bending about z [rad]; a positive moment stretches -y."""
+
+    @property
+    def label(self) -> str:
+        """Short name: axial, x, y or z."""
+        return self.name.lower()
+
+
+class Coupling(Enum):
+    """How the components of a hinge share its capacity."""
+
+    NONE = "none"
+    """Each for itself: a box."""
+    ELLIPSOID = "ellipsoid"
+    """Squares of the shares of the capacities add up to 1."""
+    BALL = "ball"
+    """The same with one capacity, which falls with the angle of the relative rotation."""
+    SECTION = "section"
+    """Plastic interaction of the section's own walls."""
+    TENSION_FLANGE = "tension-flange"
+    """The fold turns about its tension flange: compression lowers the moment, bending shortens the hinge."""
+
+
+@dataclass(frozen=True)
+class HingeComponent:
+    """Curves of both senses, stiffness, rate factor, damper and stops about or along one axis.
+
+    Attributes
+    ----------
+    freedom
+        Which freedom.
+    record
+        As of a planar hinge; for the axial freedom lengths [m] stand for rotations and forces [N] for
+        moments, and the negative sense is shortening.
+    """
+
+    freedom: Freedom
+    record: HingeRecord
+
+
+@dataclass(frozen=True, eq=False)
+class HingeSurface:
+    """Surface g = 1 in the shares x_k of the components' capacities.
+
+    Attributes
+    ----------
+    coupling
+        Kind of surface.
+    rows
+        Of the section: linear forms a in g^r = (sum |a.x|^p)^(r/p) + |x_torsion|^r, shape (rows, components);
+        the column of the twist is zero.
+    power, torque_power
+        p and r, at least 2.
+    torsion
+        Component that is the twist, or -1.
+    arm
+        Tension flange: its distance from the centroid [m].
+    error
+        Largest relative distance between this surface and that of the walls.
+    """
+
+    coupling: Coupling = Coupling.NONE
+    rows: Floats = field(default_factory=lambda: np.zeros((0, 0)))
+    power: float = 2.0
+    torque_power: float = 2.0
+    torsion: int = -1
+    arm: float = 0.0
+    error: float = 0.0
+
+    def gauge(self, shares: Floats) -> Floats:
+        """Value g of shares of the capacities, shapes (...) and (..., components).
+
+        Not of the tension flange, whose sides are not shares alone.
+        """
+        x = np.asarray(shares, float)
+        if self.coupling is Coupling.NONE:
+            return np.asarray(np.abs(x).max(axis=-1))
+        if self.coupling is not Coupling.SECTION:
+            return np.asarray(np.linalg.norm(x, axis=-1))
+        forms = np.abs(x @ self.rows.T)
+        top = np.maximum(forms.max(axis=-1, keepdims=True), 1e-300)
+        direct = top[..., 0] * ((forms / top) ** self.power).sum(axis=-1) ** (1.0 / self.power)
+        twist = np.abs(x[..., self.torsion]) if self.torsion >= 0 else np.zeros_like(direct)
+        return np.asarray((direct**self.torque_power + twist**self.torque_power) ** (1.0 / self.torque_power))
+
+
+@dataclass(frozen=True)
+class SpatialHingeRecord:
+    """Everything the spatial stepper needs of one hinge; made by `spatial_record`.
+
+    Attributes
+    ----------
+    components
+        One to four, in the order axial, twist, bending about y, about z.
+    surface
+        How they share the capacity.
+    fracture
+        Plastic rotation (length of the vector) [rad] at which the hinge opens for good; inf: never.
+    """
+
+    components: tuple[HingeComponent, ...]
+    surface: HingeSurface
+    fracture: float = math.inf
+
+    @property
+    def freedoms(self) -> tuple[Freedom, ...]:
+        """Freedoms of the components, in their order."""
+        return tuple(component.freedom for component in self.components)
+
+    @property
+    def form(self) -> Form:
+        """Form of all components."""
+        return self.components[0].record.form
+
+    @property
+    def softening_variable(self) -> SofteningVariable:
+        """Softening variable of all components."""
+        return self.components[0].record.softening_variable

@@ -1,0 +1,201 @@
+"""From records of single axes and the section's interaction to the record of a hinge of several components.
+
+The fit of the section's surface gives linear forms in the shares of N, M_y and M_z.  The hinge takes the
+columns of the components that it has: what it holds rigidly takes no part.  Each column is scaled so that a
+load about its axis alone reaches exactly that axis' capacity.
+
+A component whose two senses differ (shortening folds, lengthening yields) has its force divided by the
+capacity of the sense in which it acts.  That keeps the set convex only if the surface is mirror-symmetric in
+that component, so its rows are doubled with that column's sign turned, each times 2^(-1/p): the mean of a
+surface and its image.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from crumple.errors import InputError, Problem
+from crumple.hinge.law import Floats
+from crumple.hinge.record import Form, HingeRecord
+from crumple.hinge.spatial_record import Coupling, Freedom, HingeComponent, HingeSurface, SpatialHingeRecord
+
+if TYPE_CHECKING:
+    from crumple.section import InteractionFit
+
+COLUMN = {Freedom.AXIAL: 0, Freedom.Y: 1, Freedom.Z: 2}
+"""Columns of the rows of an `InteractionFit`."""
+
+
+def spatial_record(
+    components: Sequence[HingeComponent],
+    *,
+    coupling: Coupling = Coupling.SECTION,
+    interaction: InteractionFit | None = None,
+    arm: float = 0.0,
+    fracture: float = math.inf,
+) -> SpatialHingeRecord:
+    """Record of a hinge with one to four components.
+
+    Parameters
+    ----------
+    components
+        Each freedom at most once; all of one form and one softening variable.
+    coupling
+        How they share the capacity; without effect for one component.
+    interaction
+        Fit of the section's surface, needed by the coupling of the section.
+    arm
+        Distance from the centroid to the tension flange [m], needed by the coupling about it.
+    fracture
+        Plastic rotation [rad] at which the hinge opens.
+
+    Returns
+    -------
+    SpatialHingeRecord
+        Ready for the stepper.
+
+    Raises
+    ------
+    InputError
+        If the components do not fit together or the coupling.
+
+    References
+    ----------
+    docs/theory/spatial_hinge.md.  Verified in tests/unit/hinge/test_spatial_recording.py and
+    tests/verification/test_spatial_hinge.py.
+    """
+    ordered = tuple(sorted(components, key=lambda component: component.freedom))
+    problems = [*_component_problems(ordered), *_coupling_problems(ordered, coupling, interaction, arm)]
+    if not fracture > 0.0:
+        problems.append(
+            Problem("the angle of fracture must be positive", f"{fracture:g} rad", "> 0 rad", "", "fracture")
+        )
+    if problems:
+        raise InputError(problems)
+    if len(ordered) == 1:
+        coupling = Coupling.NONE
+    surface = HingeSurface(coupling, arm=arm if coupling is Coupling.TENSION_FLANGE else 0.0)
+    if coupling is Coupling.SECTION and interaction is not None:
+        surface = section_surface(ordered, interaction)
+    return SpatialHingeRecord(ordered, surface, fracture)
+
+
+def section_surface(components: Sequence[HingeComponent], interaction: InteractionFit) -> HingeSurface:
+    """Surface of a section's interaction for the components of a hinge."""
+    freedoms = [component.freedom for component in components]
+    rows = np.zeros((len(interaction.rows), len(freedoms)))
+    for k, component in enumerate(components):
+        if component.freedom in COLUMN:
+            rows[:, k] = interaction.rows[:, COLUMN[component.freedom]]
+    for k, component in enumerate(components):
+        if component.freedom in COLUMN and not senses_agree(component.record):
+            rows = _mirrored(rows, k, interaction.power)
+    rows = rows[np.abs(rows).max(axis=1) > 0.0]
+    # a load about one axis alone reaches its capacity
+    pure = (np.abs(rows) ** interaction.power).sum(axis=0) ** (1.0 / interaction.power)
+    rows = rows / np.where(pure > 0.0, pure, 1.0)
+    return HingeSurface(
+        Coupling.SECTION,
+        rows,
+        interaction.power,
+        interaction.torque_power,
+        freedoms.index(Freedom.X) if Freedom.X in freedoms else -1,
+        error=interaction.error,
+    )
+
+
+def senses_agree(record: HingeRecord) -> bool:
+    """Whether both senses have the very same curve."""
+    one, other = record.positive, record.negative
+    return np.array_equal(one.rotation, other.rotation) and np.array_equal(one.moment, other.moment)
+
+
+def scaled(record: HingeRecord, factor: float) -> HingeRecord:
+    """Record with both curves times a factor: a change of metal or wall that keeps the shape."""
+    return replace(
+        record,
+        positive=replace(record.positive, moment=record.positive.moment * factor),
+        negative=replace(record.negative, moment=record.negative.moment * factor),
+    )
+
+
+def _mirrored(rows: Floats, column: int, power: float) -> Floats:
+    image = rows.copy()
+    image[:, column] *= -1.0
+    return np.asarray(np.vstack([rows, image]) * 2.0 ** (-1.0 / power))
+
+
+def _component_problems(components: tuple[HingeComponent, ...]) -> list[Problem]:
+    freedoms = [component.freedom.label for component in components]
+    if not 1 <= len(set(freedoms)) == len(freedoms):
+        return [
+            Problem(
+                "the components of a hinge are not one to four different ones",
+                ", ".join(freedoms) or "none",
+                "axial, x, y, z, each at most once",
+                "",
+                "axes",
+            )
+        ]
+    problems = []
+    for what, seen in (
+        ("form", {component.record.form.value for component in components}),
+        ("softening", {component.record.softening_variable.value for component in components}),
+    ):
+        if len(seen) > 1:
+            came, todo = " and ".join(sorted(seen)), f"give all laws of the hinge one {what}"
+            problems.append(Problem(f"the components of a hinge differ in {what}", came, "one", todo, "laws"))
+    return problems
+
+
+def _coupling_problems(
+    components: tuple[HingeComponent, ...], coupling: Coupling, interaction: InteractionFit | None, arm: float
+) -> list[Problem]:
+    if len(components) < 2:
+        return []
+    if coupling is Coupling.SECTION and interaction is None:
+        return [
+            Problem("the section's interaction is not known", todo="couple as an ellipsoid", where="coupling")
+        ]
+    if coupling is Coupling.TENSION_FLANGE:
+        return _flange_problems(components, arm)
+    return _ball_problems(components) if coupling is Coupling.BALL else []
+
+
+def _flange_problems(components: tuple[HingeComponent, ...], arm: float) -> list[Problem]:
+    freedoms = {component.freedom for component in components}
+    problems = []
+    if freedoms not in ({Freedom.AXIAL, Freedom.Y}, {Freedom.AXIAL, Freedom.Z}):
+        what = "a fold about its tension flange has one bending axis and the axial slip"
+        problems.append(Problem(what, _names(components), "axial and y, or axial and z", "", "coupling"))
+    if components[0].record.form is Form.REGULARISED:
+        what, todo = "a fold about its tension flange is not regularised", "choose another form"
+        problems.append(Problem(what, "regularised", "set-valued, elastic-plastic", todo, "coupling"))
+    if not arm > 0.0:
+        what = "the arm of the tension flange must be positive"
+        problems.append(Problem(what, f"{arm:g} m", "> 0 m", "", "coupling"))
+    return problems
+
+
+def _ball_problems(components: tuple[HingeComponent, ...]) -> list[Problem]:
+    first = components[0].record.positive
+    curves = [
+        curve for component in components for curve in (component.record.positive, component.record.negative)
+    ]
+    same = all(
+        np.array_equal(curve.moment, first.moment) and np.array_equal(curve.rotation, first.rotation)
+        for curve in curves
+    )
+    if same and components[0].freedom is not Freedom.AXIAL:
+        return []
+    what = "a ball hinge has rotations only, with one curve for all axes and senses"
+    return [Problem(what, _names(components), "", "couple as an ellipsoid", "coupling")]
+
+
+def _names(components: tuple[HingeComponent, ...]) -> str:
+    return ", ".join(component.freedom.label for component in components)

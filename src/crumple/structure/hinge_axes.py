@@ -1,0 +1,135 @@
+"""About and along which axes a hinge moves, what each can carry, and how they share it."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, model_validator
+
+from crumple.structure.law import LawReference
+from crumple.structure.quantity import PositiveAngle, PositiveForce, PositiveLength, PositiveMoment
+from crumple.structure.spec import Spec, refuse
+
+BendingAxis = Literal["y", "z"]
+"""Section axis that the moment vector of a hinge lies along."""
+HingeAxis = Literal["x", "y", "z"]
+"""Axis of a hinge's rotation; x is twist."""
+CouplingName = Literal["section", "ellipsoid", "none", "ball", "tension-flange"]
+
+
+class Twist(Spec):
+    """What a hinge carries in twist."""
+
+    law: Literal["plastic", "square_tube"] = "plastic"
+    """A constant torque, or the collapse of a square tube."""
+    torque: PositiveMoment | None = None
+    """Constant torque; without it the plastic torque of the section."""
+    decay: PositiveAngle | None = None
+    """Twist in which the torque of a square tube loses 63 % of its way to the steady one; without it that is
+    held from the start."""
+
+    @model_validator(mode="after")
+    def _own_keys(self) -> Twist:
+        for key, kind in (("torque", "plastic"), ("decay", "square_tube")):
+            if getattr(self, key) is not None and self.law != kind:
+                refuse(f"'{key}' belongs to the law {kind}", key=key, todo=f"remove it, or write law: {kind}")
+        return self
+
+
+class AxialSlip(Spec):
+    """What a hinge carries along its member: yield in tension, folding in compression."""
+
+    law: Literal["square", "superfolding", "circular", "top_hat"] | None = None
+    """Law of axial crushing over the stretch of member that the hinge stands for; without it, and without
+    'mean', the walls yield in both senses and do not fold."""
+    peak: PositiveForce | None = None
+    """Largest force in compression, in place of a law."""
+    mean: PositiveForce | None = None
+    """Mean force over the stroke."""
+    stroke: PositiveLength | None = None
+    """Shortening at which the folds are closed."""
+    tension: PositiveForce | None = None
+    """Force in tension; without it that at which all walls yield."""
+
+    @model_validator(mode="after")
+    def _whole(self) -> AxialSlip:
+        forces = {"peak": self.peak, "mean": self.mean, "stroke": self.stroke}
+        given = [name for name, value in forces.items() if value is not None]
+        if self.law is not None and given:
+            refuse(
+                "a law and forces of one's own exclude each other", key=given[0], todo="remove one of them"
+            )
+        if given and len(given) < len(forces):
+            missing = next(name for name in forces if name not in given)
+            refuse(
+                f"axial folding needs '{missing}'", allowed="peak, mean and stroke together", todo="add it"
+            )
+        return self
+
+
+class AxisLaws(Spec):
+    """Laws of single bending axes, where they differ."""
+
+    y: LawReference | None = None
+    """Bending about y."""
+    z: LawReference | None = None
+    """Bending about z."""
+
+
+def _yes(given: Any) -> Any:
+    """`true` means with all defaults, `false` not at all."""
+    return {True: {}, False: None}[given] if isinstance(given, bool) else given
+
+
+class HingeAxes(Spec):
+    """Axes of a hinge, what it carries about them, and when it breaks."""
+
+    axis: BendingAxis | None = None
+    """Section axis that the moment vector lies along; without it the one across the plane of bending."""
+    law: LawReference | None = None
+    """Name of a hinge law or of a law type, or a law itself; without it the section's default (kecman for
+    rectangular tubes)."""
+    axes: Annotated[tuple[HingeAxis, ...], Field(min_length=1, max_length=3)] | None = None
+    """All section axes that it turns about, in place of `axis`: y and z bend, x is twist."""
+    laws: AxisLaws | None = None
+    """Laws of single bending axes in place of `law`."""
+    twist: Twist | None = None
+    """What it carries in twist, with x among the axes; without it the plastic torque of the section."""
+    axial: Annotated[AxialSlip | None, BeforeValidator(_yes, json_schema_input_type=bool | AxialSlip)] = None
+    """Whether it also yields or folds along the member; `true`: yields."""
+    coupling: CouplingName | None = None
+    """How its axes share the capacity: the interaction of the section's walls (default), an ellipsoid, none,
+    a ball (one curve over the angle of rotation), or a fold about its tension flange."""
+    fracture: PositiveAngle | None = None
+    """Plastic rotation at which it breaks and opens for good."""
+
+    @model_validator(mode="after")
+    def _axes_fit(self) -> HingeAxes:
+        if self.axes is None:
+            if self.twist is not None:
+                refuse("'twist' needs x among the axes", key="twist", todo="write axes: [x, y], or remove it")
+            return self
+        if self.axis is not None:
+            refuse("'axis' and 'axes' exclude each other", key="axis", todo="remove 'axis'")
+        if len(set(self.axes)) < len(self.axes):
+            refuse("an axis is named twice", key="axes", allowed="x, y and z, each at most once")
+        if not self.bending:
+            refuse("a hinge bends about y or z at least", key="axes", todo="add y or z")
+        if self.twist is not None and "x" not in self.axes:
+            refuse("'twist' needs x among the axes", key="twist", todo="add x to the axes, or remove it")
+        return self
+
+    @property
+    def bending(self) -> tuple[BendingAxis, ...]:
+        """Bending axes among `axes`, in their order."""
+        return tuple(axis for axis in self.axes or () if axis != "x")
+
+    @property
+    def plain(self) -> bool:
+        """Whether it bends about one axis and does nothing else."""
+        return len(self.axes or ()) < 2 and self.axial is None and self.fracture is None
+
+    def law_about(self, axis: BendingAxis) -> LawReference | None:
+        """Law of a bending axis as the input refers to it."""
+        own = None if self.laws is None else getattr(self.laws, axis)
+        return self.law if own is None else own

@@ -1,0 +1,126 @@
+"""Records of hinges with several components, from what the input says of their axes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from crumple.hinge import Form, HingeRecord, SofteningVariable, build_axial_law, build_torsion_law, record_of
+from crumple.hinge.axial_collapse import AxialCollapse
+from crumple.hinge.spatial_record import Coupling, Freedom, HingeComponent, SpatialHingeRecord
+from crumple.hinge.spatial_recording import spatial_record
+from crumple.material import Material
+from crumple.section import Section
+from crumple.structure.hinge_axes import AxialSlip, BendingAxis, HingeAxes, Twist
+
+if TYPE_CHECKING:
+    from crumple.section import InteractionFit, PlasticInteraction
+
+BENDING = {"y": Freedom.Y, "z": Freedom.Z}
+KEPT = 64
+"""Interactions kept; a structure has few pairs of section and material."""
+
+
+def spatial_hinge_record(
+    keys: HingeAxes,
+    record_about: Callable[[BendingAxis], HingeRecord],
+    axis: BendingAxis,
+    section: Section,
+    material: Material,
+    length: float,
+) -> SpatialHingeRecord:
+    """Record of a hinge.
+
+    Parameters
+    ----------
+    keys
+        What the input says of its axes.
+    record_about
+        Gives the record of a bending axis.
+    axis
+        Bending axis where the keys name none.
+    section, material
+        Of its member.
+    length
+        Stretch of member [m] that it stands for in twist and along.
+
+    Raises
+    ------
+    InputError
+        If the axes and their laws do not fit together.
+    """
+    bending = keys.bending or (axis,)
+    components = [HingeComponent(BENDING[about], record_about(about)) for about in bending]
+    first = components[0].record
+    if "x" in (keys.axes or ()):
+        twist = _twist(keys.twist or Twist(), section, material, length)
+        components.append(HingeComponent(Freedom.X, _like(first, twist)))
+    if keys.axial is not None:
+        components.append(HingeComponent(Freedom.AXIAL, _axial(keys.axial, first, section, material, length)))
+    coupling = Coupling(keys.coupling or "section")
+    several = len(components) > 1
+    return spatial_record(
+        components,
+        coupling=coupling,
+        interaction=_fit(section, material) if several and coupling is Coupling.SECTION else None,
+        arm=(section.bending_depth(bending[0]) - section.thickness) / 2.0,
+        fracture=math.inf if keys.fracture is None else keys.fracture,
+    )
+
+
+def _like(
+    first: HingeRecord, law: object, stiffness: float | None = None, one_sided: bool = False
+) -> HingeRecord:
+    """Record of a further component in the form of the first; a one-sided stop is that of shortening."""
+    stop = getattr(law, "stop", None)
+    return record_of(
+        law,  # type: ignore[arg-type]
+        form=first.form,
+        elastic_stiffness=stiffness,
+        softening=SofteningVariable(first.softening_variable),
+        stops=(None if one_sided else stop, stop),
+        regularisation_rate=first.regularisation_rate,
+        rate=math.isfinite(first.rate_reference),
+    )
+
+
+def _twist(keys: Twist, section: Section, material: Material, length: float) -> object:
+    options = {"torque": keys.torque} if keys.law == "plastic" else {"decay": keys.decay}
+    return build_torsion_law(keys.law, section, material, length, **options)
+
+
+def _axial(
+    keys: AxialSlip, first: HingeRecord, section: Section, material: Material, length: float
+) -> HingeRecord:
+    stiffness = material.youngs_modulus * section.area / length
+    squash = _interaction(section, material).squash_force
+    tension = keys.tension or squash
+    if keys.law is not None:
+        crushing = build_axial_law(keys.law, section, material)
+        law = AxialCollapse.of(crushing, length, tension=tension, closed_stiffness=stiffness)
+    else:
+        law = AxialCollapse.given(
+            keys.peak or squash,
+            keys.mean or squash,
+            keys.stroke or math.inf,
+            tension=tension,
+            closed_stiffness=stiffness,
+        )
+    elastic = stiffness if first.form is Form.ELASTIC_PLASTIC else None
+    return _like(first, law, elastic, one_sided=True)
+
+
+@lru_cache(maxsize=KEPT)
+def _interaction(section: Section, material: Material) -> PlasticInteraction:
+    from crumple.section import plastic_interaction  # noqa: PLC0415  (tubes with plain hinges need no walls)
+
+    return plastic_interaction(section, material)
+
+
+@lru_cache(maxsize=KEPT)
+def _fit(section: Section, material: Material) -> InteractionFit:
+    from crumple.section import fitted_interaction  # noqa: PLC0415
+
+    return fitted_interaction(_interaction(section, material))

@@ -1,0 +1,206 @@
+"""Hinges of several components: surfaces through the capacities of their axes, convex; axial collapse."""
+
+import math
+
+import numpy as np
+import pytest
+
+from crumple import hinge
+from crumple.errors import InputError
+from crumple.hinge import (
+    AxialCollapse,
+    Coupling,
+    Form,
+    Freedom,
+    HingeComponent,
+    SofteningVariable,
+    Stop,
+    build_axial_law,
+    build_law,
+    build_torsion_law,
+    record_of,
+    spatial_record,
+)
+from crumple.hinge.sensitivity import capacity_sensitivity
+from crumple.material import Material
+from crumple.section import RectangularTube, fitted_interaction, plastic_interaction
+
+STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3, density=7850.0, yield_stress=300e6)
+TUBE = RectangularTube(0.08, 0.06, 0.002)
+SQUARE = RectangularTube(0.06, 0.06, 0.002)
+INTERACTION = fitted_interaction(plastic_interaction(TUBE, STEEL))
+AXES = {Freedom.Y: "y", Freedom.Z: "z"}
+
+
+def bending(freedom, form=Form.SET_VALUED, **options):
+    law = build_law("kecman", TUBE, STEEL, AXES[freedom])
+    return HingeComponent(freedom, record_of(law, form=form, elastic_stiffness=1e5, **options))
+
+
+def axial(collapse=None):
+    law = collapse or AxialCollapse.given(90e3, 30e3, 0.2, tension=200e3, closed_stiffness=1e7)
+    return HingeComponent(Freedom.AXIAL, record_of(law, stops=(None, law.stop)))
+
+
+def twist():
+    law = build_torsion_law("plastic", TUBE, STEEL, 0.5)
+    return HingeComponent(Freedom.X, record_of(law))
+
+
+def all_four():
+    return [bending(Freedom.Z), twist(), bending(Freedom.Y), axial()]
+
+
+def test_components_come_in_one_order():
+    record = spatial_record(all_four(), interaction=INTERACTION)
+    assert record.freedoms == (Freedom.AXIAL, Freedom.X, Freedom.Y, Freedom.Z)
+    assert record.surface.torsion == 1
+    assert record.form is Form.SET_VALUED
+    assert record.fracture == math.inf
+
+
+def test_pure_loads_reach_their_capacities():
+    surface = spatial_record(all_four(), interaction=INTERACTION).surface
+    np.testing.assert_allclose(surface.gauge(np.eye(4)), 1.0, atol=1e-14)
+    np.testing.assert_allclose(surface.gauge(-np.eye(4)), 1.0, atol=1e-14)
+
+
+def test_the_surface_is_that_of_the_walls_within_the_fit():
+    """Mirrored rows of a tube that is symmetric anyway change the fit by no more than its error."""
+    surface = spatial_record(all_four(), interaction=INTERACTION).surface
+    generator = np.random.default_rng(2)
+    x = generator.normal(size=(500, 4))
+    exact = INTERACTION.gauge(x[:, [0, 2, 3, 1]] * INTERACTION.scales)
+    assert np.abs(surface.gauge(x) / exact - 1.0).max() < 2.0 * INTERACTION.error
+
+
+def test_unequal_senses_stay_convex():
+    """Two capacities stretch one half of a mirror-symmetric set."""
+    record = spatial_record(all_four(), interaction=INTERACTION)
+    force, *_ = (component.record for component in record.components)
+    capacity = np.array([[force.positive.moment[0], force.negative.moment[-1]], [1, 1], [1, 1], [1, 1]])
+    generator = np.random.default_rng(3)
+    flipped = generator.normal(size=(200, 4))
+    np.testing.assert_allclose(
+        record.surface.gauge(flipped), record.surface.gauge(flipped * [-1, 1, 1, 1]), rtol=1e-12
+    )
+
+    def value(tau):
+        return record.surface.gauge(tau / np.where(tau >= 0.0, capacity[:, 0], capacity[:, 1]))
+
+    a, b = generator.normal(size=(2, 2000, 4)) * [1e5, 1, 1, 1]
+    assert (value((a + b) / 2.0) <= (value(a) + value(b)) / 2.0 + 1e-12).all()
+
+
+def test_only_the_columns_of_the_components_count():
+    record = spatial_record([bending(Freedom.Y), bending(Freedom.Z)], interaction=INTERACTION)
+    assert record.surface.rows.shape[1] == 2
+    assert record.surface.torsion == -1
+    alone = spatial_record([bending(Freedom.Y)], fracture=0.5)
+    assert alone.surface.coupling is Coupling.NONE
+    assert alone.fracture == 0.5
+
+
+def test_gauges_of_the_other_couplings():
+    x = np.array([0.6, 0.8])
+    for coupling, wanted in ((Coupling.NONE, 0.8), (Coupling.ELLIPSOID, 1.0)):
+        record = spatial_record([bending(Freedom.Y), bending(Freedom.Z)], coupling=coupling)
+        assert record.surface.gauge(x) == pytest.approx(wanted, abs=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("components", "options", "message"),
+    [
+        (lambda: [], {}, "one to four"),
+        (lambda: [bending(Freedom.Y), bending(Freedom.Y)], {}, "one to four"),
+        (lambda: [bending(Freedom.Y), bending(Freedom.Z)], {}, "interaction is not known"),
+        (lambda: [bending(Freedom.Y), bending(Freedom.Z, Form.ELASTIC_PLASTIC)], {}, "differ in form"),
+        (
+            lambda: [bending(Freedom.Y), bending(Freedom.Z, softening=SofteningVariable.ROTATION)],
+            {},
+            "differ in softening",
+        ),
+        (
+            lambda: [bending(Freedom.Y), bending(Freedom.Z)],
+            {"coupling": Coupling.TENSION_FLANGE},
+            "one bending axis",
+        ),
+        (lambda: [bending(Freedom.Y), axial()], {"coupling": Coupling.TENSION_FLANGE}, "arm"),
+        (lambda: [bending(Freedom.Y), bending(Freedom.Z)], {"coupling": Coupling.BALL}, "one curve"),
+        (lambda: [bending(Freedom.Y)], {"fracture": 0.0}, "fracture must be positive"),
+        (lambda: [bending(Freedom.Y)], {"fracture": math.nan}, "fracture must be positive"),
+    ],
+)
+def test_what_does_not_fit_is_refused(components, options, message):
+    with pytest.raises(InputError, match=message):
+        spatial_record(components(), **options)
+
+
+def test_axial_collapse_keeps_the_energy_of_its_mean():
+    law = AxialCollapse.of(build_axial_law("square", SQUARE, STEEL), 0.4, tension=150e3, closed_stiffness=1e7)
+    u = np.linspace(0.0, law.stroke, 200_001)
+    work = np.trapezoid(law.moment_capacity(u, -1), u)
+    crushing = build_axial_law("square", SQUARE, STEEL)
+    assert work == pytest.approx(crushing.mean_crushing_force * crushing.effective_stroke * 0.4, rel=1e-6)
+    assert law.moment_capacity(np.zeros(1), -1)[0] == pytest.approx(crushing.peak_force)
+    assert (law.moment_capacity(u, 1) == 150e3).all()
+    assert law.stop == Stop(law.stroke, 1e7)
+
+
+def test_axial_collapse_limits():
+    constant = AxialCollapse.given(50e3, 50e3, 0.1)
+    np.testing.assert_allclose(constant.moment_capacity(np.linspace(0, 1, 11), -1), 50e3)
+    endless = AxialCollapse.given(50e3, 50e3, math.inf, closed_stiffness=1e6)
+    assert endless.stop is None
+    assert endless.kinks(-1) == ()
+    high = AxialCollapse.given(1e6, 20e3, 0.1, fall=0.09)
+    assert high.after >= 20e3 / 2.0
+    record = record_of(high, stops=(None, high.stop))
+    assert (record.negative.moment > 0.0).all()
+
+
+@pytest.mark.parametrize(
+    ("numbers", "message"),
+    [
+        ((1e4, 2e4, 0.1), "above the peak"),
+        ((-1.0, 1.0, 0.1), "peak must be positive"),
+        ((1e4, 1e3, 0.0), "stroke"),
+    ],
+)
+def test_axial_numbers_that_make_no_sense_are_refused(numbers, message):
+    with pytest.raises(InputError, match=message):
+        AxialCollapse.given(*numbers)
+
+
+def test_plastic_torque_is_that_of_the_section():
+    law = build_torsion_law("plastic", TUBE, STEEL, 0.5)
+    width, depth, wall = 0.078, 0.058, 0.002
+    bredt = 2.0 * width * depth * wall * 300e6 / math.sqrt(3.0)
+    assert law.steady_torque == pytest.approx(bredt, rel=1e-9)
+    assert law.elastic_stiffness == pytest.approx(STEEL.shear_modulus * TUBE.torsion_constant / 0.5)
+    assert build_torsion_law("plastic", TUBE, STEEL, 0.5, torque=100.0).steady_torque == 100.0
+    with pytest.raises(InputError, match="torque must be positive"):
+        build_torsion_law("plastic", TUBE, STEEL, 0.5, torque=-1.0)
+
+
+def test_sensitivity_of_a_capacity_to_yield_stress_and_wall():
+    """Plastic moment: proportional to the yield stress; over the wall the formula's own derivative."""
+
+    def of_yield(stress):
+        steel = Material(
+            "steel", youngs_modulus=210e9, poissons_ratio=0.3, density=7850.0, yield_stress=stress
+        )
+        return build_law("constant", TUBE, steel, "y")
+
+    slope = capacity_sensitivity(of_yield, 300e6, np.array([0.0, 0.3]))
+    moment = of_yield(300e6).moment_capacity(np.zeros(2))
+    np.testing.assert_allclose(slope, moment / 300e6, rtol=1e-8)
+
+    def of_wall(wall):
+        return build_law("constant", RectangularTube(0.08, 0.06, wall), STEEL, "y")
+
+    a, b, t = 0.08, 0.06, 0.002
+    # s_y (a b^2 - (a - 2t) (b - 2t)^2)/4
+    exact = 300e6 * ((b - 2 * t) ** 2 * 2 + (a - 2 * t) * 4 * (b - 2 * t)) / 4.0
+    assert capacity_sensitivity(of_wall, t, np.zeros(1))[0] == pytest.approx(exact, rel=1e-7)
+    assert hinge.spatial_record is spatial_record

@@ -1,0 +1,147 @@
+"""Hinges about several axes in the input: what they become, and what is refused."""
+
+import math
+
+import numpy as np
+import pytest
+
+from crumple.errors import InputError
+from crumple.hinge import Coupling, Form, Freedom
+from crumple.structure import Structure, placed_hinges
+
+PARTS = {
+    "materials": {
+        "steel": {
+            "youngs_modulus": "210 GPa",
+            "poissons_ratio": 0.3,
+            "density": "7850 kg/m^3",
+            "yield_stress": "300 MPa",
+        }
+    },
+    "sections": {
+        "tube": {"type": "rectangular_tube", "width": "80 mm", "depth": "60 mm", "thickness": "2 mm"},
+        "square": {"type": "rectangular_tube", "width": "60 mm", "depth": "60 mm", "thickness": "2 mm"},
+        "round": {"type": "circular_tube", "diameter": "60 mm", "thickness": "2 mm"},
+    },
+    "nodes": {"root": [0, 0, 0], "tip": ["1 m", 0, 0]},
+    "supports": {"clamp": {"node": "root", "fix": "all"}},
+    "masses": {"load": {"node": "tip", "mass": "6 kg"}},
+}
+
+
+def built(section="tube", **keys):
+    given = {"name": "fold", "at": "300 mm", **keys}
+    member = {"nodes": ["root", "tip"], "section": section, "material": "steel", "hinges": [given]}
+    return Structure(**PARTS, members={"bar": member})
+
+
+def placed(section="tube", **keys):
+    return placed_hinges(built(section, **keys))[0]
+
+
+def test_one_axis_stays_as_it_was():
+    for keys in ({}, {"axis": "z"}, {"axes": ["z"]}):
+        hinge = placed(**keys)
+        assert hinge.spatial is None
+        assert hinge.axis == ("y" if not keys else "z")
+
+
+def test_all_axes_of_a_hinge():
+    hinge = placed(axes=["z", "x", "y"], axial=True)
+    record = hinge.spatial
+    assert record.freedoms == (Freedom.AXIAL, Freedom.X, Freedom.Y, Freedom.Z)
+    assert record.surface.coupling is Coupling.SECTION
+    assert record.surface.torsion == 1
+    assert hinge.axis == "z"
+    by_freedom = {component.freedom: component.record for component in record.components}
+    assert by_freedom[Freedom.Z] is hinge.record
+    alone = placed(axis="y").record
+    np.testing.assert_array_equal(by_freedom[Freedom.Y].positive.moment, alone.positive.moment)
+    # no law of folding: the walls yield in both senses
+    squash = 300e6 * (80 * 60 - 76 * 56) * 1e-6
+    for curve in (by_freedom[Freedom.AXIAL].positive, by_freedom[Freedom.AXIAL].negative):
+        np.testing.assert_allclose(curve.moment, squash, rtol=1e-9)
+
+
+def test_laws_by_axis_and_forces_of_ones_own():
+    hinge = placed(
+        axes=["y", "z"],
+        law={"type": "constant", "moment": "2 kN*m"},
+        laws={"z": {"type": "constant", "moment": "3 kN*m"}},
+        axial={"peak": "90 kN", "mean": "30 kN", "stroke": "200 mm"},
+        coupling="ellipsoid",
+        fracture="40 deg",
+    )
+    axial, about_y, about_z = (component.record for component in hinge.spatial.components)
+    assert about_y.positive.moment[0] == 2000.0
+    assert about_z.positive.moment[0] == 3000.0
+    assert axial.negative.moment[0] == pytest.approx(90e3)
+    assert axial.stop_positive is None
+    assert axial.stop_negative.rotation == pytest.approx(0.2)
+    assert hinge.spatial.fracture == pytest.approx(math.radians(40.0))
+    assert hinge.spatial.surface.coupling is Coupling.ELLIPSOID
+
+
+def test_elastic_hinges_stand_for_their_stretch_of_the_member():
+    law = {"type": "constant", "form": "elastic-plastic"}
+    record = placed(
+        "square", axes=["y", "x"], law=law, axial={"law": "square"}, twist={"law": "square_tube"}
+    ).spatial
+    axial, twist, about_y = (component.record for component in record.components)
+    area, young = (60**2 - 56**2) * 1e-6, 210e9
+    assert record.form is Form.ELASTIC_PLASTIC
+    # a hinge by itself: a third of the member in bending, all of it along and in twist
+    assert about_y.elastic_stiffness == pytest.approx(3.0 * young * (60**4 - 56**4) / 12.0 * 1e-12)
+    assert axial.elastic_stiffness == pytest.approx(young * area)
+    shear = young / 2.6
+    assert twist.elastic_stiffness == pytest.approx(shear * 4.0 * (58e-3**4) / (4 * 58.0 / 2.0), rel=0.02)
+
+
+def test_chain_of_bars_has_the_same_axes():
+    member = {"nodes": ["root", "tip"], "section": "tube", "material": "steel"}
+    structure = Structure(**PARTS, members={"bar": member | {"bars": {"number": 4, "axes": ["y", "z"]}}})
+    hinges = placed_hinges(structure)
+    assert [hinge.spatial.freedoms for hinge in hinges] == [(Freedom.Y, Freedom.Z)] * 3
+
+
+def test_tension_flange_and_ball():
+    flange = placed(axes=["y"], axial=True, coupling="tension-flange").spatial
+    assert flange.surface.arm == pytest.approx(0.029)
+    law = {"type": "constant", "moment": "1 kN*m"}
+    ball = placed("round", axes=["y", "z"], law=law, coupling="ball").spatial
+    assert ball.surface.coupling is Coupling.BALL
+
+
+def test_axial_false_is_no_slip():
+    assert placed(axial=False).spatial is None
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"axes": ["x"]}, "bends about y or z"),
+        ({"axes": []}, "axes"),
+        ({"axes": ["y", "y"]}, "named twice"),
+        ({"axes": ["y", "w"]}, "axes"),
+        ({"axis": "y", "axes": ["y", "z"]}, "exclude each other"),
+        ({"twist": {"torque": "1 kN*m"}}, "needs x among the axes"),
+        ({"axes": ["y"], "twist": {}}, "needs x among the axes"),
+        ({"axes": ["x", "y"], "twist": {"decay": "5 deg"}}, "belongs to the law square_tube"),
+        ({"axial": {"peak": "1 kN"}}, "needs 'mean'"),
+        ({"axial": {"law": "square", "mean": "1 kN"}}, "exclude each other"),
+        ({"axes": ["y", "z"], "laws": {"z": "nothing"}}, "nothing"),
+        ({"axes": ["y", "z"], "coupling": "tension-flange"}, "one bending axis"),
+        ({"axes": ["y", "z"], "coupling": "ball"}, "one curve"),
+        ({"axial": {"law": "circular"}}, "circular tubes"),
+        ({"axes": ["x", "y"], "twist": {"law": "square_tube"}}, "square tubes"),
+        ({"fracture": "-5 deg"}, "fracture"),
+        (
+            {"axes": ["y", "z"], "laws": {"z": {"type": "constant", "form": "elastic-plastic"}}},
+            "differ in form",
+        ),
+    ],
+)
+def test_what_does_not_fit_is_refused_with_its_place(keys, message):
+    with pytest.raises(InputError, match=message) as refusal:
+        placed(**keys)
+    assert "Traceback" not in str(refusal.value)
