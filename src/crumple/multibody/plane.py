@@ -95,8 +95,13 @@ def plane_of(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Plane:
     Raises
     ------
     InputError
-        If hinges have axes that are not parallel.
+        If hinges have axes that are not parallel, or several components.
     """
+    several = next((hinge for hinge in hinges if hinge.spatial is not None), None)
+    if several is not None:
+        what = f"the hinge '{several.name}' turns about several axes, slips or breaks"
+        todo, where = "leave the choice of the kernel to Crumple", f"members.{several.member}.hinges"
+        raise InputError(Problem(what, "", "hinges that bend about one axis in the plane", todo, where))
     if hinges:
         normal = hinges[0].direction
         for hinge in hinges[1:]:
