@@ -12,6 +12,7 @@ void bind(nb::module_& m);
 namespace crumple::space {
 void bind(nb::module_& m);
 void bind_hinge(nb::module_& m);
+void bind_contact(nb::module_& m);
 }
 
 NB_MODULE(_kernels, m) {
@@ -21,6 +22,9 @@ NB_MODULE(_kernels, m) {
     auto space = m.def_submodule("space", "Implicit convex stepper for rigid bodies in space with plastic hinges.");
     crumple::space::bind(space);
     crumple::space::bind_hinge(space);
+    crumple::space::bind_contact(space);
+    crumple::space::bind_hinge(space);
+    crumple::space::bind_contact(space);
     auto shell = m.def_submodule("shell", "Explicit stepper for thin shells.");
     crumple::shell::bind(shell);
 }

@@ -1,10 +1,10 @@
-// Rigid contact between two bodies at a point: the impulse that it gives against its rates at the end of the step.
+// Rigid contact between two bodies at a point: the impulse that it opposes to its rates at the end of the step.
 //
 // Rates w = (normal, two tangents) are those of the second body relative to the first at the point of contact, along the
 // normal out of the first body, rows taken at the middle of the step.  All that is not convex is frozen over a step:
-//   normal     P_n = max(0, (a - w_n)/c),  a the allowed rate, c a compliance of `softness` times the inverse mass felt
-//   friction   P_t = -L w_t/max(|w_t|, width),  L = mu times the normal impulse that the last pass over the step found
-// so P is the gradient of -Phi, a convex potential.  A closed contact that is run into has a = -e w_n0 (restitution e),
+//   normal     P_n = min(0, (w_n - a)/c),  a the allowed rate, c a compliance of `softness` times the inverse mass felt
+//   friction   P_t = L w_t/max(|w_t|, width),  L = mu times the normal impulse that the last pass over the step found
+// so P is the gradient of a convex potential, and -P acts on the second body.  A closed contact that is run into has a = -e w_n0 (restitution e),
 // one at rest a = 0; one that is still open by g may close but not overlap: a = -max(0, g/(share h) + (1/share - 1) w_n0),
 // share = 1/2 for the trapezoidal step (1 where every step starts from rest).
 #pragma once
@@ -39,14 +39,14 @@ struct FrozenContact {
     double width = 0;            // half-width of the ramp of friction [m/s]; widened while a step is solved
 };
 
-// Share of the approach that the stiff normal law lets pass.  Larger ones show, smaller ones cost digits of the impulse.
-constexpr double softness = 1e-10;
+// Share of the change of rate that the stiff normal law lets pass, for two free bodies.  Larger ones show where much mass
+// stands behind a light body, smaller ones cost digits of the impulse.
+constexpr double softness = 1e-8;
 // Sticking contacts creep at less than this rate [m/s]: 1e-9 m over 0.1 s.
 constexpr double creep_rate = 1e-8;
 
 FrozenContact freeze(const ContactLaw& law, const ContactMotion& motion);
-// impulse (3) on the second body, its negative derivative (3 x 3, symmetric, positive semidefinite), and the potential
-// whose negative gradient the impulse is; any may be null
+// impulse P (3), its derivative (3 x 3, symmetric, positive semidefinite), and its potential; any may be null
 void respond(const FrozenContact& f, const double* w, double* impulse, double* tangent, double* potential);
 
 }  // namespace crumple::space

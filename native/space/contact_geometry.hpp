@@ -9,11 +9,9 @@
 // does not rock; one that lies flat on a plane is held by its ends.
 #pragma once
 
-#include "shell/vec3.hpp"
+#include "space/math.hpp"
 
 namespace crumple::space {
-
-using shell::Vec3;
 
 struct Segment {
     Vec3 first, second;

@@ -1,0 +1,63 @@
+// The geometry and the law of contact for tests; the simulation uses them inside the kernel.
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/vector.h>
+
+#include "space/contact.hpp"
+
+namespace nb = nanobind;
+
+namespace crumple::space {
+
+namespace {
+
+using Doubles = std::vector<double>;
+
+Vec3 vector(const Doubles& v) { return {v.at(0), v.at(1), v.at(2)}; }
+Doubles list(Vec3 v) { return {v.x, v.y, v.z}; }
+
+Solid make_solid(const nb::dict& d) {
+    Solid s;
+    s.shape = static_cast<Shape>(nb::cast<int>(d["shape"]));
+    s.point = vector(nb::cast<Doubles>(d["point"]));
+    s.direction = vector(nb::cast<Doubles>(d["direction"]));
+    s.edge = vector(nb::cast<Doubles>(d["edge"]));
+    s.has_edge = norm(s.edge) > 0;
+    s.radius = nb::cast<double>(d["radius"]);
+    s.length = nb::cast<double>(d["length"]);
+    return s;
+}
+
+nb::list find_touches(const nb::dict& solid, const Doubles& first, const Doubles& second, double radius) {
+    Touch touch[most_touches];
+    const int n = touches(make_solid(solid), {vector(first), vector(second), radius}, touch);
+    nb::list out;
+    for (int k = 0; k < n; k++) {
+        out.append(nb::make_tuple(touch[k].gap, list(touch[k].normal), list(touch[k].point), touch[k].slot));
+    }
+    return out;
+}
+
+nb::tuple answer(const nb::dict& d, const Doubles& rates) {
+    auto number = [&](const char* key) { return nb::cast<double>(d[key]); };
+    ContactMotion m;
+    m.h = number("h");
+    m.share = number("share");
+    m.gap = number("gap");
+    m.rate = number("rate");
+    m.normal_impulse = number("normal_impulse");
+    const FrozenContact f = freeze({number("friction"), number("restitution")}, m);
+    double impulse[3], tangent[9], potential;
+    respond(f, rates.data(), impulse, tangent, &potential);
+    return nb::make_tuple(Doubles(impulse, impulse + 3), Doubles(tangent, tangent + 9), potential, f.allowed);
+}
+
+}  // namespace
+
+void bind_contact(nb::module_& m) {
+    m.def("touches", &find_touches, nb::arg("solid"), nb::arg("first"), nb::arg("second"), nb::arg("radius"),
+          "Points of contact of a capsule with a solid: (gap, normal, point, slot) each.");
+    m.def("contact_response", &answer, nb::arg("motion"), nb::arg("rates"),
+          "Impulse (3), tangent (9), potential and allowed normal rate of a frozen contact.");
+}
+
+}  // namespace crumple::space

@@ -1,0 +1,151 @@
+#include "space/contact_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crumple::space {
+
+namespace {
+
+// Depth of the valley that counts as flat, and length of the valley below which it is one point, both as shares of
+// the segment's length.  A member turned by `flatness` from lying flat is held at one end only.
+constexpr double flatness = 1e-7, narrow = 1e-3;
+// halvings: the place of the valley to 1e-12 of the length, where its depth is exact
+constexpr int halvings = 40;
+// a shorter segment is a sphere, a shorter distance has no direction [m]
+constexpr double nothing = 1e-12;
+
+Distance from_axis(Vec3 radial, Vec3 direction, double radius) {
+    const double rho = norm(radial);
+    if (rho > nothing) return {rho - radius, (1 / rho) * radial};
+    Vec3 first, second;
+    tangents(direction, first, second);
+    return {-radius, first};
+}
+
+// Distance from the part that two solids with normals at right angles have in common.
+Distance of_corner(const Distance& a, const Distance& b) {
+    if (a.value > 0 && b.value > 0) {
+        const double d = std::hypot(a.value, b.value);
+        return {d, (a.value / d) * a.normal + (b.value / d) * b.normal};
+    }
+    return a.value >= b.value ? a : b;
+}
+
+struct Valley {
+    double first, last, lowest;
+    Vec3 normal;  // at the lowest point
+};
+
+class Profile {
+public:
+    Profile(const Solid& solid, const Segment& segment)
+        : solid_(solid), from_(segment.first), along_(segment.second - segment.first) {}
+    Vec3 at(double s) const { return from_ + s * along_; }
+    Distance operator()(double s) const { return distance(solid_, at(s)); }
+    double slope(const Distance& d) const { return dot(d.normal, along_); }
+    double length() const { return norm(along_); }
+
+    Valley valley() const {
+        const Distance start = (*this)(0), end = (*this)(1);
+        double lo = 0, hi = 1;
+        Distance below = start, above = end;
+        if (slope(start) >= 0) {
+            hi = 0;
+            above = start;
+        } else if (slope(end) <= 0) {
+            lo = 1;
+            below = end;
+        }
+        for (int k = 0; k < halvings && hi > lo; k++) {
+            const double s = (lo + hi) / 2;
+            const Distance d = (*this)(s);
+            const bool rising = slope(d) >= 0;
+            (rising ? hi : lo) = s;
+            (rising ? above : below) = d;
+        }
+        const double lowest = (lo + hi) / 2, level = (*this)(lowest).value + flatness * length();
+        // where the distance has a kink the normal lies between those of both sides, at right angles to the segment
+        const double a = -slope(below), b = slope(above);
+        Vec3 normal = above.normal;
+        if (a > 0 && b > 0) normal = (b / (a + b)) * below.normal + (a / (a + b)) * above.normal;
+        normal = (1 / norm(normal)) * normal;
+        return {start.value <= level ? 0 : crossing(0, lowest, level), end.value <= level ? 1 : crossing(1, lowest, level),
+                lowest, normal};
+    }
+
+private:
+    // where the distance falls to a level on the way from `outside` to `inside`
+    double crossing(double outside, double inside, double level) const {
+        for (int k = 0; k < halvings; k++) {
+            const double s = (outside + inside) / 2;
+            ((*this)(s).value > level ? outside : inside) = s;
+        }
+        return inside;
+    }
+
+    const Solid& solid_;
+    Vec3 from_, along_;
+};
+
+}  // namespace
+
+void tangents(Vec3 n, Vec3& first, Vec3& second) {
+    const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
+    const Vec3 far = x <= y && x <= z ? Vec3{1, 0, 0} : (y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1});
+    const Vec3 t = cross(n, far);
+    first = (1 / norm(t)) * t;
+    second = cross(n, first);
+}
+
+Distance distance(const Solid& solid, Vec3 x) {
+    const Vec3 r = x - solid.point;
+    const double along = dot(solid.direction, r);
+    switch (solid.shape) {
+        case Shape::plane: {
+            const Distance face{along, solid.direction};
+            return solid.has_edge ? of_corner(face, {dot(solid.edge, r), solid.edge}) : face;
+        }
+        case Shape::cylinder: {
+            const Distance side = from_axis(r - along * solid.direction, solid.direction, solid.radius);
+            if (solid.length == 0) return side;
+            const double middle = solid.length / 2;
+            const Vec3 out = along >= middle ? solid.direction : -solid.direction;
+            return of_corner(side, {std::fabs(along - middle) - middle, out});
+        }
+        case Shape::sphere: return from_axis(r, {0, 0, 1}, solid.radius);
+        case Shape::capsule: {
+            const double t = std::clamp(along, 0.0, solid.length);
+            return from_axis(r - t * solid.direction, solid.direction, solid.radius);
+        }
+    }
+    return {};
+}
+
+double least_gap(const Solid& solid, const Segment& segment) {
+    const Vec3 middle = 0.5 * (segment.first + segment.second);
+    return distance(solid, middle).value - norm(segment.second - segment.first) / 2 - segment.radius;
+}
+
+int touches(const Solid& solid, const Segment& segment, Touch* out) {
+    const Profile profile(solid, segment);
+    int n = 0;
+    auto add = [&](int slot, double s, const Distance& d) {
+        const double gap = d.value - segment.radius;
+        out[n++] = {gap, d.normal, profile.at(s) - (segment.radius + gap / 2) * d.normal, slot};
+    };
+    add(0, 0, profile(0));
+    if (profile.length() < nothing) return n;
+    add(1, 1, profile(1));
+    if (solid.shape == Shape::plane && !solid.has_edge) return n;
+    const Valley v = profile.valley();
+    if (v.last - v.first < narrow) {
+        if (v.lowest > narrow && v.lowest < 1 - narrow) add(2, v.lowest, {profile(v.lowest).value, v.normal});
+        return n;
+    }
+    if (v.first > narrow) add(2, v.first, profile(v.first));
+    if (v.last < 1 - narrow) add(3, v.last, profile(v.last));
+    return n;
+}
+
+}  // namespace crumple::space
