@@ -1,12 +1,13 @@
 // Rigid contact between two bodies at a point: the impulse that it opposes to its rates at the end of the step.
 //
-// Rates w = (normal, two tangents) are those of the second body relative to the first at the point of contact, along the
-// normal out of the first body, rows taken at the middle of the step.  All that is not convex is frozen over a step:
-//   normal     P_n = min(0, (w_n - a)/c),  a the allowed rate, c a compliance of `softness` times the inverse mass felt
+// Rates (normal, two tangents) are those of the second body relative to the first at the point of contact, along the
+// normal out of the first body.  The normal rate is counted from the allowed rate a, which is frozen over a step:
+//   at rest            a = 0
+//   being run into     a = -e r_0, r_0 the rate at the start, e the restitution
+//   open by a gap g    a = -max(0, 2 g/h + r_0): it may close, but with trapezoidal motion not overlap at the end
+// With w counted so, the impulse P is the gradient of a convex potential, and -P acts on the second body:
+//   normal     P_n = min(0, w_n/c),  c a compliance of `softness` times the inverse mass felt
 //   friction   P_t = L w_t/max(|w_t|, width),  L = mu times the normal impulse that the last pass over the step found
-// so P is the gradient of a convex potential, and -P acts on the second body.  A closed contact that is run into has a = -e w_n0 (restitution e),
-// one at rest a = 0; one that is still open by g may close but not overlap: a = -max(0, g/(share h) + (1/share - 1) w_n0),
-// share = 1/2 for the trapezoidal step (1 where every step starts from rest).
 #pragma once
 
 #include "space/contact_geometry.hpp"
@@ -17,26 +18,11 @@ struct ContactLaw {
     double friction = 0, restitution = 0;
 };
 
-// What a step knows of a contact when it is frozen.
-struct ContactMotion {
-    double h = 0;
-    double share = 0.5;          // weight of the end rate in the step's displacement
-    double gap = 0;              // at the start
-    double rate = 0;             // normal rate at the start
-    Vec3 bias;                   // rates at the end's position less those at the middle, for the predicted end velocities
-    double closed_gap = 0;       // below this gap it counts as closed [m]
-    double rest_rate = 0;        // slower approach does not bounce [m/s]
-    double normal_impulse = 0;   // found by the last pass, or the last step's force times h
-    double inverse_mass = 1;     // n.M^-1 n of both bodies at the point
-    double restitution_share = 1;  // of e; less than 1 where friction would make the impact gain energy
-};
-
+// A contact over one step.
 struct FrozenContact {
-    double allowed = 0;          // normal rate [m/s]
-    Vec3 bias;
-    double compliance = 1;       // [m/s per N s]
-    double limit = 0;            // of friction [N s]
-    double width = 0;            // half-width of the ramp of friction [m/s]; widened while a step is solved
+    double compliance = 1;  // [m/s per N s]
+    double limit = 0;       // of friction [N s]
+    double width = 0;       // half-width of the ramp of friction [m/s]; widened while a step is solved
 };
 
 // Share of the change of rate that the stiff normal law lets pass, for two free bodies.  Larger ones show where much mass
@@ -45,7 +31,9 @@ constexpr double softness = 1e-8;
 // Sticking contacts creep at less than this rate [m/s]: 1e-9 m over 0.1 s.
 constexpr double creep_rate = 1e-8;
 
-FrozenContact freeze(const ContactLaw& law, const ContactMotion& motion);
+// gap and normal rate at the start of a step of length h; a gap up to `closed` is none, an approach up to `rest` no impact
+double allowed_rate(double restitution, double gap, double rate, double h, double closed, double rest);
+FrozenContact freeze(const ContactLaw& law, double inverse_mass, double normal_impulse);
 // impulse P (3), its derivative (3 x 3, symmetric, positive semidefinite), and its potential; any may be null
 void respond(const FrozenContact& f, const double* w, double* impulse, double* tangent, double* potential);
 

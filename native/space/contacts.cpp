@@ -10,20 +10,23 @@ namespace {
 // Capsules whose centre lines are nearer than this share of their radii at the start are joined: contact between
 // them has no direction.
 constexpr double joined = 0.1;
-// Contacts are looked for within this many times the way that the bodies go in a step.
-constexpr double looked_ahead = 2;
+// Contacts are looked for within `looked_ahead` times the way that bodies go in a step, and kept up to `kept` times as
+// far: steps and their halves then have the same.
+constexpr double looked_ahead = 2, kept = 4;
+// Reach [closed gaps] of a step in which nothing moves: what forces may set going.
+constexpr double least_reach = 1000;
 // Slower approaches [m/s] are rest, whatever their energy: rounding must not bounce.
 constexpr double least_approach = 1e-6;
-// An impact that gains energy bounces by half as much in the next pass.
+// An impact that gains energy bounces by half as much in the next pass, and in the end not at all.
 constexpr double less_bounce = 0.5, least_bounce = 0.1;
-// Reach of a step in which nothing moves, in closed gaps: what forces may set going.
-constexpr double least_reach = 1000;
+// Gains of energy that are rounding.
+constexpr double rounding = 1e-9;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-Pose placed(const Pose* pose, int body) { return body < 0 ? Pose{} : pose[body]; }
+Pose placed(const std::vector<Pose>& pose, int body) { return body < 0 ? Pose{} : pose[at(body)]; }
 
-Segment placed(const Capsule& c, const Pose* pose) {
+Segment placed(const Capsule& c, const std::vector<Pose>& pose) {
     const Pose p = placed(pose, c.body);
     return {p.at(c.segment.first), p.at(c.segment.second), c.segment.radius};
 }
@@ -34,18 +37,6 @@ Solid as_solid(const Segment& s) {
     return {Shape::capsule, s.first, length > 0 ? (1 / length) * along : Vec3{1, 0, 0}, {}, s.radius, length, false};
 }
 
-// velocity of the second body relative to the first at a point
-Vec3 relative(const int body[2], Vec3 point, const Pose* pose, const Twist* v) {
-    Vec3 u;
-    for (int side = 0; side < 2; side++) {
-        if (body[side] < 0) continue;
-        const Twist& t = v[body[side]];
-        const Vec3 own = t.v + cross(t.w, point - pose[body[side]].x);
-        u = side == 0 ? u - own : u + own;
-    }
-    return u;
-}
-
 }  // namespace
 
 Contacts::Contacts(const ContactModel& model) : model_(model), placed_(model.capsules.size()) {
@@ -53,30 +44,31 @@ Contacts::Contacts(const ContactModel& model) : model_(model), placed_(model.cap
         for (const int c : model.obstacles[o].capsules) pairs_.push_back({static_cast<int>(o), -1, c});
     }
     obstacle_pairs_ = pairs_.size();
-    for (const CapsulePair& p : model.pairs) pairs_.push_back({-1, std::min(p.solid, p.capsule), std::max(p.solid, p.capsule)});
+    for (const CapsulePair& p : model.pairs) pairs_.push_back({-1, std::min(p.first, p.second), std::max(p.first, p.second)});
     std::sort(pairs_.begin() + static_cast<std::ptrdiff_t>(obstacle_pairs_), pairs_.end(), in_order);
     for (size_t c = 0; c < model.capsules.size(); c++) order_.push_back(static_cast<int>(c));
 }
 
-Solid Contacts::solid_at(const Pair& pair, const Pose* pose) const {
+Solid Contacts::solid_at(const Pair& pair, const std::vector<Pose>& pose) const {
     if (pair.obstacle < 0) return as_solid(placed(model_.capsules[at(pair.solid)], pose));
     const Obstacle& o = model_.obstacles[at(pair.obstacle)];
     if (o.body < 0) return o.solid;
+    const Pose& p = pose[at(o.body)];
     Solid s = o.solid;
-    s.point = pose[o.body].at(s.point);
-    s.direction = turned(pose[o.body].q, s.direction);
-    s.edge = turned(pose[o.body].q, s.edge);
+    s.point = p.at(s.point);
+    s.direction = turned(p.q, s.direction);
+    s.edge = turned(p.q, s.edge);
     return s;
 }
 
-void Contacts::begin(const std::vector<bool>& present, const Pose* pose) {
+void Contacts::begin(const std::vector<bool>& present, const std::vector<Pose>& pose) {
     for (Pair& pair : pairs_) {
         if (pair.obstacle >= 0) pair.present = present[at(pair.obstacle)];
         if (pair.present && !pair.seen) appear(pair, pose);
     }
 }
 
-void Contacts::appear(Pair& pair, const Pose* pose) {
+void Contacts::appear(Pair& pair, const std::vector<Pose>& pose) {
     pair.seen = true;
     Touch touch[most_touches];
     const Solid solid = solid_at(pair, pose);
@@ -98,6 +90,7 @@ void Contacts::sweep(double margin) {
         const double x = low(a, 0), y = low(b, 0);
         return x != y ? x < y : a < b;
     });
+    const auto first = pairs_.begin() + static_cast<std::ptrdiff_t>(obstacle_pairs_);
     for (size_t i = 0; i < order_.size(); i++) {
         const int a = order_[i];
         for (size_t j = i + 1; j < order_.size() && low(order_[j], 0) <= high(a, 0) + margin; j++) {
@@ -105,7 +98,6 @@ void Contacts::sweep(double margin) {
             if (low(b, 1) > high(a, 1) + margin || low(a, 1) > high(b, 1) + margin) continue;
             if (low(b, 2) > high(a, 2) + margin || low(a, 2) > high(b, 2) + margin) continue;
             const Pair wanted{-1, std::min(a, b), std::max(a, b)};
-            const auto first = pairs_.begin() + static_cast<std::ptrdiff_t>(obstacle_pairs_);
             const auto found = std::lower_bound(first, pairs_.end(), wanted, in_order);
             if (found == pairs_.end() || in_order(wanted, *found) || !found->present) continue;
             near_.push_back(static_cast<size_t>(found - pairs_.begin()));
@@ -115,41 +107,40 @@ void Contacts::sweep(double margin) {
 }
 
 // Way [m] within which points of contact are looked for: as far as bodies go in the step, and some more.
-double Contacts::look_ahead(const Pose* pose, const Twist* velocity, double h) {
+double Contacts::look_ahead(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double h) {
     double way = 0, obstacles_way = 0, gone = swept_.empty() ? INFINITY : 0;
     for (size_t c = 0; c < placed_.size(); c++) {
         const Capsule& capsule = model_.capsules[c];
         placed_[c] = placed(capsule, pose);
-        const Twist v = capsule.body < 0 ? Twist{} : velocity[capsule.body];
+        if (capsule.body < 0) continue;
+        const Twist& v = velocity[at(capsule.body)];
         const double arm = std::max(norm(capsule.segment.first), norm(capsule.segment.second)) + capsule.segment.radius;
         way = std::max(way, h * (norm(v.v) + norm(v.w) * arm));
         if (swept_.empty()) continue;
         gone = std::max({gone, norm(placed_[c].first - swept_[c].first), norm(placed_[c].second - swept_[c].second)});
     }
     for (const Obstacle& o : model_.obstacles) {
-        if (o.body >= 0) obstacles_way = std::max(obstacles_way, h * norm(velocity[o.body].v));
+        if (o.body < 0) continue;
+        const Twist& v = velocity[at(o.body)];
+        obstacles_way = std::max(obstacles_way, h * (norm(v.v) + norm(v.w) * (norm(o.solid.point) + o.solid.radius + o.solid.length)));
     }
     const double reach = looked_ahead * (way + std::max(way, obstacles_way)) + least_reach * closed_gap_;
-    if (obstacle_pairs_ < pairs_.size() && reach + 2 * gone > margin_) sweep(2 * reach);
+    if (obstacle_pairs_ < pairs_.size() && kept * reach + 2 * gone > margin_) sweep(2 * kept * reach);
     return reach;
 }
 
-bool Contacts::gather(const Pose* pose, const Twist* velocity, double h, double share, const ContactState& state) {
-    h_ = h;
-    share_ = share;
+bool Contacts::gather(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double h, const ContactState& state) {
     restitution_share_ = 1;
     before_.swap(active_);
     active_.clear();
     const double reach = look_ahead(pose, velocity, h);
-    for (size_t p = 0; p < obstacle_pairs_; p++) find(p, pose, velocity, reach);
-    for (const size_t p : near_) find(p, pose, velocity, reach);
+    for (size_t p = 0; p < obstacle_pairs_; p++) find(p, pose, reach);
+    for (const size_t p : near_) find(p, pose, reach);
     // what the last step's forces would give
     auto held = state.held.begin();
-    overlap_ = 0;
     for (Active& c : active_) {
         while (held != state.held.end() && held->key < c.key) ++held;
         if (held != state.held.end() && held->key == c.key) c.normal_impulse = h * held->force;
-        overlap_ = std::max(overlap_, -c.gap);
     }
     if (active_.size() != before_.size()) return true;
     for (size_t i = 0; i < active_.size(); i++) {
@@ -158,159 +149,130 @@ bool Contacts::gather(const Pose* pose, const Twist* velocity, double h, double 
     return false;
 }
 
-void Contacts::find(size_t p, const Pose* pose, const Twist* velocity, double reach) {
+bool Contacts::was_active(int64_t key) const {
+    const auto found = std::lower_bound(before_.begin(), before_.end(), key, [](const Active& a, int64_t k) { return a.key < k; });
+    return found != before_.end() && found->key == key;
+}
+
+void Contacts::find(size_t p, const std::vector<Pose>& pose, double reach) {
     const Pair& pair = pairs_[p];
     if (!pair.present) return;
     const Solid solid = solid_at(pair, pose);
     const Segment& segment = placed_[at(pair.capsule)];
-    if (least_gap(solid, segment) - pair.offset > reach) return;
+    if (least_gap(solid, segment) - pair.offset > kept * reach) return;
     Touch touch[most_touches];
     const int n = touches(solid, segment, touch);
     for (int k = 0; k < n; k++) {
         const double gap = touch[k].gap - pair.offset;
-        if (gap > reach) continue;
+        const int64_t key = static_cast<int64_t>(p) * most_touches + touch[k].slot;
+        if (gap > reach && (gap > kept * reach || !was_active(key))) continue;
         Active c{};
-        c.key = static_cast<int64_t>(p) * most_touches + touch[k].slot;
+        c.key = key;
         c.pair = p;
         c.body[0] = pair.obstacle < 0 ? model_.capsules[at(pair.solid)].body : model_.obstacles[at(pair.obstacle)].body;
         c.body[1] = model_.capsules[at(pair.capsule)].body;
         c.gap = gap;
         c.normal = touch[k].normal;
         c.point = touch[k].point;
-        c.rate = dot(c.normal, relative(c.body, c.point, pose, velocity));
+        Vec3 second;
+        tangents(c.normal, c.tangent, second);
         active_.push_back(c);
     }
 }
 
-// Point and normal at other poses; false, and as they were, where the point is lost or has passed through.
-bool Contacts::aim(Active& c, const Pose* pose) const {
+// Where the point of contact is lost, or has passed through, it stays where it was at the start of the step.
+void Contacts::locate(size_t i, const std::vector<Pose>& pose, Row* rows, double* gap) const {
+    const Active& c = active_[i];
     const Pair& pair = pairs_[c.pair];
     Touch touch[most_touches];
     const int n = touches(solid_at(pair, pose), placed(model_.capsules[at(pair.capsule)], pose), touch);
     const int slot = static_cast<int>(c.key % most_touches);
+    Vec3 axes[3] = {c.normal, c.tangent, {}}, point = c.point;
+    *gap = c.gap;
     for (int k = 0; k < n; k++) {
         if (touch[k].slot != slot || dot(touch[k].normal, c.normal) <= 0) continue;
-        c.normal = touch[k].normal;
-        c.point = touch[k].point;
-        return true;
+        axes[0] = touch[k].normal;
+        point = touch[k].point;
+        *gap = touch[k].gap - pair.offset;
     }
-    return false;
+    // the tangents of the start, turned into this plane
+    const Vec3 along = c.tangent - dot(c.tangent, axes[0]) * axes[0];
+    axes[1] = (1 / norm(along)) * along;
+    axes[2] = cross(axes[0], axes[1]);
+    const Vec3 a = point - placed(pose, c.body[0]).x, b = point - placed(pose, c.body[1]).x;
+    for (int k = 0; k < 3; k++) rows[k] = {axes[k], cross(a, axes[k]), cross(b, axes[k])};
 }
 
-void Contacts::place(const Pose* middle, const Pose* end, const Twist* predicted) {
-    for (Active& c : active_) {
-        aim(c, middle);
-        Vec3 axes[3] = {c.normal, {}, {}};
-        tangents(c.normal, axes[1], axes[2]);
-        const Vec3 centre[2] = {placed(middle, c.body[0]).x, placed(middle, c.body[1]).x};
-        for (int k = 0; k < 3; k++) {
-            c.row[k] = {axes[k], cross(c.point - centre[0], axes[k]), cross(c.point - centre[1], axes[k])};
-        }
-        const Vec3 at_middle = relative(c.body, c.point, middle, predicted);
-        Active later = c;
-        c.bias = {};
-        if (!aim(later, end)) continue;
-        const Vec3 at_end = relative(c.body, later.point, end, predicted);
-        // the tangents as they are, turned into the plane of the end
-        Vec3 first = axes[1] - dot(axes[1], later.normal) * later.normal;
-        first = (1 / norm(first)) * first;
-        const Vec3 second = cross(later.normal, first);
-        c.bias = {dot(later.normal, at_end) - dot(axes[0], at_middle), dot(first, at_end) - dot(axes[1], at_middle),
-                  dot(second, at_end) - dot(axes[2], at_middle)};
-    }
+double Contacts::rest_rate(const Active& c) const {
+    return std::max(least_approach, std::sqrt(2 * c.inverse_mass * negligible_energy_));
 }
 
-void Contacts::rates(const Active& c, const Twist* v, double* w) const {
-    const Twist a = c.body[0] < 0 ? Twist{} : v[c.body[0]], b = c.body[1] < 0 ? Twist{} : v[c.body[1]];
-    for (int k = 0; k < 3; k++) w[k] = rate(c.row[k], a, b);
+double Contacts::allowed(size_t i, double h, double start_rate) const {
+    const Active& c = active_[i];
+    return allowed_rate(restitution_share_ * law(c).restitution, c.gap, start_rate, h, closed_gap_, rest_rate(c));
 }
 
-void Contacts::freeze(const System& system) {
-    impact_ = false;
-    for (Active& c : active_) {
-        const Row& n = c.row[0];
-        c.inverse_mass = 0;
-        for (int side = 0; side < 2; side++) {
-            if (c.body[side] < 0) continue;
-            const Twist p{side == 0 ? n.ma : n.mb, n.t}, v = system.mobility(at(c.body[side]), p);
-            c.inverse_mass += dot(p.v, v.v) + dot(p.w, v.w);
-        }
-        ContactMotion m;
-        m.h = h_;
-        m.share = share_;
-        m.gap = c.gap;
-        m.rate = c.rate;
-        m.bias = c.bias;
-        m.closed_gap = closed_gap_;
-        m.rest_rate = std::max(least_approach, std::sqrt(2 * c.inverse_mass * negligible_energy_));
-        m.normal_impulse = c.normal_impulse;
-        m.inverse_mass = c.inverse_mass;
-        m.restitution_share = restitution_share_;
-        c.frozen = space::freeze(law(pairs_[c.pair]), m);
-        if (m.gap <= m.closed_gap && m.rate < -m.rest_rate) impact_ = true;
-    }
+void Contacts::freeze(size_t i, double inverse_mass) {
+    Active& c = active_[i];
+    c.inverse_mass = inverse_mass;
+    c.frozen = space::freeze(law(c), inverse_mass, c.normal_impulse);
 }
 
-bool Contacts::settle(const double* impulse, const Twist* start, const Twist* end) {
+bool Contacts::settle(const double* impulse, const double* rate0, const double* rate) {
     double largest = 0, change = 0, work = 0, scale = 0;
     for (size_t i = 0; i < active_.size(); i++) {
         Active& c = active_[i];
-        double w0[3], w1[3];
-        rates(c, start, w0);
-        rates(c, end, w1);
-        for (int k = 0; k < 3; k++) {
-            c.impulse[k] = impulse[3 * i + at(k)];
-            const double part = c.impulse[k] * (w0[k] + w1[k]) / 2;
-            work += part;
-            scale += std::fabs(part);
+        for (size_t k = 3 * i; k < 3 * i + 3; k++) {
+            work += impulse[k] * (rate0[k] + rate[k]) / 2;
+            scale += std::fabs(impulse[k]) * (std::fabs(rate0[k]) + std::fabs(rate[k]));
         }
-        const double found = -c.impulse[0];
+        const double found = -impulse[3 * i];
         largest = std::max(largest, found);
-        if (law(pairs_[c.pair]).friction > 0) change = std::max(change, std::fabs(found - c.normal_impulse));
+        if (law(c).friction > 0) change = std::max(change, std::fabs(found - c.normal_impulse));
         c.normal_impulse = found;
     }
-    if (impact_ && work < -1e-12 * scale && restitution_share_ > 0) {
+    if (work < -rounding * scale && restitution_share_ > 0) {
         restitution_share_ = restitution_share_ < least_bounce ? 0 : less_bounce * restitution_share_;
         return false;
     }
     return change <= settled_change * largest;
 }
 
-void Contacts::commit(const Twist* start, const Twist* end, ContactState& state) {
+void Contacts::commit(double h, const Row* rows, const double* impulse, const double* rate0, const double* rate,
+                      ContactState& state) const {
     state.held.clear();
     state.force.assign(model_.obstacles.size(), Vec3{});
     state.impulse.resize(model_.obstacles.size());
-    for (const Active& c : active_) {
-        double w0[3], w1[3];
-        rates(c, start, w0);
-        rates(c, end, w1);
-        state.dissipated += c.impulse[0] * (w0[0] + w1[0]) / 2;
-        for (int k = 1; k < 3; k++) state.friction += c.impulse[k] * (w0[k] + w1[k]) / 2;
-        if (c.impulse[0] < 0) state.held.push_back({c.key, -c.impulse[0] / h_});
+    state.closing = 0;
+    for (size_t i = 0; i < active_.size(); i++) {
+        const Active& c = active_[i];
+        const double *p = impulse + 3 * i, *w0 = rate0 + 3 * i, *w1 = rate + 3 * i;
+        state.dissipated += p[0] * (w0[0] + w1[0]) / 2;
+        state.friction += p[1] * (w0[1] + w1[1]) / 2 + p[2] * (w0[2] + w1[2]) / 2;
+        if (p[0] == 0) continue;
+        state.held.push_back({c.key, -p[0] / h});
         const int obstacle = pairs_[c.pair].obstacle;
-        if (obstacle < 0) continue;
-        Vec3 sum;
-        for (int k = 0; k < 3; k++) sum = sum + c.impulse[k] * c.row[k].t;
-        state.impulse[at(obstacle)] = state.impulse[at(obstacle)] + sum;
-        state.force[at(obstacle)] = state.force[at(obstacle)] + (1 / h_) * sum;
+        if (obstacle >= 0) {
+            const Vec3 sum = p[0] * rows[3 * i].t + p[1] * rows[3 * i + 1].t + p[2] * rows[3 * i + 2].t;
+            state.impulse[at(obstacle)] = state.impulse[at(obstacle)] + sum;
+            state.force[at(obstacle)] = state.force[at(obstacle)] + (1 / h) * sum;
+        }
+        if (c.gap <= closed_gap_) continue;
+        // the motion without the contact's impulse, its rate linear in time, up to half of what counts as closed
+        const double free = w1[0] + p[0] * c.inverse_mass, fastest = std::min(w0[0], free), way = c.gap - closed_gap_ / 2;
+        if (-fastest <= rest_rate(c)) continue;
+        const double root = w0[0] * w0[0] - 2 * way * (free - w0[0]) / h;
+        const double t = root > 0 ? 2 * way / (-w0[0] + std::sqrt(root)) : h / 2;
+        const double closes = t > 0 && t < h ? t : h / 2;
+        state.closing = state.closing > 0 ? std::min(state.closing, closes) : closes;
     }
 }
 
-double Contacts::first_closing(const Twist* start, const Twist* end) const {
-    double first = h_;
-    for (const Active& c : active_) {
-        if (c.gap <= closed_gap_ || c.impulse[0] >= 0) continue;
-        double w0[3], w1[3];
-        rates(c, start, w0);
-        rates(c, end, w1);
-        // the motion without the contact's impulse, its rate linear in time
-        const double free = w1[0] + c.impulse[0] * c.inverse_mass, fastest = std::min(w0[0], free);
-        if (fastest * fastest / (2 * c.inverse_mass) <= negligible_energy_ || fastest > -least_approach) continue;
-        const double quarter = w0[0] * w0[0] - 2 * c.gap * (free - w0[0]) / h_;
-        const double t = quarter > 0 ? 2 * c.gap / (-w0[0] + std::sqrt(quarter)) : h_ / 2;
-        first = std::min(first, t > 0 && t < 0.98 * h_ ? t : 0.9 * h_);
+bool Contacts::impact_follows(const double* gap, const double* rate) const {
+    for (size_t i = 0; i < active_.size(); i++) {
+        if (gap[i] <= closed_gap_ && rate[i] < -rest_rate(active_[i])) return true;
     }
-    return first;
+    return false;
 }
 
 }  // namespace crumple::space
