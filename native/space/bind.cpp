@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "multibody/bind_hinge.hpp"
+#include "space/bind_contact.hpp"
 #include "space/bind_hinge.hpp"
 #include "space/simulation.hpp"
 
@@ -139,6 +140,46 @@ void add_spring(Model& model, const nb::tuple& t) {
     model.springs.push_back(s);
 }
 
+void add_contact(Model& model, const nb::dict& d) {
+    ContactModel& contact = model.contact;
+    for (nb::handle h : nb::cast<nb::list>(d["capsules"])) {
+        const nb::tuple t = nb::cast<nb::tuple>(h);
+        const int body = nb::cast<int>(t[0]);
+        require_body(model, body, true);
+        const Vec3 c = centre(model, body);
+        const double radius = nb::cast<double>(t[3]);
+        require(radius >= 0, "the radius of a capsule must not be negative");
+        contact.capsules.push_back({body, {vector(t[1]) - c, vector(t[2]) - c, radius}});
+    }
+    const int capsules = static_cast<int>(contact.capsules.size());
+    for (nb::handle h : nb::cast<nb::list>(d["obstacles"])) {
+        const nb::dict o = nb::cast<nb::dict>(h);
+        Obstacle obstacle;
+        obstacle.body = nb::cast<int>(o["body"]);
+        require_body(model, obstacle.body, true);
+        obstacle.solid = make_solid(o);
+        obstacle.solid.point = obstacle.solid.point - centre(model, obstacle.body);
+        obstacle.law = {nb::cast<double>(o["friction"]), nb::cast<double>(o["restitution"])};
+        if (o["capsules"].is_none()) {
+            for (int c = 0; c < capsules; c++) {
+                if (contact.capsules[static_cast<size_t>(c)].body != obstacle.body) obstacle.capsules.push_back(c);
+            }
+        } else {
+            obstacle.capsules = nb::cast<std::vector<int>>(o["capsules"]);
+        }
+        for (const int c : obstacle.capsules) require(c >= 0 && c < capsules, "an obstacle names an unknown capsule");
+        contact.obstacles.push_back(obstacle);
+    }
+    for (nb::handle h : nb::cast<nb::list>(d["pairs"])) {
+        const auto pair = nb::cast<std::vector<int>>(h);
+        for (const int c : {pair.at(0), pair.at(1)}) require(c >= 0 && c < capsules, "a pair names an unknown capsule");
+        require(pair[0] != pair[1], "a capsule does not touch itself");
+        contact.pairs.push_back({pair[0], pair[1]});
+    }
+    const auto between = nb::cast<std::pair<double, double>>(d["contact"]);
+    contact.between = {between.first, between.second};
+}
+
 Model make_model(const nb::dict& d) {
     Model model;
     add_bodies(model, d);
@@ -147,6 +188,7 @@ Model make_model(const nb::dict& d) {
     for (nb::handle h : nb::cast<nb::list>(d["drives"])) add_drive(model, nb::cast<nb::tuple>(h));
     for (nb::handle h : nb::cast<nb::list>(d["loads"])) add_load(model, nb::cast<nb::tuple>(h));
     for (nb::handle h : nb::cast<nb::list>(d["springs"])) add_spring(model, nb::cast<nb::tuple>(h));
+    add_contact(model, d);
     model.gravity = vector(d["gravity"]);
     model.length = nb::cast<double>(d["length"]);
     require(model.length > 0, "the length must be positive");
@@ -167,6 +209,9 @@ Condition make_condition(const Model& model, const nb::tuple& t) {
         c.body[k] = bodies.at(k);
         require_body(model, c.body[k], true);
         c.arm[k] = vector(points.at(k).data());
+    }
+    if (c.quantity == Quantity::force) {
+        require(c.index >= 0 && c.index < static_cast<int>(model.contact.obstacles.size()), "a condition names an unknown obstacle");
     }
     if (c.quantity == Quantity::drive_force || c.quantity == Quantity::displacement) {
         require(c.index >= 0 && c.index < static_cast<int>(model.joints.size()), "a condition names an unknown joint");
@@ -205,7 +250,7 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
     d["hinge_capacity"] = array(r.hinge_capacity, {n, c});
     d["hinge_energy"] = array(r.hinge_energy, {n, m.hinges.size(), 3});
     d["joint_force"] = array(r.joint_force, {n, m.joints.size(), 6});
-    d["obstacle_force"] = array(r.obstacle_force, {n, 0, 3});
+    d["obstacle_force"] = array(r.obstacle_force, {n, m.contact.obstacles.size(), 3});
     d["energy"] = array(r.energy, {n, static_cast<size_t>(energy_columns)});
     d["summary"] = array(sim.summary(), {m.hinges.size(), static_cast<size_t>(summary_columns)});
     d["peaks"] = array(sim.peaks(), {c, 2});
@@ -220,15 +265,21 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
     return d;
 }
 
-void stage(Simulation& sim, bool quasi_static, const std::vector<int>& drives, const std::vector<int>&, const nb::list& until) {
-    std::vector<bool> acting(sim.model().drives.size());
-    for (const int k : drives) {
-        require(k >= 0 && static_cast<size_t>(k) < acting.size(), "a drive is unknown");
-        acting[static_cast<size_t>(k)] = true;
-    }
+void stage(Simulation& sim, bool quasi_static, const std::vector<int>& drives, const std::vector<int>& obstacles,
+           const nb::list& until) {
+    auto chosen = [](const std::vector<int>& indices, size_t n, const char* unknown) {
+        std::vector<bool> out(n);
+        for (const int k : indices) {
+            require(k >= 0 && static_cast<size_t>(k) < n, unknown);
+            out[static_cast<size_t>(k)] = true;
+        }
+        return out;
+    };
+    const std::vector<bool> acting = chosen(drives, sim.model().drives.size(), "a drive is unknown");
+    const std::vector<bool> present = chosen(obstacles, sim.model().contact.obstacles.size(), "an obstacle is unknown");
     std::vector<Condition> conditions;
     for (nb::handle h : until) conditions.push_back(make_condition(sim.model(), nb::cast<nb::tuple>(h)));
-    sim.begin_stage(quasi_static, acting, conditions);
+    sim.begin_stage(quasi_static, acting, present, conditions);
 }
 
 nb::dict run(Simulation& sim, const Doubles& times, nb::object poll) {

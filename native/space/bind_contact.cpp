@@ -2,6 +2,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/vector.h>
 
+#include "space/bind_contact.hpp"
 #include "space/contact.hpp"
 
 namespace nb = nanobind;
@@ -14,18 +15,6 @@ using Doubles = std::vector<double>;
 
 Vec3 vector(const Doubles& v) { return {v.at(0), v.at(1), v.at(2)}; }
 Doubles list(Vec3 v) { return {v.x, v.y, v.z}; }
-
-Solid make_solid(const nb::dict& d) {
-    Solid s;
-    s.shape = static_cast<Shape>(nb::cast<int>(d["shape"]));
-    s.point = vector(nb::cast<Doubles>(d["point"]));
-    s.direction = vector(nb::cast<Doubles>(d["direction"]));
-    s.edge = vector(nb::cast<Doubles>(d["edge"]));
-    s.has_edge = norm(s.edge) > 0;
-    s.radius = nb::cast<double>(d["radius"]);
-    s.length = nb::cast<double>(d["length"]);
-    return s;
-}
 
 nb::list find_touches(const nb::dict& solid, const Doubles& first, const Doubles& second, double radius) {
     Touch touch[most_touches];
@@ -46,6 +35,29 @@ nb::tuple answer(double friction, double inverse_mass, double normal_impulse, co
 }
 
 }  // namespace
+
+Solid make_solid(const nb::dict& d) {
+    Solid s;
+    const int shape = nb::cast<int>(d["kind"]);
+    if (shape < 0 || shape > static_cast<int>(Shape::capsule)) throw nb::value_error("an obstacle is of unknown shape");
+    s.shape = static_cast<Shape>(shape);
+    s.point = vector(nb::cast<Doubles>(d["point"]));
+    s.direction = vector(nb::cast<Doubles>(d["direction"]));
+    s.edge = vector(nb::cast<Doubles>(d["edge"]));
+    s.radius = nb::cast<double>(d["radius"]);
+    s.length = nb::cast<double>(d["length"]);
+    if (s.shape != Shape::sphere) {
+        if (!(norm(s.direction) > 0)) throw nb::value_error("an obstacle needs a direction");
+        s.direction = (1 / norm(s.direction)) * s.direction;
+    }
+    s.has_edge = s.shape == Shape::plane && norm(s.edge) > 0;
+    if (s.has_edge) {
+        s.edge = s.edge - dot(s.edge, s.direction) * s.direction;
+        if (!(norm(s.edge) > 0)) throw nb::value_error("an edge must not lie along the normal");
+        s.edge = (1 / norm(s.edge)) * s.edge;
+    }
+    return s;
+}
 
 void bind_contact(nb::module_& m) {
     m.def("touches", &find_touches, nb::arg("solid"), nb::arg("first"), nb::arg("second"), nb::arg("radius"),

@@ -270,7 +270,7 @@ void Contacts::commit(double h, const Row* rows, const double* impulse, const do
 
 bool Contacts::impact_follows(const double* gap, const double* rate) const {
     for (size_t i = 0; i < active_.size(); i++) {
-        if (gap[i] <= closed_gap_ && rate[i] < -rest_rate(active_[i])) return true;
+        if (gap[3 * i] <= closed_gap_ && rate[3 * i] < -rest_rate(active_[i])) return true;
     }
     return false;
 }

@@ -82,8 +82,9 @@ public:
     // after the last pass: energies, forces on obstacles, and when open contacts closed; rows as in the step
     void commit(double h, const Row* rows, const double* impulse, const double* rate0, const double* rate,
                 ContactState& state) const;
-    // gaps and normal rates at the end of the step: whether an impact follows
+    // whether an impact follows from the gaps and rates (3 each, the first counts) at the end of the step
     bool impact_follows(const double* gap, const double* rate) const;
+    double closed_gap() const { return closed_gap_; }
 
     // gap below which a contact counts as closed [m], and energy of an approach that is not worth an impact [J]
     void set_limits(double closed_gap, double negligible_energy) {

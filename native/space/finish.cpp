@@ -42,16 +42,20 @@ Energies energies(const Model& model, const State& s) {
         e.spring += spring.stiffness * stretch * stretch / 2;
     }
     e.damped += s.spring_damped;
+    e.contact = s.contact.dissipated;
+    e.friction = s.contact.friction;
     e.external_work = s.external_work;
     return e;
 }
 
 void Stepper::commit(State& s, double h) {
     for (size_t i = 0; i < end_.size(); i++) end_[i] = moved(s.pose[i], (h / 2) * (s.velocity[i] + velocity_[i]));
+    commit_contacts(s, h);
     // work of drives and dampers, from the impulses and mean rates of the step
     for (size_t c = 0; c < connections_.size(); c++) {
         const size_t index = at(connections_[c].index), first = at(start(c));
-        if (connections_[c].spring) {
+        if (is(c, Kind::contact)) continue;
+        if (is(c, Kind::spring)) {
             const Spring& spring = model_.springs[index];
             const double mean = (rate0_[first] + w_[first]) / 2, weight = spring_weight_[index];
             s.spring_damped += h * spring.damping * ((1 - weight) * rate0_[first] + weight * w_[first]) * mean;
@@ -68,7 +72,7 @@ void Stepper::commit(State& s, double h) {
         const size_t k = at(component_[j]);
         size_t row = 0;
         for (size_t c = 0; c < connections_.size(); c++) {
-            if (!connections_[c].spring && connections_[c].index == model_.hinge_joint[j]) row = at(start(c) + joint.held);
+            if (is(c, Kind::joint) && connections_[c].index == model_.hinge_joint[j]) row = at(start(c) + joint.held);
         }
         double turn[most_components];
         space::commit(model_.hinges[j], frozen_[j], s.hinge[j], s.t, &s.rotation[k], &w_[row], turn);
@@ -93,6 +97,7 @@ void Stepper::commit(State& s, double h) {
     }
     s.pose = end_;
     s.t += h;
+    see_contacts(s);
 }
 
 // Positions and velocities back to the held rows at the end of the step, the nearest in kinetic energy with the laws'
@@ -100,8 +105,8 @@ void Stepper::commit(State& s, double h) {
 void Stepper::mend_end(State& s, double h) {
     const std::vector<Link>& links = system_.links();
     bool any = false;
-    for (const Link& link : links) any = any || link.held > 0;
     locate_all(s, end_, s.t + h, rows_, error_.data());
+    for (size_t c = 0; c < links.size(); c++) any = any || links[c].held > 0 || overlap(c) < 0;
     if (!any) return;
     set_mobilities(end_);
     auto set_rows = [&] {
@@ -124,10 +129,11 @@ void Stepper::mend_end(State& s, double h) {
     for (int pass = 0; pass < mending_limit; pass++) {
         double worst = 0;
         for (size_t c = 0; c < links.size(); c++) {
-            for (int i = 0; i < links[c].rows(); i++) {
-                const size_t k = at(start(c) + i);
-                x_[k] = i < links[c].held ? error_[k] : 0;
-                worst = std::max(worst, std::fabs(x_[k]));
+            const size_t first = at(start(c)), held = at(links[c].held);
+            const double deep = overlap(c);
+            for (size_t i = 0; i < at(links[c].rows()); i++) {
+                x_[first + i] = i < held ? error_[first + i] : tangent_[c].value[i - held] * tangent_[c].vectors[i - held] * deep;
+                worst = std::max(worst, i < held ? std::fabs(error_[first + i]) : -deep);
             }
         }
         if (worst <= closed * model_.length) break;
@@ -145,7 +151,7 @@ void Stepper::mend_end(State& s, double h) {
             const size_t k = at(first + i);
             x_[k] = i < links[c].held ? x_[k] : 0;
         }
-        if (connections_[c].spring || !model_.joints[at(connections_[c].index)].driven) continue;
+        if (!is(c, Kind::joint) || !model_.joints[at(connections_[c].index)].driven) continue;
         const size_t index = at(connections_[c].index);
         const Joint& joint = model_.joints[index];
         const Target driven = target(joint, s, s.t + h);
@@ -159,7 +165,7 @@ void Stepper::mend_end(State& s, double h) {
 // forces of the joints on their second bodies, mean over the step
 void Stepper::show_forces(State& s, double h) {
     for (size_t c = 0; c < connections_.size(); c++) {
-        if (connections_[c].spring) continue;
+        if (!is(c, Kind::joint)) continue;
         const size_t index = at(connections_[c].index);
         const Joint& joint = model_.joints[index];
         double f[6] = {};

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "space/contacts.hpp"
 #include "space/hinge.hpp"
 #include "space/joint.hpp"
 
@@ -47,6 +48,7 @@ struct Model {
     std::vector<Load> loads;
     std::vector<Spring> springs;
     std::vector<Drive> drives;
+    ContactModel contact;
     Vec3 gravity;
     double length = 1;  // [m] turns displacements into angles for the error measure
 
@@ -70,6 +72,7 @@ struct State {
     std::vector<double> rotation;               // of every hinge component, see JointGeometry::error
     std::vector<double> rate;                   // of the same
     std::vector<Twist> joint_force;             // moment and force on the second body, in the joint's frame, last step
+    ContactState contact;
     double external_work = 0, spring_damped = 0;
 };
 

@@ -27,7 +27,8 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 void Stepper::respond(size_t link, const double* w, double* impulse, double* tangent) const {
     const size_t index = at(connections_[link].index);
-    if (connections_[link].spring) {
+    if (is(link, Kind::contact)) return space::respond(contacts_.frozen(index), w, impulse, tangent, nullptr);
+    if (is(link, Kind::spring)) {
         impulse[0] = spring_force_[index] + spring_tangent_[index] * w[0];
         if (tangent) tangent[0] = spring_tangent_[index];
         return;
@@ -38,7 +39,7 @@ void Stepper::respond(size_t link, const double* w, double* impulse, double* tan
 
 // above 1: a locked hinge must give way
 double Stepper::load(size_t link, const double* w) const {
-    if (connections_[link].spring) return 0;
+    if (!is(link, Kind::joint)) return 0;
     const size_t hinge = at(hinge_index(link));
     return load_factor(model_.hinges[hinge], frozen_[hinge], w);
 }
@@ -61,6 +62,10 @@ bool Stepper::newton() {
 
 void Stepper::widen(double width, bool& narrowest) {
     narrowest = true;
+    for (size_t i = 0; i < contacts_.size(); i++) {
+        contacts_.frozen(i).width = std::max(width, creep_rate);
+        if (width > creep_rate) narrowest = false;
+    }
     for (size_t c = 0; c < connections_.size(); c++) {
         if (!hinge_of(c)) continue;
         const SpaceHinge& hinge = *hinge_of(c);
@@ -193,12 +198,21 @@ bool Stepper::balanced(double& slope) {
         respond(c, &w_next_[at(first)], p, nullptr);
         for (int k = 0; k < n; k++) {
             const double left = p[k] - impulse_[at(first + k)];
-            const double scale = std::fabs(p[k]) + (hinge_of(c) ? impulse_scale(frozen_[at(hinge_index(c))], k) : 0);
+            double scale = std::fabs(p[k]);
+            if (hinge_of(c)) scale += impulse_scale(frozen_[at(hinge_index(c))], k);
+            if (is(c, Kind::contact)) scale += contacts_.frozen(at(connections_[c].index)).limit;
             if (!(std::fabs(left) <= impulse_tolerance * scale)) all = false;
             slope += left * (w_next_[at(first + k)] - w_[at(first + k)]);
         }
     }
     return all;
+}
+
+// A contact that would slide back is first put to rest.
+void Stepper::stop_reversing(size_t link) {
+    const double *w = &w_[at(start(link))], width = contacts_.frozen(at(connections_[link].index)).width;
+    double* next = &w_next_[at(start(link))];
+    if (std::hypot(w[1], w[2]) > width && w[1] * next[1] + w[2] * next[2] < 0) next[1] = next[2] = 0;
 }
 
 // Takes the whole Newton step, except that a hinge which would reverse is first put to rest, and that of
@@ -211,6 +225,10 @@ void Stepper::take_whole_step() {
     for (size_t c = 0; c < links.size(); c++) {
         const int first = start(c) + links[c].held, n = links[c].laws;
         if (n == 0) continue;
+        if (is(c, Kind::contact)) {
+            stop_reversing(c);
+            continue;
+        }
         const bool locked = load(c, &w_[at(first)]) < 1;
         double along = 0;
         for (int k = 0; k < n; k++) along += w_[at(first + k)] * w_next_[at(first + k)];

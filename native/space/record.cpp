@@ -16,7 +16,7 @@ void add(std::vector<double>& out, const Twist& t) {
 
 }  // namespace
 
-void Simulation::store(Record& r) const {
+void Simulation::store(Record& r) {
     r.time.push_back(state_.t);
     for (size_t i = 0; i < state_.pose.size(); i++) {
         const Quat& q = state_.pose[i].q;
@@ -46,6 +46,17 @@ void Simulation::store(Record& r) const {
         add(r.joint_force, f.v);
         add(r.joint_force, f.w);
     }
+    // mean since it was last stored: an impact's impulse counts as it should
+    stored_impulse_.resize(model_.contact.obstacles.size());
+    state_.contact.impulse.resize(stored_impulse_.size());
+    state_.contact.force.resize(stored_impulse_.size());
+    for (size_t o = 0; o < stored_impulse_.size(); o++) {
+        const Vec3 gained = state_.contact.impulse[o] - stored_impulse_[o];
+        const double time = state_.t - stored_time_;
+        add(r.obstacle_force, stored_time_ >= 0 && time > 0 ? (1 / time) * gained : state_.contact.force[o]);
+        stored_impulse_[o] = state_.contact.impulse[o];
+    }
+    stored_time_ = state_.t;
     const Energies e = energies(model_, state_);
     r.energy.insert(r.energy.end(), {e.kinetic, e.elastic, e.dissipated, e.damped, e.stop, e.spring, e.contact, e.friction,
                                      e.external_work});

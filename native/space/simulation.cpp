@@ -20,6 +20,12 @@ constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
 constexpr long poll_interval = 20'000;  // solves times rows between calls of `poll`: some 10 ms
 // A condition that ends a stage is met to this share of its value.
 constexpr double met = 1e-4;
+// Energy of an approach that is not worth an impact, as a share of accuracy times the largest energy.
+constexpr double negligible_impact = 1e-3;
+// Gap [model lengths times accuracy] below which a contact counts as closed.
+constexpr double closed_gap = 1e-3;
+// Steps are not shortened below this many smallest ones to end where a contact closes.
+constexpr double shortest_landing = 4;
 
 double kinetic_norm(const Model& model, const State& a, const State* b) {
     double e = 0;
@@ -40,6 +46,7 @@ Simulation::Simulation(Model model, const Settings& settings)
     : model_(std::move(model)), settings_(settings), stepper_(model_), step_tolerance_(step_tolerance(settings.accuracy)) {
     state_ = stepper_.start();
     first_ = state_;
+    stepper_.set_obstacles(std::vector<bool>(model_.contact.obstacles.size(), true), state_);
     peak_.assign(2 * state_.rotation.size(), 0.0);
     set_damping();
 }
@@ -86,7 +93,8 @@ double Simulation::set_motion(const Twist* velocity, const Twist* impulse) {
     return given - energies(model_, state_).kinetic;
 }
 
-void Simulation::begin_stage(bool quasi_static, const std::vector<bool>& drives, std::vector<Condition> until) {
+void Simulation::begin_stage(bool quasi_static, const std::vector<bool>& drives, const std::vector<bool>& obstacles,
+                             std::vector<Condition> until) {
     Stage& stage = stepper_.stage();
     std::vector<DriveStage> next(model_.drives.size());
     for (size_t k = 0; k < next.size(); k++) {
@@ -94,6 +102,7 @@ void Simulation::begin_stage(bool quasi_static, const std::vector<bool>& drives,
     }
     stage = {quasi_static, next};
     state_.stage_start = state_.t;
+    stepper_.set_obstacles(obstacles, state_);
     if (quasi_static) std::fill(state_.velocity.begin(), state_.velocity.end(), Twist{});
     h_ = 0;
     until_ = std::move(until);
@@ -108,6 +117,7 @@ void Simulation::begin_stage(bool quasi_static, const std::vector<bool>& drives,
 
 double Simulation::quantity(const Condition& c, const State& s) const {
     double q = 0;
+    if (c.quantity == Quantity::force && !s.contact.force.empty()) q = norm(s.contact.force[static_cast<size_t>(c.index)]);
     if (c.quantity == Quantity::work) q = s.external_work;
     if (c.quantity == Quantity::drive_force) q = norm(s.joint_force[static_cast<size_t>(c.index)].v);
     if (c.quantity == Quantity::displacement) q = stepper_.relative(s, c.index, c.freedom);
@@ -172,7 +182,24 @@ bool Simulation::solve(double h) {
     for (size_t i = 0; i < end.size(); i++) guess_[i] = from_rest ? end[i] : 0.5 * (state_.velocity[i] + end[i]);
     fine_ = state_;
     const std::vector<Twist> last = end;
-    return stepper_.step(fine_, h / 2, &guess_) && stepper_.step(fine_, h / 2, &last);
+    if (!stepper_.step(fine_, h / 2, &guess_)) return false;
+    closing_ = fine_.contact.closing;
+    if (closing_ > 0) return true;
+    if (!stepper_.step(fine_, h / 2, &last)) return false;
+    if (fine_.contact.closing > 0) closing_ = h / 2 + fine_.contact.closing;
+    return true;
+}
+
+// The step of an impact: so short that nothing but velocities changes.
+bool Simulation::strike(Record& record) {
+    if (!stepper_.step(state_, settings_.minimum_step, nullptr)) {
+        record.outcome = Outcome::step_collapsed;
+        record.reason = "the equations of an impact did not converge";
+        return false;
+    }
+    record.steps++;
+    watch(record);
+    return true;
 }
 
 bool Simulation::advance(double target, Record& record, const std::function<bool(double)>& poll) {
@@ -186,10 +213,19 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
                 return false;
             }
         }
-        const double left = target - state_.t;
-        const bool last = h_ >= left * (1 - 1e-9);
-        const double h = last ? left : (h_ > left / 2 ? left / 2 : h_);
+        if (state_.contact.impact) {
+            if (!strike(record)) return false;
+            continue;
+        }
+        const double left = target - state_.t, wanted = landing_ > 0 ? std::min(landing_, h_) : h_;
+        const bool last = wanted >= left * (1 - 1e-9);
+        const double h = last ? left : (wanted > left / 2 && landing_ == 0 ? left / 2 : wanted);
         const bool solved = solve(h);
+        if (solved && closing_ > 0 && h > shortest_landing * settings_.minimum_step) {
+            record.rejected++;
+            landing_ = std::max(closing_, settings_.minimum_step);
+            continue;
+        }
         const double e = solved ? error(coarse_, fine_) : INFINITY;
         const bool smallest = h <= settings_.minimum_step * 1.001;
         if (std::isnan(e)) {
@@ -208,18 +244,21 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
         if (e > 1 && !smallest) {
             record.rejected++;
             h_ = std::max(std::min(next, 0.7 * h), settings_.minimum_step);
+            landing_ = 0;
             continue;
         }
         int which = -1;
         const double share = share_of_step(state_, fine_, &which);
         if (share < 1 && !smallest) {
             h_ = std::max(share * h, settings_.minimum_step);
+            landing_ = 0;
             continue;
         }
         if (e > 1) record.forced++;
         if (last) fine_.t = target;
         std::swap(state_, fine_);
-        h_ = last && e <= 1 ? std::max(h_, next) : next;
+        h_ = (last || landing_ > 0) && e <= 1 ? std::max(h_, next) : next;
+        landing_ = 0;
         record.steps++;
         watch(record);
         if (share <= 1) {
@@ -242,6 +281,9 @@ void Simulation::watch(Record& record) {
         }
     }
     const Energies e = energies(model_, state_);
+    largest_energy_ = std::max(largest_energy_, e.kinetic);
+    stepper_.contacts().set_limits(closed_gap * settings_.accuracy * model_.length,
+                                   negligible_impact * settings_.accuracy * largest_energy_);
     work_max_ = std::max(work_max_, std::fabs(e.external_work - start_work_));
     const double reference = std::max(start_energy_ + start_work_ + work_max_, negligible_energy_);
     residual_max_ = std::max(residual_max_, std::fabs(e.balance() - start_energy_));
@@ -262,6 +304,7 @@ void Simulation::show_first_moments() {
     }
     state_.acceleration = probe.acceleration;
     state_.joint_force = probe.joint_force;
+    state_.contact.force = probe.contact.force;
 }
 
 Record Simulation::run(const std::vector<double>& times, const std::function<bool(double)>& poll) {
@@ -285,6 +328,10 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     start_work_ = e.external_work;
     work_max_ = residual_max_ = 0;
     if (h_ <= 0) h_ = std::clamp(duration / 100, settings_.minimum_step, settings_.maximum_step);
+    largest_energy_ = std::max(largest_energy_, e.kinetic);
+    stepper_.contacts().set_limits(closed_gap * settings_.accuracy * model_.length,
+                                   negligible_impact * settings_.accuracy * largest_energy_);
+    stepper_.look_for_impact(state_);
     show_first_moments();
     for (const double t : times) {
         const bool reached = t <= state_.t || advance(t, record, poll);

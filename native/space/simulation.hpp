@@ -53,7 +53,8 @@ public:
     State& state() { return state_; }
     // adds velocities and impulses at the centres of mass; returns the energy lost in fitting them to the joints
     double set_motion(const Twist* velocity, const Twist* impulse);
-    void begin_stage(bool quasi_static, const std::vector<bool>& drives, std::vector<Condition> until);
+    void begin_stage(bool quasi_static, const std::vector<bool>& drives, const std::vector<bool>& obstacles,
+                     std::vector<Condition> until);
     // one fixed step of length h
     bool step(double h) { return stepper_.step(state_, h, nullptr); }
     // runs to the last of the times; `poll` gets the time reached and returns false to cancel
@@ -72,12 +73,13 @@ private:
     void set_critical_damping(bool all);
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
     bool solve(double h);
+    bool strike(Record& record);
     double error(const State& coarse, const State& fine) const;
     double worst_place(const State& a, const State& b) const;
     double quantity(const Condition& condition, const State& state) const;
     double share_of_step(const State& before, const State& after, int* which) const;
     void show_first_moments();
-    void store(Record& record) const;
+    void store(Record& record);
     void watch(Record& record);
 
     Model model_;
@@ -91,6 +93,11 @@ private:
     double step_tolerance_;           // of the error measure
     double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, start_work_ = 0, work_max_ = 0, residual_max_ = 0;
     double negligible_energy_ = 0;
+    double closing_ = 0;              // within the step just solved, when an open contact closed; 0 if none did
+    double landing_ = 0;              // step that ends where a contact closes; 0 if none is ahead
+    double largest_energy_ = 0;
+    std::vector<Vec3> stored_impulse_;  // on every obstacle when last stored, and when that was
+    double stored_time_ = -1;
     long poll_at_ = 0;                // work at which `poll` is asked next
 };
 

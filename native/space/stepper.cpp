@@ -9,6 +9,9 @@ namespace {
 
 // Inertia that a quasi-static step keeps, relative to the true one.  Its momentum is lost at every step.
 constexpr double residual_inertia = 1e-6;
+// Passes over what a step freezes: the second takes it at the middle of the motion that the first found, which makes the
+// step second order.  More follow only until friction agrees with the contacts' normal impulses.
+constexpr int passes = 2, most_passes = 20;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -22,19 +25,16 @@ Mat3 world(const Quat& q, const Mat3& m) {
 
 }  // namespace
 
-Stepper::Stepper(const Model& model) : model_(model) {
-    std::vector<Link> links;
+Stepper::Stepper(const Model& model) : model_(model), contacts_(model.contact) {
     for (size_t j = 0; j < model.joints.size(); j++) {
         const Joint& joint = model.joints[j];
         if (joint.rows() == 0) continue;
-        links.push_back({{joint.body[0], joint.body[1]}, joint.held, joint.laws});
-        connections_.push_back({false, static_cast<int>(j)});
+        connections_.push_back({Kind::joint, static_cast<int>(j)});
     }
     for (size_t k = 0; k < model.springs.size(); k++) {
-        links.push_back({{model.springs[k].body[0], model.springs[k].body[1]}, 0, 1});
-        connections_.push_back({true, static_cast<int>(k)});
+        connections_.push_back({Kind::spring, static_cast<int>(k)});
     }
-    system_.analyse(model.bodies.size(), links);
+    link_all();
     int components = 0;
     for (const SpaceHinge& hinge : model.hinges) {
         component_.push_back(components);
@@ -42,30 +42,49 @@ Stepper::Stepper(const Model& model) : model_(model) {
         all_set_valued_ = all_set_valued_ && hinge.components.front().law.form == Form::set_valued;
     }
     component_.push_back(components);
-    const size_t n = at(system_.rows()), bodies = model.bodies.size();
+    const size_t bodies = model.bodies.size();
     frozen_.resize(model.hinges.size());
     for (auto* v : {&spring_force_, &spring_tangent_, &spring_weight_}) v->assign(model.springs.size(), 0.0);
-    tangent_.resize(links.size());
     geometry_.resize(model.joints.size());
-    rows_.resize(n);
     for (auto* v : {&middle_, &end_}) v->resize(bodies);
     for (auto* v : {&free_, &velocity_, &next_, &direction_, &momentum_, &guess_}) v->resize(bodies);
-    for (auto* v : {&error_, &rate0_, &bias_, &target_, &w_, &w_next_, &impulse_, &x_, &work_}) v->assign(n, 0.0);
-    overload_.assign(links.size(), 0.0);
     worst_near_.assign(bodies, 0.0);
     stage_.drives.resize(model.drives.size());
     // redundancy of the held rows, hinges free
     inertia_.resize(bodies);
     const State s = start();
-    redundant_rows_.assign(links.size(), 0);
-    std::vector<Row> rows(n);
-    locate_all(s, s.pose, 0, rows, error_.data());
-    rows_ = rows;
+    redundant_rows_.assign(connections_.size(), 0);
+    locate_all(s, s.pose, 0, rows_, error_.data());
     hold_rows();
     // a matter of geometry: the same mass for all bodies
     const double turns = 1 / (model.length * model.length);
     for (size_t i = 0; i < bodies; i++) system_.set_body(i, 1, {{turns * axis(0), turns * axis(1), turns * axis(2)}});
     redundant_ = system_.factor(&redundant_rows_);
+}
+
+// the links of joints, springs and present contacts, and room for their rows
+void Stepper::link_all() {
+    while (!connections_.empty() && is(connections_.size() - 1, Kind::contact)) connections_.pop_back();
+    std::vector<Link> links;
+    for (const Connection& c : connections_) {
+        const size_t index = at(c.index);
+        if (c.kind == Kind::spring) {
+            links.push_back({{model_.springs[index].body[0], model_.springs[index].body[1]}, 0, 1});
+        } else {
+            const Joint& joint = model_.joints[index];
+            links.push_back({{joint.body[0], joint.body[1]}, joint.held, joint.laws});
+        }
+    }
+    for (size_t i = 0; i < contacts_.size(); i++) {
+        links.push_back({{contacts_.bodies(i)[0], contacts_.bodies(i)[1]}, 0, 3});
+        connections_.push_back({Kind::contact, static_cast<int>(i)});
+    }
+    system_.analyse(model_.bodies.size(), links);
+    const size_t n = at(system_.rows());
+    tangent_.resize(links.size());
+    rows_.resize(n);
+    for (auto* v : {&error_, &rate0_, &bias_, &target_, &w_, &w_next_, &impulse_, &x_, &work_}) v->assign(n, 0.0);
+    overload_.assign(links.size(), 0.0);
 }
 
 State Stepper::start() {
@@ -93,7 +112,7 @@ int Stepper::held_rows() const {
 }
 
 const SpaceHinge* Stepper::hinge_of(size_t link) const {
-    if (connections_[link].spring) return nullptr;
+    if (!is(link, Kind::joint)) return nullptr;
     const int hinge = hinge_index(link);
     return hinge < 0 ? nullptr : &model_.hinges[at(hinge)];
 }
@@ -130,8 +149,12 @@ void Stepper::locate_spring(const Spring& spring, const std::vector<Pose>& poses
 void Stepper::locate_all(const State& s, const std::vector<Pose>& poses, double t, std::vector<Row>& rows, double* error) {
     for (size_t c = 0; c < connections_.size(); c++) {
         const size_t index = at(connections_[c].index), first = at(start(c));
-        if (connections_[c].spring) {
+        if (is(c, Kind::spring)) {
             locate_spring(model_.springs[index], poses, rows[first], &error[first]);
+            continue;
+        }
+        if (is(c, Kind::contact)) {
+            contacts_.locate(index, poses, &rows[first], &error[first]);
             continue;
         }
         const Joint& joint = model_.joints[index];
@@ -230,8 +253,9 @@ void Stepper::aim(const State& s, double h) {
     rates(rows_, s.velocity.data(), bias_.data());
     for (size_t k = 0; k < bias_.size(); k++) bias_[k] -= rate0_[k];
     std::fill(target_.begin(), target_.end(), 0.0);
+    allow_closing(h);
     for (size_t c = 0; c < connections_.size(); c++) {
-        if (connections_[c].spring) continue;
+        if (!is(c, Kind::joint)) continue;
         const size_t index = at(connections_[c].index);
         const Joint& joint = model_.joints[index];
         if (!joint.driven) continue;
@@ -246,22 +270,32 @@ void Stepper::aim(const State& s, double h) {
     }
 }
 
+// rate along a row for a unit impulse along it, of both bodies by themselves
+double Stepper::mobility(size_t link, const Row& row) const {
+    double sum = 0;
+    for (int side = 0; side < 2; side++) {
+        const int body = system_.links()[link].body[side];
+        if (body < 0) continue;
+        const Vec3 m = side == 0 ? row.ma : row.mb;
+        const Twist u = system_.mobility(at(body), {m, row.t});
+        sum += dot(row.t, u.v) + dot(m, u.w);
+    }
+    return sum;
+}
+
 void Stepper::freeze(const State& s, double h) {
     for (size_t c = 0; c < connections_.size(); c++) {
         const size_t index = at(connections_[c].index), first = at(start(c));
-        if (connections_[c].spring) {
+        if (is(c, Kind::contact)) {
+            contacts_.freeze(index, mobility(c, rows_[first]));
+            continue;
+        }
+        if (is(c, Kind::spring)) {
             const Spring& spring = model_.springs[index];
             Row row;
             double length = 0;
             locate_spring(spring, s.pose, row, &length);
-            double mobility = 0;
-            for (int side = 0; side < 2; side++) {
-                if (spring.body[side] < 0) continue;
-                const Vec3 m = side == 0 ? rows_[first].ma : rows_[first].mb;
-                const Twist u = system_.mobility(at(spring.body[side]), {m, rows_[first].t});
-                mobility += dot(rows_[first].t, u.v) + dot(m, u.w);
-            }
-            const double weight = spring.damping > 0 ? end_weight(h * spring.damping * mobility) : 1;
+            const double weight = spring.damping > 0 ? end_weight(h * spring.damping * mobility(c, rows_[first])) : 1;
             spring_weight_[index] = weight;
             spring_force_[index] = h * (spring.stiffness * (length - spring.length + h * rate0_[first] / 4) +
                                         spring.damping * (1 - weight) * rate0_[first]);
@@ -282,10 +316,12 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
     for (size_t i = 0; i < s.velocity.size(); i++) {
         speed_ = std::max({speed_, norm(s.velocity[i].v), norm(s.velocity[i].w) * model_.length, norm(guess_[i].v)});
     }
+    if (contacts_.gather(s.pose, s.velocity, h, s.contact)) link_all();
     // true rates at the start
     locate_all(s, s.pose, s.t, rows_, error_.data());
     rates(rows_, s.velocity.data(), rate0_.data());
-    for (int pass = guess ? 1 : 0; pass < 2; pass++) {
+    bool settled = true;
+    for (int pass = guess ? 1 : 0; pass < passes || (!settled && pass < most_passes); pass++) {
         // positions, free-flight velocities and loads at the predicted middle
         predict(s, h, guess_);
         if (redundant_ > 0) mend_middle(s, s.t + h / 2);
@@ -300,6 +336,7 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
         freeze(s, h);
         // end velocities
         if (!newton()) return false;
+        settled = settle(h);
         guess_ = velocity_;
     }
     commit(s, h);
@@ -316,7 +353,7 @@ void Stepper::add_motion(State& s, const Twist* velocity, const Twist* impulse) 
         const int first = start(c);
         for (int i = link.held; i < link.rows(); i++) x_[at(first + i)] = 0;
         const size_t index = at(connections_[c].index);
-        if (connections_[c].spring || !model_.joints[index].driven) continue;
+        if (!is(c, Kind::joint) || !model_.joints[index].driven) continue;
         const Target driven = target(model_.joints[index], s, s.t);
         const Pose a = model_.pose(s.pose, model_.joints[index].body[0]);
         for (int i = 0; i < link.held; i++) x_[at(first + i)] -= target_rate(model_.joints[index], a, geometry_[index], driven, i);
@@ -331,7 +368,7 @@ double Stepper::effective_inertia(const State& s, size_t hinge, int component) {
     locate_all(s, s.pose, s.t, rows_, error_.data());
     set_mobilities(s.pose);
     size_t link = 0;
-    while (connections_[link].spring || hinge_index(link) != static_cast<int>(hinge)) link++;
+    while (!is(link, Kind::joint) || hinge_index(link) != static_cast<int>(hinge)) link++;
     const Link& l = system_.links()[link];
     const Row& row = rows_[at(start(link) + l.held + component)];
     std::fill(direction_.begin(), direction_.end(), Twist{});

@@ -43,6 +43,11 @@ public:
     // column of a hinge's first component
     int first_component(size_t hinge) const { return component_[hinge]; }
     const std::vector<Twist>& end_velocity() const { return velocity_; }
+    // a stage begins with these obstacles
+    void set_obstacles(const std::vector<bool>& present, const State& state) { contacts_.begin(present, state.pose); }
+    // whether the state runs into something closed
+    void look_for_impact(State& state);
+    Contacts& contacts() { return contacts_; }
     int rows() const { return system_.rows(); }
     long solves() const { return solves_; }
 
@@ -52,10 +57,21 @@ private:
         double impulse[most_components] = {}, offset[most_components] = {};
         double vectors[most_components * most_components] = {}, value[most_components] = {};
     };
+    enum class Kind { joint, spring, contact };
     struct Connection {
-        bool spring = false;
-        int index = 0;  // joint or spring
+        Kind kind = Kind::joint;
+        int index = 0;  // of its kind
     };
+    void link_all();
+    bool is(size_t link, Kind kind) const { return connections_[link].kind == kind; }
+    double mobility(size_t link, const Row& row) const;
+    // touching.cpp
+    size_t contact_rows() const { return static_cast<size_t>(start(connections_.size() - contacts_.size())); }
+    void allow_closing(double h);
+    bool settle(double h);
+    void commit_contacts(State& s, double h);
+    double overlap(size_t link) const;
+    void see_contacts(State& s);
     void predict(const State& s, double h, const std::vector<Twist>& end);
     void set_free(const State& s);
     void set_mobilities(const std::vector<Pose>& poses);
@@ -74,6 +90,7 @@ private:
     void solve_once();
     bool balanced(double& slope);
     void take_whole_step();
+    void stop_reversing(size_t link);
     double search(double slope_end);
     void widen(double width, bool& narrowest);
     void respond(size_t link, const double* w, double* impulse, double* tangent) const;
@@ -88,8 +105,9 @@ private:
 
     const Model& model_;
     Stage stage_;
+    Contacts contacts_;
     System system_;
-    std::vector<Connection> connections_;
+    std::vector<Connection> connections_;    // contacts come last
     std::vector<int> component_;             // first component of every hinge in State::rotation
     std::vector<FrozenSpaceHinge> frozen_;   // per hinge
     std::vector<double> spring_force_, spring_tangent_;  // impulse at zero rate, and its slope

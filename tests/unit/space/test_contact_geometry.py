@@ -16,7 +16,7 @@ Z = (0.0, 0.0, 1.0)
 def solid(shape, *, point=(0.0, 0.0, 0.0), direction=Z, edge=(0.0, 0.0, 0.0), radius=0.0, length=0.0):
     """As the kernel takes it."""
     return {
-        "shape": shape,
+        "kind": shape,
         "point": list(point),
         "direction": list(direction),
         "edge": list(edge),

@@ -1,0 +1,13 @@
+// Solids from Python's plain values.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include "space/contact_geometry.hpp"
+
+namespace crumple::space {
+
+Solid make_solid(const nanobind::dict& d);
+void bind_contact(nanobind::module_& m);
+
+}  // namespace crumple::space

@@ -1,0 +1,64 @@
+// What a step does with contacts, beside what it does with every law.
+#include <algorithm>
+
+#include "space/stepper.hpp"
+
+namespace crumple::space {
+
+namespace {
+
+// Of a step that looks at the present alone [s].
+constexpr double instant = 1e-12;
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+}  // namespace
+
+// Normal rates count from those that are allowed.
+void Stepper::allow_closing(double h) {
+    const size_t first = contact_rows();
+    for (size_t i = 0; i < contacts_.size(); i++) bias_[first + 3 * i] -= contacts_.allowed(i, h, rate0_[first + 3 * i]);
+}
+
+// After a pass: true rates again, and whether friction has used the impulses that the pass found.
+bool Stepper::settle(double h) {
+    if (contacts_.size() == 0) return true;
+    const size_t first = contact_rows();
+    for (size_t i = 0; i < contacts_.size(); i++) w_[first + 3 * i] += contacts_.allowed(i, h, rate0_[first + 3 * i]);
+    return contacts_.settle(&impulse_[first], &rate0_[first], &w_[first]);
+}
+
+void Stepper::commit_contacts(State& s, double h) {
+    const size_t first = contact_rows();
+    contacts_.commit(h, rows_.data() + first, impulse_.data() + first, rate0_.data() + first, w_.data() + first, s.contact);
+}
+
+// Error that mending takes from a link's row of a law: overlap of closed contacts.
+double Stepper::overlap(size_t link) const {
+    if (!is(link, Kind::contact)) return 0;
+    const size_t k = at(start(link));
+    return error_[k] < -contacts_.closed_gap() && impulse_[k] < 0 ? error_[k] : 0;
+}
+
+// Whether the state, whose rows have just been located, runs into something closed.
+void Stepper::see_contacts(State& s) {
+    s.contact.impact = false;
+    if (stage_.quasi_static) s.contact.closing = 0;
+    if (stage_.quasi_static || contacts_.size() == 0) return;
+    rates(rows_, s.velocity.data(), x_.data());
+    const size_t first = contact_rows();
+    s.contact.impact = contacts_.impact_follows(&error_[first], &x_[first]);
+}
+
+void Stepper::look_for_impact(State& s) {
+    if (contacts_.gather(s.pose, s.velocity, instant, s.contact)) link_all();
+    locate_all(s, s.pose, s.t, rows_, error_.data());
+    set_mobilities(s.pose);
+    const size_t first = contact_rows();
+    for (size_t i = 0; i < contacts_.size(); i++) {
+        contacts_.freeze(i, mobility(connections_.size() - contacts_.size() + i, rows_[first + 3 * i]));
+    }
+    see_contacts(s);
+}
+
+}  // namespace crumple::space
