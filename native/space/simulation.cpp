@@ -168,7 +168,8 @@ double Simulation::error(const State& coarse, const State& fine) const {
         }
     }
     double e = worst / scale_;
-    if (speed_ > 0) e = std::max(e, kinetic_norm(model_, coarse, &fine) / speed_);
+    const double speed = std::max(speed_, negligible_speed_);
+    if (speed > 0) e = std::max(e, kinetic_norm(model_, coarse, &fine) / speed);
     return e / step_tolerance_;
 }
 
@@ -324,6 +325,9 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     const double expected = strongest > 0 ? e.kinetic / strongest / 2 : 0;
     scale_ = std::max(scale_, std::clamp(expected, settings_.scale_floor, 0.5));
     speed_ = std::max(speed_, kinetic_norm(model_, state_, nullptr));
+    double mass = 0;
+    for (const Body& body : model_.bodies) mass += body.mass;
+    negligible_speed_ = std::sqrt(mass) * settings_.scale_floor * model_.length / std::max(duration, settings_.minimum_step);
     start_energy_ = e.balance();
     start_work_ = e.external_work;
     work_max_ = residual_max_ = 0;
