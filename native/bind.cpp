@@ -23,8 +23,6 @@ NB_MODULE(_kernels, m) {
     crumple::space::bind(space);
     crumple::space::bind_hinge(space);
     crumple::space::bind_contact(space);
-    crumple::space::bind_hinge(space);
-    crumple::space::bind_contact(space);
     auto shell = m.def_submodule("shell", "Explicit stepper for thin shells.");
     crumple::shell::bind(shell);
 }
