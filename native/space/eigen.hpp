@@ -9,15 +9,13 @@ namespace crumple::space {
 inline void eigenvectors(int n, double* a, double* value, double* v) {
     for (int i = 0; i < n * n; i++) v[i] = i % (n + 1) == 0 ? 1 : 0;
     for (int sweep = 0; sweep < 20 && n > 1; sweep++) {
-        double off = 0, all = 0;
-        for (int i = 0; i < n; i++) {
-            for (int j = 0; j < n; j++) (i == j ? all : off) += a[i * n + j] * a[i * n + j];
-        }
-        if (off <= 1e-32 * all) break;
+        bool diagonal = true;
         for (int p = 0; p < n; p++) {
             for (int q = p + 1; q < n; q++) {
                 const double apq = a[p * n + q];
-                if (apq == 0) continue;
+                // against these two alone: a contact's normal is 1e16 times stiffer than friction on it
+                if (std::fabs(apq) <= 1e-16 * std::fmax(std::fabs(a[p * n + p]), std::fabs(a[q * n + q]))) continue;
+                diagonal = false;
                 const double theta = (a[q * n + q] - a[p * n + p]) / (2 * apq);
                 const double t = (theta < 0 ? -1 : 1) / (std::fabs(theta) + std::sqrt(theta * theta + 1));
                 const double c = 1 / std::sqrt(t * t + 1), s = t * c;
@@ -38,6 +36,7 @@ inline void eigenvectors(int n, double* a, double* value, double* v) {
                 }
             }
         }
+        if (diagonal) break;
     }
     for (int i = 0; i < n; i++) value[i] = a[i * (n + 1)];
 }

@@ -191,6 +191,9 @@ bool Stepper::balanced(double& slope) {
     const std::vector<Link>& links = system_.links();
     bool all = true;
     slope = 0;
+    // friction on a point that is hardly pressed counts against the strongest contact
+    double struck = 0;
+    for (size_t i = 0; i < contacts_.size(); i++) struck = std::max(struck, -impulse_[contact_rows() + 3 * i]);
     for (size_t c = 0; c < links.size(); c++) {
         const int first = start(c) + links[c].held, n = links[c].laws;
         if (n == 0) continue;
@@ -200,7 +203,7 @@ bool Stepper::balanced(double& slope) {
             const double left = p[k] - impulse_[at(first + k)];
             double scale = std::fabs(p[k]);
             if (hinge_of(c)) scale += impulse_scale(frozen_[at(hinge_index(c))], k);
-            if (is(c, Kind::contact)) scale += contacts_.frozen(at(connections_[c].index)).limit;
+            if (is(c, Kind::contact)) scale += struck;
             if (!(std::fabs(left) <= impulse_tolerance * scale)) all = false;
             slope += left * (w_next_[at(first + k)] - w_[at(first + k)]);
         }
