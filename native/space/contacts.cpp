@@ -19,6 +19,8 @@ constexpr double least_reach = 1000;
 constexpr double least_approach = 1e-6;
 // An impact that gains energy bounces by half as much in the next pass, and in the end not at all.
 constexpr double less_bounce = 0.5, least_bounce = 0.1;
+// Share of the limit of friction above which a point slides.
+constexpr double slides = 0.999;
 // Gains of energy that are rounding.
 constexpr double rounding = 1e-9;
 
@@ -228,7 +230,9 @@ bool Contacts::settle(const double* impulse, const double* rate0, const double* 
         }
         const double found = -impulse[3 * i];
         largest = std::max(largest, found);
-        if (law(c).friction > 0) change = std::max(change, std::fabs(found - c.normal_impulse));
+        // a point that sticks within both limits does not mind them
+        const double mu = law(c).friction, held = std::hypot(impulse[3 * i + 1], impulse[3 * i + 2]);
+        if (held >= slides * mu * std::min(found, c.normal_impulse)) change = std::max(change, std::fabs(found - c.normal_impulse));
         c.normal_impulse = found;
     }
     if (work < -rounding * scale && restitution_share_ > 0) {
