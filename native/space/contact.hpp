@@ -28,8 +28,8 @@ struct FrozenContact {
 // Share of the change of rate that the stiff normal law lets pass, for two free bodies.  Larger ones show where much mass
 // stands behind a light body, smaller ones cost digits of the impulse.
 constexpr double softness = 1e-8;
-// Sticking contacts creep at less than this rate [m/s]: 1e-9 m over 0.1 s.
-constexpr double creep_rate = 1e-8;
+// Sticking contacts creep at less than this rate [m/s]: 1e-7 m over 0.1 s.  Smaller ones cost Newton steps.
+constexpr double creep_rate = 1e-6;
 
 // gap and normal rate at the start of a step of length h; a gap up to `closed` is none, an approach up to `rest` no impact
 double allowed_rate(double restitution, double gap, double rate, double h, double closed, double rest);

@@ -51,7 +51,11 @@ bool Stepper::newton() {
     const int limit = newton_limit + newton_limit_per_hinge * static_cast<int>(frozen_.size());
     if (all_set_valued_ ? descend(bold_limit, true) : descend(limit, false)) return true;
     double width = 1;
-    for (const double w : w_) width = std::max(width, std::fabs(w));
+    for (size_t c = 0; c < connections_.size(); c++) {
+        // a contact's normal rate is no slip
+        const Link& link = system_.links()[c];
+        for (int i = is(c, Kind::contact) ? 1 : 0; i < link.rows(); i++) width = std::max(width, std::fabs(w_[at(start(c) + i)]));
+    }
     if (!std::isfinite(width)) return false;
     for (bool narrowest = false; !narrowest; width *= narrowing) {
         widen(width, narrowest);
