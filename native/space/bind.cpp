@@ -69,7 +69,9 @@ void add_joint(Model& model, const nb::tuple& t) {
     const Doubles axes = nb::cast<Doubles>(t[3]);
     require(axes.size() == 9, "axes must have shape (3, 3)");
     const Mat3 rows = {{vector(axes.data()), vector(axes.data() + 3), vector(axes.data() + 6)}};
-    require(dot(cross(rows.r[0], rows.r[1]), rows.r[2]) > 0.999, "axes must be right-handed unit vectors at right angles");
+    double skew = std::fabs(dot(cross(rows.r[0], rows.r[1]), rows.r[2]) - 1);
+    for (const Vec3& row : rows.r) skew = std::max(skew, std::fabs(dot(row, row) - 1));
+    require(skew < 1e-6, "axes must be right-handed unit vectors at right angles");
     joint.axes = quaternion(transposed(rows));
     const auto held = nb::cast<std::vector<bool>>(t[4]);
     require(held.size() == 6, "a joint has six freedoms");

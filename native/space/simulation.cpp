@@ -9,13 +9,15 @@ namespace {
 
 // Error that one step may add, measured by the difference between one step and two halves.  The local error goes
 // with h^3 and the error of the whole motion with h^2, so below `loosest_share` the share of a step shrinks with
-// the square root of the accuracy, as in the planar engine.
-constexpr double loosest_share = 1e-3;
+// the square root of the accuracy, as in the planar engine.  With the whole accuracy for a step M3 errs by just that.
+constexpr double loosest_share = 1e-3, step_share = 0.4;
 
-double step_tolerance(double accuracy) { return accuracy * std::min(1.0, std::sqrt(accuracy / loosest_share)); }
+double step_tolerance(double accuracy) { return step_share * accuracy * std::min(1.0, std::sqrt(accuracy / loosest_share)); }
 
 // Turn [rad] by which a locked hinge may creep; the strongest hinge's work over it is no energy worth balancing.
 constexpr double negligible_turn = 1e-9;
+// Share of the energy of a given motion that rounding leaves where the joints take it all.
+constexpr double negligible_share = 1e-9;
 constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
 constexpr long poll_interval = 20'000;  // solves times rows between calls of `poll`: some 10 ms
 // A condition that ends a stage is met to this share of its value.
@@ -89,6 +91,7 @@ double Simulation::set_motion(const Twist* velocity, const Twist* impulse) {
         free.velocity[i] = free.velocity[i] + velocity[i] + Twist{spin, (1 / body.mass) * impulse[i].v};
     }
     const double given = energies(model_, free).kinetic;
+    given_energy_ = std::max(given_energy_, given);
     stepper_.add_motion(state_, velocity, impulse);
     return given - energies(model_, state_).kinetic;
 }
@@ -203,6 +206,19 @@ bool Simulation::strike(Record& record) {
     return true;
 }
 
+// Whether a step of error e (infinite: not solved) cannot be mended by a shorter one.
+bool Simulation::failed(double e, bool smallest, Record& record) const {
+    if (std::isnan(e)) {
+        record.outcome = Outcome::not_finite;
+        record.reason = "the place of a body is not a number";
+        return true;
+    }
+    if (std::isfinite(e) || !smallest) return false;
+    record.outcome = Outcome::step_collapsed;
+    record.reason = "the equations of a step did not converge at the smallest step";
+    return true;
+}
+
 bool Simulation::advance(double target, Record& record, const std::function<bool(double)>& poll) {
     const long rows = std::max(1, stepper_.rows());
     while (state_.t < target) {
@@ -229,16 +245,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
         }
         const double e = solved ? error(coarse_, fine_) : INFINITY;
         const bool smallest = h <= settings_.minimum_step * 1.001;
-        if (std::isnan(e)) {
-            record.outcome = Outcome::not_finite;
-            record.reason = "the place of a body is not a number";
-            return false;
-        }
-        if (!solved && smallest) {
-            record.outcome = Outcome::step_collapsed;
-            record.reason = "the equations of a step did not converge at the smallest step";
-            return false;
-        }
+        if (failed(e, smallest, record)) return false;
         const double factor = e > 0 ? safety * std::pow(e, -1.0 / 3) : growth_limit;
         const double next = std::clamp(h * std::clamp(factor, shrink_limit, growth_limit), settings_.minimum_step,
                                        settings_.maximum_step);
@@ -320,7 +327,9 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
             strongest = std::max(strongest, state_.hinge[j].component[k].capacity);
         }
     }
-    negligible_energy_ = negligible_turn * strongest;
+    double weight = 0;
+    for (const Body& body : model_.bodies) weight += body.mass * norm(model_.gravity);
+    negligible_energy_ = negligible_turn * (strongest + weight * model_.length) + negligible_share * given_energy_;
     const Energies e = energies(model_, state_);
     const double expected = strongest > 0 ? e.kinetic / strongest / 2 : 0;
     scale_ = std::max(scale_, std::clamp(expected, settings_.scale_floor, 0.5));

@@ -83,6 +83,7 @@ private:
     void mend_middle(const State& s, double t);
     void rates(const std::vector<Row>& rows, const Twist* v, double* out) const;
     void freeze(const State& s, double h);
+    bool turned_back() const;
     // newton.cpp
     bool newton();
     bool descend(int limit, bool bold);

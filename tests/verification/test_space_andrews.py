@@ -1,7 +1,7 @@
 """Andrews' squeezing mechanism: seven bodies, ten pins, three loops, one freedom.
 
-Data and figures: test set for initial value problems (IVP Test Set), problem "Andrews' squeezing mechanism", the
-seven angles at 0.03 s, with its names. The crank turns two and a half times in 30 ms, from rest.
+Data and figures: test set for initial value problems (IVP Test Set), problem "Andrews' squeezing mechanism",
+the seven angles at 0.03 s, with its names. The crank turns two and a half times in 30 ms, from rest.
 """
 
 from __future__ import annotations
@@ -81,11 +81,11 @@ def squeezer(accuracy=1e-3):
 
 
 def angles(record):
-    """The seven angles at the last time; outputs must be so dense that no body turns half around between two."""
+    """The seven angles at the last time; no body may turn half around between two outputs."""
     quaternions = record.rotation
     turned = np.unwrap(2 * np.arctan2(quaternions[:, :, 3], quaternions[:, :, 0]), axis=0, period=4 * np.pi)
     k1, k2, k3, k4, k5, k6, k7 = turned[-1]
-    return np.array(START) + (k1, k2 - k1, k3, k4 - k5, k5, k6 - k7, k7)
+    return np.add(START, (k1, k2 - k1, k3, k4 - k5, k5, k6 - k7, k7))
 
 
 def stepped(number):
@@ -99,7 +99,7 @@ def stepped(number):
         turned += (now - last + 2 * np.pi) % (4 * np.pi) - 2 * np.pi
         last = now
     k1, k2, k3, k4, k5, k6, k7 = turned
-    return np.array(START) + (k1, k2 - k1, k3, k4 - k5, k5, k6 - k7, k7)
+    return np.add(START, (k1, k2 - k1, k3, k4 - k5, k5, k6 - k7, k7))
 
 
 def test_one_freedom():
@@ -109,7 +109,7 @@ def test_one_freedom():
 def test_figures(record_figure):
     record = squeezer(1e-6).run(np.linspace(0.0, END, 301)[1:])
     found = angles(record)
-    for name, value, reference in zip("beta Theta".split(), found, REFERENCE, strict=False):
+    for name, value, reference in zip(("beta", "Theta"), found, REFERENCE, strict=False):
         record_figure(f"{name} at 30 ms, accuracy 1e-6", value, reference, 5e-6, "rad")
     record_figure("worst of the other five angles", abs(found - REFERENCE)[2:].max(), 0.0, 5e-7, "rad")
     assert record.residual < 1e-6

@@ -1,8 +1,8 @@
-"""Plastic hinges in the spatial kernel: closed forms, models M1 to M4, and what no turn of the model may change.
+"""Plastic hinges in the spatial kernel: closed forms, models M2 to M4, turned models, momentum.
 
-Constant moment: a rod stops after I w0^2/(2 M) at the time I w0/M. M1 and M2 have the figures of the planar
-kernel's tests. M3, a portal that is a loop of one coordinate, stops where the hinges' curves have taken up the
-energy; the angles follow from its closure, solved by itself. M4, a cube frame of four loops with twelve ball
+Constant moment: a rod stops after I w0^2/(2 M) at the time I w0/M. M2 has the figures of the planar kernel's
+tests. M3, a portal that is a loop of one coordinate, stops where the hinges' curves have taken up the energy;
+the angles follow from its closure, solved by itself. M4, a cube frame of four loops with twelve ball
 hinges, has no outside figure: a coarse run must agree with a tight one within the accuracy asked for, and
 neighbours must agree by symmetry.
 """
@@ -62,7 +62,9 @@ def test_m2_is_the_planar_chain(rate, record_figure):
     figure = {0.05: 0.6656451692, 5e-4: 0.6621691528}[rate]
     tight = m2(10, 1e-5, REGULARISED, rate, error=1e-7, turn=random_turn(2)).run(END)
     total = tight.hinge_rotation[-1].sum()
-    record_figure(f"sum of rotations of M2(10), ramp {rate:g} rad/s", total, figure, 1e-5, "rad", relative=True)
+    record_figure(
+        f"sum of rotations of M2(10), ramp {rate:g} rad/s", total, figure, 1e-5, "rad", relative=True
+    )
     assert tight.residual < 1e-5
 
 
@@ -79,7 +81,11 @@ def test_m2_set_valued(accuracy, record_figure):
 def area(turn, scale):
     """Work of the law of the models up to a turn below its stop."""
     plateau = min(turn, 0.05) * (0.576 + 0.5 / math.sqrt(0.05))
-    return scale * 1000.0 * (plateau + (0.576 * (turn - 0.05) + math.sqrt(turn) - math.sqrt(0.05)) * (turn > 0.05))
+    return (
+        scale
+        * 1000.0
+        * (plateau + (0.576 * (turn - 0.05) + math.sqrt(turn) - math.sqrt(0.05)) * (turn > 0.05))
+    )
 
 
 def m3(accuracy, turn):
@@ -88,7 +94,12 @@ def m3(accuracy, turn):
     y = turn @ (0.0, 1.0, 0.0)
     a, b, c, d = (turn @ p for p in (a, b, c, d))
     bodies = (bar(a, b), with_mass(bar(b, c), (b + c) / 2, 20.0), bar(c, d))
-    joints = (revolute(GROUND, 0, a, y), revolute(0, 1, b, y), revolute(1, 2, c, y), revolute(2, GROUND, d, y))
+    joints = (
+        revolute(GROUND, 0, a, y),
+        revolute(0, 1, b, y),
+        revolute(1, 2, c, y),
+        revolute(2, GROUND, d, y),
+    )
     hinges = tuple(SpaceHinge(k, (softening_component(RX, 0.5),), softening=ROTATION) for k in range(4))
     velocity = [
         about(a, y * 10.0 / HEIGHTS[0], bodies[0]),
@@ -119,7 +130,7 @@ def lengths(record):
 def test_m4(record_figure):
     """The frame stops with its eight lower and upper column hinges turned and the ring straight."""
     tight = m4(1e-6)
-    assert tight.freedoms == (24, 0)
+    assert tight.freedoms == (12, 0)
     tight = tight.run(END)
     reference = lengths(tight)
     assert tight.residual < 1e-6
@@ -134,7 +145,7 @@ def test_m4(record_figure):
 
 
 def test_m4_from_the_side():
-    """A blow along the diagonal, and more on one side: all columns turn alike no longer, and nothing breaks."""
+    """A blow along the diagonal, and more on one side: columns turn alike no longer, and nothing breaks."""
     simulation = m4(1e-4)
     push = np.zeros((8, 6))
     push[4, 3:] = (0.0, 30.0, 0.0)
@@ -145,7 +156,9 @@ def test_m4_from_the_side():
     assert record.residual < 1e-4
 
 
-@pytest.mark.parametrize("model", [lambda turn: m2(10, 1e-3, SET_VALUED, turn=turn), lambda turn: m4(1e-3, turn=turn)])
+@pytest.mark.parametrize(
+    "model", [lambda turn: m2(10, 1e-3, SET_VALUED, turn=turn), lambda turn: m4(1e-3, turn=turn)]
+)
 def test_a_turned_model_moves_alike(model, record_figure):
     """All hinge rotations and energies; a model turned in space takes the same steps but for rounding."""
     straight, turned = model(np.eye(3)).run(END), model(random_turn(4)).run(END)
@@ -156,7 +169,7 @@ def test_a_turned_model_moves_alike(model, record_figure):
 
 
 def test_free_assembly_keeps_its_momentum(record_figure):
-    """Three bars with ball hinges, thrown and spinning: the hinges give no momentum away; order of the error."""
+    """Three bars with ball hinges, thrown and spinning: the errors shrink at least with the step's square."""
     points = np.array([(0, 0, 0), (0.5, 0, 0), (0.8, 0.4, 0), (0.8, 0.5, 0.5)], float)
     bodies = tuple(bar(points[k], points[k + 1]) for k in range(3))
     joints = tuple(spherical(k, k + 1, points[k + 1]) for k in range(2))
@@ -173,8 +186,8 @@ def test_free_assembly_keeps_its_momentum(record_figure):
         one, two = (momenta(bodies, record) for record in (before, after))
         assert np.abs(one[0] - two[0]).max() < 1e-10
         errors.append(np.linalg.norm(one[1] - two[1]) / np.linalg.norm(one[1]))
-        assert after.energy[-1, 0] < 0.9 * before.energy[-1, 0]
-    record_figure("order of the angular momentum's error", math.log2(errors[0] / errors[2]) / 2, 2.0, 0.5)
+        assert after.energy[-1, 0] < 0.95 * before.energy[-1, 0]
+    assert math.log2(errors[0] / errors[2]) / 2 > 1.8
     record_figure("angular momentum lost, 80 steps", errors[-1], 0.0, 1e-5)
 
 

@@ -1,10 +1,10 @@
 """Mechanisms without dissipation: closed loops, redundant joints, singular positions, stiff springs, drives.
 
 Bricard's mechanism, the N four-bar mechanism and the flyball governor are problems A04, A02 and A05 of the
-IFToMM library of computational benchmark problems (lim.ii.udc.es/mbsbenchmark). What bodies and joints they have
-is taken from its specification of A02 and from models published for OpenSim (RehabEngGroup,
-MBSbenchmarksInOpenSim) and MATLAB; their motion from integrations of our own in the fewest coordinates, with the
-energy or Lagrange's equations. Slider-crank and four-bar linkage have closed forms of their places.
+IFToMM library of computational benchmark problems (lim.ii.udc.es/mbsbenchmark). What bodies and joints they
+have is taken from its specification of A02 and from models published for OpenSim (RehabEngGroup,
+MBSbenchmarksInOpenSim) and MATLAB; their motion from integrations of our own in the fewest coordinates, with
+the energy or Lagrange's equations. Slider-crank and four-bar linkage have closed forms of their places.
 """
 
 from __future__ import annotations
@@ -147,7 +147,7 @@ def four_bars(windows, accuracy):
 
 @pytest.mark.parametrize("windows", [2, pytest.param(40, marks=pytest.mark.slow)])
 def test_four_bars_pass_singular_positions(windows, record_figure):
-    """All cranks stay parallel; lying flat, the mechanism has N + 1 freedoms. Place of B0 (x, y) over 10 s."""
+    """All cranks stay parallel; lying flat, the mechanism has N + 1 freedoms. Place of B0 over 10 s."""
     cranks, moment = windows + 1, (windows + 1) / 2 + windows
     inertia = cranks / 3 + windows
 
@@ -190,7 +190,9 @@ def governor(accuracy):
         revolute(0, 2, tops[1][0], (0, 1, 0)),
     )
     springs = tuple(
-        SpaceSpring(3, 1 + k, slider.centre + (0.05 * side, 0, 0), tops[k][1], STIFFNESS, FREE, DAMPING)
+        SpaceSpring(
+            3, 1 + k, slider.centre + np.array([0.05 * side, 0, 0]), tops[k][1], STIFFNESS, FREE, DAMPING
+        )
         for k, side in enumerate((1.0, -1.0))
     )
     model = SpaceModel((shaft, *rods, slider), joints, springs=springs, gravity=(0, 0, -GRAVITY))

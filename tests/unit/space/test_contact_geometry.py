@@ -111,7 +111,9 @@ def test_capsule_on_a_plane_is_held_by_its_ends():
     ],
 )
 def test_capsule_that_lies_along_a_solid_is_held_at_two_places(name, first, second, places):
-    found = [(gap, point) for gap, _, point in touches(SOLIDS[name], first, second, 0.05).values() if gap < 1e-6]
+    found = [
+        (gap, point) for gap, _, point in touches(SOLIDS[name], first, second, 0.05).values() if gap < 1e-6
+    ]
     assert len(found) == 2
     assert sorted(point[1] for _, point in found) == pytest.approx(places, abs=1e-3)
 
@@ -132,7 +134,10 @@ def test_capsule_over_the_edge_is_held_at_its_end_and_at_the_edge():
 
 def test_capsule_tipping_over_the_edge_touches_the_corner_at_right_angles():
     slope = math.radians(30)
-    along, normal = np.array([math.cos(slope), 0, -math.sin(slope)]), np.array([math.sin(slope), 0, math.cos(slope)])
+    along, normal = (
+        np.array([math.cos(slope), 0, -math.sin(slope)]),
+        np.array([math.sin(slope), 0, math.cos(slope)]),
+    )
     middle = 0.06 * normal
     gap, direction, _ = touches(WEDGE, middle - 0.4 * along, middle + 0.6 * along, 0.05)[2]
     assert gap == pytest.approx(0.01, abs=1e-9)

@@ -1,0 +1,265 @@
+"""The spatial kernel: freedoms of every joint, supports, drives, stages, bad models, and random frames."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.verification.space_models import (
+    RX,
+    RY,
+    RZ,
+    about,
+    ball_hinge,
+    bar,
+    component,
+    m4,
+    random_turn,
+    started,
+)
+
+from crumple._core.space import SpaceSimulation, SpaceUntil, Until
+from crumple._core.space_model import (
+    GROUND,
+    SpaceBody,
+    SpaceDrive,
+    SpaceHinge,
+    SpaceJoint,
+    SpaceLoad,
+    SpaceModel,
+    cylindrical,
+    fixed,
+    planar,
+    prismatic,
+    revolute,
+    spherical,
+    universal,
+)
+from crumple._core.tree import Outcome
+
+X, Y = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
+JOINTS = {
+    "fixed": (fixed(0, 1, (1, 0, 0)), 0),
+    "revolute": (revolute(0, 1, (1, 0, 0), (1, 1, 0)), 1),
+    "universal": (universal(0, 1, (1, 0, 0), X, Y), 2),
+    "constant velocity": (SpaceJoint(0, 1, np.array(X), np.eye(3), (True,) * 4 + (False,) * 2), 2),
+    "spherical": (spherical(0, 1, (1, 0, 0)), 3),
+    "prismatic": (prismatic(0, 1, (1, 0, 0), (1, 2, 0)), 1),
+    "cylindrical": (cylindrical(0, 1, (1, 0, 0), (1, 2, 0)), 2),
+    "planar": (planar(0, 1, (1, 0, 0), (1, 2, 0)), 3),
+    "point on a line": (SpaceJoint(0, 1, np.array(X), np.eye(3), (False, True, True) + (False,) * 3), 4),
+    "parallel": (SpaceJoint(0, 1, np.array(X), np.eye(3), (False,) * 3 + (True,) * 3), 3),
+}
+
+
+def two_bodies(joint):
+    bodies = (
+        SpaceBody(2.0, np.diag([0.2, 0.3, 0.4]), np.array([0.5, 0.1, 0.0])),
+        SpaceBody(3.0, np.diag([0.3, 0.5, 0.6]), np.array([1.6, 0.0, 0.2])),
+    )
+    return SpaceModel(bodies, (joint,))
+
+
+@pytest.mark.parametrize("name", JOINTS)
+def test_free_pairs_keep_energy_momentum_and_joint(name):
+    """Two bodies with one joint, thrown: what the joint leaves free moves, what it holds does not part."""
+    joint, free = JOINTS[name]
+    model = two_bodies(joint)
+    velocity = np.array([[1, 2, -1, 0.5, 0, 0.2], [-2, 1, 3, 0, 0.7, -0.4]], float)
+    ledger = []
+    for h in (4e-3, 2e-3):
+        simulation = started(model, velocity)
+        assert simulation.freedoms == (6 + free, 0)
+        start = simulation.run(np.array([1e-9]))
+        for _ in range(round(0.8 / h)):
+            assert simulation.step(h)
+        end = simulation.run(np.array([simulation.time]))
+        masses = np.array([2.0, 3.0])
+        before, after = masses @ start.velocity[-1, :, 3:], masses @ end.velocity[-1, :, 3:]
+        np.testing.assert_allclose(after, before, atol=1e-11)
+        ledger.append(abs(end.energy[-1, 0] - start.energy[-1, 0]) / start.energy[-1, 0])
+    assert ledger[1] < 1e-4
+    assert ledger[1] < 0.4 * ledger[0] + 1e-12
+    if name in ("fixed", "parallel"):
+        np.testing.assert_allclose(end.rotation[-1, 0], end.rotation[-1, 1], atol=1e-12)
+
+
+def test_what_does_not_fit_the_joints_is_lost():
+    simulation = SpaceSimulation(SpaceModel((bar((0, 0, 0), X),), (fixed(GROUND, 0, np.zeros(3)),)))
+    lost = simulation.set_motion(np.array([[0, 0, 0, 0, 2.0, 0]]), np.zeros((1, 6)))
+    assert lost == pytest.approx(bar((0, 0, 0), X).mass * 2.0)
+    record = simulation.run(np.array([0.01]))
+    assert record.energy[-1, 0] < 1e-20
+
+
+def test_an_impulse_is_taken_up_by_its_mass():
+    body = bar((0, 0, 0), X)
+    simulation = SpaceSimulation(SpaceModel((body,), (spherical(GROUND, 0, np.zeros(3)),)))
+    # a blow across the free end of a rod on a ball joint
+    simulation.set_motion(np.zeros((1, 6)), np.array([[0.0, 0, 0.5 * 3.0, 0, 3.0, 0]]))
+    record = simulation.run(np.array([1e-9]))
+    assert record.velocity[-1, 0, 2] == pytest.approx(3.0 / (body.mass / 3), rel=1e-9)
+
+
+def test_reaction_of_a_clamp_in_gravity():
+    """A bar held at one end: force and moment in the joint's frame."""
+    model = SpaceModel((bar((0, 0, 0), X),), (fixed(GROUND, 0, np.zeros(3)),), gravity=(0, 0, -9.81))
+    record = SpaceSimulation(model).run(np.array([0.01]))
+    weight = model.bodies[0].mass * 9.81
+    np.testing.assert_allclose(record.joint_force[-1, 0], [0, 0, weight, 0, -weight / 2, 0], atol=1e-9)
+
+
+def push(moment, force, **options):
+    """A bar clamped by a hinge of constant moment and pushed at its tip."""
+    hinge = SpaceHinge(0, (component(RX, moment),))
+    load = SpaceLoad(0, np.array(X), np.array([0, force, 0.0]), np.zeros(3), np.zeros(1), np.ones(1))
+    body = bar((0, 0, 0), X)
+    return SpaceModel((body,), (revolute(GROUND, 0, np.zeros(3), (0, 0, 1)),), (hinge,), (load,), **options)
+
+
+def test_a_locked_hinge_carries_what_equilibrium_asks():
+    record = SpaceSimulation(push(1000.0, 900.0)).run(np.array([0.05]))
+    assert abs(record.hinge_moment[-1, 0]) == pytest.approx(900.0, rel=1e-6)
+    assert abs(record.hinge_rotation[-1, 0]) < 1e-8
+    assert np.isnan(record.summary[0, 2])
+
+
+def test_quasi_static_push_by_a_drive():
+    """A bar's end is led across it at 0.2 m/s: work, moment and rotation of its hinge without inertia."""
+    pin = revolute(GROUND, 0, np.zeros(3), (0, 0, 1))
+    driven = SpaceJoint(GROUND, 0, pin.position, pin.axes, (True,) * 6)
+    joints = (driven, revolute(0, 1, X, (0, 0, 1)), fixed(1, GROUND, (2, 0, 0)))
+    bodies = (bar((0, 0, 0), X), bar(X, (2, 0, 0)))
+    model = SpaceModel(bodies, joints, (SpaceHinge(1, (component(RX, 50.0),)),))
+    assert SpaceSimulation(model).freedoms[0] == 0
+    # let the first bar turn about the hinge: its foot slides
+    slot = SpaceJoint(GROUND, 0, pin.position, np.eye(3), (False, False, True, True, True, False))
+    lead = SpaceJoint(
+        GROUND, 0, np.array([0.0, 0.0, 0.0]), np.eye(3), (False, True, False, False, False, False)
+    )
+    drive = SpaceDrive(1, 1, np.zeros(1), np.array([0.2]))
+    model = SpaceModel(
+        bodies, (slot, lead, *joints[1:]), (SpaceHinge(2, (component(RX, 50.0),)),), drives=(drive,)
+    )
+    simulation = SpaceSimulation(model, 1e-4)
+    assert simulation.freedoms[0] == 0
+    simulation.stage(quasi_static=True, until=(SpaceUntil(Until.WORK, 5.0),))
+    record = simulation.run(np.linspace(0, 2.0, 21)[1:])
+    assert record.ended_by == 0
+    assert record.energy[-1, 8] == pytest.approx(5.0, rel=2e-4)
+    assert abs(record.hinge_rotation[-1, 0]) == pytest.approx(0.1, rel=1e-3)
+    assert record.energy[-1, 2] == pytest.approx(5.0, rel=1e-3)
+    assert record.residual < 1e-3
+    # then everything stands still
+    simulation.stage(drives=())
+    still = simulation.run(np.array([simulation.time + 0.1]))
+    assert still.energy[-1, 0] < 1e-12
+
+
+def test_stages_add_up_and_drives_go_on_from_where_they_are():
+    slide = SpaceJoint(GROUND, 0, np.zeros(3), np.eye(3), (True,) * 6)
+    drive = SpaceDrive(0, 0, np.array([0.0, 1.0]), np.array([0.0, 2.0]))
+    simulation = SpaceSimulation(SpaceModel((bar((0, 0, 0), X),), (slide,), drives=(drive,)))
+    until = SpaceUntil(Until.DISPLACEMENT, 0.25, index=0, freedom=0)
+    simulation.stage(until=(until,))
+    first = simulation.run(np.linspace(0, 2, 5)[1:])
+    assert first.ended_by == 0
+    assert first.time[-1] == pytest.approx(0.5, rel=1e-4)
+    assert first.centre[-1, 0, 0] == pytest.approx(0.75, rel=1e-4)
+    simulation.stage()
+    second = simulation.run(simulation.time + np.array([0.5]))
+    assert second.centre[-1, 0, 0] == pytest.approx(1.0, rel=2e-4)
+    simulation.stage(drives=())
+    third = simulation.run(simulation.time + np.array([0.5]))
+    assert third.centre[-1, 0, 0] == pytest.approx(1.0, rel=2e-4)
+
+
+def test_poll_cancels_and_keeps_what_it_had():
+    simulation = m4(1e-6)
+    record = simulation.run(np.linspace(0, 0.1, 101)[1:], lambda time: time < 0.01)
+    assert record.outcome is Outcome.CANCELLED
+    assert 0 < len(record.time) < 100
+
+
+def test_same_bits_twice():
+    first, second = (m4(1e-3).run(np.array([0.1])) for _ in range(2))
+    assert np.array_equal(first.rotation, second.rotation)
+    assert np.array_equal(first.energy, second.energy)
+
+
+BODY = bar((0, 0, 0), X)
+
+
+@pytest.mark.parametrize(
+    ("model", "says"),
+    [
+        (SpaceModel((SpaceBody(0.0, np.eye(3), np.zeros(3)),)), "mass"),
+        (SpaceModel((SpaceBody(1.0, np.zeros((3, 3)), np.zeros(3)),)), "inertia"),
+        (SpaceModel((BODY,), (spherical(0, 1, X),)), "unknown"),
+        (SpaceModel((BODY,), (spherical(0, 0, X),)), "two bodies"),
+        (SpaceModel((BODY,), (spherical(GROUND, 0, X, 2 * np.eye(3)),)), "axes"),
+        (SpaceModel((BODY,), (fixed(GROUND, 0, X),), (SpaceHinge(0, (component(RX, 1.0),)),)), "not held"),
+        (SpaceModel((BODY,), (), (SpaceHinge(0, (component(RX, 1.0),)),)), "unknown joint"),
+        (
+            SpaceModel(
+                (BODY,), (spherical(GROUND, 0, X),), drives=(SpaceDrive(0, 4, np.zeros(1), np.zeros(1)),)
+            ),
+            "held",
+        ),
+    ],
+)
+def test_bad_models_are_refused(model, says):
+    with pytest.raises(ValueError, match=says):
+        SpaceSimulation(model)
+
+
+KINDS = ("ball", "creeping ball", "pin", "free ball", "fixed")
+
+
+def frame(seed, kinds, loop, gravity, speed):
+    """A tree of bars in random directions, perhaps a loop, hinges of every kind, a random spin about its foot."""
+    rng = np.random.default_rng(seed)
+    points, ends, bodies, joints, hinges = [np.zeros(3)], [], [], [], []
+    for k in range(len(kinds)):
+        parent = int(rng.integers(0, len(points)))
+        step = rng.normal(size=3)
+        points.append(points[parent] + 0.3 * step / np.linalg.norm(step))
+        ends.append((parent, k + 1))
+    if loop and len(kinds) > 2:
+        ends.append((len(kinds), 1))
+    for k, (a, b) in enumerate(ends):
+        bodies.append(bar(points[a], points[b], payload=float(rng.uniform(0, 3))))
+        other = next((i for i, (_, end) in enumerate(ends[:k]) if end == a), GROUND)
+        kind = kinds[k % len(kinds)]
+        axes = random_turn(int(rng.integers(0, 1000)))
+        if kind == "pin":
+            joints.append(revolute(other, k, points[a], axes[0]))
+            hinges.append(SpaceHinge(k, (component(RX, float(rng.uniform(10, 300))),)))
+        elif kind in ("ball", "creeping ball"):
+            joints.append(spherical(other, k, points[a], axes))
+            hinges.append(ball_hinge(k, 0.1, form=2 if kind == "creeping ball" else 0))
+        else:
+            joints.append((spherical if kind == "free ball" else fixed)(other, k, points[a]))
+    if len(ends) > len(kinds):
+        joints.append(spherical(0, len(kinds), points[1]))
+        limits = tuple(component(freedom, 50.0) for freedom in (RX, RY, RZ))
+        hinges.append(SpaceHinge(len(joints) - 1, limits))
+    model = SpaceModel(tuple(bodies), tuple(joints), tuple(hinges), gravity=(0.0, 0.0, gravity))
+    omega = speed * rng.normal(size=3)
+    return model, np.array([about((0, 0, 0), omega, body) for body in bodies])
+
+
+@given(
+    st.integers(0, 2**32 - 1),
+    st.lists(st.sampled_from(KINDS), min_size=1, max_size=6),
+    st.booleans(),
+    st.sampled_from([0.0, -9.81]),
+    st.sampled_from([0.0, 5.0, 30.0]),
+)
+@settings(max_examples=60)
+def test_random_frames_run_or_say_why(seed, kinds, loop, gravity, speed):
+    model, velocity = frame(seed, kinds, loop, gravity, speed)
+    record = started(model, velocity, 1e-3).run(np.linspace(0, 0.05, 6)[1:])
+    assert record.outcome is Outcome.COMPLETE or record.reason
+    for values in (record.centre, record.rotation, record.velocity, record.energy, record.hinge_rotation):
+        assert np.isfinite(values).all()
+    assert record.outcome is not Outcome.COMPLETE or record.residual < 5e-3
