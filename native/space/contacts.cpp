@@ -109,7 +109,7 @@ void Contacts::sweep(double margin) {
 }
 
 // Way [m] within which points of contact are looked for: as far as bodies go in the step, and some more.
-double Contacts::look_ahead(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double h) {
+double Contacts::look_ahead(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double h, double gain) {
     double way = 0, obstacles_way = 0, gone = swept_.empty() ? INFINITY : 0;
     for (size_t c = 0; c < placed_.size(); c++) {
         const Capsule& capsule = model_.capsules[c];
@@ -126,16 +126,17 @@ double Contacts::look_ahead(const std::vector<Pose>& pose, const std::vector<Twi
         const Twist& v = velocity[at(o.body)];
         obstacles_way = std::max(obstacles_way, h * (norm(v.v) + norm(v.w) * (norm(o.solid.point) + o.solid.radius + o.solid.length)));
     }
-    const double reach = looked_ahead * (way + std::max(way, obstacles_way)) + least_reach * closed_gap_;
+    const double reach = looked_ahead * (way + std::max(way, obstacles_way) + h * gain) + least_reach * closed_gap_;
     if (obstacle_pairs_ < pairs_.size() && kept * reach + 2 * gone > margin_) sweep(2 * kept * reach);
     return reach;
 }
 
-bool Contacts::gather(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double h, const ContactState& state) {
+bool Contacts::gather(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double h, double gain,
+                      const ContactState& state) {
     restitution_share_ = 1;
     before_.swap(active_);
     active_.clear();
-    const double reach = look_ahead(pose, velocity, h);
+    const double reach = look_ahead(pose, velocity, h, gain);
     for (size_t p = 0; p < obstacle_pairs_; p++) find(p, pose, reach);
     for (const size_t p : near_) find(p, pose, reach);
     // what the last step's forces would give
@@ -151,9 +152,33 @@ bool Contacts::gather(const std::vector<Pose>& pose, const std::vector<Twist>& v
     return false;
 }
 
-bool Contacts::was_active(int64_t key) const {
-    const auto found = std::lower_bound(before_.begin(), before_.end(), key, [](const Active& a, int64_t k) { return a.key < k; });
-    return found != before_.end() && found->key == key;
+bool Contacts::among(const std::vector<Active>& contacts, int64_t key) {
+    const auto found = std::lower_bound(contacts.begin(), contacts.end(), key, [](const Active& a, int64_t k) { return a.key < k; });
+    return found != contacts.end() && found->key == key;
+}
+
+bool Contacts::overlooked(const std::vector<Pose>& pose) const {
+    auto overlaps = [&](size_t p) {
+        const Pair& pair = pairs_[p];
+        if (!pair.present) return false;
+        const Solid solid = solid_at(pair, pose);
+        const Segment segment = placed(model_.capsules[at(pair.capsule)], pose);
+        if (least_gap(solid, segment) - pair.offset > -closed_gap_) return false;
+        Touch touch[most_touches];
+        const int n = touches(solid, segment, touch);
+        for (int k = 0; k < n; k++) {
+            // beside a point that is known, the others of the pair follow in the next step
+            if (among(active_, static_cast<int64_t>(p) * most_touches + touch[k].slot)) return false;
+        }
+        for (int k = 0; k < n; k++) {
+            if (touch[k].gap - pair.offset < -closed_gap_) return true;
+        }
+        return false;
+    };
+    for (size_t p = 0; p < obstacle_pairs_; p++) {
+        if (overlaps(p)) return true;
+    }
+    return std::any_of(near_.begin(), near_.end(), overlaps);
 }
 
 void Contacts::find(size_t p, const std::vector<Pose>& pose, double reach) {
@@ -167,7 +192,7 @@ void Contacts::find(size_t p, const std::vector<Pose>& pose, double reach) {
     for (int k = 0; k < n; k++) {
         const double gap = touch[k].gap - pair.offset;
         const int64_t key = static_cast<int64_t>(p) * most_touches + touch[k].slot;
-        if (gap > reach && (gap > kept * reach || !was_active(key))) continue;
+        if (gap > reach && (gap > kept * reach || !among(before_, key))) continue;
         Active c{};
         c.key = key;
         c.pair = p;

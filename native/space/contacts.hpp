@@ -65,8 +65,10 @@ public:
 
     // a stage begins: obstacles that are present, and poses
     void begin(const std::vector<bool>& present, const std::vector<Pose>& pose);
-    // the points of contact within reach of a step of length h; true if they are others than before
-    bool gather(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double h, const ContactState& state);
+    // the points of contact within reach of a step of length h, in which bodies gain `gain` [m/s] of speed or so; true if
+    // they are others than before
+    bool gather(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double h, double gain,
+                const ContactState& state);
     size_t size() const { return active_.size(); }
     const int* bodies(size_t i) const { return active_[i].body; }
     // three rows and the gap at other poses
@@ -84,6 +86,8 @@ public:
                 ContactState& state) const;
     // whether an impact follows from the gaps and rates (3 each, the first counts) at the end of the step
     bool impact_follows(const double* gap, const double* rate) const;
+    // whether anything overlaps that was not within reach
+    bool overlooked(const std::vector<Pose>& pose) const;
     double closed_gap() const { return closed_gap_; }
 
     // gap below which a contact counts as closed [m], and energy of an approach that is not worth an impact [J]
@@ -118,10 +122,10 @@ private:
     }
     double rest_rate(const Active& c) const;
     void appear(Pair& pair, const std::vector<Pose>& pose);
-    double look_ahead(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double h);
+    double look_ahead(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double h, double gain);
     void sweep(double margin);
     void find(size_t pair, const std::vector<Pose>& pose, double reach);
-    bool was_active(int64_t key) const;
+    static bool among(const std::vector<Active>& contacts, int64_t key);
 
     const ContactModel& model_;
     std::vector<Pair> pairs_;              // of obstacles, then of capsules in their order

@@ -97,7 +97,7 @@ void Stepper::commit(State& s, double h) {
     }
     s.pose = end_;
     s.t += h;
-    see_contacts(s);
+    see_contacts(s, h);
 }
 
 // Positions and velocities back to the held rows at the end of the step, the nearest in kinetic energy with the laws'

@@ -330,7 +330,9 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
     for (size_t i = 0; i < s.velocity.size(); i++) {
         speed_ = std::max({speed_, norm(s.velocity[i].v), norm(s.velocity[i].w) * model_.length, norm(guess_[i].v)});
     }
-    if (contacts_.gather(s.pose, s.velocity, h, s.contact)) link_all();
+    double gain = h * norm(model_.gravity);
+    for (size_t i = 0; i < guess_.size(); i++) gain = std::max(gain, norm(guess_[i].v - s.velocity[i].v));
+    if (contacts_.gather(s.pose, s.velocity, h, gain, s.contact)) link_all();
     // true rates at the start
     locate_all(s, s.pose, s.t, rows_, error_.data());
     rates(rows_, s.velocity.data(), rate0_.data());

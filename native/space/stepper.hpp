@@ -71,7 +71,7 @@ private:
     bool settle(double h);
     void commit_contacts(State& s, double h);
     double overlap(size_t link) const;
-    void see_contacts(State& s);
+    void see_contacts(State& s, double h);
     void predict(const State& s, double h, const std::vector<Twist>& end);
     void set_free(const State& s);
     void set_mobilities(const std::vector<Pose>& poses);

@@ -40,10 +40,11 @@ double Stepper::overlap(size_t link) const {
     return error_[k] < -contacts_.closed_gap() && impulse_[k] < 0 ? error_[k] : 0;
 }
 
-// Whether the state, whose rows have just been located, runs into something closed.
-void Stepper::see_contacts(State& s) {
+// Whether the state after a step of length h, whose rows have just been located, runs into something closed.
+void Stepper::see_contacts(State& s, double h) {
     s.contact.impact = false;
     if (stage_.quasi_static) s.contact.closing = 0;
+    if (contacts_.overlooked(s.pose)) s.contact.closing = h / 2;
     if (stage_.quasi_static || contacts_.size() == 0) return;
     rates(rows_, s.velocity.data(), x_.data());
     const size_t first = contact_rows();
@@ -51,14 +52,14 @@ void Stepper::see_contacts(State& s) {
 }
 
 void Stepper::look_for_impact(State& s) {
-    if (contacts_.gather(s.pose, s.velocity, instant, s.contact)) link_all();
+    if (contacts_.gather(s.pose, s.velocity, instant, 0, s.contact)) link_all();
     locate_all(s, s.pose, s.t, rows_, error_.data());
     set_mobilities(s.pose);
     const size_t first = contact_rows();
     for (size_t i = 0; i < contacts_.size(); i++) {
         contacts_.freeze(i, mobility(connections_.size() - contacts_.size() + i, rows_[first + 3 * i]));
     }
-    see_contacts(s);
+    see_contacts(s, 0);
 }
 
 }  // namespace crumple::space
