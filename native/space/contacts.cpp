@@ -65,13 +65,17 @@ Solid Contacts::solid_at(const Pair& pair, const std::vector<Pose>& pose) const 
 
 void Contacts::begin(const std::vector<bool>& present, const std::vector<Pose>& pose) {
     for (Pair& pair : pairs_) {
-        if (pair.obstacle >= 0) pair.present = present[at(pair.obstacle)];
+        if (pair.obstacle >= 0) {
+            pair.present = present[at(pair.obstacle)];
+            pair.seen = pair.seen && pair.present;
+        }
         if (pair.present && !pair.seen) appear(pair, pose);
     }
 }
 
 void Contacts::appear(Pair& pair, const std::vector<Pose>& pose) {
     pair.seen = true;
+    pair.offset = 0;
     Touch touch[most_touches];
     const Solid solid = solid_at(pair, pose);
     const Segment segment = placed(model_.capsules[at(pair.capsule)], pose);

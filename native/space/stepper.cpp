@@ -287,7 +287,8 @@ void Stepper::freeze(const State& s, double h) {
     for (size_t c = 0; c < connections_.size(); c++) {
         const size_t index = at(connections_[c].index), first = at(start(c));
         if (is(c, Kind::contact)) {
-            contacts_.freeze(index, mobility(c, rows_[first]));
+            // stiff against the true inertia
+            contacts_.freeze(index, (stage_.quasi_static ? residual_inertia : 1) * mobility(c, rows_[first]));
             continue;
         }
         if (is(c, Kind::spring)) {
