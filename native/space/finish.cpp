@@ -33,7 +33,7 @@ Energies energies(const Model& model, const State& s) {
         e.elastic += elastic_energy(hinge, s.hinge[j]);
         e.dissipated += dissipated(hinge, s.hinge[j]);
         e.damped += damped(hinge, s.hinge[j]);
-        e.stop += stop_energy(hinge, &s.rotation[first]) + stop_dissipated(hinge, s.hinge[j]);
+        e.stop += stop_energy(hinge, &s.turned[first]) + stop_dissipated(hinge, s.hinge[j]);
         first += at(size(hinge));
     }
     for (const Spring& spring : model.springs) {
@@ -75,9 +75,10 @@ void Stepper::commit(State& s, double h) {
             if (is(c, Kind::joint) && connections_[c].index == model_.hinge_joint[j]) row = at(start(c) + joint.held);
         }
         double turn[most_components];
-        space::commit(model_.hinges[j], frozen_[j], s.hinge[j], s.t, &s.rotation[k], &w_[row], turn);
+        space::commit(model_.hinges[j], frozen_[j], s.hinge[j], s.t, &s.turned[k], &w_[row], turn);
         for (int i = 0; i < joint.laws; i++) {
             s.rotation[k + at(i)] = error_[row + at(i)];
+            s.turned[k + at(i)] = joint.laws == 1 ? error_[row + at(i)] : s.turned[k + at(i)] + turn[i];
             s.rate[k + at(i)] = w_[row + at(i)];
         }
     }

@@ -70,6 +70,8 @@ struct State {
     std::vector<Twist> velocity, acceleration;  // at the centres, world axes; of the last step
     std::vector<SpaceHingeState> hinge;
     std::vector<double> rotation;               // of every hinge component, see JointGeometry::error
+    std::vector<double> turned;                 // the same as hinges count it: for several rotations the sum of their rates,
+                                                // which unlike the rotation vector is what their moments do work on
     std::vector<double> rate;                   // of the same
     std::vector<Twist> joint_force;             // moment and force on the second body, in the joint's frame, last step
     ContactState contact;

@@ -37,7 +37,7 @@ void Simulation::store(Record& r) {
         }
         r.hinge_energy.push_back(dissipated(hinge, s) + damped(hinge, s) + stop_dissipated(hinge, s));
         r.hinge_energy.push_back(elastic_energy(hinge, s));
-        r.hinge_energy.push_back(stop_energy(hinge, &state_.rotation[first]));
+        r.hinge_energy.push_back(stop_energy(hinge, &state_.turned[first]));
         first += static_cast<size_t>(size(hinge));
     }
     r.hinge_rotation.insert(r.hinge_rotation.end(), state_.rotation.begin(), state_.rotation.end());

@@ -75,7 +75,7 @@ void Simulation::set_critical_damping(bool all) {
         const SpaceHinge& hinge = model_.hinges[c.hinge];
         const double sign = c.stop == &hinge.components[static_cast<size_t>(c.component)].law.stop[0] ? 1 : -1;
         const size_t k = static_cast<size_t>(stepper_.first_component(c.hinge) + c.component);
-        const double gap = sign * state_.rotation[k] - c.stop->rotation;
+        const double gap = sign * state_.turned[k] - c.stop->rotation;
         const bool soon = gap <= 0 && gap + 2 * h_ * std::fabs(state_.rate[k]) > 0;
         if (!all && !soon) continue;
         c.stop->damping = 2 * std::sqrt(c.stop->stiffness * stepper_.effective_inertia(state_, c.hinge, c.component));

@@ -94,6 +94,7 @@ State Stepper::start() {
     s.acceleration.resize(s.pose.size());
     s.hinge.resize(model_.hinges.size());
     s.rotation.assign(at(component_.back()), 0.0);
+    s.turned = s.rotation;
     s.rate.assign(at(component_.back()), 0.0);
     s.joint_force.resize(model_.joints.size());
     for (size_t j = 0; j < model_.hinges.size(); j++) {
@@ -306,7 +307,7 @@ void Stepper::freeze(const State& s, double h) {
         const int hinge = hinge_index(c);
         if (hinge < 0) continue;
         const size_t held = at(system_.links()[c].held), k = at(component_[at(hinge)]);
-        frozen_[at(hinge)] = space::freeze(model_.hinges[at(hinge)], s.hinge[at(hinge)], h, &s.rotation[k], &rate0_[first + held],
+        frozen_[at(hinge)] = space::freeze(model_.hinges[at(hinge)], s.hinge[at(hinge)], h, &s.turned[k], &rate0_[first + held],
                                            &w_[first + held]);
     }
 }
