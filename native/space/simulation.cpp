@@ -173,6 +173,9 @@ double Simulation::error(const State& coarse, const State& fine) const {
     double e = worst / scale_;
     const double speed = std::max(speed_, negligible_speed_);
     if (speed > 0) e = std::max(e, kinetic_norm(model_, coarse, &fine) / speed);
+    // an energy that is not balanced is an error of the motion too
+    const double reference = std::max(start_energy_ + start_work_ + work_max_, negligible_energy_);
+    if (reference > 0) e = std::max(e, std::fabs(energies(model_, fine).balance() - balance_) / reference);
     return e / step_tolerance_;
 }
 
@@ -294,7 +297,8 @@ void Simulation::watch(Record& record) {
                                    negligible_impact * settings_.accuracy * largest_energy_);
     work_max_ = std::max(work_max_, std::fabs(e.external_work - start_work_));
     const double reference = std::max(start_energy_ + start_work_ + work_max_, negligible_energy_);
-    residual_max_ = std::max(residual_max_, std::fabs(e.balance() - start_energy_));
+    balance_ = e.balance();
+    residual_max_ = std::max(residual_max_, std::fabs(balance_ - start_energy_));
     if (reference > 0) record.residual = residual_max_ / reference;
 }
 
@@ -337,7 +341,7 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     double mass = 0;
     for (const Body& body : model_.bodies) mass += body.mass;
     negligible_speed_ = std::sqrt(mass) * settings_.scale_floor * model_.length / std::max(duration, settings_.minimum_step);
-    start_energy_ = e.balance();
+    start_energy_ = balance_ = e.balance();
     start_work_ = e.external_work;
     work_max_ = residual_max_ = 0;
     if (h_ <= 0) h_ = std::clamp(duration / 100, settings_.minimum_step, settings_.maximum_step);
