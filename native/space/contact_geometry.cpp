@@ -69,7 +69,14 @@ public:
         const double a = -slope(below), b = slope(above);
         Vec3 normal = above.normal;
         if (a > 0 && b > 0) normal = (b / (a + b)) * below.normal + (a / (a + b)) * above.normal;
-        normal = (1 / norm(normal)) * normal;
+        const double size = norm(normal);
+        if (size > nothing) {
+            normal = (1 / size) * normal;
+        } else {
+            // straight through an axis: out of it on any side
+            Vec3 second;
+            tangents((1 / length()) * along_, normal, second);
+        }
         return {start.value <= level ? 0 : crossing(0, lowest, level), end.value <= level ? 1 : crossing(1, lowest, level),
                 lowest, normal};
     }

@@ -106,6 +106,7 @@ void Simulation::begin_stage(bool quasi_static, const std::vector<bool>& drives,
     stage = {quasi_static, next};
     state_.stage_start = state_.t;
     stepper_.set_obstacles(obstacles, state_);
+    state_.contact.force.assign(obstacles.size(), Vec3{});
     if (quasi_static) std::fill(state_.velocity.begin(), state_.velocity.end(), Twist{});
     h_ = 0;
     until_ = std::move(until);
