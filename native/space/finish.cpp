@@ -70,10 +70,7 @@ void Stepper::commit(State& s, double h) {
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         const Joint& joint = model_.joints[at(model_.hinge_joint[j])];
         const size_t k = at(component_[j]);
-        size_t row = 0;
-        for (size_t c = 0; c < connections_.size(); c++) {
-            if (is(c, Kind::joint) && connections_[c].index == model_.hinge_joint[j]) row = at(start(c) + joint.held);
-        }
+        const size_t row = at(start(hinge_link_[j]) + joint.held);
         double turn[most_components];
         space::commit(model_.hinges[j], frozen_[j], s.hinge[j], s.t, &s.turned[k], &w_[row], turn);
         for (int i = 0; i < joint.laws; i++) {
@@ -144,23 +141,37 @@ void Stepper::mend_end(State& s, double h) {
         for (size_t i = 0; i < end_.size(); i++) end_[i] = moved(end_[i], direction_[i]);
         locate_all(s, end_, s.t + h, rows_, error_.data());
     }
-    if (stage_.quasi_static) return;
+    if (!stage_.quasi_static) mend_rates(s, h);
+}
+
+// Its impulses belong to the step: those of drives do work, at rates that are not zero.
+void Stepper::mend_rates(State& s, double h) {
+    const std::vector<Link>& links = system_.links();
     rates(rows_, velocity_.data(), x_.data());
     for (size_t c = 0; c < links.size(); c++) {
         const int first = start(c);
-        for (int i = 0; i < links[c].rows(); i++) {
-            const size_t k = at(first + i);
-            x_[k] = i < links[c].held ? x_[k] : 0;
-        }
+        for (int i = links[c].held; i < links[c].rows(); i++) x_[at(first + i)] = 0;
         if (!is(c, Kind::joint) || !model_.joints[at(connections_[c].index)].driven) continue;
         const size_t index = at(connections_[c].index);
         const Joint& joint = model_.joints[index];
         const Target driven = target(joint, s, s.t + h);
         const Pose a = model_.pose(end_, joint.body[0]);
-        for (int i = 0; i < joint.held; i++) x_[at(first + i)] -= target_rate(joint, a, geometry_[index], driven, i);
+        for (int i = 0; i < joint.held; i++) {
+            target_[at(first + i)] = target_rate(joint, a, geometry_[index], driven, i);
+            x_[at(first + i)] -= target_[at(first + i)];
+        }
     }
+    work_ = x_;
     system_.solve(x_.data(), mended * speed_);
     system_.push(x_.data(), velocity_.data());
+    for (size_t c = 0; c < links.size(); c++) {
+        const bool driven = is(c, Kind::joint) && model_.joints[at(connections_[c].index)].driven;
+        for (int i = 0; i < links[c].held; i++) {
+            const size_t k = at(start(c) + i);
+            impulse_[k] += x_[k];
+            if (driven) s.external_work -= x_[k] * (target_[k] + work_[k] / 2);
+        }
+    }
 }
 
 // forces of the joints on their second bodies, mean over the step

@@ -93,7 +93,8 @@ private:
     std::vector<double> peak_;        // per component: largest rotation and moment
     double step_tolerance_;           // of the error measure
     double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, start_work_ = 0, work_max_ = 0, residual_max_ = 0;
-    double balance_ = 0, given_energy_ = 0, negligible_energy_ = 0;
+    double lift_ = 0,  // of all weights by the model's length [J]
+           balance_ = 0, given_energy_ = 0, negligible_energy_ = 0;
     double negligible_speed_ = 0;     // kinetic norm that moves bodies by less than what counts as large in the run
     double closing_ = 0;              // within the step just solved, when an open contact closed; 0 if none did
     double landing_ = 0;              // step that ends where a contact closes; 0 if none is ahead

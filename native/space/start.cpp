@@ -35,8 +35,7 @@ void Stepper::add_motion(State& s, const Twist* velocity, const Twist* impulse) 
 double Stepper::effective_inertia(const State& s, size_t hinge, int component) {
     locate_all(s, s.pose, s.t, rows_, error_.data());
     set_mobilities(s.pose);
-    size_t link = 0;
-    while (!is(link, Kind::joint) || hinge_index(link) != static_cast<int>(hinge)) link++;
+    const size_t link = hinge_link_[hinge];
     const Link& l = system_.links()[link];
     const Row& row = rows_[at(start(link) + l.held + component)];
     std::fill(direction_.begin(), direction_.end(), Twist{});

@@ -25,10 +25,11 @@ Mat3 world(const Quat& q, const Mat3& m) {
 
 }  // namespace
 
-Stepper::Stepper(const Model& model) : model_(model), contacts_(model.contact) {
+Stepper::Stepper(const Model& model) : model_(model), contacts_(model.contact), hinge_link_(model.hinges.size()) {
     for (size_t j = 0; j < model.joints.size(); j++) {
         const Joint& joint = model.joints[j];
         if (joint.rows() == 0) continue;
+        if (joint.hinge >= 0) hinge_link_[at(joint.hinge)] = connections_.size();
         connections_.push_back({Kind::joint, static_cast<int>(j)});
     }
     for (size_t k = 0; k < model.springs.size(); k++) {
@@ -53,13 +54,17 @@ Stepper::Stepper(const Model& model) : model_(model), contacts_(model.contact) {
     // redundancy of the held rows, hinges free
     inertia_.resize(bodies);
     const State s = start();
-    redundant_rows_.assign(connections_.size(), 0);
+    std::vector<int> found(connections_.size());
     locate_all(s, s.pose, 0, rows_, error_.data());
     hold_rows();
     // a matter of geometry: the same mass for all bodies
     const double turns = 1 / (model.length * model.length);
     for (size_t i = 0; i < bodies; i++) system_.set_body(i, 1, {{turns * axis(0), turns * axis(1), turns * axis(2)}});
-    redundant_ = system_.factor(&redundant_rows_);
+    redundant_ = system_.factor(&found);
+    redundant_rows_.assign(model.joints.size(), 0);
+    for (size_t c = 0; c < connections_.size(); c++) {
+        if (is(c, Kind::joint)) redundant_rows_[at(connections_[c].index)] = found[c];
+    }
 }
 
 // the links of joints, springs and present contacts, and room for their rows

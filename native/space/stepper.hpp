@@ -26,6 +26,7 @@ public:
 
     State start();
     Stage& stage() { return stage_; }
+    const Stage& stage() const { return stage_; }
     // velocities nearest, in kinetic energy, to the state's plus those and impulses given; hinges free
     void add_motion(State& state, const Twist* velocity, const Twist* impulse);
     // One step of length h; false when the equations did not converge (the state is then undefined).  `guess`: end
@@ -99,6 +100,7 @@ private:
     // finish.cpp
     void commit(State& s, double h);
     void mend_end(State& s, double h);
+    void mend_rates(State& s, double h);
     void show_forces(State& s, double h);
     int start(size_t link) const { return system_.start(link); }
     const SpaceHinge* hinge_of(size_t link) const;
@@ -109,6 +111,7 @@ private:
     Contacts contacts_;
     System system_;
     std::vector<Connection> connections_;    // contacts come last
+    std::vector<size_t> hinge_link_;         // link of every hinge
     std::vector<int> component_;             // first component of every hinge in State::rotation
     std::vector<FrozenSpaceHinge> frozen_;   // per hinge
     std::vector<double> spring_force_, spring_tangent_;  // impulse at zero rate, and its slope
