@@ -7,9 +7,10 @@ namespace crumple::space {
 
 namespace {
 
-// Depth of the valley that counts as flat, and length of the valley below which it is one point, both as shares of
-// the segment's length.  A member turned by `flatness` from lying flat is held at one end only.
+// A valley deeper than this below the ends and breaks, and points farther than this from the ends, count; as shares of
+// the segment's length.
 constexpr double flatness = 1e-7, narrow = 1e-3;
+constexpr int most_breaks = 4;
 // halvings: the place of the valley to 1e-12 of the length, where its depth is exact
 constexpr int halvings = 40;
 // a shorter segment is a sphere, a shorter distance has no direction [m]
@@ -32,9 +33,9 @@ Distance of_corner(const Distance& a, const Distance& b) {
     return a.value >= b.value ? a : b;
 }
 
-struct Valley {
-    double first, last, lowest;
-    Vec3 normal;  // at the lowest point
+struct Lowest {
+    double s;
+    Distance distance;
 };
 
 class Profile {
@@ -46,27 +47,20 @@ public:
     double slope(const Distance& d) const { return dot(d.normal, along_); }
     double length() const { return norm(along_); }
 
-    Valley valley() const {
-        const Distance start = (*this)(0), end = (*this)(1);
+    Lowest lowest() const {
         double lo = 0, hi = 1;
-        Distance below = start, above = end;
-        if (slope(start) >= 0) {
-            hi = 0;
-            above = start;
-        } else if (slope(end) <= 0) {
-            lo = 1;
-            below = end;
-        }
-        for (int k = 0; k < halvings && hi > lo; k++) {
+        Distance below = (*this)(0), above = (*this)(1);
+        if (slope(below) >= 0) return {0, below};
+        if (slope(above) <= 0) return {1, above};
+        for (int k = 0; k < halvings; k++) {
             const double s = (lo + hi) / 2;
             const Distance d = (*this)(s);
             const bool rising = slope(d) >= 0;
             (rising ? hi : lo) = s;
             (rising ? above : below) = d;
         }
-        const double lowest = (lo + hi) / 2, level = (*this)(lowest).value + flatness * length();
         // where the distance has a kink the normal lies between those of both sides, at right angles to the segment
-        const double a = -slope(below), b = slope(above);
+        const double a = -slope(below), b = slope(above), s = (lo + hi) / 2;
         Vec3 normal = above.normal;
         if (a > 0 && b > 0) normal = (b / (a + b)) * below.normal + (a / (a + b)) * above.normal;
         const double size = norm(normal);
@@ -77,20 +71,31 @@ public:
             Vec3 second;
             tangents((1 / length()) * along_, normal, second);
         }
-        return {start.value <= level ? 0 : crossing(0, lowest, level), end.value <= level ? 1 : crossing(1, lowest, level),
-                lowest, normal};
+        return {s, {(*this)(s).value, normal}};
+    }
+
+    // where the segment passes corners of the solid, in a fixed order; infinite where it does not
+    int breaks(double* s) const {
+        const Vec3 r = from_ - solid_.point;
+        if (solid_.shape == Shape::plane) {
+            s[0] = -dot(solid_.edge, r) / dot(solid_.edge, along_);
+            return 1;
+        }
+        if (solid_.shape == Shape::sphere || solid_.length == 0) return 0;
+        const Vec3 axis = solid_.direction;
+        const double z = dot(axis, r), slope = dot(axis, along_);
+        s[0] = -z / slope;
+        s[1] = (solid_.length - z) / slope;
+        if (solid_.shape == Shape::capsule) return 2;
+        const Vec3 out = r - z * axis, away = along_ - slope * axis;
+        const double a = dot(away, away), b = dot(out, away), c = dot(out, out) - solid_.radius * solid_.radius;
+        const double root = std::sqrt(std::max(b * b - a * c, 0.0));
+        s[2] = (-b - root) / a;
+        s[3] = (-b + root) / a;
+        return 4;
     }
 
 private:
-    // where the distance falls to a level on the way from `outside` to `inside`
-    double crossing(double outside, double inside, double level) const {
-        for (int k = 0; k < halvings; k++) {
-            const double s = (outside + inside) / 2;
-            ((*this)(s).value > level ? outside : inside) = s;
-        }
-        return inside;
-    }
-
     const Solid& solid_;
     Vec3 from_, along_;
 };
@@ -145,13 +150,19 @@ int touches(const Solid& solid, const Segment& segment, Touch* out) {
     if (profile.length() < nothing) return n;
     add(1, 1, profile(1));
     if (solid.shape == Shape::plane && !solid.has_edge) return n;
-    const Valley v = profile.valley();
-    if (v.last - v.first < narrow) {
-        if (v.lowest > narrow && v.lowest < 1 - narrow) add(2, v.lowest, {profile(v.lowest).value, v.normal});
-        return n;
+    double least = std::min(out[0].gap, out[1].gap), place[most_breaks];
+    const int breaks = profile.breaks(place);
+    const Lowest lowest = profile.lowest();
+    const int valley = n;
+    for (int k = 0; k < breaks; k++) {
+        if (!(place[k] > narrow && place[k] < 1 - narrow)) continue;
+        add(3 + k, place[k], profile(place[k]));
+        least = std::min(least, out[n - 1].gap);
     }
-    if (v.first > narrow) add(2, v.first, profile(v.first));
-    if (v.last < 1 - narrow) add(3, v.last, profile(v.last));
+    if (lowest.distance.value - segment.radius < least - flatness * profile.length()) {
+        add(2, lowest.s, lowest.distance);
+        std::rotate(out + valley, out + n - 1, out + n);
+    }
     return n;
 }
 

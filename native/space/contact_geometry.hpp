@@ -1,12 +1,12 @@
 // Where a capsule touches a convex solid: gap, normal and point, in world axes.
 //
-// A capsule is a segment with a radius; a sphere is one whose ends are the same point.  The signed distance d(x) of a
-// point from a convex solid is convex, so along the segment x(s) it has one valley.  Points of contact are
-//   the ends of the segment, and
-//   the ends of the valley {s : d(x(s)) <= min d + flatness * length} where they lie inside the segment,
-// each a condition that the motion must meet: the sphere around x(s) stays outside the solid.  A capsule across an
-// edge or a pole has a narrow valley, one point; one that lies flat along a solid has a wide one, two points, and
-// does not rock; one that lies flat on a plane is held by its ends.
+// A capsule is a segment with a radius; a sphere is one whose ends are the same point.  Every sphere around a point x(s) of the
+// segment must stay outside the solid, a condition on the motion.  The signed distance d(x) of a point from a convex solid
+// is convex, so along the segment it has one valley, and these points bear the capsule:
+//   its ends; the lowest point of the valley, where that lies lower than all others; and its breaks, where it passes a
+//   corner of the solid: an edge, the ends of a cylinder or of another capsule, the rim of a cylinder's flat end.
+// A capsule across an edge or a pole rests on one point; one that lies flat along a solid on the two points that bound
+// their common length, so that it does not rock.  Breaks are seen before they touch, as ends are.
 #pragma once
 
 #include "space/math.hpp"
@@ -41,10 +41,10 @@ struct Touch {
     double gap = 0;    // between the surfaces; negative: overlap
     Vec3 normal;       // unit, out of the solid towards the capsule
     Vec3 point;
-    int slot = 0;      // which of the four it is: ends of the segment, ends of the valley
+    int slot = 0;      // which point it is: ends (0, 1), lowest (2), breaks (3 to 6)
 };
 
-constexpr int most_touches = 4;
+constexpr int most_touches = 7;
 
 Distance distance(const Solid& solid, Vec3 x);
 // a lower bound of the gap, cheap

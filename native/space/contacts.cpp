@@ -170,14 +170,13 @@ bool Contacts::overlooked(const std::vector<Pose>& pose) const {
         if (least_gap(solid, segment) - pair.offset > -closed_gap_) return false;
         Touch touch[most_touches];
         const int n = touches(solid, segment, touch);
+        double known = 0, unknown = 0;
         for (int k = 0; k < n; k++) {
-            // beside a point that is known, the others of the pair follow in the next step
-            if (among(active_, static_cast<int64_t>(p) * most_touches + touch[k].slot)) return false;
+            const bool is_known = among(active_, static_cast<int64_t>(p) * most_touches + touch[k].slot);
+            double& least = is_known ? known : unknown;
+            least = std::min(least, touch[k].gap - pair.offset);
         }
-        for (int k = 0; k < n; k++) {
-            if (touch[k].gap - pair.offset < -closed_gap_) return true;
-        }
-        return false;
+        return unknown < known - closed_gap_;
     };
     for (size_t p = 0; p < obstacle_pairs_; p++) {
         if (overlaps(p)) return true;
