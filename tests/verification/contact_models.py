@@ -47,7 +47,14 @@ def rod_shape(body, first, second, radius=0.05):
     return SpaceCapsule(body, np.array(first, float), np.array(second, float), radius)
 
 
-def plane(point=(0.0, 0.0, 0.0), normal=(0.0, 0.0, 1.0), friction=0.0, restitution=0.0, body=GROUND, edge=(0.0, 0.0, 0.0)):
+def plane(
+    point=(0.0, 0.0, 0.0),
+    normal=(0.0, 0.0, 1.0),
+    friction=0.0,
+    restitution=0.0,
+    body=GROUND,
+    edge=(0.0, 0.0, 0.0),
+):
     """Plane; its normal need not be a unit vector."""
     normal = np.array(normal, float) / np.linalg.norm(normal)
     return SpaceObstacle(

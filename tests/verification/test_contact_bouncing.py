@@ -1,9 +1,10 @@
 """A ball dropped on a plane: rebound heights and times against the closed form.
 
-From height H it hits after t0 = sqrt(2H/g) and rises to e^2 H, e^4 H, ...; bounce n comes at t0 (1 + 2e + ... + 2e^n), and
-bouncing ends at t0 (1+e)/(1-e).
+From height H it hits after t0 = sqrt(2H/g) and rises to e^2 H, e^4 H, ...; bounce n comes at
+t0 (1 + 2e + ... + 2e^n), and bouncing ends at t0 (1+e)/(1-e).
 """
 
+import itertools
 import math
 
 import numpy as np
@@ -34,7 +35,7 @@ def hits(restitution, count):
 def test_rebound_heights(restitution, record_figure):
     """At the middle of each flight, asked for by its closed-form time, the ball is at rest at e^2n H."""
     times = hits(restitution, 6)
-    middles = [(a + b) / 2 for a, b in zip(times, times[1:], strict=False)]
+    middles = [(a + b) / 2 for a, b in itertools.pairwise(times)]
     height, record = dropped(restitution, middles)
     for n, (value, velocity) in enumerate(zip(height, record.velocity[:, 0, 5], strict=True), 1):
         record_figure(f"height of rebound {n}, e = {restitution}", value, restitution ** (2 * n), 1e-4, "m")
@@ -58,7 +59,9 @@ def test_comes_to_rest_without_chatter(restitution, record_figure):
     height, record = dropped(restitution, [end + 0.1, end + 1.0])
     record_figure(f"height at rest, e = {restitution}", height[-1], 0.0, 2e-6, "m")
     record_figure(f"velocity at rest, e = {restitution}", record.velocity[-1, 0, 5], 0.0, 1e-6, "m/s")
-    record_figure(f"force at rest, e = {restitution}", record.obstacle_force[-1, 0, 2], -2 * GRAVITY, 1e-6, "N")
+    record_figure(
+        f"force at rest, e = {restitution}", record.obstacle_force[-1, 0, 2], -2 * GRAVITY, 1e-6, "N"
+    )
     assert record.steps < 300
 
 
@@ -66,7 +69,9 @@ def test_energy_goes_into_the_contact(record_figure):
     """What contact takes in the first impact is (1 - e^2) m g H."""
     _, record = dropped(0.6, [0.9 * FALL, 1.1 * FALL])
     lost = record.energy[1, 6] - record.energy[0, 6]
-    record_figure("energy lost in an impact, e = 0.6", lost, 0.64 * 2 * GRAVITY * HEIGHT, 1e-4, "J", relative=True)
+    record_figure(
+        "energy lost in an impact, e = 0.6", lost, 0.64 * 2 * GRAVITY * HEIGHT, 1e-4, "J", relative=True
+    )
 
 
 def test_impulse_on_the_plane_is_the_change_of_momentum(record_figure):

@@ -1,8 +1,9 @@
 """Coulomb friction on a plane: sliding to rest, sticking on a slope, and a sphere that begins to roll.
 
-Closed forms: a block thrown at v stops after v^2/(2 mu g); on a slope a it sticks below tan a = mu and else goes with
-g (sin a - mu cos a); a solid sphere that starts sliding rolls at 5/7 v after 2v/(7 mu g) (a thin-walled ring's 1/2 v, a solid
-rod's 2/3 v after v/(3 mu g)).  Friction takes the normal impulse from the pass before; the last test measures what that costs.
+Closed forms: a block thrown at v stops after v^2/(2 mu g); on a slope a it sticks below tan a = mu and
+else goes with g (sin a - mu cos a); a solid sphere that starts sliding rolls at 5/7 v after 2v/(7 mu g),
+a solid rod at 2/3 v after v/(3 mu g).  Friction takes the normal impulse from the pass before; the last
+test measures what that would cost if passes were not repeated.
 """
 
 import math
@@ -89,9 +90,18 @@ def test_rolling_start(shape, share, time_share, record_figure):
     velocity, spin = record.velocity[:, 0, 3], record.velocity[:, 0, 1]
     sliding = speed - mu * GRAVITY * times[1]
     record_figure(f"velocity while sliding, {shape}", velocity[1], sliding, 1e-6, "m/s", relative=True)
-    record_figure(f"slip just before rolling, {shape}", velocity[2] - radius * spin[2], 1e-3 * speed, 1e-3, "m/s")
+    record_figure(
+        f"slip just before rolling, {shape}", velocity[2] - radius * spin[2], 1e-3 * speed, 1e-3, "m/s"
+    )
     for k in (3, 4):
-        record_figure(f"rolling velocity at {times[k]:.3g} s, {shape}", velocity[k], share * speed, 1e-4, "m/s", relative=True)
+        record_figure(
+            f"rolling velocity at {times[k]:.3g} s, {shape}",
+            velocity[k],
+            share * speed,
+            1e-4,
+            "m/s",
+            relative=True,
+        )
         record_figure(f"slip at {times[k]:.3g} s, {shape}", velocity[k] - radius * spin[k], 0.0, 2e-6, "m/s")
     assert record.residual < MAX_RESIDUAL
 
@@ -99,10 +109,10 @@ def test_rolling_start(shape, share, time_share, record_figure):
 def test_friction_uses_the_normal_force_of_its_own_step(record_figure):
     """A rod's end struck obliquely: friction changes the normal impulse, and this friction.
 
-    Rigid rod of mass m, half length l, at the angle a to the plane, falling at v without spin: friction mu N towards +x at
-    the end (sliding, so no sticking) gives N = -v (1 + e)/(c_nn + s mu c_nt) with c_nn = 1/m + x^2/I, c_nt = x z/I for the arm
-    (x, z) from centre to contact.  With the normal impulse of a frictionless impact instead, N and friction would err by
-    the share that is recorded here beside the error found.
+    Rigid rod of mass m, half length l, at the angle a to the plane, falling at v without spin.  Its end
+    slides     towards -x, so friction mu N acts along +x, and N = v/(1/m + x^2/I - mu x z/I) for the arm
+    (x, z) from centre     to contact.  With the normal impulse of a frictionless impact, N and friction
+    would err by more than 10 %.
     """
     slope, half, mass, speed, slip, mu, radius = math.radians(35), 0.5, 4.0, 2.0, 3.0, 0.3, 0.05
     across = mass * ((2 * half) ** 2 / 12 + radius**2 / 4)

@@ -1,4 +1,4 @@
-"""Random falls of capsules on planes, poles, balls and one another: finite, balanced, and never a gain of energy."""
+"""Random falls of capsules on planes, poles, balls and one another: finite, balanced, no gain of energy."""
 
 import numpy as np
 from hypothesis import example, given, settings

@@ -1,4 +1,4 @@
-"""Rods and capsules that meet planes, poles, edges and one another, against closed forms of impact and statics."""
+"""Rods that meet planes, poles, edges and one another, against closed forms of impact and statics."""
 
 import math
 
@@ -17,8 +17,8 @@ from tests.verification.contact_models import (
     sphere,
 )
 
-from crumple._core.space_model import GROUND, SpaceBody, SpaceJoint, SpaceModel, prismatic
 from crumple._core.space import SpaceSimulation
+from crumple._core.space_model import GROUND, SpaceBody, SpaceModel, prismatic
 
 NO_GRAVITY = (0.0, 0.0, 0.0)
 
@@ -37,7 +37,11 @@ def test_oblique_impact_of_a_rod(degrees, restitution, record_figure):
     first, second = inclined_rod(slope, 0.03)
     body = rod(first, second, mass=mass)
     run = simulation(
-        [body], [rod_shape(0, first, second)], [plane(restitution=restitution)], [[0, 0, 0, 0, 0, -speed]], NO_GRAVITY
+        [body],
+        [rod_shape(0, first, second)],
+        [plane(restitution=restitution)],
+        [[0, 0, 0, 0, 0, -speed]],
+        NO_GRAVITY,
     )
     record = run.run(np.array([0.0, 0.012]))
     x, inertia = -math.cos(slope) / 2, body.inertia[1, 1]
@@ -51,7 +55,7 @@ def test_oblique_impact_of_a_rod(degrees, restitution, record_figure):
 def test_rod_falls_over_on_a_smooth_plane(record_figure):
     """Its centre falls straight down: energy gives the spin at every angle.
 
-    At the slope a, centre at height r + l sin a (l half the length): m g l (sin a0 - sin a) = (m l^2 cos^2 a + I) w^2/2.
+    At the slope a with half the length l: m g l (sin a0 - sin a) = (m l^2 cos^2 a + I) w^2/2.
     """
     start, radius, half, mass = math.radians(70), 0.05, 0.5, 4.0
     first, second = inclined_rod(start, 0.0, radius)
@@ -60,10 +64,19 @@ def test_rod_falls_over_on_a_smooth_plane(record_figure):
     record = run.run(np.linspace(0, 0.4, 41))
     height = record.centre[:, 0, 2] - radius
     slope = np.arcsin(height / half)
-    spin = np.sqrt(2 * mass * GRAVITY * half * (math.sin(start) - np.sin(slope)) / (mass * (half * np.cos(slope)) ** 2 + body.inertia[1, 1]))
+    spin = np.sqrt(
+        2
+        * mass
+        * GRAVITY
+        * half
+        * (math.sin(start) - np.sin(slope))
+        / (mass * (half * np.cos(slope)) ** 2 + body.inertia[1, 1])
+    )
     assert slope[-1] < 0.9 * start
     for k in (10, 20, 40):
-        record_figure(f"spin at {record.time[k]:g} s", record.velocity[k, 0, 1], spin[k], 1e-3, "rad/s", relative=True)
+        record_figure(
+            f"spin at {record.time[k]:g} s", record.velocity[k, 0, 1], spin[k], 1e-3, "rad/s", relative=True
+        )
     record_figure("drift of the centre", record.centre[-1, 0, 0] - record.centre[0, 0, 0], 0.0, 1e-9, "m")
     assert record.residual < MAX_RESIDUAL
 
@@ -83,7 +96,7 @@ def test_rod_comes_to_lie_flat(record_figure):
 
 @pytest.mark.parametrize("restitution", [0.0, 0.6, 1.0])
 def test_central_collision(restitution, record_figure):
-    """Parallel capsules meet side by side: momentum stays, (v2 - v1) turns into -e times itself, and none spins."""
+    """Parallel capsules meet side by side: momentum stays, v2 - v1 turns into -e times itself, none spins."""
     ends = [((0, -0.5, 0), (0, 0.5, 0)), ((0.5, -0.3, 0), (0.5, 0.3, 0))]
     masses = (4.0, 1.5)
     run = simulation(
@@ -96,8 +109,20 @@ def test_central_collision(restitution, record_figure):
     record = run.run(np.array([0.0, 0.2]))
     common = (4.0 * 5 - 1.5) / 5.5
     v = record.velocity[1]
-    record_figure(f"velocity of the first, e = {restitution}", v[0, 3], common - restitution * 1.5 / 5.5 * 6, 1e-5, "m/s")
-    record_figure(f"velocity of the second, e = {restitution}", v[1, 3], common + restitution * 4.0 / 5.5 * 6, 1e-5, "m/s")
+    record_figure(
+        f"velocity of the first, e = {restitution}",
+        v[0, 3],
+        common - restitution * 1.5 / 5.5 * 6,
+        1e-5,
+        "m/s",
+    )
+    record_figure(
+        f"velocity of the second, e = {restitution}",
+        v[1, 3],
+        common + restitution * 4.0 / 5.5 * 6,
+        1e-5,
+        "m/s",
+    )
     record_figure(f"spin, e = {restitution}", float(np.abs(v[:, :3]).max()), 0.0, 1e-4, "rad/s")
     lost = (1 - restitution**2) * 4.0 * 1.5 / 5.5 * 36 / 2
     record_figure(f"energy lost, e = {restitution}", record.energy[1, 6], lost, 1e-4 * 20, "J")
@@ -131,12 +156,16 @@ def test_crossing_rods_keep_momentum_and_moment_of_momentum(record_figure):
             )
             spin, velocity = record.velocity[k, i, :3], record.velocity[k, i, 3:]
             linear += body.mass * velocity
-            angular += turn @ body.inertia @ turn.T @ spin + np.cross(record.centre[k, i], body.mass * velocity)
+            angular += turn @ body.inertia @ turn.T @ spin + np.cross(
+                record.centre[k, i], body.mass * velocity
+            )
         return linear, angular
 
     (p0, l0), (p1, l1) = momenta(0), momenta(1)
     record_figure("change of momentum", float(np.abs(p1 - p0).max()), 0.0, 1e-9, "N s")
-    record_figure("change of moment of momentum", float(np.abs(l1 - l0).max()), 0.0, 1e-4 * np.abs(l0).max(), "N m s")
+    record_figure(
+        "change of moment of momentum", float(np.abs(l1 - l0).max()), 0.0, 1e-4 * np.abs(l0).max(), "N m s"
+    )
     assert record.residual < MAX_RESIDUAL
 
 
@@ -147,16 +176,22 @@ def test_rod_rests_across_two_poles(record_figure):
     run = simulation([rod(*ends)], [rod_shape(0, *ends)], obstacles)
     record = run.run(np.array([0.0, 0.5, 1.0]))
     weight = 4 * GRAVITY
-    record_figure("load of the near pole", record.obstacle_force[2, 0, 2], -weight * 4 / 7, 1e-3, "N", relative=True)
-    record_figure("load of the far pole", record.obstacle_force[2, 1, 2], -weight * 3 / 7, 1e-3, "N", relative=True)
+    record_figure(
+        "load of the near pole", record.obstacle_force[2, 0, 2], -weight * 4 / 7, 1e-3, "N", relative=True
+    )
+    record_figure(
+        "load of the far pole", record.obstacle_force[2, 1, 2], -weight * 3 / 7, 1e-3, "N", relative=True
+    )
     record_figure("movement", float(np.abs(record.centre[2] - record.centre[0]).max()), 0.0, 1e-5, "m")
 
 
 def test_ball_rolls_down_a_pole_and_leaves_it(record_figure):
-    """Without friction a point mass leaves a cylinder where cos a = 2/3: at 2/3 of the height, v^2 = 2 g R/3."""
+    """Without friction a mass leaves a cylinder at 2/3 of its height at the start, with v^2 = 2 g R/3."""
     radius, reach, start = 0.1, 0.6, 0.02
     centre = reach * np.array([math.sin(start), 0.0, math.cos(start)])
-    run = simulation([sphere(centre, radius)], [ball_shape(0, centre, radius)], [pole((0, 0, 0), (0, 1, 0), 0.5)])
+    run = simulation(
+        [sphere(centre, radius)], [ball_shape(0, centre, radius)], [pole((0, 0, 0), (0, 1, 0), 0.5)]
+    )
     record = run.run(np.linspace(0, 1.6, 1601))
     carried = record.obstacle_force[:, 0, 2] < -1e-9
     leaves = int(np.argmax(~carried[1:])) + 1
@@ -182,7 +217,7 @@ def test_rod_on_an_edge_tips_when_its_centre_is_beyond(over, falls):
 
 
 def test_obstacle_with_a_mass_on_a_guide(record_figure):
-    """A wall of 10 kg on a guide and a ball: they part with e times their approach, momentum along the guide kept."""
+    """A wall of 10 kg on a guide and a ball: they part with e times their approach along the normal."""
     wall = SpaceBody(10.0, np.eye(3), np.array([1.0, 0, 0]))
     model = SpaceModel(
         (wall, sphere((0, 0, 0), mass=2.0)),
@@ -199,7 +234,13 @@ def test_obstacle_with_a_mass_on_a_guide(record_figure):
     record_figure("velocity of the wall", record.velocity[1, 0, 3], -1 - impulse * n[0] / 10, 1e-5, "m/s")
     for k, name in ((0, "x"), (2, "z")):
         start = 4.0 if k == 0 else 0.0
-        record_figure(f"velocity of the ball, {name}", record.velocity[1, 1, 3 + k], start + impulse * n[k] / 2, 1e-5, "m/s")
+        record_figure(
+            f"velocity of the ball, {name}",
+            record.velocity[1, 1, 3 + k],
+            start + impulse * n[k] / 2,
+            1e-5,
+            "m/s",
+        )
     assert record.residual < MAX_RESIDUAL
 
 

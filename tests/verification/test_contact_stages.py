@@ -1,8 +1,9 @@
 """Obstacles that move, and stages on one structure: a rigid bar on a plastic hinge, pushed and struck.
 
-The bar stands upright from the origin, length L, a hinge of constant moment M at its foot (axis y), a ball of radius r at
-its tip.  A smooth vertical wall that has pushed the tip by u turns it to sin a = u/L; then the force is M/(L cos a) and the work M a.
-A wall of mass m on a guide that strikes it at v loses m m' v^2/(2 (m + m')) in the impact, m' = I/L^2, and the rest in the hinge.
+The bar stands upright from the origin, length L, a hinge of constant moment M at its foot (axis y), a
+ball at its tip.  A smooth vertical wall that has pushed the tip by u turns it to sin a = u/L; then the
+force is M/(L cos a) and the work M a.  A wall of mass m on a guide that strikes it at v loses m m'
+v^2/(2 (m + m')) in the impact, m' = I/L^2, and the rest in the hinge.
 """
 
 import math
@@ -73,7 +74,9 @@ def test_mass_on_a_guide_strikes_a_hinge(mass, gap, record_figure):
     record_figure(f"energy accounted for, {name}", total, kinetic, 2e-3, "J", relative=True)
     if mass > 10:
         largest = float(record.summary[0, 0])
-        record_figure(f"largest rotation, {name}", largest, (kinetic - lost) / MOMENT, 5e-3, "rad", relative=True)
+        record_figure(
+            f"largest rotation, {name}", largest, (kinetic - lost) / MOMENT, 5e-3, "rad", relative=True
+        )
     assert record.residual < MAX_RESIDUAL
 
 
@@ -87,7 +90,9 @@ def test_driven_wall_pushes_the_bar(quasi_static, record_figure):
         tolerance = 1e-4 if quasi_static else 2e-2
         name = f"at {time:g} s, {'quasi-static' if quasi_static else 'dynamic'}"
         record_figure(f"rotation {name}", record.hinge_rotation[k, 0], angle, 1e-4, "rad", relative=True)
-        record_figure(f"work {name}", record.energy[k, 8], MOMENT * angle, max(tolerance, 1e-3), "J", relative=True)
+        record_figure(
+            f"work {name}", record.energy[k, 8], MOMENT * angle, max(tolerance, 1e-3), "J", relative=True
+        )
     assert record.residual < MAX_RESIDUAL
 
 
@@ -97,7 +102,9 @@ def test_force_of_a_quasi_static_push(record_figure):
     record = run.run(np.linspace(0.0, 3.0, 301))
     for k in (100, 200, 300):
         force = MOMENT / (LENGTH * math.cos(math.asin(SPEED * (record.time[k] - 0.005) / LENGTH)))
-        record_figure(f"force at {record.time[k]:g} s", record.obstacle_force[k, 0, 0], -force, 1e-3, "N", relative=True)
+        record_figure(
+            f"force at {record.time[k]:g} s", record.obstacle_force[k, 0, 0], -force, 1e-3, "N", relative=True
+        )
 
 
 @pytest.mark.parametrize(
@@ -124,12 +131,14 @@ def test_stage_ends_when_its_condition_is_met(condition, angle, record_figure):
         tip = LENGTH * np.array([math.sin(found), math.cos(found)])
         record_figure("distance at the end", math.hypot(1 - tip[0], LENGTH - tip[1]), 0.8, 1e-3, "m")
     else:
-        record_figure(f"rotation at the end, {condition.kind.name.lower()}", found, angle, 1e-3, "rad", relative=True)
+        record_figure(
+            f"rotation at the end, {condition.kind.name.lower()}", found, angle, 1e-3, "rad", relative=True
+        )
     assert record.time[-1] == pytest.approx(run.time)
 
 
 def test_push_then_impact_on_the_deformed_bar(record_figure):
-    """Pushed to 0.4 m, the wall taken away, then an impulse at the bar: it turns on by I w^2/(2M) from where it was."""
+    """Pushed to 0.4 m, the wall taken away, then an impulse: it turns on by I w^2/(2M) from where it was."""
     run = push()
     run.stage(quasi_static=True, until=[SpaceUntil(Until.DISPLACEMENT, 0.4, index=1, freedom=0)])
     first = run.run(np.linspace(0.1, 4.0, 40))
@@ -149,7 +158,7 @@ def test_push_then_impact_on_the_deformed_bar(record_figure):
 
 
 def test_obstacle_appears_with_its_stage(record_figure):
-    """Absent in the first stage the bar swings through the wall's place; the second stage takes the overlap as it stands."""
+    """Absent in the first stage: the bar swings through its place; the second takes the overlap as it is."""
     model = bar_and_wall(5.0)
     run = SpaceSimulation(model)
     run.stage(obstacles=[])

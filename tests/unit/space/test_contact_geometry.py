@@ -73,7 +73,8 @@ def test_least_gap_is_that_of_the_nearest_point_of_the_segment(name, first, seco
         return
     found = touches(SOLIDS[name], first, second, 0.05)
     gap = min(gap for gap, _, _ in found.values())
-    # the sampled minimum lies above the true one by at most (spacing/2)^2/(2 x distance); the valley by its flatness
+    # the sampled minimum lies above the true one by at most (spacing/2)^2/(2 x distance); the valley by its
+    # flatness
     spacing = np.linalg.norm(np.subtract(second, first)) / 2000
     assert gap <= nearest - 0.05 + 2e-7
     assert gap >= nearest - 0.05 - spacing**2 / (8 * nearest) - 1e-12
@@ -93,7 +94,7 @@ def test_points_lie_midway_between_the_surfaces_along_the_normal(name, first, se
 def test_capsule_on_a_plane_is_held_by_its_ends():
     found = touches(SOLIDS["plane"], (0, 0, 0.2), (2, 0, 0.3), 0.1)
     assert set(found) == {0, 1}
-    assert found[0][0] == pytest.approx(0.1) and found[1][0] == pytest.approx(0.2)
+    assert [found[k][0] for k in (0, 1)] == pytest.approx([0.1, 0.2])
     np.testing.assert_allclose(found[1][2], (2, 0, 0.1))
 
 
@@ -121,7 +122,8 @@ def test_capsule_that_lies_along_a_solid_is_held_at_two_places(name, first, seco
 def test_capsule_across_a_pole_touches_at_one_point():
     found = touches(POLE, (-1, 0.2, 0.4), (1, 0.2, 0.4), 0.05)
     gap, normal, point = found[2]
-    assert gap == pytest.approx(0.05) and set(found) == {0, 1, 2}
+    assert set(found) == {0, 1, 2}
+    assert gap == pytest.approx(0.05)
     np.testing.assert_allclose(normal, Z, atol=1e-12)
     np.testing.assert_allclose(point, (0, 0.2, 0.325), atol=1e-9)
 
