@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
@@ -55,7 +56,7 @@ Stepper::Stepper(const Model& model) : model_(model), solver_(model.tree) {
     row_matrix_.resize(d * d);
 }
 
-State Stepper::start(const double* q, const double* w) const {
+State Stepper::start(const Real* q, const Real* w) const {
     State s;
     const auto m = static_cast<size_t>(model_.tree.dofs()), n = static_cast<size_t>(model_.tree.bodies());
     s.q.assign(q, q + m);
@@ -74,7 +75,7 @@ State Stepper::start(const double* q, const double* w) const {
     return s;
 }
 
-void Stepper::project(const State& at, const Twist* velocity, const Twist* impulse, double* w) {
+void Stepper::project(const State& at, const Twist* velocity, const Twist* impulse, Real* w) {
     std::fill(impedance_.begin(), impedance_.end(), 0.0);
     std::fill(rhs_.begin(), rhs_.end(), 0.0);
     for (int i = 0; i < model_.tree.bodies(); i++) {
@@ -89,14 +90,14 @@ void Stepper::project(const State& at, const Twist* velocity, const Twist* impul
 }
 
 // Takes out of w what would move a held point or open a weld; drives act from the first step on.
-void Stepper::keep_joined(const State& at, double* w) {
+void Stepper::keep_joined(const State& at, Real* w) {
     if (rows_.size() == model_.drives.size()) return;
     middle_ = at.pose;
     std::fill(row_target_.begin(), row_target_.end(), 0.0);
     constrain(w, model_.drives.size());
 }
 
-double Stepper::effective_inertia(const State& at, int dof) {
+Real Stepper::effective_inertia(const State& at, int dof) {
     std::fill(impedance_.begin(), impedance_.end(), 0.0);
     std::fill(rhs_.begin(), rhs_.end(), 0.0);
     std::fill(work_.begin(), work_.end(), Twist{});
@@ -107,7 +108,7 @@ double Stepper::effective_inertia(const State& at, int dof) {
     return 1 / column_[static_cast<size_t>(dof)];
 }
 
-bool Stepper::step(State& s, double h, const double* guess, int passes) {
+bool Stepper::step(State& s, double h, const Real* guess, int passes) {
     w_.assign(guess, guess + w_.size());
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         hint_[2 * j] = s.hinge[j].hint[0];
@@ -120,6 +121,7 @@ bool Stepper::step(State& s, double h, const double* guess, int passes) {
         freeze(s, h);
         // end rates
         if (!newton()) return false;
+        if (with_directions) differentiate();
     }
     commit(s, h);
     return true;
@@ -143,7 +145,7 @@ void Stepper::predict(const State& s, double h) {
     solver_.place(middle_.data());
     for (const Load& load : model_.loads) {
         int hint = 0;
-        const double impulse = h * load.scale * load.value.at(s.t + h / 2, hint);
+        const Real impulse = h * load.scale * load.value.at(s.t + h / 2, hint);
         Twist& b = bias_[static_cast<size_t>(load.body)];
         b.v = b.v + impulse * load.direction.v;
         b.w += impulse * (load.direction.w + cross(arm(load.body, load.point, middle_.data()), load.direction.v));
@@ -156,13 +158,13 @@ void Stepper::predict(const State& s, double h) {
 // while something turns, so that nothing stirs at rest.
 void Stepper::aim_rows(const State& s, double h) {
     if (rows_.empty()) return;
-    double turning = 0;
-    for (const double w : s.w) turning = std::max(turning, std::fabs(w));
-    const double joint_mending = std::min(turning / mending_turn, 1 / (2 * h));
+    Real turning = 0;
+    for (const Real& w : s.w) turning = max(turning, fabs(w));
+    const Real joint_mending = min(turning / mending_turn, 1 / (2 * h));
     const double drive_mending = 1 / std::max(2 * h, drift_time_);
     for (size_t k = 0; k < rows_.size(); k++) {
         row_target_[k] = row_rate(rows_[k], middle_.data(), twist_.data()) - row_rate(rows_[k], end_.data(), end_twist_.data());
-        double place = 0, rate = 0, mending = joint_mending;
+        Real place = 0, rate = 0, mending = joint_mending;
         if (k < model_.drives.size()) {
             const Drive& drive = model_.drives[k];
             int hint = 0;
@@ -170,7 +172,7 @@ void Stepper::aim_rows(const State& s, double h) {
             rate = drive.rate.at(s.t + h, hint);
             mending = drive_mending;
         }
-        const double astray = relative(rows_[k], s.pose.data()) - rows_[k].origin - place;
+        const Real astray = relative(rows_[k], s.pose.data()) - rows_[k].origin - place;
         row_target_[k] += rate - astray * mending;
     }
 }
@@ -180,14 +182,14 @@ void Stepper::add_row(const Row& row) {
     rows_.back().origin = relative(row, middle_.data());
 }
 
-double Stepper::relative(const Row& row, const Pose* pose) const {
+Real Stepper::relative(const Row& row, const Pose* pose) const {
     const Pose ground, &a = pose[row.body], &b = row.other < 0 ? ground : pose[row.other];
     return row.direction.w * (a.phi - b.phi) + dot(row.direction.v, a.at(row.point) - b.at(row.other_point));
 }
 
 // Relative rate in the constrained direction.
-double Stepper::row_rate(const Row& row, const Pose* pose, const Twist* twist) const {
-    const double rate = point_rate(row.direction, twist[row.body], arm(row.body, row.point, pose));
+Real Stepper::row_rate(const Row& row, const Pose* pose, const Twist* twist) const {
+    const Real rate = point_rate(row.direction, twist[row.body], arm(row.body, row.point, pose));
     if (row.other < 0) return rate;
     return rate - point_rate(row.direction, twist[row.other], arm(row.other, row.other_point, pose));
 }
@@ -241,4 +243,5 @@ void Stepper::commit(State& s, double h) {
     s.t += h;
 }
 
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody
