@@ -14,6 +14,8 @@ constexpr double smallest_mean = 1e-7;
 // An elastic hinge that has yielded swings back to just its capacity, where errors of the step make it flow or
 // not; its time of rest passes over flow of less than this share of all its plastic rotation.
 constexpr double smallest_episode = 1e-2;
+// A rigid hinge of a loop that has come to rest is stirred once more while the loop's gap is mended.
+constexpr double smallest_rigid_episode = 1e-5;
 
 // Capacity in one sense (0 positive, 1 negative) before it turns further.  `u` is the plastic rotation counted in
 // that sense.  A fold that is being straightened keeps the strength that it had lost: the larger of both peaks
@@ -67,7 +69,8 @@ Real penetration_at_end(const FrozenHinge& f, int k, Real w) {
 }
 
 bool counts(const Hinge& hinge, const HingeState& s) {
-    return hinge.form != Form::elastic_plastic || s.episode > smallest_episode * s.accumulated;
+    const double share = hinge.form == Form::elastic_plastic ? smallest_episode : smallest_rigid_episode;
+    return s.episode > share * s.accumulated;
 }
 
 Real clamped(const FrozenHinge& f, Real m) { return min(max(m, -f.capacity[1]), f.capacity[0]); }
@@ -316,7 +319,7 @@ int kinks(const Hinge& hinge, const FrozenHinge& f, Real* rates) {
     return n;
 }
 
-Real commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0, Real q0, Real w1, bool guided) {
+Real commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0, Real q0, Real w1, const Real* halt) {
     const Real mean_rate = (f.w0 + w1) / 2;
     Real turn = f.h * mean_rate;
     const Real impulse = law_response(hinge, f, w1).impulse, stop = stop_response(hinge, f, w1).impulse;
@@ -342,11 +345,11 @@ Real commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0, 
         s.dissipated += impulse * mean_rate;
         s.moment = impulse / f.h;
         const bool slid = fabs(f.w0) > f.width;
-        s.sliding = fabs(w1) > f.width;
+        s.sliding = fabs(w1) > f.width && !(halt && *halt < f.h);
         flowed = slid || s.sliding;
-        if (slid && !s.sliding && hinge.form == Form::set_valued && stop == 0 && !guided) {
+        if (slid && !s.sliding && hinge.form == Form::set_valued && stop == 0) {
             // it stopped within the step, after the time in which the capacity gives the impulse: C t = |P|
-            const Real t = min(f.h, fabs(impulse) / s.capacity);
+            const Real t = halt ? *halt : min(f.h, fabs(impulse) / s.capacity);
             arrest = t0 + t;
             turn = flow = f.w0 * t / 2;
         }

@@ -127,9 +127,9 @@ Real law_potential(const Hinge& hinge, const FrozenHinge& f, Real w);
 Real beside_potential(const Hinge& hinge, const FrozenHinge& f, Real w);
 // rates at which the slope of the response changes; returns how many (at most 10)
 int kinks(const Hinge& hinge, const FrozenHinge& f, Real* rates);
-// advances the memory; returns the rotation over the step.  `guided`: prescribed motion, not the hinge's own moment,
-// may have brought it to rest
-Real commit(const Hinge& hinge, const FrozenHinge& f, HingeState& state, double t0, Real q0, Real w1, bool guided);
+// Advances the memory; returns the rotation over the step.  `halt`: when within the step it came to rest, should it have
+// done so by the end; less than the step where that is known; null where its own moment alone tells.
+Real commit(const Hinge& hinge, const FrozenHinge& f, HingeState& state, double t0, Real q0, Real w1, const Real* halt);
 // its part for damper and stops, the law's moment being known
 void commit_beside(const Hinge& hinge, const FrozenHinge& f, HingeState& state, Real q0, Real turn, Real w1);
 // elastic energy in the law's spring and in both stops at rotation q

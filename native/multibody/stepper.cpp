@@ -10,6 +10,8 @@ namespace {
 
 // Turn [rad] over which a constraint's error is mended to 1/e: short against any rotation of interest.
 constexpr double mending_turn = 0.02;
+// Share of its rate that a hinge of a loop may keep and still count as come to rest: what the loop's gap asks of it.
+constexpr double at_rest = 1e-3;
 
 }  // namespace
 
@@ -48,6 +50,7 @@ Stepper::Stepper(const Model& model) : model_(model), solver_(model.tree) {
             add_row({weld.body, weld.other, weld.point, weld.other_point, direction, 0});
         }
     }
+    find_loops();
     const size_t d = rows_.size();
     zero_.assign(m, 0.0);
     row_target_.resize(d);
@@ -155,11 +158,11 @@ void Stepper::predict(const State& s, double h) {
 
 // Rates that the constrained directions must have, told for the middle's positions.  They must be the drive's own
 // (a hold's and a weld's are zero) at the positions of the end, which the last pass predicts.  What has gone astray is mended
-// while something turns, so that nothing stirs at rest.
+// while something turns to the end, so that nothing stirs at rest, nor where a step comes to it.
 void Stepper::aim_rows(const State& s, double h) {
     if (rows_.empty()) return;
     Real turning = 0;
-    for (const Real& w : s.w) turning = max(turning, fabs(w));
+    for (const Real& w : w_) turning = max(turning, fabs(w));
     const Real joint_mending = min(turning / mending_turn, 1 / (2 * h));
     const double drive_mending = 1 / std::max(2 * h, drift_time_);
     for (size_t k = 0; k < rows_.size(); k++) {
@@ -202,14 +205,48 @@ void Stepper::freeze(const State& s, double h) {
     }
 }
 
+// When within the step the hinges of loops come to rest: their rates being in proportion, all at once, after the time in
+// which their capacities do the work of their impulses.  At the end of the step where one of them slides on, or
+// prescribed motion may have brought them to rest.
+Real Stepper::common_halt(double h) const {
+    Real work = 0, power = 0;
+    for (size_t j = 0; j < frozen_.size(); j++) {
+        if (!looped_[j]) continue;
+        const FrozenHinge& f = frozen_[j];
+        const Real w1 = w_[static_cast<size_t>(model_.hinges[j].dof)];
+        if (!model_.drives.empty() || fabs(w1) > max(f.width, at_rest * fabs(f.w0))) return h;
+        work += law_response(model_.hinges[j], f, w1).impulse * f.w0;
+        power += f.capacity[f.w0 > 0 ? 0 : 1] * fabs(f.w0);
+    }
+    return power > 0 ? min(max(work / power, 0.0), h) : h;
+}
+
+// Hinges on the ways between the two bodies of each weld.
+void Stepper::find_loops() {
+    looped_.assign(model_.hinges.size(), false);
+    const Tree& tree = model_.tree;
+    for (const Weld& weld : model_.welds) {
+        std::vector<int> passed(static_cast<size_t>(tree.bodies()), 0);
+        for (int start : {weld.body, weld.other}) {
+            for (int i = start; i >= 0; i = tree[i].parent) passed[static_cast<size_t>(i)]++;
+        }
+        for (size_t j = 0; j < model_.hinges.size(); j++) {
+            for (int i = 0; i < tree.bodies(); i++) {
+                if (tree[i].dof == model_.hinges[j].dof && passed[static_cast<size_t>(i)] == 1) looped_[j] = true;
+            }
+        }
+    }
+}
+
 void Stepper::commit(State& s, double h) {
     const Tree& tree = model_.tree;
-    const bool guided = !model_.drives.empty();
+    const Real common = common_halt(h);
     for (size_t k = 0; k < w_.size(); k++) dq_[k] = h * (s.w[k] + w_[k]) / 2;
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         const Hinge& hinge = model_.hinges[j];
         const auto dof = static_cast<size_t>(hinge.dof);
-        dq_[dof] = multibody::commit(hinge, frozen_[j], s.hinge[j], s.t, s.q[dof], w_[dof], guided);
+        const Real* halt = model_.drives.empty() && !looped_[j] ? nullptr : &common;
+        dq_[dof] = multibody::commit(hinge, frozen_[j], s.hinge[j], s.t, s.q[dof], w_[dof], halt);
         s.hinge[j].hint[0] = hint_[2 * j];
         s.hinge[j].hint[1] = hint_[2 * j + 1];
     }

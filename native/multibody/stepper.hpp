@@ -122,6 +122,8 @@ private:
     void constrain(Real* w, size_t first);
     void keep_joined(const State& at, Real* w);
     Real search(Real slope_end);
+    void find_loops();
+    Real common_halt(double h) const;
     void commit(State& s, double h);
     Vec2 arm(int body, Vec2 point, const Pose* pose) const { return pose[body].turned(point); }
 
@@ -134,6 +136,7 @@ private:
     std::vector<Row> rows_;  // the drives, the holds, then three per weld
     std::vector<Real> row_target_, row_rates_, row_matrix_, row_force_, zero_;
     std::vector<int> hint_;
+    std::vector<bool> looped_;  // hinges that are part of a loop
     bool all_set_valued_ = true;
     double drift_time_ = 0;
     long solves_ = 0;
