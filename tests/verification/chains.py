@@ -96,9 +96,9 @@ def m2(number, accuracy=1e-3, form=SET_VALUED, rate=0.05, error=1e-6):
 
 
 def m3(accuracy=1e-3, form=SET_VALUED, rate=0.05, error=1e-6):
-    """Model M3: portal A(0,0) B(0,.5) C(1,.6) D(1,0), 20 kg at the middle of BC, which starts with 10 m/s along x.
+    """Model M3: portal A(0,0) B(0,.5) C(1,.6) D(1,0) with 20 kg at the middle of BC.
 
-    Bars AB, BC, and CD in two halves that a weld joins: one hangs on C, the other on D.
+    BC starts with 10 m/s along x.  CD is in two halves that a weld joins: one hangs on C, the other on D.
     """
     left, right = 0.5, 0.6
     top = math.hypot(1.0, right - left)

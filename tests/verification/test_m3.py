@@ -1,9 +1,10 @@
 """Model M3: a portal with softening hinges struck sideways, against an integration in its one coordinate.
 
 Reference: Lagrange's equation in the angle of the left column, with the other two angles from the closure of
-the four-bar linkage, integrated by SciPy to 1e-12: I(a) a'' + I'(a) a'^2/2 = -sum of moments times the hinges' own
-derivatives by a. Set-valued: until the coordinate stops, when all hinges lock at once. With the HAVSIN ramp: to
-100 ms, creep included; that form converges with first order, see docs/theory/multibody_stepper.md.
+the four-bar linkage, integrated by SciPy to 1e-10: I(a) a'' + I'(a) a'^2/2 = -sum of moments times the
+hinges' own derivatives by a. Set-valued: until the coordinate stops, when all hinges lock at once. With the
+HAVSIN ramp: to 100 ms, creep included; that form converges with first order, see
+docs/theory/multibody_stepper.md.
 """
 
 import math
@@ -11,7 +12,7 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from tests.verification.chains import MASS_PER_LENGTH, REGULARISED, SET_VALUED, m3
+from tests.verification.chains import MASS_PER_LENGTH, REGULARISED, m3
 
 LEFT, RIGHT, SPAN, LUMP, SPEED, SCALE = 0.5, 0.6, 1.0, 20.0, 10.0, 0.5
 TOP = math.hypot(SPAN, RIGHT - LEFT)
@@ -56,7 +57,7 @@ def inertia(angles):
 
 
 def of_hinges(three):
-    """Rotations (or their derivatives) of the hinges A, B, C, D, second part against first as in the kernel."""
+    """Rotations of the hinges A, B, C, D, or their derivatives, as the kernel counts them."""
     a, t, c = three
     return np.array([a, t - a, c - t, c])
 
