@@ -1,8 +1,9 @@
-"""Lee & Symonds (1952): free rigid-plastic beam of length 2L under a central force P that sets in at once.
+"""Lee & Symonds (1952): free rigid-plastic beam of length 2L under a central force P.
 
-With p = P L/M_p the beam moves as one up to p = 4; then it folds at its middle; above p = 22.887 a hinge forms in
-each half too. A free chain of bars meets the first figure wherever its hinges lie, the second as closely as a
-hinge lies to the largest moment of the halves (2nd order in the distance). Loads are varied in one call.
+With p = P L/M_p the beam moves as one up to p = 4; then it folds at its middle; above p = 22.887 a
+hinge forms in each half too. A free chain of bars meets the first figure wherever its hinges lie, the
+second as closely as a hinge lies to the largest moment of the halves (2nd order in the distance). Loads
+are varied in one call.
 """
 
 import math
@@ -54,7 +55,7 @@ def threshold(p, opened):
     """Middle of the interval of p in which hinges open."""
     first = int(np.argmax(opened))
     assert opened[first:].all()
-    assert 0 < first
+    assert first > 0
     return (p[first - 1] + p[first]) / 2, p[first] - p[first - 1]
 
 

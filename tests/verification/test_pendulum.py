@@ -1,10 +1,10 @@
-"""Simple pendulum from horizontal: period 4 sqrt(L/g) K(1/2) = 2.3678419475762373 s for L = 1 m, g = 9.81 m/s^2.
+"""Simple pendulum from horizontal: 4 sqrt(L/g) K(1/2) = 2.3678419475762373 s for L = 1 m.
 
-A body whose inertia makes its equivalent length 1 m falls from rest. After 100 periods it must be back at
-rest at the horizontal: there its rate is g/L times the time by which it is early or late. The accuracy is held
-against the largest rotation step by step; where nothing dissipates, the errors of 100 periods add up. So the
-period may err by ten times the accuracy and the energy by fifty times: found are 1.1 and 27 times at 1e-5 and less
-below, shrinking in proportion.
+A body whose inertia makes its equivalent length 1 m falls from rest. After 100 periods it must be back
+at rest at the horizontal: there its rate is g/L times the time by which it is early or late. The
+accuracy is held against the largest rotation step by step; where nothing dissipates, the errors of 100
+periods add up. So the period may err by ten times the accuracy and the energy by fifty times: found are
+3 and 27 times at 1e-5 and less below, shrinking in proportion.
 """
 
 import numpy as np
