@@ -4,11 +4,13 @@ A multibody result says it in its channels.  In a shell result it is measured:
 
 - rotation: of the section plane beyond the fold relative to the one before it, about the hinge's axis at
   the start;
-- plastic work: the part of the energy dissipated that falls between the planes, by plastic strain times
-  wall area (nearly so for perfect plasticity and one wall thickness);
+- plastic work: what is dissipated between the planes;
 - moment: the channel of that name where the result has one, else the moment conjugate to plastic work, work
   over rotation across a window of rotation;
 - plastic rotation: rotation - M/k, k = EI over the distance of the planes.
+
+The rate of rotation is in every source the change of rotation from shape to shape: a rate at one instant
+shows vibration that a rate over an interval does not.
 """
 
 from __future__ import annotations
@@ -44,7 +46,7 @@ class HingeMotion:
     time
         [s], (n,).
     rotation, rotation_rate, plastic_rotation
-        Signed [rad], [rad/s], (n,).
+        Signed [rad], [rad/s], (n,); the rate is the change of rotation from shape to shape.
     moment
         In the sense of the rotation rate [N m], (n,).
     plastic_work
@@ -103,6 +105,8 @@ def channel_motions(
         moved = float(np.ptp(plastic)) if rotation.size else 0.0
         own, far = sections.get(hinge.member), None
         if own is not None:
+            seen = np.interp(own.times, result.time, rotation)
+            rate = np.interp(result.time, own.times, rate_of(seen, own.times))
             far = np.interp(result.time, own.times, far_rotation(own, hinge.station, hinge.direction))
         found.append(
             HingeMotion(

@@ -49,9 +49,9 @@ def solve_and_compare(
     curves
         From files, to be compared too.
     variants
-        Whether to solve further multibody models: elastic hinges, elastic members, laws read off the shell
-        run. progress, cancel, long_run As `crumple.analysis.solve` takes them; progress is that of the
-        shell run.
+        Whether to solve further multibody models: elastic hinges, elastic members, laws read off the shell run.
+    progress, cancel, long_run
+        As `crumple.analysis.solve` takes them; progress is that of the shell run.
 
     Returns
     -------
@@ -112,13 +112,10 @@ def _variants(dense: Analysis, candidate: Result, reference: Result) -> dict[str
     """Further models and their results, by name; a model that cannot be solved is left out."""
     structure = dense.structure
     shell = compare(candidate, reference, structure).reference
-    total = None
-    if shell.hinges and "energy.dissipated" in reference.channels:
-        total = float(reference["energy.dissipated"][-1])
     wanted = {
         "elastic hinges": with_elastic_hinges(structure),
         "elastic members": with_elastic_members(structure),
-        "laws of the shell run": with_measured_laws(structure, shell.hinges, total),
+        "laws of the shell run": with_measured_laws(structure, shell.hinges),
     }
     found = {}
     for name, model in wanted.items():
