@@ -1,4 +1,4 @@
-"""Moment over curvature against closed forms: a rectangle, tubes by their exact widths, both limits, hardening.
+"""Moment over curvature against closed forms: a rectangle, tubes by their exact widths, limits, hardening.
 
 A solid rectangle of elastic-perfectly plastic metal carries M/M_y = 3/2 - (kappa_y/kappa)^2/2 (textbook).
 Tubes are held against a quadrature over their exact widths, which knows neither polygons nor layers.  The

@@ -1,9 +1,10 @@
 """Where a result folded: found in the plastic work along each member, not assumed.
 
-Plastic work is summed between neighbouring sections and divided by their distance.  A fold is a stretch in which this density passes a share of the largest density in the structure; stretches
-nearer to each other than half the section's depth are one.  Its place is the mean station weighted with the
-density.  The planes between which its rotation is measured lie half a depth outside, where the sections are
-plane again, but no nearer to a neighbouring fold than half way.
+Plastic work is summed between neighbouring sections and divided by their distance.  A fold is a stretch in
+which this density passes a share of the largest density in the structure; stretches nearer to each other than
+half the section's depth are one.  Its place is the mean station weighted with the density.  The planes
+between which its rotation is measured lie half a depth outside, where the sections are plane again, but no
+nearer to a neighbouring fold than half way.
 
 Without a field of plastic work, plastic strain times wall area takes its place; without that the change of
 section rotation between neighbours.

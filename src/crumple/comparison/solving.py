@@ -49,7 +49,7 @@ def solve_and_compare(
     curves
         From files, to be compared too.
     variants
-        Whether to solve further multibody models: elastic hinges, elastic members, laws read off the shell run.
+        Whether to solve further multibody models: elastic hinges, elastic members, laws of the shell run.
     progress, cancel, long_run
         As `crumple.analysis.solve` takes them; progress is that of the shell run.
 

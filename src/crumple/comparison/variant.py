@@ -56,7 +56,9 @@ def with_elastic_members(structure: Structure) -> Structure | None:
 
 def _cut(structure: Structure, member: str) -> Bars:
     number = _bars(structure, member)
-    return Bars(number=number, law=yielding_law(structure, member, structure.frame_of(member).length / number))
+    return Bars(
+        number=number, law=yielding_law(structure, member, structure.frame_of(member).length / number)
+    )
 
 
 def yielding_law(structure: Structure, member: str, length: float) -> TableLaw:

@@ -31,8 +31,8 @@ def bending_moment(section: Section, material: Material, axis: Axis | float, cur
     section
         Tube or section of walls.
     material
-        Metal of the walls that name none: elastic, then its hardening curve, else perfectly plastic at its flow
-        stress, as in the shell engine.
+        Metal of the walls that name none: elastic, then along its hardening curve, else perfectly plastic at
+        its flow stress, as in the shell engine.
     axis
         Direction of the moment vector.
     curvature
@@ -64,7 +64,9 @@ def bending_moment(section: Section, material: Material, axis: Axis | float, cur
     return np.array([moment(kappa) for kappa in np.asarray(curvature, float)])
 
 
-def _layers(section: WalledSection, material: Material, angle: float) -> tuple[Floats, Floats, list[Material]]:
+def _layers(
+    section: WalledSection, material: Material, angle: float
+) -> tuple[Floats, Floats, list[Material]]:
     """Height [m] and area [m^2] of every layer of every metal, (LAYERS, metals) each, and the metals."""
     polygons = np.asarray(section.centred_polygons * np.exp(-1j * angle))
     levels = np.linspace(polygons.imag.min(), polygons.imag.max(), LAYERS + 1)

@@ -11,8 +11,8 @@ from crumple.shell.mesh import Mesh
 from crumple.shell.record import Record
 
 CELL_FIELDS = ("plastic_strain", "plastic_work", "thickness", "von_mises")
-"""Largest equivalent plastic strain through the thickness [-], plastic work of the element [J], thickness [m],
-largest Mises stress [Pa]."""
+"""Largest equivalent plastic strain through the thickness [-], plastic work of the element [J], thickness
+[m], largest Mises stress [Pa]."""
 
 
 def shape_of(state: ShellState, mesh: Mesh) -> dict[str, Floats]:
