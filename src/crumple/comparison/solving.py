@@ -115,7 +115,7 @@ def _variants(dense: Analysis, candidate: Result, reference: Result) -> dict[str
     wanted = {
         "elastic hinges": with_elastic_hinges(structure),
         "elastic members": with_elastic_members(structure),
-        "laws of the shell run": with_measured_laws(structure, shell.hinges),
+        "laws of the shells": with_measured_laws(structure, shell.hinges),
     }
     found = {}
     for name, model in wanted.items():
