@@ -11,9 +11,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.verification.rating_curves import PAIRS, arrested, swings
 
 from crumple.comparison import rating
-from tests.verification.rating_curves import PAIRS, arrested, swings
 
 KEPT = json.loads((Path(__file__).parent / "rating_reference.json").read_text(encoding="utf-8"))
 PARTS = ("corridor", "phase", "magnitude", "slope", "overall")
@@ -30,7 +30,9 @@ def test_parts_against_the_kept_figures_of_the_package(name, record_figure):
     rated = rating(t, a, t, b)
     for part in PARTS:
         kept = KEPT["ratings"][name][part]
-        record_figure(f"{name}, {part} ({KEPT['package']} {KEPT['version']})", getattr(rated, part), kept, 1e-9)
+        record_figure(
+            f"{name}, {part} ({KEPT['package']} {KEPT['version']})", getattr(rated, part), kept, 1e-9
+        )
 
 
 @pytest.mark.skipif(

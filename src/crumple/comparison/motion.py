@@ -243,7 +243,9 @@ def _stand_in(structure: Structure, own: Sections, fold: Fold) -> _Where:
     """A hinge for a fold where none was put, about the section axis about which it turned more."""
     frame = structure.frame_of(fold.member)
     first, last = fold.planes
-    turns = {axis: float(np.abs(own.relative_rotation(frame.axis(axis), first, last)).max()) for axis in ("y", "z")}
+    turns = {
+        axis: float(np.abs(own.relative_rotation(frame.axis(axis), first, last)).max()) for axis in ("y", "z")
+    }
     axis = max(turns, key=lambda name: turns[name])
     name = f"{fold.member} at {fold.station * 1e3:.0f} mm"
     return _Where(name, fold.member, fold.station, axis, frame.axis(axis))

@@ -210,7 +210,9 @@ def warping_path(first: Floats, second: Floats, window: int) -> tuple[NDArray[np
         steps = before.argmin(axis=0)
         back[d, : high - low + 1] = steps
         cheapest = np.take_along_axis(before, steps[None], axis=0)[0] if d else 0.0
-        new[low + 1 : high + 2] = (first[low : high + 1] - second[d - high : d - low + 1][::-1]) ** 2 + cheapest
+        new[low + 1 : high + 2] = (
+            first[low : high + 1] - second[d - high : d - low + 1][::-1]
+        ) ** 2 + cheapest
         new[low] = new[high + 2] = np.inf
         older, old, new = old, new, older
     row, column = n - 1, n - 1

@@ -3,9 +3,9 @@
 A ring is the set of points of one member at one station.  Its plane is the least-squares plane through the
 moved points: the eigenvector of their scatter with the smallest eigenvalue, pointing the way in which the
 outline runs round.  The rotation of a section about an axis is the angle between its normal now and at the
-start, both seen along the axis, counted on without a jump at half a turn.  That of one section against another
-is the same as the first one sees it: all is turned back by the smallest rotation that carries its normal back,
-so that a part that tumbles as a whole shows none.
+start, both seen along the axis, counted on without a jump at half a turn.  That of one section against
+another is the same as the first one sees it: all is turned back by the smallest rotation that carries its
+normal back, so that a part that tumbles as a whole shows none.
 
 Limits: a section that is flattened to a line has no plane; its angle is then noise.  A fold's own rings warp,
 so a relative rotation is taken between rings on both sides of it.  Twist about the member of the section that
@@ -113,7 +113,7 @@ class Sections:
 
 
 def _turn(start: Floats, now: Floats, axis: Floats) -> Floats:
-    """Angle from a vector (3,) to others (n, 3), all seen along an axis, counted on over half a turn [rad]."""
+    """Angle from a vector (3,) to others (n, 3), seen along an axis, counted on over half a turn [rad]."""
     first = start - (start @ axis) * axis
     angle = np.arctan2(now @ np.cross(axis, first), now @ first)
     return np.asarray(np.unwrap(angle))

@@ -15,6 +15,8 @@ from crumple.structure.law import LawKeys, LawReference
 from crumple.structure.member import Bars
 
 ELASTIC = "elastic-plastic"
+ELASTIC_HINGES, ELASTIC_MEMBERS, SHELL_LAWS = "elastic hinges", "elastic members", "laws of the shells"
+"""What a comparison calls the further models."""
 LEAST_TURN = np.radians(2.0)
 """Plastic rotation [rad] from which a law can be read off."""
 INTERVALS = 24
