@@ -58,6 +58,7 @@ static void check_materials(const Model& m) {
         const Material& a = m.materials[i];
         if (!(a.density > 0.0)) refuse("material", i, "its density is not positive");
         if (!(a.youngs_modulus > 0.0)) refuse("material", i, "its Young's modulus is not positive");
+        if (!(a.rate_time >= 0.0)) refuse("material", i, "the smoothing time of its strain rate is negative");
         if (!(a.poissons_ratio > -1.0 && a.poissons_ratio <= 0.5)) refuse("material", i, "Poisson's ratio lies outside (-1, 0.5]");
         for (std::size_t k = 0; k < a.yield_stress.size(); k++) {
             if (!(a.yield_stress[k] > 0.0)) refuse("material", i, "a yield stress is not positive");
@@ -72,6 +73,19 @@ static void check_materials(const Model& m) {
     }
 }
 
+// what is rigid must be moved as a body, and something must give the time step
+static void check_rigid_elements(const Model& m, const std::vector<std::uint8_t>& in_a_set) {
+    bool something_strains = false;
+    for (std::size_t e = 0; e < m.elements(); e++) {
+        const bool rigid = m.materials[m.sheets[m.sheet_of[e]].material].rigid;
+        something_strains |= !rigid;
+        for (std::size_t c = 0; rigid && c < 4; c++)
+            if (!in_a_set[m.quads[4 * e + c]])
+                refuse("element", e, "it is rigid, but node " + std::to_string(m.quads[4 * e + c]) + " belongs to no rigid set");
+    }
+    if (!something_strains) throw std::invalid_argument("every element is rigid: nothing gives a time step");
+}
+
 static void check_sets(const Model& m) {
     std::vector<std::uint8_t> taken(m.nodes(), 0);
     for (std::size_t i = 0; i < m.rigid_sets.size(); i++)
@@ -81,6 +95,7 @@ static void check_sets(const Model& m) {
             if (m.fixed[n]) refuse("rigid set", i, "node " + std::to_string(n) + " is fixed; fix the set instead");
             taken[n] = 1;
         }
+    check_rigid_elements(m, taken);
     for (std::size_t i = 0; i < m.loads.size(); i++)
         if (m.loads[i].node >= m.nodes()) refuse("load", i, "its node does not exist");
     for (std::size_t i = 0; i < m.motions.size(); i++) {

@@ -11,6 +11,7 @@ import numpy as np
 from crumple._core.shell_build import built, floats, kernel
 from crumple._core.shell_model import (
     Cut,
+    Element,
     Floats,
     Hourglass,
     NodalLoad,
@@ -27,6 +28,7 @@ from crumple.errors import InputError, Status
 
 __all__ = [
     "Cut",
+    "Element",
     "Hourglass",
     "NodalLoad",
     "PrescribedVelocity",
