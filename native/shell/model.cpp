@@ -73,27 +73,27 @@ static void check_materials(const Model& m) {
     }
 }
 
-// what is rigid must be moved as a body, and something must give the time step
-static void check_rigid_elements(const Model& m, const std::vector<std::uint8_t>& in_a_set) {
+// what is rigid must be moved as one body, and something must give the time step
+static void check_rigid_elements(const Model& m, const std::vector<Index>& set_of) {
     bool something_strains = false;
     for (std::size_t e = 0; e < m.elements(); e++) {
         const bool rigid = m.materials[m.sheets[m.sheet_of[e]].material].rigid;
         something_strains |= !rigid;
+        const Index set = set_of[m.quads[4 * e]];
         for (std::size_t c = 0; rigid && c < 4; c++)
-            if (!in_a_set[m.quads[4 * e + c]])
-                refuse("element", e, "it is rigid, but node " + std::to_string(m.quads[4 * e + c]) + " belongs to no rigid set");
+            if (!set || set_of[m.quads[4 * e + c]] != set) refuse("element", e, "it is rigid, but its nodes are not all in one rigid set");
     }
     if (!something_strains) throw std::invalid_argument("every element is rigid: nothing gives a time step");
 }
 
 static void check_sets(const Model& m) {
-    std::vector<std::uint8_t> taken(m.nodes(), 0);
+    std::vector<Index> taken(m.nodes(), 0);
     for (std::size_t i = 0; i < m.rigid_sets.size(); i++)
         for (Index n : m.rigid_sets[i].nodes) {
             if (n >= m.nodes()) refuse("rigid set", i, "node " + std::to_string(n) + " does not exist");
             if (taken[n]) refuse("rigid set", i, "node " + std::to_string(n) + " belongs to a rigid set already");
             if (m.fixed[n]) refuse("rigid set", i, "node " + std::to_string(n) + " is fixed; fix the set instead");
-            taken[n] = 1;
+            taken[n] = Index(i + 1);
         }
     check_rigid_elements(m, taken);
     for (std::size_t i = 0; i < m.loads.size(); i++)

@@ -1,7 +1,8 @@
-"""Linear statics with the shell engine's own elements: its tangent stiffness by differences, solved as sparse equations.
+"""Linear statics with the shell engine's own elements: tangent stiffness by differences, sparse equations.
 
-The engine steps through time; a linear answer free of inertia and damping is the test of an element alone.  Nodes that
-share no element are displaced together, so that a mesh takes some sixty evaluations, however large it is.
+The engine steps through time; a linear answer free of inertia and damping is the test of an element alone.
+Nodes that share no element are displaced together, so that a mesh takes some sixty evaluations, however
+large it is.
 """
 
 from __future__ import annotations
@@ -59,16 +60,19 @@ def stiffness(model: ShellModel) -> csr_matrix:
     return coo_matrix(entries, shape=(6 * n, 6 * n)).tocsr()
 
 
-def solve(model: ShellModel, force: np.ndarray, held: np.ndarray) -> np.ndarray:
+def solve(
+    model: ShellModel, force: np.ndarray, held: np.ndarray, given: np.ndarray | None = None
+) -> np.ndarray:
     """Displacements and rotations (n, 6) [m, rad] under nodal forces and moments (n, 6) [N, N m].
 
-    Freedoms that nothing holds (the drill of a flat sheet) get 1e-9 of the mean rotational stiffness.
+    Held freedoms keep their ``given`` value, else 0.  Freedoms that nothing holds (the drill of a flat sheet) get 1e-9 of the mean rotational stiffness.
     """
     K = stiffness(model)
     K = (K + K.T) / 2
     free = np.flatnonzero(~held.ravel())
     turning = free % 6 >= 3
     light = 1e-9 * np.abs(K.diagonal()[free][turning]).mean() * turning
-    u = np.zeros(6 * len(model.position))
-    u[free] = splu((K[free][:, free] + diags(light)).tocsc()).solve(force.ravel()[free])
+    u = np.zeros(6 * len(model.position)) if given is None else np.where(held, given, 0.0).ravel()
+    load = force.ravel()[free] - (K @ u)[free]
+    u[free] = splu((K[free][:, free] + diags(light)).tocsc()).solve(load)
     return u.reshape(-1, 6)

@@ -117,16 +117,16 @@ def _history(history: History | None) -> tuple[Floats, Floats] | None:
 
 
 def _rigid_sheets(model: ShellModel) -> list[RigidSet]:
-    """One rigid body per sheet of a rigid material, of the nodes that belong to no other."""
+    """One rigid body of each sheet of a rigid material; sheets that share nodes are one."""
     taken = {int(node) for rigid in model.rigid_sets for node in np.asarray(rigid.nodes)}
     sheet_of = np.broadcast_to(model.sheet, (len(model.elements),))
-    bodies = []
+    bodies: list[set[int]] = []
     for i, sheet in enumerate(model.sheets):
         if model.materials[sheet.material].rigid:
-            nodes = [n for n in np.unique(model.elements[sheet_of == i]).tolist() if n not in taken]
-            taken.update(nodes)
-            bodies += [RigidSet(nodes)] if nodes else []
-    return bodies
+            nodes = {int(n) for n in np.unique(model.elements[sheet_of == i])} - taken
+            touching = [body for body in bodies if body & nodes]
+            bodies = [body for body in bodies if not body & nodes] + [nodes.union(*touching)]
+    return [RigidSet(sorted(nodes)) for nodes in bodies if nodes]
 
 
 def _add_settings(core: Any, s: ShellSettings) -> None:
