@@ -101,7 +101,8 @@ struct Step {
     TriangleEdges sides;         // triangle
 };
 
-template <Shape shape> CRUMPLE_INLINE Step step_of(const Part& part, const Corners& c, double dt) {
+template <Shape shape> CRUMPLE_INLINE Step step_of(const Part& part, const Corners& c) {
+    const double dt = c.dt;
     Step s;
     s.f = frame_of(c.x);
     const bool warped = shape != Shape::triangle && part.warping_correction;
@@ -112,9 +113,12 @@ template <Shape shape> CRUMPLE_INLINE Step step_of(const Part& part, const Corne
     s.strain = membrane_and_bending(s.motion, dt);
     if (warped) add_warp(s.f, warp_of(s.f), v, dt, s.strain);
     if constexpr (shape == Shape::one_point) {
+        // half the product of spin and slope is of second order like the membrane's
+        const Gradient& vz = s.motion.vz;
         const Vec mean = 0.25 * ((w[0] + w[1]) + (w[2] + w[3]));
-        s.shear.xz = s.motion.vz.x + dot(mean, s.f.e2);
-        s.shear.yz = s.motion.vz.y - dot(mean, s.f.e1);
+        const Real turn = 0.25 * dt * (s.motion.vy.x - s.motion.vx.y);
+        s.shear.xz = vz.x + dot(mean, s.f.e2) + turn * vz.y;
+        s.shear.yz = vz.y - dot(mean, s.f.e1) - turn * vz.x;
     } else if constexpr (shape == Shape::stabilised) {
         s.edges = edges_of(s.f);
         s.shear = shear_rate(s.f, s.edges, c);
@@ -124,21 +128,23 @@ template <Shape shape> CRUMPLE_INLINE Step step_of(const Part& part, const Corne
         s.shear.xz = dot(at_centroid, s.f.e1);
         s.shear.yz = dot(at_centroid, s.f.e2);
     }
-    set_shear(s.strain, s.motion, s.shear.xz, s.shear.yz, dt);
+    s.strain.xz = dt * s.shear.xz;
+    s.strain.yz = dt * s.shear.yz;
     return s;
 }
 
 // Forces at the corners, with those of the modes that the points do not see; adds the work done on the latter.
 template <Shape shape>
-CRUMPLE_INLINE CornerForces corner_forces(const Part& part, const Step& s, const Corners& corners, const Integrals& in, double dt,
+CRUMPLE_INLINE CornerForces corner_forces(const Part& part, const Step& s, const Corners& corners, const Integrals& in,
                                           Real* slots, Real& held_work) {
+    const double dt = corners.dt;
     if constexpr (shape == Shape::triangle) {
         CornerForces c = triangle_forces(s.f, in);
         add_triangle_shear(s.f, s.sides, corners.x, in.xz * s.f.e1 + in.yz * s.f.e2, c);
         return c;
     }
     Real* extra = slots + extra_slot(part.points, part.rate != Rate::none, 0);
-    const HourglassRate q = hourglass_rate(s.f, s.motion);
+    const HourglassRate q = hourglass_rate(s.f, s.motion, dt);
     DrillMoment drill;
     if (part.drill_stiffness > 0.0)
         drill = update_drill(part, s.f, s.motion, corners.w, dt, in.volume, in.r.kept, extra, held_work);
@@ -184,11 +190,11 @@ CRUMPLE_INLINE Integrals integrate(const Part& part, const Step& s, double dt, R
 
 // Advances the state of a block; `stiffest` gets its squared frequency: NaN where the state is not finite, infinite where it is torn.
 template <Shape shape, Law law, int points>
-CRUMPLE_INLINE CornerForces update_block(const Part& part, const Corners& corners, double dt, Real* slots, Real& stiffest) {
-    const Step s = step_of<shape>(part, corners, dt);
+CRUMPLE_INLINE CornerForces update_block(const Part& part, const Corners& corners, Real* slots, Real& stiffest) {
+    const Step s = step_of<shape>(part, corners);
     Real work, held_work{};
-    const Integrals in = integrate<law, points>(part, s, dt, slots, work);
-    CornerForces c = corner_forces<shape>(part, s, corners, in, dt, slots, held_work);
+    const Integrals in = integrate<law, points>(part, s, corners.dt, slots, work);
+    CornerForces c = corner_forces<shape>(part, s, corners, in, slots, held_work);
     stiffest = shape == Shape::triangle ? triangle_frequency(s.f, slots[wave]) : frequency(s.f, slots[wave]);
     stiffest += 0.0 * (work + s.f.area);
     const StrainIncrement& e = s.strain;

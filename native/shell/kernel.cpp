@@ -26,7 +26,7 @@ inline void run_block(const ElementStage& stage, const Part& part, std::size_t b
         w[3] = w[2];
     }
     Real* slots = reinterpret_cast<Real*>(stage.state + stage.offset[block]);
-    const CornerForces forces = update_block<shape, law, points>(part, {x, v, w}, stage.dt, slots, stiffest);
+    const CornerForces forces = update_block<shape, law, points>(part, {x, v, w, stage.dt}, slots, stiffest);
     for (int c = 0; c < corners; c++) {
         scatter(forces.force[c], out + corner_record * c, 4 * corner_record);
         scatter(forces.moment[c], out + corner_record * c + 4, 4 * corner_record);

@@ -42,13 +42,6 @@ CRUMPLE_INLINE StrainIncrement membrane_and_bending(const Motion& m, double dt) 
     return s;
 }
 
-// Transverse shear from its linear part: half the product of spin and slope is of second order like the membrane's.
-CRUMPLE_INLINE void set_shear(StrainIncrement& s, const Motion& m, Real xz, Real yz, double dt) {
-    const Real turn = 0.25 * dt * (m.vy.x - m.vx.y);
-    s.xz = dt * (xz + turn * m.vz.y);
-    s.yz = dt * (yz - turn * m.vz.x);
-}
-
 // Belytschko-Wong-Chiang: in a warped element the normals p_I differ from corner to corner, so that the
 // gradient changes through the thickness, b(z) = b + z b_c.  In the plane p_1 = -p_3 = -hz b_1, p_2 = -p_4 = hz b_2.
 struct Warp {
@@ -77,9 +70,12 @@ CRUMPLE_INLINE void project_drill(const Frame& f, const Warp& w, Vec (&omega)[4]
     omega[3] = omega[3] + dot(omega[3], f.e3) * w.tilt2;
 }
 
-// Hourglass rates, blind to linear fields and to rigid rotation of a warped element.
-CRUMPLE_INLINE HourglassRate hourglass_rate(const Frame& f, const Motion& m) {
-    return {m.vx.hourglass + f.hz * m.vz.x, m.vy.hourglass + f.hz * m.vz.y, m.vz.hourglass, m.wx.hourglass, m.wy.hourglass};
+// Hourglass rates, blind to linear fields and, to second order in the step, to rigid rotation of a warped element: there
+// dvx/dz = -dvz/dx - dt dvy/dx dvz/dy and so on.
+CRUMPLE_INLINE HourglassRate hourglass_rate(const Frame& f, const Motion& m, double dt) {
+    const Gradient &vx = m.vx, &vy = m.vy, &vz = m.vz;
+    return {vx.hourglass + f.hz * (vz.x + dt * vy.x * vz.y), vy.hourglass + f.hz * (vz.y + dt * vx.y * vz.x),
+            vz.hourglass - (0.5 * dt) * f.hz * (vz.x * vz.x + vz.y * vz.y), m.wx.hourglass, m.wy.hourglass};
 }
 
 }  // namespace
