@@ -188,7 +188,8 @@ CRUMPLE_INLINE Integrals integrate(const Part& part, const Step& s, double dt, R
     return in;
 }
 
-// Advances the state of a block; `stiffest` gets its squared frequency: NaN where the state is not finite, infinite where it is torn.
+// Advances the state of a block; `stiffest` gets its squared frequency: NaN where the state is not finite, infinite where it is torn
+// or inverted.
 template <Shape shape, Law law, int points>
 CRUMPLE_INLINE CornerForces update_block(const Part& part, const Corners& corners, Real* slots, Real& stiffest) {
     const Step s = step_of<shape>(part, corners);
@@ -198,7 +199,9 @@ CRUMPLE_INLINE CornerForces update_block(const Part& part, const Corners& corner
     stiffest = shape == Shape::triangle ? triangle_frequency(s.f, slots[wave]) : frequency(s.f, slots[wave]);
     stiffest += 0.0 * (work + s.f.area);
     const StrainIncrement& e = s.strain;
-    stiffest = e.xx * e.xx + e.yy * e.yy + e.xy * e.xy > torn_strain * torn_strain ? all(__builtin_inf()) : stiffest;
+    Mask lost = e.xx * e.xx + e.yy * e.yy + e.xy * e.xy > torn_strain * torn_strain;
+    if constexpr (shape != Shape::triangle) lost |= inverted(s.f);
+    stiffest = lost ? all(__builtin_inf()) : stiffest;
     // accumulate energies, of lanes that are alive
     if (part.fails) {
         const Mask before = slots[alive] > 0.5, live = still_alive(part, slots);
