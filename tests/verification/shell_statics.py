@@ -65,7 +65,8 @@ def solve(
 ) -> np.ndarray:
     """Displacements and rotations (n, 6) [m, rad] under nodal forces and moments (n, 6) [N, N m].
 
-    Held freedoms keep their ``given`` value, else 0.  Freedoms that nothing holds (the drill of a flat sheet) get 1e-9 of the mean rotational stiffness.
+    Held freedoms keep their ``given`` value, else 0.  Freedoms that nothing holds (the drill of a flat
+    sheet) get 1e-9 of the mean rotational stiffness.
     """
     K = stiffness(model)
     K = (K + K.T) / 2

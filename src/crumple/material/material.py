@@ -35,7 +35,7 @@ class Material:
     hardening
         True stress against plastic strain, from the same yield stress; None: perfectly plastic, or unknown.
     failure_strain
-        Plastic strain at which the metal tears [-], > 0; None: never, or unknown. Plastic hinges do not use it.
+        Plastic strain at which the metal tears [-], > 0; None: never, or unknown. Hinges do not use it.
 
     Raises
     ------

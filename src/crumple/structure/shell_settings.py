@@ -56,7 +56,7 @@ class ShellSettings(Spec):
     thickness_points: Annotated[int, Field(ge=1, le=10, strict=True)] = 5
     """Points through the thickness."""
     thickness_rule: Literal["gauss", "lobatto"] = "gauss"
-    """Where they lie: Gauss is exact for higher powers, Lobatto (2 points or more) has points on the surfaces."""
+    """Where they lie; Gauss is exact for higher powers, Lobatto (2 or more) has points on the surfaces."""
     element: Literal["belytschko-tsay", "stabilised"] = "belytschko-tsay"
     """Quadrilateral with one point: held by hourglass coefficients, or by the metal's own stiffness."""
     thickness_update: Switch = "on"
@@ -66,8 +66,8 @@ class ShellSettings(Spec):
     hourglass_coefficient: HourglassCoefficient = 0.01
     """How strongly they are held."""
     warping_correction: Switch = "off"
-    """Bending terms of elements whose corners do not lie in one plane: needed for twisted members; costs a fifth
-    of the time."""
+    """Bending terms of elements whose corners do not lie in one plane: needed for twisted members; costs a
+    fifth of the time."""
     drill_stiffness: DrillStiffness = 0.01
     """With the warping correction: what holds a corner's turning about the wall's normal, over shear modulus
     times volume."""

@@ -128,9 +128,7 @@ def test_rate_and_hardening_table_multiply():
     for _ in range(400):
         state.deform(X, velocity, 0 * X, 2e-6)
     ep = state.point_field("plastic_strain")[0, 0]
-    assert mises(stress_of(state)) == pytest.approx(
-        (300e6 + 1e9 * ep) * (1 + 0.05 * np.log(50.0)), rel=1e-5
-    )
+    assert mises(stress_of(state)) == pytest.approx((300e6 + 1e9 * ep) * (1 + 0.05 * np.log(50.0)), rel=1e-5)
 
 
 def test_answer_of_an_element_does_not_depend_on_its_neighbours():

@@ -74,7 +74,7 @@ def test_constant_strains_of_a_distorted_patch():
 
 
 def test_bending_in_its_plane_is_exact():
-    """One rectangle bent in its plane: the moment of a beam, E I kappa, free of shear and of Poisson's ratio."""
+    """One rectangle bent in its plane: the moment of a beam, E I kappa, free of shear and of nu."""
     x, quads = grid(1, 1, 0.02, 0.01)
     x = x - x.mean(axis=0)
     # the corners of pure bending: u = -kappa x y
@@ -130,7 +130,7 @@ def test_large_rigid_rotation_is_free_of_force(shape):
 
 
 def test_held_strains_yield_with_the_metal():
-    """Bending in the plane far beyond yield while the middle flows: the stabilising moment stays below plastic."""
+    """In-plane bending far beyond yield while the middle flows: the held moment stays below plastic."""
     x, quads = grid(1, 1, 0.01, 0.01)
     x = x - x.mean(axis=0)
     state = ShellState(model(x, quads, T, STEEL, settings=STABILISED))
