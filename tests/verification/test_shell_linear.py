@@ -23,9 +23,8 @@ STABILISED = {**BELYTSCHKO_TSAY, "element": Element.STABILISED}
 ELEMENTS = {"belytschko-tsay": BELYTSCHKO_TSAY, "stabilised": STABILISED}
 
 
-def solved(x, elements, thickness, material, force, held, settings):
-    chosen = {"thickness_update": False, **settings}
-    return solve(model(x, elements, thickness, material, settings=chosen), force, held)
+def sheet(x, elements, thickness, material, settings):
+    return model(x, elements, thickness, material, settings={"thickness_update": False, **settings})
 
 
 def pinched(n, settings):
@@ -42,7 +41,7 @@ def pinched(n, settings):
     force = np.zeros((len(x), 6))
     load = int(np.flatnonzero(middle & top)[0])
     force[load, 2] = -0.25
-    u = solved(x, quads, 3.0, ShellMaterial(1.0, 3e6, 0.3), force, held, settings)
+    u = solve(sheet(x, quads, 3.0, ShellMaterial(1.0, 3e6, 0.3), settings), force, held)
     return -u[load, 2]
 
 
@@ -66,7 +65,7 @@ def twisted(direction, settings, nx=24, ny=4):
     share[[0, -1]] /= 2
     force, axis = np.zeros((len(x), 6)), "xyz".index(direction)
     force[-ny - 1 :, axis] = share
-    u = solved(x, quads, 0.32, ShellMaterial(7.3e-4, 29e6, 0.22), force, held, settings)
+    u = solve(sheet(x, quads, 0.32, ShellMaterial(7.3e-4, 29e6, 0.22), settings), force, held)
     return u[-ny - 1 :, axis].mean()
 
 
@@ -82,12 +81,11 @@ def test_twisted_beam(element, direction, exact, record_figure):
 
 @pytest.mark.parametrize("direction", ["z", "y"])
 def test_drill_stiffness_is_no_tuning_knob(direction):
-    """Ten times more or less of it changes the twisted beam by less than 2 %; none of it by 18 % and more."""
+    """Ten times less or five times more changes little; without it the beam is 18 % too soft and more."""
     exact = {"z": 5.424e-3, "y": 1.754e-3}[direction]
-    for share in (0.003, 0.01, 0.03):
-        assert twisted(direction, {**BELYTSCHKO_TSAY, "drill_stiffness": share}) == pytest.approx(
-            exact, rel=0.035
-        )
+    for share in (0.001, 0.05):
+        chosen = {**BELYTSCHKO_TSAY, "drill_stiffness": share}
+        assert twisted(direction, chosen) == pytest.approx(exact, rel=0.011)
     assert twisted(direction, {**BELYTSCHKO_TSAY, "drill_stiffness": 0.0}) > 1.17 * exact
 
 
@@ -117,7 +115,7 @@ def plate(n, thickness, elements, settings, distortion=0.0):
         at = np.pi * x[corners, :2]
         force[corners, 2] += area / len(corners) * np.sin(at[:, 0]) * np.sin(at[:, 1])
     young, nu = 1e7, 0.3
-    u = solved(x, elements, thickness, ShellMaterial(1.0, young, nu), force, held, settings)
+    u = solve(sheet(x, elements, thickness, ShellMaterial(1.0, young, nu), settings), force, held)
     bending = 12 * (1 - nu**2) / (4 * np.pi**4 * young * thickness**3)
     shear = 2 * (1 + nu) / (2 * np.pi**2 * 5 / 6 * young * thickness)
     middle = int(np.argmin(np.linalg.norm(x[:, :2] - 0.5, axis=1)))
@@ -165,7 +163,6 @@ def test_bending_patch(kind):
     exact[:, 2] = K[0] * x[:, 0] ** 2 / 2 + K[1] * x[:, 1] ** 2 / 2 + K[2] * x[:, 0] * x[:, 1]
     exact[:, 3] = K[1] * x[:, 1] + K[2] * x[:, 0]
     exact[:, 4] = -K[0] * x[:, 0] - K[2] * x[:, 1]
-    settings = {"element": Element.STABILISED, "thickness_update": False}
-    patch = model(x, elements, 1e-3, ShellMaterial(1.0, 1e6, 0.25), settings=settings)
+    patch = sheet(x, elements, 1e-3, ShellMaterial(1.0, 1e6, 0.25), {"element": Element.STABILISED})
     u = solve(patch, force, held, exact)
     assert u[4:, 2:5] == pytest.approx(exact[4:, 2:5], rel=1e-5, abs=1e-7)
