@@ -101,25 +101,25 @@ struct Step {
     TriangleEdges sides;         // triangle
 };
 
-template <Shape shape> CRUMPLE_INLINE Step step_of(const Part& part, const Corners& c) {
+template <Formulation kind> CRUMPLE_INLINE Step step_of(const Part& part, const Corners& c) {
     const double dt = c.dt;
     Step s;
     s.f = frame_of(c.x);
-    const bool warped = shape != Shape::triangle && part.warping_correction;
+    const bool warped = kind != Formulation::triangle && part.warping_correction;
     Vec w[4] = {c.w[0], c.w[1], c.w[2], c.w[3]};
     if (warped) project_drill(s.f, warp_of(s.f), w);
     const Pattern v = pattern(c.v);
     s.motion = motion_of(s.f, v, pattern(w));
     s.strain = membrane_and_bending(s.motion, dt);
     if (warped) add_warp(s.f, warp_of(s.f), v, dt, s.strain);
-    if constexpr (shape == Shape::one_point) {
+    if constexpr (kind == Formulation::one_point) {
         // half the product of spin and slope is of second order like the membrane's
         const Gradient& vz = s.motion.vz;
         const Vec mean = 0.25 * ((w[0] + w[1]) + (w[2] + w[3]));
         const Real turn = 0.25 * dt * (s.motion.vy.x - s.motion.vx.y);
         s.shear.xz = vz.x + dot(mean, s.f.e2) + turn * vz.y;
         s.shear.yz = vz.y - dot(mean, s.f.e1) - turn * vz.x;
-    } else if constexpr (shape == Shape::stabilised) {
+    } else if constexpr (kind == Formulation::stabilised) {
         s.edges = edges_of(s.f);
         s.shear = shear_rate(s.f, s.edges, c);
     } else {
@@ -134,11 +134,11 @@ template <Shape shape> CRUMPLE_INLINE Step step_of(const Part& part, const Corne
 }
 
 // Forces at the corners, with those of the modes that the points do not see; adds the work done on the latter.
-template <Shape shape>
+template <Formulation kind>
 CRUMPLE_INLINE CornerForces corner_forces(const Part& part, const Step& s, const Corners& corners, const Integrals& in,
                                           Real* slots, Real& held_work) {
     const double dt = corners.dt;
-    if constexpr (shape == Shape::triangle) {
+    if constexpr (kind == Formulation::triangle) {
         CornerForces c = triangle_forces(s.f, in);
         add_triangle_shear(s.f, s.sides, corners.x, in.xz * s.f.e1 + in.yz * s.f.e2, c);
         return c;
@@ -149,7 +149,7 @@ CRUMPLE_INLINE CornerForces corner_forces(const Part& part, const Step& s, const
     if (part.drill_stiffness > 0.0)
         drill = update_drill(part, s.f, s.motion, corners.w, dt, in.volume, in.r.kept, extra, held_work);
     CornerForces c;
-    if constexpr (shape == Shape::one_point) {
+    if constexpr (kind == Formulation::one_point) {
         HourglassForce h;
         held_work += update_hourglass(part, s.f, q, dt, in.thickness, in.volume, in.r.kept, slots, h);
         c = quad_forces(part, s.f, in, h, drill, true);
@@ -190,17 +190,17 @@ CRUMPLE_INLINE Integrals integrate(const Part& part, const Step& s, double dt, R
 
 // Advances the state of a block; `stiffest` gets its squared frequency: NaN where the state is not finite, infinite where it is torn
 // or inverted.
-template <Shape shape, Law law, int points>
+template <Formulation kind, Law law, int points>
 CRUMPLE_INLINE CornerForces update_block(const Part& part, const Corners& corners, Real* slots, Real& stiffest) {
-    const Step s = step_of<shape>(part, corners);
+    const Step s = step_of<kind>(part, corners);
     Real work, held_work{};
     const Integrals in = integrate<law, points>(part, s, corners.dt, slots, work);
-    CornerForces c = corner_forces<shape>(part, s, corners, in, slots, held_work);
-    stiffest = shape == Shape::triangle ? triangle_frequency(s.f, slots[wave]) : frequency(s.f, slots[wave]);
+    CornerForces c = corner_forces<kind>(part, s, corners, in, slots, held_work);
+    stiffest = kind == Formulation::triangle ? triangle_frequency(s.f, slots[wave]) : frequency(s.f, slots[wave]);
     stiffest += 0.0 * (work + s.f.area);
     const StrainIncrement& e = s.strain;
     Mask lost = e.xx * e.xx + e.yy * e.yy + e.xy * e.xy > torn_strain * torn_strain;
-    if constexpr (shape != Shape::triangle) lost |= inverted(s.f);
+    if constexpr (kind != Formulation::triangle) lost |= inverted(s.f);
     stiffest = lost ? all(__builtin_inf()) : stiffest;
     // accumulate energies, of lanes that are alive
     if (part.fails) {

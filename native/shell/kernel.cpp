@@ -9,9 +9,9 @@
 namespace crumple::shell {
 namespace {
 
-template <Shape shape, Law law, int points>
+template <Formulation kind, Law law, int points>
 inline void run_block(const ElementStage& stage, const Part& part, std::size_t block, double* out, Real& stiffest) {
-    constexpr int corners = shape == Shape::triangle ? 3 : 4;
+    constexpr int corners = kind == Formulation::triangle ? 3 : 4;
     Vec x[4], v[4], w[4];
     for (int c = 0; c < corners; c++) {
         const std::uint32_t* node = stage.nodes + lanes * (4 * block + c);
@@ -26,28 +26,28 @@ inline void run_block(const ElementStage& stage, const Part& part, std::size_t b
         w[3] = w[2];
     }
     Real* slots = reinterpret_cast<Real*>(stage.state + stage.offset[block]);
-    const CornerForces forces = update_block<shape, law, points>(part, {x, v, w, stage.dt}, slots, stiffest);
+    const CornerForces forces = update_block<kind, law, points>(part, {x, v, w, stage.dt}, slots, stiffest);
     for (int c = 0; c < corners; c++) {
         scatter(forces.force[c], out + corner_record * c, 4 * corner_record);
         scatter(forces.moment[c], out + corner_record * c + 4, 4 * corner_record);
     }
 }
 
-template <Shape shape, int points>
+template <Formulation kind, int points>
 inline void run_any_law(const ElementStage& stage, const Part& part, std::size_t block, double* out, Real& stiffest) {
     switch (part.law) {
-        case Law::elastic: return run_block<shape, Law::elastic, points>(stage, part, block, out, stiffest);
-        case Law::linear: return run_block<shape, Law::linear, points>(stage, part, block, out, stiffest);
-        case Law::general: return run_block<shape, Law::general, points>(stage, part, block, out, stiffest);
+        case Law::elastic: return run_block<kind, Law::elastic, points>(stage, part, block, out, stiffest);
+        case Law::linear: return run_block<kind, Law::linear, points>(stage, part, block, out, stiffest);
+        case Law::general: return run_block<kind, Law::general, points>(stage, part, block, out, stiffest);
     }
 }
 
-template <Shape shape>
+template <Formulation kind>
 inline void run_any_points(const ElementStage& stage, const Part& part, std::size_t block, double* out, Real& stiffest) {
     if (part.points == 5)
-        run_any_law<shape, 5>(stage, part, block, out, stiffest);
+        run_any_law<kind, 5>(stage, part, block, out, stiffest);
     else
-        run_any_law<shape, 0>(stage, part, block, out, stiffest);
+        run_any_law<kind, 0>(stage, part, block, out, stiffest);
 }
 
 inline void run_any_shape(const ElementStage& stage, const Part& part, std::size_t block, double* out, Real& stiffest) {
@@ -56,11 +56,11 @@ inline void run_any_shape(const ElementStage& stage, const Part& part, std::size
         std::fill_n(out, 4 * corner_record * lanes, 0.0);
         return;
     }
-    switch (part.shape) {
-        case Shape::one_point: return run_any_points<Shape::one_point>(stage, part, block, out, stiffest);
-        case Shape::stabilised: return run_any_points<Shape::stabilised>(stage, part, block, out, stiffest);
+    switch (part.formulation) {
+        case Formulation::one_point: return run_any_points<Formulation::one_point>(stage, part, block, out, stiffest);
+        case Formulation::stabilised: return run_any_points<Formulation::stabilised>(stage, part, block, out, stiffest);
         // few: not unrolled
-        case Shape::triangle: return run_any_law<Shape::triangle, 0>(stage, part, block, out, stiffest);
+        case Formulation::triangle: return run_any_law<Formulation::triangle, 0>(stage, part, block, out, stiffest);
     }
 }
 

@@ -48,7 +48,7 @@ Part part_of(const Model& m, const Sheet& sheet, bool triangle) {
     p.hourglass_membrane = s.hourglass_membrane;
     p.hourglass_shear = s.hourglass_shear;
     p.hourglass_bending = s.hourglass_bending;
-    p.shape = triangle ? Shape::triangle : (s.stabilised ? Shape::stabilised : Shape::one_point);
+    p.formulation = triangle ? Formulation::triangle : (s.stabilised ? Formulation::stabilised : Formulation::one_point);
     p.drill_stiffness = triangle ? 0.0 : s.drill_stiffness;
     p.thickness_update = s.thickness_update;
     p.warping_correction = s.warping_correction && !triangle;

@@ -5,7 +5,7 @@
 namespace crumple::shell {
 
 enum class Law : int { elastic, linear, general };   // no yield | linear hardening | table, rate or both
-enum class Shape : int { one_point, stabilised, triangle };
+enum class Formulation : int { one_point, stabilised, triangle };
 enum class Rate : int { none, power, logarithm };    // Cowper-Symonds | Johnson-Cook
 
 struct Part {
@@ -16,7 +16,7 @@ struct Part {
     double pressure_ratio;       // R = (1 + nu) / (3 (1 - nu)): how fast the mean stress returns, relative to the deviator
     double bulk_compliance;      // (1 - 2 nu) / E: elastic change of volume per in-plane trace of stress
     double inverse_3g;           // 1 / (3 G)
-    Shape shape;
+    Formulation formulation;
     Law law;
     bool rigid;                  // its nodes are one rigid body, so it strains nothing
     double yield_stress, hardening;              // Law::linear: Y = yield_stress + hardening * plastic strain
@@ -33,7 +33,7 @@ struct Part {
     double hourglass_membrane, hourglass_shear, hourglass_bending;
     bool thickness_update, warping_correction;
     double drill_stiffness;      // share of G V; 0: nothing holds the drill
-    bool extra() const { return shape == Shape::stabilised || drill_stiffness > 0.0; }
+    bool extra() const { return formulation == Formulation::stabilised || drill_stiffness > 0.0; }
 };
 
 }  // namespace crumple::shell

@@ -115,7 +115,7 @@ void Simulation::start_elements() {
         auto slot = [&](int s) -> double& { return state_[blocks_.offset[block] + std::size_t(s * blocks_.lanes) + lane]; };
         slot(thickness) = model_->thickness[e];
         slot(volume0) = model_->thickness[e] * area_of(*model_, e);
-        slot(wave) = (part.shape == Shape::triangle ? 3.0 : 4.0) * part.plane_modulus * masses_.loose[e] / (part.density * masses_.scale[e]);
+        slot(wave) = (part.formulation == Formulation::triangle ? 3.0 : 4.0) * part.plane_modulus * masses_.loose[e] / (part.density * masses_.scale[e]);
         slot(alive) = 1.0;
         can_fail_ |= part.fails;
     }
