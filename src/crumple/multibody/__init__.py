@@ -6,6 +6,7 @@
 from crumple.multibody.mechanism import Link, Mechanism, Piece, lower
 from crumple.multibody.model import start_of, tree_hinge, tree_model
 from crumple.multibody.plane import Plane
+from crumple.multibody.sensitivity import Sensitivities, sensitivities
 from crumple.multibody.solve import Run, solve_multibody
 from crumple.multibody.timing import stepping_seconds
 from crumple.multibody.variants import VariantTable, solve_variants
@@ -16,8 +17,10 @@ __all__ = [
     "Piece",
     "Plane",
     "Run",
+    "Sensitivities",
     "VariantTable",
     "lower",
+    "sensitivities",
     "solve_multibody",
     "solve_variants",
     "start_of",

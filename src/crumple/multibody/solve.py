@@ -118,6 +118,14 @@ def solve_multibody(
     return _result(structure, run, _Solved(mechanism, start, record, errors, lost, seconds))
 
 
+def outcome_status(outcome: Outcome, reason: str, residual: float, bound: float) -> tuple[Status, str]:
+    """Status and reason of a run, its energy residual held against its bound."""
+    status = STATUS[outcome]
+    if status.ok and residual > bound:
+        return Status.RESIDUAL_EXCEEDED, f"energy residual {residual:.2e} above its bound {bound:.2e}"
+    return status, reason
+
+
 def output_times(run: Run) -> Floats:
     """Times at which the histories are recorded: the interval's multiples, the end and the pictures' [s]."""
     number = int(np.floor(run.duration / run.every * (1 + 1e-12)))
@@ -144,11 +152,9 @@ def _poll(
 
 def _result(structure: Structure, run: Run, solved: _Solved) -> Result:
     mechanism, record = solved.mechanism, solved.record
-    status, reason = STATUS[record.outcome], record.reason
-    bound = run.settings.energy_residual_bound
-    if status.ok and record.residual > bound:
-        status = Status.RESIDUAL_EXCEEDED
-        reason = f"energy residual {record.residual:.2e} above its bound {bound:.2e}"
+    status, reason = outcome_status(
+        record.outcome, record.reason, record.residual, run.settings.energy_residual_bound
+    )
     wanted = list(node_channels(structure, mechanism, record, run.outputs.nodes))
     wanted += list(section_channels(structure, mechanism, record, run.outputs))
     channels = [*hinge_channels(mechanism, record), *energy_channels(record), *wanted]

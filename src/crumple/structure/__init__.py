@@ -28,7 +28,7 @@ from crumple.structure.law import (
 )
 from crumple.structure.load import ForceComponents, Load, Mass, MomentComponents, NodalImpulse
 from crumple.structure.mapping import FrozenMapping
-from crumple.structure.material import MaterialSpec, RateSpec
+from crumple.structure.material import MaterialSpec
 from crumple.structure.member import Bars, Hinge, Member
 from crumple.structure.motion import FREEDOMS, InitialVelocity, Motion, Support
 from crumple.structure.obstacle_checks import gap, stage_problems
@@ -93,7 +93,6 @@ __all__ = [
     "Outputs",
     "PlacedHinge",
     "PlaneObstacle",
-    "RateSpec",
     "RectangularTubeSpec",
     "Regularisation",
     "SectionRotation",
