@@ -216,7 +216,7 @@ KINDS = ("ball", "creeping ball", "pin", "free ball", "fixed")
 
 
 def frame(seed, kinds, loop, gravity, speed):
-    """A tree of bars in random directions, perhaps a loop, hinges of every kind, a random spin about its foot."""
+    """A tree of bars in random directions, perhaps a loop, hinges of every kind, a spin about its foot."""
     rng = np.random.default_rng(seed)
     points, ends, bodies, joints, hinges = [np.zeros(3)], [], [], [], []
     for k in range(len(kinds)):
