@@ -9,6 +9,7 @@ import numpy as np
 
 from crumple.comparison.motion import HingeMotion
 from crumple.structure import ConstantLaw, HingePlace, Member, Structure, TableLaw
+from crumple.structure.automatic import hinges_of
 from crumple.structure.hinges import hinge_places, law_spec
 from crumple.structure.law import LawKeys, LawReference
 from crumple.structure.member import Bars
@@ -98,7 +99,8 @@ def with_measured_laws(
         name: member.model_copy(
             update={
                 "hinges": tuple(
-                    h.model_copy(update={"law": laws[h.name]}) if h.name in laws else h for h in member.hinges
+                    h.model_copy(update={"law": laws[h.name]}) if h.name in laws else h
+                    for h in hinges_of(base, name)
                 )
             }
         )
@@ -131,7 +133,8 @@ def measured_law(motion: HingeMotion) -> TableLaw | None:
 
 def _elastic(structure: Structure, name: str, member: Member, places: dict[str, HingePlace]) -> Member:
     hinges = tuple(
-        hinge.model_copy(update={"law": _law(structure, places[hinge.name])}) for hinge in member.hinges
+        hinge.model_copy(update={"law": _law(structure, places[hinge.name])})
+        for hinge in hinges_of(structure, name)
     )
     bars = member.bars
     between = next(

@@ -3,7 +3,8 @@
 `solve_multibody(structure, run)` is the way in; `lower` shows the mechanism that a structure becomes.
 """
 
-from crumple.multibody.mechanism import Link, Mechanism, Piece, lower
+from crumple.multibody.assembly import Piece
+from crumple.multibody.mechanism import Link, Mechanism, lower
 from crumple.multibody.model import start_of, tree_hinge, tree_model
 from crumple.multibody.plane import Plane
 from crumple.multibody.solve import Run, solve_multibody

@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crumple._core.tree import TreeRecord
+from crumple.multibody.assembly import Piece
 from crumple.multibody.histories import motion_of
-from crumple.multibody.mechanism import GROUND, Mechanism, Piece
+from crumple.multibody.mechanism import GROUND, Mechanism
 from crumple.multibody.rigid import Floats
 from crumple.result import States
 from crumple.structure import Structure

@@ -12,10 +12,12 @@ For a solver:
 - `MultibodySettings`, `ShellSettings` and `Outputs` -> what the solver is told beside the structure.
 """
 
+from crumple.structure.bending import across_plane, planar
 from crumple.structure.change import changed, value_at
 from crumple.structure.checks import output_problems, problems_in, shell_problems
 from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges import HingePlace, PlacedHinge, hinge_places, placed_hinges
+from crumple.structure.joint import Joint
 from crumple.structure.law import (
     LAW_SPECS,
     ConstantLaw,
@@ -29,7 +31,7 @@ from crumple.structure.law import (
 from crumple.structure.load import ForceComponents, Load, Mass, MomentComponents, NodalImpulse
 from crumple.structure.mapping import FrozenMapping
 from crumple.structure.material import MaterialSpec, RateSpec
-from crumple.structure.member import Bars, Hinge, Member
+from crumple.structure.member import AutomaticHinges, Bars, Hinge, Member
 from crumple.structure.motion import FREEDOMS, InitialVelocity, Motion, Support
 from crumple.structure.obstacle_checks import gap, stage_problems
 from crumple.structure.obstacles import (
@@ -62,6 +64,7 @@ __all__ = [
     "FREEDOMS",
     "LAW_SPECS",
     "AngleSpec",
+    "AutomaticHinges",
     "Bars",
     "ChannelSpec",
     "CircularTubeSpec",
@@ -77,6 +80,7 @@ __all__ = [
     "Hinge",
     "HingePlace",
     "InitialVelocity",
+    "Joint",
     "KecmanLaw",
     "LawKeys",
     "Load",
@@ -112,12 +116,14 @@ __all__ = [
     "WallSpec",
     "WeldSpec",
     "WierzbickiLaw",
+    "across_plane",
     "changed",
     "frame_of",
     "gap",
     "hinge_places",
     "output_problems",
     "placed_hinges",
+    "planar",
     "problems_in",
     "shell_problems",
     "stage_problems",

@@ -15,6 +15,7 @@ import numpy as np
 from crumple.errors import Problem
 from crumple.structure.hinge_axes import AxisLaws, HingeAxes
 from crumple.structure.hinge_checks import inertia_problems, place_problems
+from crumple.structure.joint_checks import bare_node_problems, joint_problems
 from crumple.structure.law import LAW_SPECS
 from crumple.structure.obstacle_checks import obstacle_problems
 from crumple.structure.outputs import Outputs
@@ -101,7 +102,7 @@ def _names(structure: Structure, known: Known) -> Iterator[Problem]:
         yield from unknown("section", member.section, known["sections"], f"{where}.section")
         yield from unknown("material", member.material, known["materials"], f"{where}.material")
         yield from _unknown_laws(member.bars, laws, f"{where}.bars")
-        for i, hinge in enumerate(member.hinges):
+        for i, hinge in enumerate(member.given_hinges):
             yield from _unknown_laws(hinge, laws, f"{where}.hinges[{i}]")
             if isinstance(hinge.at, str) and hinge.at not in member.nodes:
                 what, allowed = f"'{shown(hinge.at)}' is no node of this member", one_of(member.nodes)
@@ -208,10 +209,11 @@ _CHECKS: tuple[Callable[[Structure, Known], Iterator[Problem]], ...] = (
     _members,
     _coincident,
     place_problems,
+    joint_problems,
     _supports,
     obstacle_problems,
 )
-_CHECKS_OF_WHAT_IS_MISSING = (_connections, inertia_problems)
+_CHECKS_OF_WHAT_IS_MISSING = (_connections, inertia_problems, bare_node_problems)
 
 
 def _carriers(structure: Structure) -> Iterator[tuple[str, str, str]]:
