@@ -116,13 +116,14 @@ def joint_of(structure: Structure, cut: Cut) -> Joint | None:
 def _idle(structure: Structure, cut: Cut) -> InputError:
     if cut.hinge is not None:
         came = f"hinge {cut.hinge.name} of member {cut.hinge.member}"
-        what, where = "this hinge", f"members.{cut.hinge.member}.hinges"
+        what = "this hinge are joined rigidly elsewhere, so it cannot turn"
+        where = f"members.{cut.hinge.member}.hinges"
     else:
         came = f"joint {cut.joint} of member {structure.joints[str(cut.joint)].member}"
-        what, where = "this joint", f"joints.{cut.joint}"
+        what, where = "this joint are joined rigidly elsewhere, so it cannot move", f"joints.{cut.joint}"
     return InputError(
         Problem(
-            f"both sides of {what} are joined rigidly elsewhere, so it cannot move",
+            f"both sides of {what}",
             came,
             "hinges and joints between parts that can move against each other",
             "take it away, or put hinges on the way around it",

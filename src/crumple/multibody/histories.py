@@ -7,10 +7,12 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from crumple._core.tree import TreeRecord
-from crumple.multibody.mechanism import GROUND, Mechanism
+from crumple.multibody.mechanism import Mechanism
+from crumple.multibody.poses import Poses, piece_at
 from crumple.multibody.rigid import Floats
 from crumple.result import Channel, HingeSummary
 from crumple.structure import Outputs, PlacedHinge, Structure
+from crumple.structure.bending import bending_axis
 
 AXES = ("x", "y", "z")
 
@@ -56,80 +58,38 @@ def energy_channels(record: TreeRecord) -> Iterator[Channel]:
     yield from (Channel(f"energy.{name}", "J", values) for name, values in columns.items())
 
 
-def node_channels(
-    structure: Structure, mechanism: Mechanism, record: TreeRecord, nodes: Sequence[str]
-) -> Iterator[Channel]:
+def node_channels(structure: Structure, poses: Poses, nodes: Sequence[str]) -> Iterator[Channel]:
     """Displacement, velocity, mean acceleration between outputs, and rotation of nodes, in global axes."""
-    plane = mechanism.plane
     for name in nodes:
-        body = mechanism.node_body[name]
+        body = poses.node_body[name]
         start = np.asarray(structure.nodes[name], float)
-        place, velocity, angle, rate = motion_of(mechanism, record, body, start)
-        acceleration = np.gradient(velocity, record.time, axis=0) if record.time.size > 1 else 0.0 * velocity
+        place, velocity = poses.place(body, start)
+        rotation, rate = poses.rotation(body)
+        acceleration = np.gradient(velocity, poses.time, axis=0) if poses.time.size > 1 else 0.0 * velocity
         fields = (
             ("displacement", "m", place - start),
             ("velocity", "m/s", velocity),
             ("acceleration", "m/s^2", acceleration),
-            ("rotation", "rad", angle[:, None] * plane.normal),
-            ("rotation_rate", "rad/s", rate[:, None] * plane.normal),
+            ("rotation", "rad", rotation),
+            ("rotation_rate", "rad/s", rate),
         )
         for field, unit, values in fields:
             for i, axis in enumerate(AXES):
                 yield Channel(f"node.{name}.{field}.{axis}", unit, np.ascontiguousarray(values[:, i]))
 
 
-def motion_of(
-    mechanism: Mechanism, record: TreeRecord, body: int, point: Floats
-) -> tuple[Floats, Floats, Floats, Floats]:
-    """Motion of a point that is fixed to a body.
-
-    Parameters
-    ----------
-    body
-        Its number; -1 for the ground.
-    point
-        Position at the start, global [m], (3,).
-
-    Returns
-    -------
-    place, velocity
-        Global [m], [m/s], (n, 3).
-    angle, rate
-        Of the body about the plane's normal [rad], [rad/s], (n,).
-    """
-    n = record.time.size
-    if body == GROUND:
-        return np.tile(point, (n, 1)), np.zeros((n, 3)), np.zeros(n), np.zeros(n)
-    plane = mechanism.plane
-    angle, rate = record.pose[:, body, 0], record.velocity[:, body, 0]
-    arm = point - mechanism.bodies[body].centre
-    origin = mechanism.bodies[body].centre - mechanism.links[body].position
-    turned = rotated(plane.flat(arm), angle)
-    centre = record.pose[:, body, 1:] + rotated(plane.flat(origin), angle)
-    across = float(point @ plane.normal) * plane.normal
-    flat_velocity = record.velocity[:, body, 1:] + rate[:, None] * np.stack(
-        [-turned[:, 1], turned[:, 0]], axis=1
-    )
-    return plane.raised(centre + turned) + across, plane.raised(flat_velocity), angle, rate
-
-
-def rotated(vector: Floats, angle: Floats) -> Floats:
-    """A plane vector (2,) turned by every angle (n,): (n, 2)."""
-    c, s = np.cos(angle), np.sin(angle)
-    return np.stack([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]], axis=1)
-
-
-def section_channels(
-    structure: Structure, mechanism: Mechanism, record: TreeRecord, outputs: Outputs
-) -> Iterator[Channel]:
-    """Rotation of one station of a member against another, about the member's own axis nearest the normal."""
+def section_channels(structure: Structure, poses: Poses, outputs: Outputs) -> Iterator[Channel]:
+    """Rotation of one station of a member against another, about the member's axis across the plane."""
     for name, asked in outputs.section_rotations.items():
         frame = structure.frame_of(asked.member)
-        projected = np.array([frame.y @ mechanism.plane.normal, frame.z @ mechanism.plane.normal])
+        ends = [piece_at(poses.pieces, asked.member, station).body for station in (asked.start, asked.end)]
+        turned = poses.relative(ends[0], ends[1])
+        if poses.normal is None:
+            yield Channel(name, "rad", turned @ frame.axis(bending_axis(structure, asked.member)))
+            continue
+        projected = np.array([frame.y @ poses.normal, frame.z @ poses.normal])
         sign = float(np.sign(projected[np.argmax(np.abs(projected))]) or 1.0)
-        ends = [mechanism.piece_at(asked.member, station).body for station in (asked.start, asked.end)]
-        angles = [record.pose[:, b, 0] if b != GROUND else np.zeros(record.time.size) for b in ends]
-        yield Channel(name, "rad", sign * (angles[1] - angles[0]))
+        yield Channel(name, "rad", sign * (turned @ poses.normal))
 
 
 def summaries(

@@ -60,9 +60,10 @@ class Connection:
     universal: bool = False
 
     @property
-    def held(self) -> tuple[bool, ...]:
+    def held(self) -> tuple[bool, bool, bool, bool, bool, bool]:
         """Whether each of the six relative freedoms is held."""
-        return tuple(i not in self.free for i in range(6))
+        x, y, z, rx, ry, rz = (i not in self.free for i in range(6))
+        return x, y, z, rx, ry, rz
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,11 +95,6 @@ class Linkage:
     def hinges(self) -> tuple[PlacedHinge, ...]:
         """Hinges in the order of their connections."""
         return tuple(c.hinge for c in self.connections if c.hinge is not None)
-
-    def piece_at(self, member: str, station: float) -> Piece:
-        """Piece that holds a station [m] of a member; at a cut the one before it, at the end the last."""
-        *inner, last = self.pieces[member]
-        return next((piece for piece in inner if station <= piece.end and station < last.end), last)
 
 
 def link(structure: Structure, hinges: tuple[PlacedHinge, ...] | None = None) -> Linkage:

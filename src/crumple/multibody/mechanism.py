@@ -83,11 +83,6 @@ class Mechanism:
         """Into how many equal parts a body is cut; its mass here is that of one."""
         return 1 + sum(whole == body for _, whole in self.welds)
 
-    def piece_at(self, member: str, station: float) -> Piece:
-        """Piece that holds a station [m] of a member; at a cut the one before it, at the end the last."""
-        *inner, last = self.pieces[member]
-        return next((piece for piece in inner if station <= piece.end and station < last.end), last)
-
 
 def lower(structure: Structure) -> Mechanism:
     """Cut a structure into rigid bodies and hinges.

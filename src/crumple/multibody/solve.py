@@ -19,9 +19,11 @@ from crumple.multibody.histories import (
     summaries,
 )
 from crumple.multibody.mechanism import Mechanism, lower
-from crumple.multibody.model import Start, start_of, tree_model
+from crumple.multibody.model import start_of, tree_model
+from crumple.multibody.poses import TreePoses
 from crumple.multibody.rigid import Floats
 from crumple.multibody.shapes import states_of
+from crumple.multibody.start import Start
 from crumple.result import Provenance, Result
 from crumple.structure import MultibodySettings, Outputs, Structure
 
@@ -149,8 +151,9 @@ def _result(structure: Structure, run: Run, solved: _Solved) -> Result:
     if status.ok and record.residual > bound:
         status = Status.RESIDUAL_EXCEEDED
         reason = f"energy residual {record.residual:.2e} above its bound {bound:.2e}"
-    wanted = list(node_channels(structure, mechanism, record, run.outputs.nodes))
-    wanted += list(section_channels(structure, mechanism, record, run.outputs))
+    poses = TreePoses(mechanism, record)
+    wanted = list(node_channels(structure, poses, run.outputs.nodes))
+    wanted += list(section_channels(structure, poses, run.outputs))
     channels = [*hinge_channels(mechanism, record), *energy_channels(record), *wanted]
     hinges = summaries(mechanism, record, solved.errors)
     result = Result(
@@ -161,7 +164,7 @@ def _result(structure: Structure, run: Run, solved: _Solved) -> Result:
         time=record.time,
         channels={channel.name: channel for channel in channels},
         hinges=hinges,
-        states=states_of(structure, mechanism, record, _picture_times(run)),
+        states=states_of(structure, poses, _picture_times(run)),
         energy_residual=record.residual,
         solve_seconds=solved.seconds,
         warnings=trust.warnings(structure, mechanism, hinges, record, lost=solved.lost, start=solved.start),

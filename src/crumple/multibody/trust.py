@@ -9,7 +9,7 @@ import numpy as np
 from crumple._core.tree import TreeRecord
 from crumple.hinge import Form, SofteningVariable, tributary_stiffness
 from crumple.multibody.mechanism import Mechanism
-from crumple.multibody.model import Start
+from crumple.multibody.start import Start
 from crumple.result import HingeSummary
 from crumple.structure import PlacedHinge, Structure
 
