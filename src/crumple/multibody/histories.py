@@ -1,60 +1,35 @@
-"""From the kernel's record to named channels and summaries."""
+"""From a kernel's run to named channels and summaries."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from crumple._core.tree import TreeRecord
-from crumple.multibody.mechanism import Mechanism
 from crumple.multibody.poses import Poses, piece_at
 from crumple.multibody.rigid import Floats
+from crumple.multibody.solved import HingeHistory, Solved
 from crumple.result import Channel, HingeSummary
-from crumple.structure import Outputs, PlacedHinge, Structure
+from crumple.structure import Outputs, Structure
 from crumple.structure.bending import bending_axis
 
 AXES = ("x", "y", "z")
 
 
-def hinge_links(mechanism: Mechanism) -> list[tuple[int, PlacedHinge, float]]:
-    """Joint coordinate, hinge and sign of every hinge, in the kernel's order."""
-    found, dof = [], 0
-    for link in mechanism.links:
-        if link.hinge is not None:
-            found.append((dof, link.hinge, link.sign))
-        dof += 3 if link.free else 1
-    return found
+def hinge_channels(hinges: Iterable[HingeHistory]) -> Iterator[Channel]:
+    """Rotation, rates, moment, capacity and energy of every hinge, and the energy of every member."""
+    by_member: dict[str, Floats] = {}
+    for history in hinges:
+        member = history.hinge.member
+        by_member[member] = by_member.get(member, 0.0) + history.values("energy")
+        for name, (unit, values) in history.columns.items():
+            yield Channel(f"hinge.{history.hinge.name}.{name}", unit, values)
+    yield from (Channel(f"member.{name}.energy", "J", values) for name, values in by_member.items())
 
 
-def hinge_channels(mechanism: Mechanism, record: TreeRecord) -> Iterator[Channel]:
-    """Rotation, rates, moment, capacity and absorbed energy of every hinge."""
-    for k, (dof, hinge, sign) in enumerate(hinge_links(mechanism)):
-        plastic, moment, capacity, dissipated = record.hinge[:, k, :4].T
-        columns = (
-            ("rotation", "rad", sign * record.q[:, dof]),
-            ("rotation_rate", "rad/s", sign * record.w[:, dof]),
-            ("plastic_rotation", "rad", sign * plastic),
-            ("moment", "N*m", sign * moment),
-            ("capacity", "N*m", capacity),
-            ("energy", "J", dissipated),
-        )
-        yield from (Channel(f"hinge.{hinge.name}.{name}", unit, values) for name, unit, values in columns)
-
-
-def energy_channels(record: TreeRecord) -> Iterator[Channel]:
-    """Ledger: kinetic + elastic + dissipated - external work - start = residual."""
-    kinetic, external = record.energy[:, 0], record.energy[:, 5]
-    dissipated = record.hinge[:, :, 3].sum(axis=1)
-    stored = record.energy[:, 1:5].sum(axis=1) - dissipated
-    residual = kinetic + stored + dissipated - external
-    columns = {
-        "kinetic": kinetic,
-        "elastic": stored,
-        "dissipated": dissipated,
-        "external_work": external,
-        "residual": residual - (residual[0] if residual.size else 0.0),
-    }
+def energy_channels(solved: Solved) -> Iterator[Channel]:
+    """Ledger: kinetic + elastic + dissipated (+ contact + friction) - external work - start = residual."""
+    columns = {**solved.energy, "residual": solved.balance}
     yield from (Channel(f"energy.{name}", "J", values) for name, values in columns.items())
 
 
@@ -92,28 +67,38 @@ def section_channels(structure: Structure, poses: Poses, outputs: Outputs) -> It
         yield Channel(name, "rad", sign * (turned @ poses.normal))
 
 
-def summaries(
-    mechanism: Mechanism, record: TreeRecord, errors: Floats | None = None
-) -> dict[str, HingeSummary]:
+def distance_channels(structure: Structure, poses: Poses, outputs: Outputs) -> Iterator[Channel]:
+    """Change of the distance between two nodes: negative where they come nearer."""
+    for name, asked in outputs.distances.items():
+        ends = [np.asarray(structure.nodes[node], float) for node in (asked.start, asked.end)]
+        nodes = zip((asked.start, asked.end), ends, strict=True)
+        places = [poses.place(poses.node_body[node], point)[0] for node, point in nodes]
+        before = float(np.linalg.norm(ends[1] - ends[0]))
+        yield Channel(name, "m", np.linalg.norm(places[1] - places[0], axis=1) - before)
+
+
+def summaries(hinges: Iterable[HingeHistory], errors: Floats | None = None) -> dict[str, HingeSummary]:
     """What every hinge did.
 
     Parameters
     ----------
+    hinges
+        Histories.
     errors
         Estimated error of each largest rotation [rad], (hinges,), or None.
     """
     found = {}
-    for k, (dof, hinge, sign) in enumerate(hinge_links(mechanism)):
-        rotation_max, moment_max, rest, turning, energy = record.summary[k]
+    for k, history in enumerate(hinges):
+        hinge = history.hinge
         law, envelopes = hinge.law, (hinge.record.positive, hinge.record.negative)
         rotation = np.union1d(envelopes[0].rotation, envelopes[1].rotation)
         positive, negative = (np.interp(rotation, e.rotation, e.moment) for e in envelopes)
         found[hinge.name] = HingeSummary(
-            rotation_max=float(rotation_max),
-            rotation_final=float(sign * record.q[-1, dof]),
-            time_of_rest=None if turning else float(rest),
-            energy=float(energy),
-            moment_max=float(moment_max),
+            rotation_max=history.rotation_max,
+            rotation_final=float(history.values("rotation")[-1]),
+            time_of_rest=history.time_of_rest,
+            energy=history.energy,
+            moment_max=history.moment_max,
             rotation_error=None if errors is None else float(errors[k]),
             law=law.title,
             source=f"{law.source.citation} ({law.source.trust.value})",

@@ -46,6 +46,8 @@ class Connection:
         The plastic hinge, or None.
     universal
         Whether its y stays with the first body and its z with the second, like a cross.
+    end
+        Member that a joint joins, and 0 or 1 for its first or second node.
     """
 
     name: str
@@ -58,6 +60,7 @@ class Connection:
     free: tuple[int, ...]
     hinge: PlacedHinge | None = None
     universal: bool = False
+    end: tuple[str, int] | None = None
 
     @property
     def held(self) -> tuple[bool, bool, bool, bool, bool, bool]:
@@ -81,7 +84,9 @@ class Linkage:
     node_body, node_part
         Body and rigid part of every node.
     part_mass
-        Mass of every rigid part of the ground.
+        Mass of every rigid part of the ground that has any.
+    ground_parts
+        Rigid parts of the ground.
     """
 
     bodies: tuple[RigidMass, ...]
@@ -90,6 +95,7 @@ class Linkage:
     node_body: dict[str, int]
     node_part: dict[str, int]
     part_mass: dict[int, RigidMass]
+    ground_parts: frozenset[int]
 
     @property
     def hinges(self) -> tuple[PlacedHinge, ...]:
@@ -110,7 +116,7 @@ def link(structure: Structure, hinges: tuple[PlacedHinge, ...] | None = None) ->
     Raises
     ------
     InputError
-        If a hinge or joint joins a part with itself, or a body has no inertia.
+        If a hinge or joint joins a part with itself.
     """
     hinges = placed_hinges(structure) if hinges is None else hinges
     assembly = assemble(structure, hinges)
@@ -122,7 +128,6 @@ def link(structure: Structure, hinges: tuple[PlacedHinge, ...] | None = None) ->
     moving = [part for part in parts if part in used and part not in clamped]
     body = {part: i for i, part in enumerate(moving)}
     bodies = tuple(masses.get(part, RigidMass(0.0, np.zeros(3), np.zeros((3, 3)))) for part in moving)
-    _check_inertia(assembly, moving, bodies)
     connections = [_cut_connection(structure, cut, body) for cut in cuts]
     connections.sort(key=lambda c: c.hinge is None)
     connections += _supports(assembly, body, held)
@@ -138,6 +143,7 @@ def link(structure: Structure, hinges: tuple[PlacedHinge, ...] | None = None) ->
         node_body={node: body.get(part, GROUND) for node, part in node_part.items()},
         node_part=node_part,
         part_mass={part: masses[part] for part in clamped if part in masses},
+        ground_parts=frozenset(clamped),
     )
 
 
@@ -168,8 +174,11 @@ def _cut_connection(structure: Structure, cut: Cut, body: dict[int, int]) -> Con
     joint = structure.joints[name]
     position = np.asarray(structure.nodes[joint.node], float)
     axes = joint_axes(joint)
+    end = (joint.member, structure.members[joint.member].nodes.index(joint.node))
     universal = joint.type == "universal"
-    return Connection(name, "joint", first, second, parts, position, axes, joint.free, universal=universal)
+    return Connection(
+        name, "joint", first, second, parts, position, axes, joint.free, universal=universal, end=end
+    )
 
 
 def joint_axes(joint: Joint) -> Floats:
@@ -203,14 +212,20 @@ def _supports(assembly: Assembly, body: dict[int, int], held: dict[str, set[str]
     return found
 
 
-def _check_inertia(assembly: Assembly, moving: list[int], bodies: tuple[RigidMass, ...]) -> None:
-    """Refuse bodies without mass, or that nothing resists turning about some axis."""
+def check_inertia(linkage: Linkage) -> None:
+    """Refuse bodies without mass, or that nothing resists turning about some axis.
+
+    Raises
+    ------
+    InputError
+        With every such body.
+    """
     problems = []
-    for part, mass in zip(moving, bodies, strict=True):
+    for i, mass in enumerate(linkage.bodies):
         moments = np.linalg.eigvalsh(mass.inertia)
         if mass.mass > 0.0 and moments[0] > THIN * moments[-1]:
             continue
-        what, where = _described(assembly, part)
+        what, where = _described(linkage, i)
         came = "mass 0 kg" if mass.mass == 0.0 else "a mass without rotary inertia"
         allowed, todo = "a body with mass and rotary inertia", "move the hinge, or give the node a mass"
         problems.append(Problem(f"{what} has no inertia", came, allowed, todo, where))
@@ -218,12 +233,12 @@ def _check_inertia(assembly: Assembly, moving: list[int], bodies: tuple[RigidMas
         raise InputError(problems)
 
 
-def _described(assembly: Assembly, part: int) -> tuple[str, str]:
-    """What a rigid part is, and a path in the input where it is made."""
-    nodes = [node for node, i in assembly.node.items() if assembly.root(i) == part]
-    for name, pieces in assembly.pieces.items():
-        for start, end, i in pieces:
-            if assembly.root(i) == part:
-                text = f"the body between {1e3 * start:.6g} mm and {1e3 * end:.6g} mm of member {name}"
-                return text, f"members.{name}.hinges"
+def _described(linkage: Linkage, body: int) -> tuple[str, str]:
+    """What a body is, and a path in the input where it is made."""
+    for name, pieces in linkage.pieces.items():
+        for piece in pieces:
+            if piece.body == body:
+                span = f"between {1e3 * piece.start:.6g} mm and {1e3 * piece.end:.6g} mm"
+                return f"the body {span} of member {name}", f"members.{name}.hinges"
+    nodes = [node for node, i in linkage.node_body.items() if i == body]
     return f"the body at node {', '.join(nodes)}", "joints"

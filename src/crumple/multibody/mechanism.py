@@ -10,6 +10,7 @@ and welds hold the parts together.
 from __future__ import annotations
 
 from collections import defaultdict, deque
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,6 +48,15 @@ class Link:
     hinge: PlacedHinge | None = None
     free: bool = False
     sign: float = 1.0
+
+
+def hinge_links(links: Iterable[Link]) -> Iterator[tuple[int, PlacedHinge, float]]:
+    """Joint coordinate, hinge and sign of every hinge, in the kernel's order."""
+    dof = 0
+    for link in links:
+        if link.hinge is not None:
+            yield dof, link.hinge, link.sign
+        dof += 3 if link.free else 1
 
 
 @dataclass(frozen=True, eq=False)

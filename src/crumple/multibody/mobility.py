@@ -81,6 +81,8 @@ def mobility(linkage: Linkage, *, locked: bool = False) -> Mobility:
     locked
         Whether hinges carry every moment, as they do until they yield.
     """
+    if not linkage.bodies:
+        return Mobility(0, (), (), 0, ())
     tree = _tree(linkage, locked)
     width = len(tree.owner)
     blocks = [_loop_rows(linkage, tree, width, closing, own) for closing, own in tree.loops]

@@ -21,11 +21,12 @@ from numpy.typing import ArrayLike, NDArray
 from crumple._core.batch import TreeFinals, TreeVariants, solve_many
 from crumple._core.tree import Outcome
 from crumple.errors import InputError, Problem, Status
+from crumple.multibody.choice import why_spatial
 from crumple.multibody.finals import final_quantities, part_of
 from crumple.multibody.lowered import Lowered, RawMass, lowered, raw_mass, tree_arrays
 from crumple.multibody.rigid import Floats
-from crumple.multibody.solve import STATUS, Cancel, Progress, Run
-from crumple.structure import Structure, changed, value_at
+from crumple.multibody.run import STATUS, Cancel, Progress, Run
+from crumple.structure import Structure, changed, placed_hinges, value_at
 
 FACTORS = ("initial_velocity", "impulses", "loads", "gravity")
 
@@ -106,6 +107,10 @@ def solve_variants(
     ----------
     docs/theory/variants.md.  Verified in tests/unit/multibody/test_variants.py.
     """
+    across = why_spatial(structure, placed_hinges(structure), run)
+    if across is not None:
+        what, todo = "variants are solved in a plane alone", "solve them one by one"
+        raise InputError(Problem(what, across, "a structure that moves in a plane", todo))
     base = lowered(structure, run.duration)
     values = _columns(structure, base, parameters)
     slow = [name for name in values if not _quick(name)]

@@ -43,7 +43,7 @@ from crumple.structure.obstacles import (
     Travel,
     Turning,
 )
-from crumple.structure.outputs import Filter, Outputs, SectionRotation
+from crumple.structure.outputs import Distance, Filter, Outputs, SectionForce, SectionRotation
 from crumple.structure.section import (
     AngleSpec,
     ChannelSpec,
@@ -71,6 +71,7 @@ __all__ = [
     "ClosedHatSpec",
     "ConstantLaw",
     "CylinderObstacle",
+    "Distance",
     "Filter",
     "FinePlace",
     "ForceComponents",
@@ -100,6 +101,7 @@ __all__ = [
     "RateSpec",
     "RectangularTubeSpec",
     "Regularisation",
+    "SectionForce",
     "SectionRotation",
     "ShellSettings",
     "SphereObstacle",

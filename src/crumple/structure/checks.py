@@ -64,6 +64,17 @@ def output_problems(outputs: Outputs, structure: Structure, defined: Names | Non
         for i, node in enumerate(outputs.nodes)
         for problem in unknown("node", node, nodes, f"outputs.nodes[{i}]")
     ]
+    for name, distance in outputs.distances.items():
+        where = f"outputs.distances.{name}"
+        problems += unknown("node", distance.start, nodes, f"{where}.from")
+        problems += unknown("node", distance.end, nodes, f"{where}.to")
+    for name, force in outputs.section_forces.items():
+        where = f"outputs.section_forces.{name}"
+        problems += unknown("member", force.member, members, f"{where}.member")
+        if structure.has_line(force.member):
+            length = structure.frame_of(force.member).length
+            if force.at > length * (1.0 + 1e-9):
+                problems.append(outside(f"{where}.at", force.at, length))
     for name, rotation in outputs.section_rotations.items():
         where = f"outputs.section_rotations.{name}"
         problems += unknown("member", rotation.member, members, f"{where}.member")

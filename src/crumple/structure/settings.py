@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from pydantic import model_validator
 
 from crumple.structure.quantity import Accuracy, Fraction, PositiveTime
@@ -11,6 +13,8 @@ from crumple.structure.spec import Spec, refuse
 class MultibodySettings(Spec):
     """Settings of the multibody solver."""
 
+    kernel: Literal["auto", "tree", "spatial"] = "auto"
+    """Which stepper: the planar tree, the spatial one, or the tree wherever it suits."""
     accuracy: Accuracy = 1e-3
     """Relative error allowed in the rotations."""
     minimum_time_step: PositiveTime = 1e-9
