@@ -90,7 +90,7 @@ def assemble(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Assembly:
     assembly.node = {node: assembly.new() for node in structure.nodes}
     jointed = {(joint.node, joint.member): name for name, joint in structure.joints.items()}
     by_member: dict[str, list[PlacedHinge]] = defaultdict(list)
-    for hinge in hinges:
+    for hinge in sorted(hinges, key=lambda hinge: hinge.station):
         by_member[hinge.member].append(hinge)
     for name, member in structure.members.items():
         length = structure.frame_of(name).length

@@ -94,15 +94,24 @@ class Mechanism:
         return 1 + sum(whole == body for _, whole in self.welds)
 
 
-def lower(structure: Structure) -> Mechanism:
+def lower(structure: Structure, hinges: tuple[PlacedHinge, ...] | None = None) -> Mechanism:
     """Cut a structure into rigid bodies and hinges.
+
+    Parameters
+    ----------
+    structure
+        Sound.
+    hinges
+        Its hinges; None: as `placed_hinges` gives them.
 
     Raises
     ------
     InputError
-        If hinges' axes are not parallel, a hinge cannot turn, or a body has no inertia.
+        If there are joints, hinges' axes are not parallel, a hinge cannot turn, or a body has no inertia.
     """
-    hinges = placed_hinges(structure)
+    hinges = placed_hinges(structure) if hinges is None else hinges
+    if structure.joints:
+        raise _needs_space()
     plane = plane_of(structure, hinges)
     assembly = assemble(structure, hinges)
     ground = assembly.new()
@@ -210,3 +219,8 @@ def _check_inertia(bodies: tuple[RigidMass, ...], links: list[Link], plane: Plan
         )
     if problems:
         raise InputError(problems)
+
+
+def _needs_space() -> InputError:
+    what, todo = "the tree kernel does not take joints", "write kernel: auto"
+    return InputError(Problem(what, "", "hinges and supports alone", todo, "analysis.multibody.kernel"))

@@ -10,6 +10,7 @@ from crumple._core.tree import Outcome
 from crumple.errors import InputError, Problem
 from crumple.multibody import trust
 from crumple.multibody.choice import why_spatial
+from crumple.multibody.collapse import changed_capacities, collapse_log, not_unique
 from crumple.multibody.histories import (
     distance_channels,
     energy_channels,
@@ -25,7 +26,7 @@ from crumple.multibody.solved import Solved, Solver
 from crumple.multibody.space_solver import SpaceSolver
 from crumple.multibody.tree_solver import TreeSolver
 from crumple.result import Provenance, Result
-from crumple.structure import Structure, placed_hinges
+from crumple.structure import Structure, any_automatic, placed_hinges
 
 
 def solve_multibody(
@@ -74,19 +75,46 @@ def solve_multibody(
     errors = np.array(
         [abs(a.rotation_max - b.rotation_max) for a, b in zip(rough.hinges, solved.hinges, strict=True)]
     )
-    return _result(structure, run, solver, solved, errors, time.perf_counter() - begin)
+    doubt = _doubt(structure, run, solver, rough, cancel)
+    seconds = time.perf_counter() - begin
+    return _result(structure, run, solver, solved, errors=errors, doubt=doubt, seconds=seconds)
 
 
 def solver_of(structure: Structure, run: Run) -> Solver:
     """The structure lowered for the kernel that suits it, or that the settings name."""
     hinges = placed_hinges(structure)
     if why_spatial(structure, hinges, run) is None:
-        return TreeSolver(structure, run)
+        return TreeSolver(structure, run, hinges)
     return SpaceSolver(structure, run, hinges)
 
 
+def _doubt(
+    structure: Structure, run: Run, solver: Solver, rough: Solved, cancel: Cancel | None
+) -> str | None:
+    """A warning where a small change of the capacities folds the structure elsewhere."""
+    asked = run.settings.mechanism_check
+    if asked == "off" or (asked == "auto" and not any_automatic(structure)) or len(solver.hinges) < 2:
+        return None
+    if rough.outcome is not Outcome.COMPLETE:
+        return None
+    runs = [rough.hinges]
+    poll = poll_of(run.duration, (1.0, 1.0), None, cancel)
+    for hinges in changed_capacities(placed_hinges(structure)):
+        solved = solver.with_hinges(hinges).run(run.settings.accuracy, run.settings.maximum_time_step, poll)
+        if solved.outcome is Outcome.COMPLETE:
+            runs.append(solved.hinges)
+    return not_unique(runs)
+
+
 def _result(
-    structure: Structure, run: Run, solver: Solver, solved: Solved, errors: Floats, seconds: float
+    structure: Structure,
+    run: Run,
+    solver: Solver,
+    solved: Solved,
+    *,
+    errors: Floats,
+    doubt: str | None,
+    seconds: float,
 ) -> Result:
     bound = run.settings.energy_residual_bound
     status, reason = status_of(solved.outcome, solved.reason, solved.residual, bound)
@@ -97,6 +125,7 @@ def _result(
     ]
     channels = [*hinge_channels(solved.hinges), *energy_channels(solved), *solved.further, *wanted]
     hinges = summaries(solved.hinges, errors)
+    openings, threshold = collapse_log(solved.hinges, solved.time)
     return Result(
         status=status,
         reason=reason,
@@ -108,12 +137,15 @@ def _result(
         states=states_of(structure, solved.poses, picture_times(run)),
         energy_residual=solved.residual,
         solve_seconds=seconds,
-        warnings=trust.warnings(structure, hinges, solved),
+        warnings=(*trust.warnings(structure, hinges, solved), *([doubt] if doubt else [])),
         assumptions=trust.assumptions(structure, solver),
         provenance=Provenance(
             version="", input_hash="", isa="scalar", settings=_settings(run, solver, solved)
         ),
         output_names=tuple(channel.name for channel in wanted),
+        collapse=openings,
+        collapse_threshold=threshold,
+        stages=solved.stages,
     )
 
 

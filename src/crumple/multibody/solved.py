@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from crumple._core.tree import Outcome
 from crumple.multibody.poses import Poses
 from crumple.multibody.rigid import Floats
-from crumple.result import Channel
+from crumple.result import Channel, StageSummary
 from crumple.structure import PlacedHinge
 
 Poll = Callable[[float], bool]
@@ -90,7 +90,7 @@ class Solved:
     energy: Mapping[str, Floats]
     stepping_seconds: float
     further: tuple[Channel, ...] = ()
-    stages: tuple[StageSummary, ...] = field(default=())
+    stages: tuple[StageSummary, ...] = ()
 
     @property
     def time(self) -> Floats:
@@ -103,16 +103,6 @@ class Solved:
         sums = sum(values for name, values in self.energy.items() if name != "external_work")
         missing = np.asarray(sums - self.energy["external_work"])
         return missing - (missing[0] if missing.size else 0.0)
-
-
-@dataclass(frozen=True)
-class StageSummary:
-    """How a stage went: its name, start and end [s], and what ended it in words."""
-
-    name: str
-    start: float
-    end: float
-    ended_by: str
 
 
 class Solver(Protocol):
@@ -129,6 +119,9 @@ class Solver(Protocol):
     @property
     def hinges(self) -> tuple[PlacedHinge, ...]:
         """Hinges in the kernel's order."""
+
+    def with_hinges(self, hinges: tuple[PlacedHinge, ...]) -> Solver:
+        """The same with other hinges at the same places."""
 
     def run(self, accuracy: float, longest: float, poll: Poll | None) -> Solved:
         """Step at an accuracy with steps of at most `longest` [s]."""

@@ -17,11 +17,11 @@ from crumple.multibody.obstacle_bodies import with_obstacles
 from crumple.multibody.poses import SpacePoses
 from crumple.multibody.rigid import Floats
 from crumple.multibody.run import Run, output_times
-from crumple.multibody.solved import HingeHistory, Poll, Solved, StageSummary
+from crumple.multibody.solved import HingeHistory, Poll, Solved
 from crumple.multibody.space_model import space_model, support_drives
 from crumple.multibody.stages import lowered_until, stages_of, told
 from crumple.multibody.start import start_in_space
-from crumple.result import Channel
+from crumple.result import Channel, StageSummary
 from crumple.structure import PlacedHinge, Stage, Structure
 
 HISTORIES = (
@@ -72,6 +72,10 @@ class SpaceSolver:
     def hinges(self) -> tuple[PlacedHinge, ...]:
         """See `Solver`."""
         return self.linkage.hinges
+
+    def with_hinges(self, hinges: tuple[PlacedHinge, ...]) -> SpaceSolver:
+        """See `Solver`."""
+        return SpaceSolver(self._structure, self._run, hinges)
 
     def run(self, accuracy: float, longest: float, poll: Poll | None) -> Solved:
         """See `Solver`."""

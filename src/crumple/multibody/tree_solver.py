@@ -25,6 +25,8 @@ class TreeSolver:
     ----------
     structure, run
         What is solved, and how long with which outputs.
+    hinges
+        The structure's.
 
     Raises
     ------
@@ -34,9 +36,9 @@ class TreeSolver:
 
     kernel = "tree"
 
-    def __init__(self, structure: Structure, run: Run) -> None:
-        self._run = run
-        self.mechanism: Mechanism = lower(structure)
+    def __init__(self, structure: Structure, run: Run, hinges: tuple[PlacedHinge, ...]) -> None:
+        self._structure, self._run = structure, run
+        self.mechanism: Mechanism = lower(structure, hinges)
         self._model = tree_model(structure, self.mechanism, run.duration)
         self._start = start_of(structure, self.mechanism)
 
@@ -49,6 +51,10 @@ class TreeSolver:
     def hinges(self) -> tuple[PlacedHinge, ...]:
         """See `Solver`."""
         return tuple(hinge for _, hinge, _ in hinge_links(self.mechanism.links))
+
+    def with_hinges(self, hinges: tuple[PlacedHinge, ...]) -> TreeSolver:
+        """See `Solver`."""
+        return TreeSolver(self._structure, self._run, hinges)
 
     def run(self, accuracy: float, longest: float, poll: Poll | None) -> Solved:
         """See `Solver`."""

@@ -12,6 +12,7 @@ For a solver:
 - `MultibodySettings`, `ShellSettings` and `Outputs` -> what the solver is told beside the structure.
 """
 
+from crumple.structure.automatic import any_automatic
 from crumple.structure.bending import across_plane, planar
 from crumple.structure.change import changed, value_at
 from crumple.structure.checks import output_problems, problems_in, shell_problems
@@ -119,6 +120,7 @@ __all__ = [
     "WeldSpec",
     "WierzbickiLaw",
     "across_plane",
+    "any_automatic",
     "changed",
     "frame_of",
     "gap",

@@ -46,6 +46,11 @@ def automatic_of(structure: Structure, member: str) -> AutomaticHinges | None:
     return None if own else structure.hinges
 
 
+def any_automatic(structure: Structure) -> bool:
+    """Whether hinges of any member find their places by themselves."""
+    return any(automatic_of(structure, member) is not None for member in structure.members)
+
+
 def automatic_stations(
     structure: Structure, member: str, axes: tuple[Axis, ...], spacing: float | None
 ) -> dict[str, float]:

@@ -21,6 +21,9 @@ class MultibodySettings(Spec):
     """Below this step the run stops with a status."""
     maximum_time_step: PositiveTime = 3e-3
     """Largest step."""
+    mechanism_check: Literal["auto", "on", "off"] = "auto"
+    """Whether to solve four times more with capacities changed by 1 % and warn where other hinges open; auto:
+    where hinges find their places automatically."""
     energy_residual_bound: Fraction = 1e-3
     """Energy residual above which the run ends with a status that says not to trust it."""
 
