@@ -7,6 +7,8 @@ import math
 import numpy as np
 
 from crumple.hinge import Form, SofteningVariable, tributary_stiffness
+from crumple.multibody.linkage import link
+from crumple.multibody.mobility import free_parts
 from crumple.multibody.solved import Solved, Solver
 from crumple.result import HingeSummary
 from crumple.structure import PlacedHinge, Structure
@@ -40,6 +42,7 @@ def assumptions(structure: Structure, solver: Solver) -> tuple[str, ...]:
         "Members are rigid between their hinges; masses are rigid lumps.",
         PLANAR if solver.kernel == "tree" else SPATIAL,
         _contact(structure),
+        *free_parts(link(structure, solver.hinges)),
     ]
     for hinge in solver.hinges:
         record, member = hinge.record, structure.members[hinge.member]
