@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from crumple._core.batch import TreeFinals
 from crumple._core.tree import Outcome, TreeRecord
-from crumple.multibody.histories import distance_channels, hinge_channels, node_channels, section_channels
+from crumple.multibody.histories import distance_channels, node_channels, section_channels
 from crumple.multibody.lowered import Lowered
 from crumple.multibody.poses import TreePoses
 from crumple.multibody.rigid import Floats
-from crumple.multibody.tree_solver import energy_of, hinge_histories
+from crumple.multibody.tree_solver import energy_of, hinge_columns
 from crumple.structure import Outputs
 
 OF_HINGES = ("rotation", "plastic_rotation", "moment", "capacity", "energy")
@@ -47,9 +47,8 @@ def final_quantities(model: Lowered, finals: TreeFinals, outputs: Outputs) -> di
     )
     found: dict[str, Floats] = {}
     poses = TreePoses(model.mechanism, record)
-    for channel in hinge_channels(hinge_histories(model.mechanism, record)):
-        if channel.name.rsplit(".", 1)[1] in OF_HINGES:
-            found[channel.name] = channel.values
+    for hinge, columns in hinge_columns(model.mechanism, record):
+        found |= {f"hinge.{hinge.name}.{name}": columns[name][1] for name in OF_HINGES}
     for k, (name, _) in enumerate(model.hinges):
         found[f"hinge.{name}.rotation_max"] = finals.summary[:, k, 0]
         found[f"hinge.{name}.moment_max"] = finals.summary[:, k, 1]

@@ -82,9 +82,18 @@ class TreeSolver:
 
 def hinge_histories(mechanism: Mechanism, record: TreeRecord) -> Iterator[HingeHistory]:
     """What every hinge did, in the kernel's order."""
+    for (hinge, columns), row in zip(hinge_columns(mechanism, record), record.summary, strict=True):
+        largest, moment_max, rest, turning, energy = row
+        at_rest = None if turning else float(rest)
+        yield HingeHistory(hinge, columns, float(largest), float(moment_max), at_rest, float(energy))
+
+
+def hinge_columns(
+    mechanism: Mechanism, record: TreeRecord
+) -> Iterator[tuple[PlacedHinge, dict[str, tuple[str, Floats]]]]:
+    """Unit and values, (n,), of every hinge's quantities, in the kernel's order."""
     for k, (dof, hinge, sign) in enumerate(hinge_links(mechanism.links)):
         plastic, moment, capacity, dissipated = record.hinge[:, k, :4].T
-        largest, moment_max, rest, turning, energy = record.summary[k]
         columns = {
             "rotation": ("rad", sign * record.q[:, dof]),
             "rotation_rate": ("rad/s", sign * record.w[:, dof]),
@@ -93,8 +102,7 @@ def hinge_histories(mechanism: Mechanism, record: TreeRecord) -> Iterator[HingeH
             "capacity": ("N*m", np.array(capacity)),
             "energy": ("J", np.array(dissipated)),
         }
-        at_rest = None if turning else float(rest)
-        yield HingeHistory(hinge, columns, float(largest), float(moment_max), at_rest, float(energy))
+        yield hinge, columns
 
 
 def energy_of(record: TreeRecord) -> dict[str, Floats]:

@@ -5,7 +5,7 @@ from tests.unit.multibody.parts import CLAMP, LAW, member, structure
 
 from crumple.errors import InputError
 from crumple.section import RectangularTube, half_fold_length
-from crumple.structure import any_automatic, hinge_places, planar, placed_hinges
+from crumple.structure import any_automatic, hinge_places, placed_hinges, planar
 from crumple.structure.automatic import automatic_stations
 
 NODES = {"a": (0.0, 0.0, 0.0), "b": (1.0, 0.0, 0.0), "c": (1.0, 0.0, 1.0), "d": (1.02, 0.0, 0.0)}
