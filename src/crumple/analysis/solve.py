@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 FIDELITIES = ("multibody", "shell")
 """Solvers by name."""
 UNSOLVED: dict[str, tuple[str, ...]] = {
-    "multibody": (),
+    "multibody": ("obstacles", "member_contact"),
     "shell": ("joints", "outputs.section_forces", "outputs.distances"),
 }
 """Parts of a description that a solver does not take."""
@@ -99,6 +99,7 @@ def _refuse_unsolved(analysis: Analysis, fidelity: str) -> None:
     structure = analysis.structure
     given = {
         "obstacles": structure.obstacles,
+        "member_contact": structure.member_contact,
         "analysis.stages": analysis.stages,
         "joints": structure.joints,
         "outputs.section_forces": analysis.outputs.section_forces,
