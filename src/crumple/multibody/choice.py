@@ -54,6 +54,8 @@ def _reasons(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run) ->
         "forces in sections": run.outputs.section_forces,
     }
     yield from (f"there are {what}" for what, part in given.items() if part)
+    if any(hinge.spatial is not None for hinge in hinges):
+        yield "there are hinges with several components, or that break"
     directions = [hinge.direction for hinge in hinges]
     if any(np.linalg.norm(np.cross(directions[0], other)) > PARALLEL for other in directions[1:]):
         yield "hinges turn about axes that are not parallel"

@@ -18,7 +18,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from crumple.hinge import Envelope
+from crumple.hinge import Envelope, HingeRecord
 from crumple.multibody.solved import HingeHistory
 from crumple.result import Opening
 from crumple.structure import PlacedHinge
@@ -105,12 +105,19 @@ def _s(names: list[str]) -> str:
 
 
 def _scaled(hinge: PlacedHinge, factor: float) -> PlacedHinge:
-    record = hinge.record
+    spatial = hinge.spatial
+    if spatial is not None:
+        parts = (replace(part, record=_stronger(part.record, factor)) for part in spatial.components)
+        spatial = replace(spatial, components=tuple(parts))
+    return replace(hinge, record=_stronger(hinge.record, factor), spatial=spatial)
+
+
+def _stronger(record: HingeRecord, factor: float) -> HingeRecord:
     positive, negative = (
         Envelope(envelope.rotation, envelope.moment * factor)
         for envelope in (record.positive, record.negative)
     )
-    return replace(hinge, record=replace(record, positive=positive, negative=negative))
+    return replace(record, positive=positive, negative=negative)
 
 
 def _listed(names: Iterable[str]) -> str:

@@ -168,7 +168,10 @@ def _cut_connection(structure: Structure, cut: Cut, body: dict[int, int]) -> Con
     parts = (cut.first, cut.second)
     if cut.hinge is not None:
         hinge = cut.hinge
-        axes, free = hinge_axes(structure, hinge), (FREEDOM[hinge.axis],)
+        axes = hinge_axes(structure, hinge)
+        free: tuple[int, ...] = (FREEDOM[hinge.axis],)
+        if hinge.spatial is not None:
+            free = tuple(int(freedom) for freedom in hinge.spatial.freedoms)
         return Connection(hinge.name, "hinge", first, second, parts, hinge.position, axes, free, hinge)
     name = str(cut.joint)
     joint = structure.joints[name]

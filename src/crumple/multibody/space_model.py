@@ -7,6 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from crumple._core.space_model import (
+    Coupling as SpaceCoupling,
+)
+from crumple._core.space_model import (
     SpaceBody,
     SpaceComponent,
     SpaceDrive,
@@ -14,11 +17,21 @@ from crumple._core.space_model import (
     SpaceJoint,
     SpaceLoad,
     SpaceModel,
+    SpaceSurface,
 )
+from crumple.hinge import Coupling, HingeRecord
 from crumple.multibody.linkage import GROUND, Connection, Linkage
 from crumple.multibody.model import FORMS, SOFTENING, stop_of
 from crumple.multibody.sampling import sampled, sampled_motion
 from crumple.structure import FREEDOMS, Structure
+
+COUPLINGS = {
+    Coupling.NONE: SpaceCoupling.NONE,
+    Coupling.ELLIPSOID: SpaceCoupling.ELLIPSOID,
+    Coupling.BALL: SpaceCoupling.BALL,
+    Coupling.SECTION: SpaceCoupling.SECTION,
+    Coupling.TENSION_FLANGE: SpaceCoupling.TENSION_FLANGE,
+}
 
 
 def space_model(structure: Structure, linkage: Linkage, duration: float) -> SpaceModel:
@@ -72,9 +85,31 @@ def _joint(connection: Connection) -> SpaceJoint:
 
 def _hinge(joint: int, connection: Connection) -> SpaceHinge:
     assert connection.hinge is not None
-    record = connection.hinge.record
-    component = SpaceComponent(
-        freedom=connection.free[0],
+    spatial, record = connection.hinge.spatial, connection.hinge.record
+    form, softening = FORMS[record.form], SOFTENING[record.softening_variable]
+    if spatial is None:
+        return SpaceHinge(joint, (_component(connection.free[0], record),), form=form, softening=softening)
+    surface = spatial.surface
+    return SpaceHinge(
+        joint,
+        tuple(_component(int(part.freedom), part.record) for part in spatial.components),
+        SpaceSurface(
+            COUPLINGS[surface.coupling],
+            surface.rows,
+            surface.power,
+            surface.torque_power,
+            surface.torsion,
+            surface.arm,
+        ),
+        FORMS[spatial.form],
+        SOFTENING[spatial.softening_variable],
+        spatial.fracture,
+    )
+
+
+def _component(freedom: int, record: HingeRecord) -> SpaceComponent:
+    return SpaceComponent(
+        freedom=freedom,
         positive=(record.positive.rotation, record.positive.moment),
         negative=(record.negative.rotation, record.negative.moment),
         elastic_stiffness=record.elastic_stiffness,
@@ -84,9 +119,6 @@ def _hinge(joint: int, connection: Connection) -> SpaceHinge:
         viscous_damping=record.viscous_damping,
         stop_positive=stop_of(record.stop_positive),
         stop_negative=stop_of(record.stop_negative),
-    )
-    return SpaceHinge(
-        joint, (component,), form=FORMS[record.form], softening=SOFTENING[record.softening_variable]
     )
 
 

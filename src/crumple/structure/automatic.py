@@ -14,6 +14,7 @@ import numpy as np
 
 from crumple.section import Axis, half_fold_length
 from crumple.structure.bending import bending_axis, planar
+from crumple.structure.hinge_axes import HingeAxes
 from crumple.structure.member import AutomaticHinges, Hinge
 from crumple.structure.structure import Structure
 
@@ -23,18 +24,14 @@ def hinges_of(structure: Structure, member: str) -> tuple[Hinge, ...]:
     asked = automatic_of(structure, member)
     if asked is None:
         return structure.members[member].given_hinges
-    axes = asked.axes or default_axes(structure, member)
+    keys = {name: getattr(asked, name) for name in HingeAxes.model_fields}
+    if asked.axis is None and asked.axes is None:
+        flat = planar(structure)
+        keys |= {"axis": bending_axis(structure, member)} if flat else {"axes": ("y", "z")}
+    axes = (keys["axis"],) if keys["axis"] else tuple(axis for axis in keys["axes"] if axis != "x")
     stations = automatic_stations(structure, member, axes, asked.spacing)
     # names of members and nodes were checked; two of them together may be longer than a name that is given
-    return tuple(
-        Hinge.model_construct(name=name, at=station, axis=axes[0], law=asked.law)
-        for name, station in stations.items()
-    )
-
-
-def default_axes(structure: Structure, member: str) -> tuple[Axis, ...]:
-    """Bending axes of candidates: the one across the plane of motion, or both where there is none."""
-    return (bending_axis(structure, member),) if planar(structure) else ("y", "z")
+    return tuple(Hinge.model_construct(name=name, at=station, **keys) for name, station in stations.items())
 
 
 def automatic_of(structure: Structure, member: str) -> AutomaticHinges | None:

@@ -68,8 +68,10 @@ class Hinge(HingeAxes, Placed):
 
 
 class AutomaticHinges(HingeAxes):
-    """Candidate hinges wherever a fold can form; those not loaded to their capacity stay rigid.  Without `axis`
-    and `axes` they bend across the plane of bending, or about y and z where there is no such plane."""
+    """Candidate hinges wherever a fold can form; those not loaded to their capacity stay rigid.
+
+    Without `axis` and `axes` they bend across the plane of bending, or about y and z where there is none.
+    """
 
     spacing: PositiveLength | None = None
     """Largest distance between candidates along a member; without it they lie at its ends alone, half a fold
