@@ -4,7 +4,12 @@
 namespace nb = nanobind;
 
 namespace crumple::multibody {
+inline namespace plain {
 void bind(nb::module_& m);
+}
+inline namespace tangent {
+void bind_tangent(nb::module_& m);
+}
 }
 namespace crumple::shell {
 void bind(nb::module_& m);
@@ -21,6 +26,8 @@ NB_MODULE(_kernels, m) {
     auto space = m.def_submodule("space", "Implicit convex stepper for rigid bodies in space with plastic hinges.");
     crumple::space::bind(space);
     crumple::space::bind_hinge(space);
+    auto tangent = multibody.def_submodule("tangent", "The same stepper with derivatives.");
+    crumple::multibody::bind_tangent(tangent);
     auto shell = m.def_submodule("shell", "Explicit stepper for thin shells.");
     crumple::shell::bind(shell);
 }

@@ -10,6 +10,7 @@
 #include <thread>
 
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
@@ -23,7 +24,10 @@ Model varied(const Variations& v, size_t row) {
     if (v.bodies) {
         for (size_t i = 0; i < bodies; i++) {
             const double* b = v.bodies + 4 * (row * bodies + i);
-            model.tree.set_mass(static_cast<int>(i), {b[0], b[1]}, b[2], b[3]);
+            Body& body = model.tree.body(static_cast<int>(i));
+            body.centre = {b[0], b[1]};
+            body.mass = b[2];
+            body.inertia = b[3];
         }
     }
     for (size_t j = 0; v.capacity_scale && j < model.hinges.size(); j++) {
@@ -108,17 +112,6 @@ Finals sized(const Variations& v) {
 
 }  // namespace
 
-std::vector<double> hinge_summary(const Simulation& simulation) {
-    std::vector<double> out;
-    const std::vector<HingeState>& states = simulation.state().hinge;
-    for (size_t j = 0; j < states.size(); j++) {
-        const HingeState& s = states[j];
-        out.insert(out.end(), {s.rotation_max, s.moment_max, s.rest_time, turning(simulation.model().hinges[j], s) ? 1.0 : 0.0,
-                               s.dissipated + s.damped + s.stop_dissipated});
-    }
-    return out;
-}
-
 Finals solve_many(const Variations& v, double end, const Settings& settings, int threads,
                   const std::function<bool(double)>& poll) {
     Finals out = sized(v);
@@ -163,4 +156,5 @@ Finals solve_many(const Variations& v, double end, const Settings& settings, int
     return out;
 }
 
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

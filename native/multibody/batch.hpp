@@ -7,6 +7,7 @@
 #include "multibody/simulation.hpp"
 
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 // What varies, one row per variant; a null pointer leaves the model's own.
 struct Variations {
@@ -21,9 +22,6 @@ struct Variations {
     const double* gravity = nullptr;        // (count, 2)
 };
 
-// columns: largest absolute rotation, largest absolute moment, time of rest, 1 while still turning, dissipated
-constexpr int summary_columns = 5;
-
 // Where every variant ended, row by row; a row of a variant that was not solved holds zeros.
 struct Finals {
     std::vector<double> time, q, w;     // (count), (count, dofs)
@@ -36,10 +34,9 @@ struct Finals {
     std::vector<int64_t> outcome, steps;
 };
 
-std::vector<double> hinge_summary(const Simulation& simulation);
-
 // `poll` gets the share done, now and then, on the calling thread, and returns false to cancel.
 Finals solve_many(const Variations& variations, double end, const Settings& settings, int threads,
                   const std::function<bool(double)>& poll);
 
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

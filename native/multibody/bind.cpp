@@ -10,6 +10,7 @@
 #include "multibody/bind_model.hpp"
 
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
@@ -94,4 +95,5 @@ void bind(nb::module_& m) {
         .def_prop_ro("w", [](Simulation& s) { return s.state().w; });
 }
 
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

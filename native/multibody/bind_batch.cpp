@@ -10,6 +10,7 @@
 #include "multibody/batch.hpp"
 
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
@@ -98,4 +99,5 @@ void bind_batch(nb::module_& m) {
           nb::arg("poll").none(), "Solve every variant as one run would, on several threads.");
 }
 
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

@@ -3,7 +3,9 @@
 #include "multibody/bind_model.hpp"
 
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 void bind_batch(nb::module_& m);
 
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

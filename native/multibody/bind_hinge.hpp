@@ -10,6 +10,7 @@
 #include "multibody/hinge.hpp"
 
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 using Doubles = std::vector<double>;
 
@@ -20,7 +21,7 @@ inline void require(bool ok, const char* what) {
 inline Curve make_curve(const Doubles& x, const Doubles& y) {
     require(!x.empty() && x.size() == y.size(), "a curve needs as many values as places, at least one");
     for (size_t i = 1; i < x.size(); i++) require(x[i] > x[i - 1], "the places of a curve must increase");
-    return Curve(x, y);
+    return Curve(std::vector<Real>(x.begin(), x.end()), std::vector<Real>(y.begin(), y.end()));
 }
 
 // curves, stiffness, rate factor, damper and stops
@@ -47,4 +48,5 @@ inline Hinge make_hinge(const nanobind::dict& d, Form form, Softening softening)
     return h;
 }
 
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

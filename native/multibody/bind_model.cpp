@@ -7,6 +7,7 @@
 #include <cstring>
 
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
@@ -60,7 +61,7 @@ Weld make_weld(const nb::tuple& t) {
 Model make_model(const Integers& parent, const Integers& joint, const Array& bodies, const Doubles& q0,
                  const nb::list& hinges, const nb::list& loads, const nb::list& drives, const nb::list& holds,
                  const nb::list& welds, const Doubles& gravity, double length) {
-    Model model{make_tree(parent, joint, bodies), {}, {}, {}, {}, {}, {gravity.at(0), gravity.at(1)}, q0, length};
+    Model model{make_tree(parent, joint, bodies), {}, {}, {}, {}, {}, {gravity.at(0), gravity.at(1)}, {q0.begin(), q0.end()}, length};
     require(q0.size() == static_cast<size_t>(model.tree.dofs()), "q0 must have one entry per joint coordinate");
     for (nb::handle h : hinges) model.hinges.push_back(make_tree_hinge(nb::cast<nb::dict>(h)));
     for (nb::handle l : loads) model.loads.push_back(make_load(nb::cast<nb::tuple>(l)));
@@ -107,4 +108,5 @@ void bind_model(nb::module_& m) {
              nb::arg("drives"), nb::arg("holds"), nb::arg("welds"), nb::arg("gravity"), nb::arg("length"));
 }
 
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

@@ -11,6 +11,7 @@
 #include "multibody/simulation.hpp"
 
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 namespace nb = nanobind;
 
@@ -22,4 +23,5 @@ nb::object array(const Doubles& values, std::initializer_list<size_t> shape);
 Settings make_settings(double accuracy, double minimum_step, double maximum_step);
 void bind_model(nb::module_& m);
 
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

@@ -1,18 +1,21 @@
 // Small dense solve for drive forces: symmetric positive definite up to redundancy.
 #pragma once
 
+#include "multibody/real.hpp"
+
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 // Solves a x = b in place (b becomes x) by LDL^T.  A redundant row (pivot below 1e-12 of its diagonal) gets x = 0.
-inline void solve_symmetric(double* a, double* b, int n) {
+inline void solve_symmetric(Real* a, Real* b, int n) {
     for (int j = 0; j < n; j++) {
-        double pivot = a[j * n + j];
-        const double threshold = 1e-12 * pivot;
+        Real pivot = a[j * n + j];
+        const Real threshold = 1e-12 * pivot;
         for (int k = 0; k < j; k++) pivot -= a[j * n + k] * a[j * n + k] * a[k * n + k];
         if (!(pivot > threshold)) pivot = 0;
         a[j * n + j] = pivot;
         for (int i = j + 1; i < n; i++) {
-            double s = a[i * n + j];
+            Real s = a[i * n + j];
             for (int k = 0; k < j; k++) s -= a[i * n + k] * a[j * n + k] * a[k * n + k];
             a[i * n + j] = pivot > 0 ? s / pivot : 0;
         }
@@ -26,4 +29,5 @@ inline void solve_symmetric(double* a, double* b, int n) {
     }
 }
 
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

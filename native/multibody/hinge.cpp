@@ -3,175 +3,183 @@
 #include <algorithm>
 
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Real infinity = std::numeric_limits<Real>::infinity();
 constexpr double half_pi = 1.57079632679489661923;
 // Below this turn [rad] the mean capacity is the present one: differences of areas would cancel.
 constexpr double smallest_mean = 1e-7;
 // An elastic hinge that has yielded swings back to just its capacity, where errors of the step make it flow or
 // not; its time of rest passes over flow of less than this share of all its plastic rotation.
 constexpr double smallest_episode = 1e-2;
+// A rigid hinge of a loop that has come to rest is stirred once more while the loop's gap is mended.
+constexpr double smallest_rigid_episode = 1e-5;
 
 // Capacity in one sense (0 positive, 1 negative) before it turns further.  `u` is the plastic rotation counted in
 // that sense.  A fold that is being straightened keeps the strength that it had lost: the larger of both peaks
 // counts until the hinge is straight again.
-double present_capacity(const Hinge& hinge, const HingeState& s, int sense, double u, int& hint) {
+Real present_capacity(const Hinge& hinge, const HingeState& s, int sense, Real u, int& hint) {
     const Curve& curve = sense == 0 ? hinge.positive : hinge.negative;
     switch (hinge.softening) {
-        case Softening::rotation: return hinge.scale * curve.at(std::fabs(u), hint);
+        case Softening::rotation: return hinge.scale * curve.at(fabs(u), hint);
         case Softening::accumulated: return hinge.scale * curve.at(s.accumulated, hint);
         case Softening::peak: break;
     }
-    return hinge.scale * curve.at(u < 0 ? std::max(s.peak[0], s.peak[1]) : std::max(s.peak[sense], u), hint);
+    return hinge.scale * curve.at(u < 0 ? max(s.peak[0], s.peak[1]) : max(s.peak[sense], u), hint);
 }
 
 // Mean capacity while the hinge turns by `turn` > 0 in one sense from u.
-double mean_capacity(const Hinge& hinge, const HingeState& s, int sense, double u, double turn, int& hint) {
+Real mean_capacity(const Hinge& hinge, const HingeState& s, int sense, Real u, Real turn, int& hint) {
     const Curve& curve = sense == 0 ? hinge.positive : hinge.negative;
-    const double end = u + turn;
-    auto odd = [&](double v) { return v < 0 ? -curve.integral(-v, hint) : curve.integral(v, hint); };
+    const Real end = u + turn;
+    auto odd = [&](Real v) { return v < 0 ? -curve.integral(-v, hint) : curve.integral(v, hint); };
     switch (hinge.softening) {
         case Softening::rotation: return hinge.scale * (odd(end) - odd(u)) / turn;
         case Softening::accumulated:
             return hinge.scale * (curve.integral(s.accumulated + turn, hint) - curve.integral(s.accumulated, hint)) / turn;
         case Softening::peak: break;
     }
-    const double peak = s.peak[sense];
-    double work = 0;
-    if (u < 0) work += (std::min(end, 0.0) - u) * curve.at(std::max(s.peak[0], s.peak[1]), hint);
-    if (u < peak && end > 0) work += (std::min(end, peak) - std::max(u, 0.0)) * curve.at(peak, hint);
-    if (end > peak) work += curve.integral(end, hint) - curve.integral(std::max(u, peak), hint);
+    const Real peak = s.peak[sense];
+    Real work = 0;
+    if (u < 0) work += (min(end, 0.0) - u) * curve.at(max(s.peak[0], s.peak[1]), hint);
+    if (u < peak && end > 0) work += (min(end, peak) - max(u, 0.0)) * curve.at(peak, hint);
+    if (end > peak) work += curve.integral(end, hint) - curve.integral(max(u, peak), hint);
     return hinge.scale * work / turn;
 }
 
-double step_polynomial(double x) {
+Real step_polynomial(Real x) {
     if (x <= 0) return 0;
     if (x >= 1) return 1;
     return x * x * (3 - 2 * x);
 }
 
 // Weight of the end rate that makes a step over z = h c/I decay by e^-z: 1/(1 - e^-z) - 1/z.
-double end_weight(double z) { return z < 1e-3 ? 0.5 + z / 12 : 1 / (1 - std::exp(-z)) - 1 / z; }
+Real end_weight(Real z) { return z < 1e-3 ? 0.5 + z / 12 : 1 / (1 - exp(-z)) - 1 / z; }
 
-double damper_rate(const FrozenHinge& f, double w) { return (1 - f.damper_weight) * f.w0 + f.damper_weight * w; }
+Real damper_rate(const FrozenHinge& f, Real w) { return (1 - f.damper_weight) * f.w0 + f.damper_weight * w; }
 
-double elastic_moment(const Hinge& hinge, const FrozenHinge& f, double w) {
+Real elastic_moment(const Hinge& hinge, const FrozenHinge& f, Real w) {
     return f.m0 + hinge.stiffness * f.h * (f.w0 + w) / 2;
 }
 
-double penetration_at_end(const FrozenHinge& f, int k, double w) {
+Real penetration_at_end(const FrozenHinge& f, int k, Real w) {
     return f.gap[k] + (k == 0 ? 1 : -1) * f.h * (f.w0 + w) / 2;
 }
 
 bool counts(const Hinge& hinge, const HingeState& s) {
-    return hinge.form != Form::elastic_plastic || s.episode > smallest_episode * s.accumulated;
+    const double share = hinge.form == Form::elastic_plastic ? smallest_episode : smallest_rigid_episode;
+    return s.episode > share * s.accumulated;
 }
 
-double clamped(const FrozenHinge& f, double m) { return std::min(std::max(m, -f.capacity[1]), f.capacity[0]); }
+Real clamped(const FrozenHinge& f, Real m) { return min(max(m, -f.capacity[1]), f.capacity[0]); }
 
 // HAVSIN ramp and its integral, for a rate of x > 0 half-widths.
-double ramp(double x) { return x < 1 ? std::sin(half_pi * x) : 1; }
-double ramp_integral(double x) { return x < 1 ? (1 - std::cos(half_pi * x)) / half_pi : 1 / half_pi + x - 1; }
-double mean_ramp(double x0, double x) { return (ramp_integral(x) - ramp_integral(x0)) / (x - x0); }
+Real ramp(Real x) { return x < 1 ? sin(half_pi * x) : 1; }
+Real ramp_integral(Real x) { return x < 1 ? (1 - cos(half_pi * x)) / half_pi : 1 / half_pi + x - 1; }
+Real mean_ramp(Real x0, Real x) { return (ramp_integral(x) - ramp_integral(x0)) / (x - x0); }
 
 // Integral of the mean ramp from x0 to x, x0 < x: by Gauss points within the ramp, in closed form beyond it.
-double mean_ramp_integral(double x0, double x) {
+Real mean_ramp_integral(Real x0, Real x) {
     static constexpr double place[4] = {0.18343464249564980494, 0.52553240991632898582, 0.79666647741362673959, 0.96028985649753623168};
     static constexpr double weight[4] = {0.36268378337836198297, 0.31370664587788728734, 0.22238103445337447054, 0.10122853629037625915};
-    double sum = 0;
-    const double inner = std::min(x, 1.0);
+    Real sum = 0;
+    const Real inner = min(x, 1.0);
     if (x0 < inner) {
-        const double middle = (x0 + inner) / 2, half = (inner - x0) / 2;
+        const Real middle = (x0 + inner) / 2, half = (inner - x0) / 2;
         for (int i = 0; i < 4; i++) sum += half * weight[i] * (mean_ramp(x0, middle - half * place[i]) + mean_ramp(x0, middle + half * place[i]));
     }
     if (x <= 1) return sum;
-    const double start = std::max(x0, 1.0);
+    const Real start = max(x0, 1.0);
     // beyond the ramp the mean is 1 less what the ramp took, over the way
-    const double lost = x0 < 1 ? ramp_integral(x0) - x0 - 1 / half_pi + 1 : 0;
-    return sum + (x - start) - (lost > 0 ? lost * std::log((x - x0) / (start - x0)) : 0);
+    const Real lost = x0 < 1 ? ramp_integral(x0) - x0 - 1 / half_pi + 1 : 0;
+    return sum + (x - start) - (lost > 0 ? lost * log((x - x0) / (start - x0)) : 0);
 }
 
 // The regularised form takes the ramp at the end rate while it slows down, which decays however stiff the ramp is.
 // While it speeds up it takes the mean over the rates passed: a step may leap over the whole ramp.
-Ramp ramp_of(const FrozenHinge& f, double w) {
-    const double x = std::fabs(w) / f.width, x0 = std::fabs(f.w0) / f.width;
+Ramp ramp_of(const FrozenHinge& f, Real w) {
+    const Real x = fabs(w) / f.width, x0 = fabs(f.w0) / f.width;
     return ramp_over(w * f.w0 < 0 ? x : x0, x);
 }
 
 // Rate in the sense of a stop at which its spring and damper, taken without letting go, push with no force; below it the
 // stop has let go.  Needs a damper: the force then grows with the rate.
-double release_rate(const Stop& stop, const FrozenHinge& f, int k) {
-    const double start = std::max(f.gap[k], 0.0), sign = k == 0 ? 1 : -1;
-    auto force = [&](double v) {
-        const double g = (start + std::max(penetration_at_end(f, k, sign * v), 0.0)) / 2;
+Real release_rate(const Stop& stop, const FrozenHinge& f, int k) {
+    const Real start = max(f.gap[k], 0.0), sign = k == 0 ? 1 : -1;
+    auto force = [&](Real v) {
+        const Real g = (start + max(penetration_at_end(f, k, sign * v), 0.0)) / 2;
         return (g > 0 ? stop.force(g) : 0) + f.stop_damping[k] * v;
     };
-    double low = -1, high = 0;
+    Real low = -1, high = 0;
     while (force(low) > 0) low *= 2;
-    for (int i = 0; i < 200 && high - low > 1e-16 * std::fabs(low); i++) {
-        const double middle = (low + high) / 2;
+    for (int i = 0; i < 200 && high - low > 1e-16 * fabs(low); i++) {
+        const Real middle = (low + high) / 2;
         (force(middle) > 0 ? high : low) = middle;
     }
     return (low + high) / 2;
 }
 
 // Integral over the rate of a stop's force, taken without letting go.
-double stop_integral(const Stop& stop, const FrozenHinge& f, int k, double v) {
-    const double sign = k == 0 ? 1 : -1, start = std::max(f.gap[k], 0.0), end = penetration_at_end(f, k, sign * v);
-    const double damper = f.stop_damping[k] * v * v / 2;
+Real stop_integral(const Stop& stop, const FrozenHinge& f, int k, Real v) {
+    const Real sign = k == 0 ? 1 : -1, start = max(f.gap[k], 0.0), end = penetration_at_end(f, k, sign * v);
+    const Real damper = f.stop_damping[k] * v * v / 2;
     // rate at which the end leaves the stop
-    const double edge = -sign * f.w0 - 2 * f.gap[k] / f.h;
-    const double outside = start > 0 ? stop.force(start / 2) * (std::min(v, edge) - edge) : 0;
-    const double inside = end > 0 ? 4 / f.h * (stop.energy((start + end) / 2) - stop.energy(start / 2)) : 0;
+    const Real edge = -sign * f.w0 - 2 * f.gap[k] / f.h;
+    const Real outside = start > 0 ? stop.force(start / 2) * (min(v, edge) - edge) : 0;
+    const Real inside = end > 0 ? 4 / f.h * (stop.energy((start + end) / 2) - stop.energy(start / 2)) : 0;
     return damper + outside + inside;
 }
 
 }  // namespace
 
-Ramp ramp_over(double x0, double x) {
-    if (x - x0 < 1e-6) return {ramp(x), x < 1 ? half_pi * std::cos(half_pi * x) : 0, ramp_integral(x)};
-    const double mean = mean_ramp(x0, x);
+Ramp ramp_over(Real x0, Real x) {
+    if (x - x0 < 1e-6) return {ramp(x), x < 1 ? half_pi * cos(half_pi * x) : 0, ramp_integral(x)};
+    const Real mean = mean_ramp(x0, x);
     return {mean, (ramp(x) - mean) / (x - x0), ramp_integral(x0) + mean_ramp_integral(x0, x)};
 }
 
-double ramp_width(const Hinge& hinge) { return hinge.form == Form::regularised ? hinge.ramp_rate : stick_rate; }
+Real ramp_width(const Hinge& hinge) { return hinge.form == Form::regularised ? hinge.ramp_rate : stick_rate; }
 
-Curve::Curve(std::vector<double> x, std::vector<double> y) : x_(std::move(x)), y_(std::move(y)), area_(x_.size(), 0.0) {
+Curve::Curve(std::vector<Real> x, std::vector<Real> y) : x_(std::move(x)), y_(std::move(y)), area_(x_.size(), 0.0) {
+    integrate();
+}
+
+void Curve::integrate() {
     for (size_t i = 1; i < x_.size(); i++) area_[i] = area_[i - 1] + (x_[i] - x_[i - 1]) * (y_[i] + y_[i - 1]) / 2;
 }
 
-size_t Curve::piece(double v, int& hint) const {
-    int i = std::min(hint, static_cast<int>(x_.size()) - 2);
+size_t Curve::piece(Real v, int& hint) const {
+    int i = min(hint, static_cast<int>(x_.size()) - 2);
     while (v < x_[static_cast<size_t>(i)]) i--;
     while (v >= x_[static_cast<size_t>(i + 1)]) i++;
     hint = i;
     return static_cast<size_t>(i);
 }
 
-double Curve::at(double v, int& hint) const {
+Real Curve::at(Real v, int& hint) const {
     if (v <= x_.front()) return y_.front();
     if (v >= x_.back()) return y_.back();
     const size_t k = piece(v, hint);
     return y_[k] + (y_[k + 1] - y_[k]) * (v - x_[k]) / (x_[k + 1] - x_[k]);
 }
 
-double Curve::integral(double v, int& hint) const {
+Real Curve::integral(Real v, int& hint) const {
     if (v <= x_.front()) return (v - x_.front()) * y_.front();
     if (v >= x_.back()) return area_.back() + (v - x_.back()) * y_.back();
     const size_t k = piece(v, hint);
-    const double d = v - x_[k];
+    const Real d = v - x_[k];
     return area_[k] + d * (y_[k] + (y_[k + 1] - y_[k]) * d / (x_[k + 1] - x_[k]) / 2);
 }
 
 // Capacities before it flows, in the sense of the flow the mean over it; the elastic form needs that at the end of the
 // step, where its moment M1 stands.
-void set_capacity(const Hinge& hinge, const HingeState& s, double flow, int* hint, FrozenHinge& f) {
+void set_capacity(const Hinge& hinge, const HingeState& s, Real flow, int* hint, FrozenHinge& f) {
     for (int k = 0; k < 2; k++) f.capacity[k] = present_capacity(hinge, s, k, k == 0 ? s.plastic : -s.plastic, hint[k]);
     if (flow == 0) return;
     const int k = flow > 0 ? 0 : 1;
-    const double u = k == 0 ? s.plastic : -s.plastic, ahead = std::fabs(flow);
+    const Real u = k == 0 ? s.plastic : -s.plastic, ahead = fabs(flow);
     if (hinge.form != Form::elastic_plastic) {
         if (ahead > smallest_mean) f.capacity[k] = mean_capacity(hinge, s, k, u, ahead, hint[k]);
     } else {
@@ -182,69 +190,69 @@ void set_capacity(const Hinge& hinge, const HingeState& s, double flow, int* hin
     }
 }
 
-double rate_factor(const Hinge& hinge, double rate) {
-    const double share = std::fabs(rate) / hinge.rate_reference;
-    return share > 0 ? 1 + std::pow(share, 1 / hinge.rate_exponent) : 1;
+Real rate_factor(const Hinge& hinge, Real rate) {
+    const Real share = fabs(rate) / hinge.rate_reference;
+    return share > 0 ? 1 + pow(share, 1 / hinge.rate_exponent) : 1;
 }
 
-void freeze_beside(const Hinge& hinge, double q0, double turn, FrozenHinge& f) {
+void freeze_beside(const Hinge& hinge, Real q0, Real turn, FrozenHinge& f) {
     if (hinge.damping > 0) f.damper_weight = end_weight(f.h * hinge.damping / hinge.damped_inertia);
     for (int k = 0; k < 2; k++) {
-        const double sign = k == 0 ? 1 : -1;
+        const Real sign = k == 0 ? 1 : -1;
         const Stop& stop = hinge.stop[k];
         f.gap[k] = sign * q0 - stop.rotation;
-        const double start = std::max(f.gap[k], 0.0), end = std::max(f.gap[k] + sign * turn, 0.0);
-        const double g = (start + end) / 2;
+        const Real start = max(f.gap[k], 0.0), end = max(f.gap[k] + sign * turn, 0.0);
+        const Real g = (start + end) / 2;
         if (g == 0) continue;
-        f.touched[k] = start > 0 && end > 0 ? 1 : 2 * g / std::fabs(turn);
+        f.touched[k] = start > 0 && end > 0 ? 1 : 2 * g / fabs(turn);
         f.stop_damping[k] = stop.damping * (stop.penetration > 0 ? step_polynomial(g / stop.penetration) : 1);
     }
 }
 
-FrozenHinge freeze(const Hinge& hinge, const HingeState& s, double h, double q0, double w0, double w1, int* hint) {
+FrozenHinge freeze(const Hinge& hinge, const HingeState& s, double h, Real q0, Real w0, Real w1, int* hint) {
     FrozenHinge f;
     f.h = h;
     f.w0 = w0;
     f.m0 = s.moment;
     f.width = ramp_width(hinge);
-    const double mean_rate = (w0 + w1) / 2, turn = h * mean_rate;
-    double flow = turn;
+    const Real mean_rate = (w0 + w1) / 2, turn = h * mean_rate;
+    Real flow = turn;
     if (hinge.form == Form::elastic_plastic) {
         set_capacity(hinge, s, 0, hint, f);
         flow -= (clamped(f, elastic_moment(hinge, f, w1)) - s.moment) / hinge.stiffness;
     }
     set_capacity(hinge, s, flow, hint, f);
-    const double factor = rate_factor(hinge, mean_rate);
-    for (double& capacity : f.capacity) capacity *= factor;
+    const Real factor = rate_factor(hinge, mean_rate);
+    for (Real& capacity : f.capacity) capacity *= factor;
     freeze_beside(hinge, q0, turn, f);
     return f;
 }
 
-Response law_response(const Hinge& hinge, const FrozenHinge& f, double w) {
-    const double c = w >= 0 ? f.capacity[0] : f.capacity[1];
+Response law_response(const Hinge& hinge, const FrozenHinge& f, Real w) {
+    const Real c = w >= 0 ? f.capacity[0] : f.capacity[1];
     if (hinge.form == Form::elastic_plastic) {
-        const double trial = elastic_moment(hinge, f, w), m1 = clamped(f, trial);
+        const Real trial = elastic_moment(hinge, f, w), m1 = clamped(f, trial);
         return {f.h * (f.m0 + m1) / 2, m1 == trial ? f.h * f.h * hinge.stiffness / 4 : 0};
     }
     if (hinge.form == Form::regularised) {
         const Ramp ramp = ramp_of(f, w);
-        const double most = f.h * c;
+        const Real most = f.h * c;
         return {w < 0 ? -most * ramp.value : most * ramp.value, most * ramp.slope / f.width};
     }
-    const double x = w / f.width;
-    if (std::fabs(x) >= 1) return {w > 0 ? f.h * c : -f.h * c, 0};
+    const Real x = w / f.width;
+    if (fabs(x) >= 1) return {w > 0 ? f.h * c : -f.h * c, 0};
     return {f.h * c * x, f.h * c / f.width};
 }
 
-Response stop_response(const Hinge& hinge, const FrozenHinge& f, double w) {
+Response stop_response(const Hinge& hinge, const FrozenHinge& f, Real w) {
     Response r{0, 0};
     for (int k = 0; k < 2; k++) {
         if (f.touched[k] == 0) continue;
-        const double sign = k == 0 ? 1 : -1, v = sign * w, h = f.h * f.touched[k];
-        const double end = penetration_at_end(f, k, w), g = (std::max(f.gap[k], 0.0) + std::max(end, 0.0)) / 2;
+        const Real sign = k == 0 ? 1 : -1, v = sign * w, h = f.h * f.touched[k];
+        const Real end = penetration_at_end(f, k, w), g = (max(f.gap[k], 0.0) + max(end, 0.0)) / 2;
         const Stop& stop = hinge.stop[k];
-        const double spring = g > 0 ? stop.force(g) : 0;
-        const double force = spring + f.stop_damping[k] * v;
+        const Real spring = g > 0 ? stop.force(g) : 0;
+        const Real force = spring + f.stop_damping[k] * v;
         if (force <= 0) continue;
         r.impulse += sign * h * force;
         r.slope += h * f.stop_damping[k];
@@ -253,32 +261,32 @@ Response stop_response(const Hinge& hinge, const FrozenHinge& f, double w) {
     return r;
 }
 
-Response beside_response(const Hinge& hinge, const FrozenHinge& f, double w) {
+Response beside_response(const Hinge& hinge, const FrozenHinge& f, Real w) {
     const Response stop = stop_response(hinge, f, w);
-    const double damping = f.h * hinge.damping;
+    const Real damping = f.h * hinge.damping;
     return {stop.impulse + damping * damper_rate(f, w), stop.slope + damping * f.damper_weight};
 }
 
-Response respond(const Hinge& hinge, const FrozenHinge& f, double w) {
+Response respond(const Hinge& hinge, const FrozenHinge& f, Real w) {
     const Response law = law_response(hinge, f, w), beside = beside_response(hinge, f, w);
     return {law.impulse + beside.impulse, law.slope + beside.slope};
 }
 
-double law_potential(const Hinge& hinge, const FrozenHinge& f, double w) {
-    const double c = w >= 0 ? f.capacity[0] : f.capacity[1], x = std::fabs(w) / f.width;
+Real law_potential(const Hinge& hinge, const FrozenHinge& f, Real w) {
+    const Real c = w >= 0 ? f.capacity[0] : f.capacity[1], x = fabs(w) / f.width;
     if (hinge.form == Form::elastic_plastic) {
-        const double trial = elastic_moment(hinge, f, w), m1 = clamped(f, trial);
+        const Real trial = elastic_moment(hinge, f, w), m1 = clamped(f, trial);
         return f.h * f.m0 * w / 2 + m1 * (trial - m1 / 2) / hinge.stiffness;
     }
     if (hinge.form == Form::regularised) return f.h * c * f.width * ramp_of(f, w).integral;
     return f.h * c * f.width * (x < 1 ? x * x / 2 : x - 0.5);
 }
 
-double beside_potential(const Hinge& hinge, const FrozenHinge& f, double w) {
-    double sum = f.h * hinge.damping * w * ((1 - f.damper_weight) * f.w0 + f.damper_weight * w / 2);
+Real beside_potential(const Hinge& hinge, const FrozenHinge& f, Real w) {
+    Real sum = f.h * hinge.damping * w * ((1 - f.damper_weight) * f.w0 + f.damper_weight * w / 2);
     for (int k = 0; k < 2; k++) {
         if (f.touched[k] == 0) continue;
-        const double v = k == 0 ? w : -w, let_go = f.stop_damping[k] > 0 ? release_rate(hinge.stop[k], f, k) : -infinity;
+        const Real v = k == 0 ? w : -w, let_go = f.stop_damping[k] > 0 ? release_rate(hinge.stop[k], f, k) : -infinity;
         if (v <= let_go) continue;
         sum += f.h * f.touched[k] * stop_integral(hinge.stop[k], f, k, v);
         if (f.stop_damping[k] > 0) sum -= f.h * f.touched[k] * stop_integral(hinge.stop[k], f, k, let_go);
@@ -286,10 +294,10 @@ double beside_potential(const Hinge& hinge, const FrozenHinge& f, double w) {
     return sum;
 }
 
-int kinks(const Hinge& hinge, const FrozenHinge& f, double* rates) {
+int kinks(const Hinge& hinge, const FrozenHinge& f, Real* rates) {
     int n = 0;
     if (hinge.form == Form::elastic_plastic) {
-        const double per_moment = 2 / (hinge.stiffness * f.h);
+        const Real per_moment = 2 / (hinge.stiffness * f.h);
         rates[n++] = (f.capacity[0] - f.m0) * per_moment - f.w0;
         rates[n++] = (-f.capacity[1] - f.m0) * per_moment - f.w0;
     } else {
@@ -300,8 +308,8 @@ int kinks(const Hinge& hinge, const FrozenHinge& f, double* rates) {
     }
     for (int k = 0; k < 2; k++) {
         if (f.touched[k] == 0) continue;
-        const double sign = k == 0 ? 1 : -1, start = std::max(f.gap[k], 0.0), damping = f.stop_damping[k];
-        const double stiffness = hinge.stop[k].stiffness, quarter = f.h / 4;
+        const Real sign = k == 0 ? 1 : -1, start = max(f.gap[k], 0.0), damping = f.stop_damping[k];
+        const Real stiffness = hinge.stop[k].stiffness, quarter = f.h / 4;
         // where the end leaves the stop: gap + h (w0 + v)/2 = 0
         rates[n++] = -f.w0 - sign * 2 * f.gap[k] / f.h;
         // where a linear stop lets go with its end inside, k (start + gap + h (w0 + v)/2)/2 + c v = 0, or outside
@@ -311,16 +319,16 @@ int kinks(const Hinge& hinge, const FrozenHinge& f, double* rates) {
     return n;
 }
 
-double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0, double q0, double w1, bool guided) {
-    const double mean_rate = (f.w0 + w1) / 2;
-    double turn = f.h * mean_rate;
-    const double impulse = law_response(hinge, f, w1).impulse, stop = stop_response(hinge, f, w1).impulse;
+Real commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0, Real q0, Real w1, const Real* halt) {
+    const Real mean_rate = (f.w0 + w1) / 2;
+    Real turn = f.h * mean_rate;
+    const Real impulse = law_response(hinge, f, w1).impulse, stop = stop_response(hinge, f, w1).impulse;
     const int sense = mean_rate >= 0 ? 0 : 1;
-    double flow = turn, arrest = t0 + f.h;
+    Real flow = turn, arrest = t0 + f.h;
     bool flowed = false;
     s.capacity = f.capacity[sense];
     if (hinge.form == Form::elastic_plastic) {
-        const double m1 = clamped(f, elastic_moment(hinge, f, w1));
+        const Real m1 = clamped(f, elastic_moment(hinge, f, w1));
         flow = turn - (m1 - f.m0) / hinge.stiffness;
         s.dissipated += (f.m0 + m1) / 2 * flow;
         s.moment = m1;
@@ -328,7 +336,7 @@ double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0
         if ((s.sliding || flowed) && f.w0 * w1 < 0) {
             // plastic flow ends where the rate passes zero; a step that ends at capacity missed the turning back,
             // and so do its halves, with the very same motion, while each of them turns forward on the whole
-            if (flowed) s.overrun += f.h * w1 * w1 / std::fabs(f.w0 - w1) / 2;
+            if (flowed) s.overrun += f.h * w1 * w1 / fabs(f.w0 - w1) / 2;
             flowed = true;
             arrest = t0 + f.h * f.w0 / (f.w0 - w1);
         }
@@ -336,45 +344,46 @@ double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0
     } else {
         s.dissipated += impulse * mean_rate;
         s.moment = impulse / f.h;
-        const bool slid = std::fabs(f.w0) > f.width;
-        s.sliding = std::fabs(w1) > f.width;
+        const bool slid = fabs(f.w0) > f.width;
+        s.sliding = fabs(w1) > f.width && !(halt && *halt < f.h);
         flowed = slid || s.sliding;
-        if (slid && !s.sliding && hinge.form == Form::set_valued && stop == 0 && !guided) {
+        if (slid && !s.sliding && hinge.form == Form::set_valued && stop == 0) {
             // it stopped within the step, after the time in which the capacity gives the impulse: C t = |P|
-            const double t = std::min(f.h, std::fabs(impulse) / s.capacity);
+            const Real t = halt ? *halt : min(f.h, fabs(impulse) / s.capacity);
             arrest = t0 + t;
             turn = flow = f.w0 * t / 2;
         }
     }
     s.plastic += flow;
-    s.accumulated += std::fabs(flow);
-    if (flowed) s.episode += std::fabs(flow);
+    s.accumulated += fabs(flow);
+    if (flowed) s.episode += fabs(flow);
     if (flowed && counts(hinge, s)) s.rest_time = arrest;
     if (!s.sliding) s.episode = 0;
-    s.peak[0] = std::max(s.peak[0], s.plastic);
-    s.peak[1] = std::max(s.peak[1], -s.plastic);
+    s.peak[0] = max(s.peak[0], s.plastic);
+    s.peak[1] = max(s.peak[1], -s.plastic);
     commit_beside(hinge, f, s, q0, turn, w1);
     return turn;
 }
 
-void commit_beside(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double q0, double turn, double w1) {
-    const double mean_rate = (f.w0 + w1) / 2, stop = stop_response(hinge, f, w1).impulse;
+void commit_beside(const Hinge& hinge, const FrozenHinge& f, HingeState& s, Real q0, Real turn, Real w1) {
+    const Real mean_rate = (f.w0 + w1) / 2, stop = stop_response(hinge, f, w1).impulse;
     s.damped += f.h * hinge.damping * damper_rate(f, w1) * mean_rate;
     // also where the stop has let go and its spring relaxes into its damper
     s.stop_dissipated += stop * mean_rate - (stop_energy(hinge, q0 + turn) - stop_energy(hinge, q0));
     s.total_moment = s.moment + hinge.damping * damper_rate(f, w1) + stop / f.h;
-    s.rotation_max = std::max(s.rotation_max, std::fabs(q0 + turn));
-    s.moment_max = std::max(s.moment_max, std::fabs(s.total_moment));
+    s.rotation_max = max(s.rotation_max, fabs(q0 + turn));
+    s.moment_max = max(s.moment_max, fabs(s.total_moment));
 }
 
-double elastic_energy(const Hinge& hinge, const HingeState& s) {
+Real elastic_energy(const Hinge& hinge, const HingeState& s) {
     return hinge.form == Form::elastic_plastic ? s.moment * s.moment / (2 * hinge.stiffness) : 0;
 }
 
 bool turning(const Hinge& hinge, const HingeState& s) { return s.sliding && counts(hinge, s); }
 
-double stop_energy(const Hinge& hinge, double q) {
+Real stop_energy(const Hinge& hinge, Real q) {
     return hinge.stop[0].energy(q - hinge.stop[0].rotation) + hinge.stop[1].energy(-q - hinge.stop[1].rotation);
 }
 
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

@@ -20,7 +20,10 @@
 #include <limits>
 #include <vector>
 
+#include "multibody/real.hpp"
+
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 using std::size_t;
 
@@ -35,21 +38,25 @@ enum class Softening { peak, rotation, accumulated };
 class Curve {
 public:
     Curve() = default;
-    Curve(std::vector<double> x, std::vector<double> y);
-    double at(double v, int& hint) const;
+    Curve(std::vector<Real> x, std::vector<Real> y);
+    std::vector<Real>& places() { return x_; }
+    std::vector<Real>& values() { return y_; }
+    // the areas anew, after a change of places or values
+    void integrate();
+    Real at(Real v, int& hint) const;
     // integral from the first point to v; negative before it
-    double integral(double v, int& hint) const;
+    Real integral(Real v, int& hint) const;
 
 private:
-    size_t piece(double v, int& hint) const;
-    std::vector<double> x_, y_, area_;
+    size_t piece(Real v, int& hint) const;
+    std::vector<Real> x_, y_, area_;
 };
 
 struct Stop {
-    double rotation = std::numeric_limits<double>::infinity();  // infinite: no stop
-    double stiffness = 0, exponent = 1, damping = 0, penetration = 0;
-    double force(double g) const { return exponent == 1 ? stiffness * g : stiffness * std::pow(g, exponent); }
-    double energy(double g) const { return g > 0 ? force(g) * g / (exponent + 1) : 0; }
+    Real rotation = std::numeric_limits<double>::infinity();  // infinite: no stop
+    Real stiffness = 0, exponent = 1, damping = 0, penetration = 0;
+    Real force(Real g) const { return exponent == 1 ? stiffness * g : stiffness * pow(g, exponent); }
+    Real energy(Real g) const { return g > 0 ? force(g) * g / (exponent + 1) : 0; }
 };
 
 // Constants of one hinge.
@@ -58,76 +65,78 @@ struct Hinge {
     Form form = Form::set_valued;
     Softening softening = Softening::peak;
     Curve positive, negative;
-    double scale = 1;               // of both capacities
-    double stiffness = 0;           // elastic-plastic form [N m/rad]
-    double ramp_rate = 0.05;        // regularised form [rad/s]
-    double rate_reference = std::numeric_limits<double>::infinity(), rate_exponent = 1;
-    double damping = 0;             // [N m s/rad]
-    double damped_inertia = 1;      // inertia felt by the damper [kg m^2]; weighs its rates, no more
+    Real scale = 1;               // of both capacities
+    Real stiffness = 0;           // elastic-plastic form [N m/rad]
+    Real ramp_rate = 0.05;        // regularised form [rad/s]
+    Real rate_reference = std::numeric_limits<double>::infinity(), rate_exponent = 1;
+    Real damping = 0;             // [N m s/rad]
+    Real damped_inertia = 1;      // inertia felt by the damper [kg m^2]; weighs its rates, no more
     Stop stop[2];                   // positive, negative sense
 };
 
 // What one hinge remembers.
 struct HingeState {
-    double plastic = 0, peak[2] = {0, 0}, accumulated = 0;
-    double episode = 0;             // plastic rotation since it last came to rest
-    double overrun = 0;             // elastic-plastic: turned back within steps that still took it for plastic
-    double moment = 0;              // elastic-plastic: at the end of the last step; else its mean over it
-    double capacity = 0, total_moment = 0;  // of the sense it turns in; with dampers and stops
-    double dissipated = 0, damped = 0, stop_dissipated = 0;
-    double rotation_max = 0, moment_max = 0, rest_time = 0;
+    Real plastic = 0, peak[2] = {0, 0}, accumulated = 0;
+    Real episode = 0;             // plastic rotation since it last came to rest
+    Real overrun = 0;             // elastic-plastic: turned back within steps that still took it for plastic
+    Real moment = 0;              // elastic-plastic: at the end of the last step; else its mean over it
+    Real capacity = 0, total_moment = 0;  // of the sense it turns in; with dampers and stops
+    Real dissipated = 0, damped = 0, stop_dissipated = 0;
+    Real rotation_max = 0, moment_max = 0, rest_time = 0;
     bool sliding = false;
     int hint[2] = {0, 0};
 };
 
 // A hinge over one step, all that is not convex frozen.
 struct FrozenHinge {
-    double h = 0, w0 = 0, m0 = 0;
-    double width = 0;               // half-width of the ramp around zero rate [rad/s]; widened while a step is solved
-    double capacity[2] = {0, 0};
-    double damper_weight = 1;       // of the end rate in the damper's
-    double gap[2] = {0, 0};         // start penetration of each stop (negative: open)
-    double stop_damping[2] = {0, 0};
-    double touched[2] = {0, 0};     // share of the step in which each stop is touched
+    double h = 0;
+    Real w0 = 0, m0 = 0;
+    Real width = 0;               // half-width of the ramp around zero rate [rad/s]; widened while a step is solved
+    Real capacity[2] = {0, 0};
+    Real damper_weight = 1;       // of the end rate in the damper's
+    Real gap[2] = {0, 0};         // start penetration of each stop (negative: open)
+    Real stop_damping[2] = {0, 0};
+    Real touched[2] = {0, 0};     // share of the step in which each stop is touched
 };
 
 struct Response {
-    double impulse, slope;
+    Real impulse, slope;
 };
 
 // HAVSIN over x >= 0 half-widths, from x0 >= 0: its value at x, or its mean from x0 to x where it speeds up; with the
 // slope over x and the integral from 0 of that value.
 struct Ramp {
-    double value, slope, integral;
+    Real value, slope, integral;
 };
 
 // half-width of the ramp of the rigid forms [rad/s]
-double ramp_width(const Hinge& hinge);
-Ramp ramp_over(double x0, double x);
-FrozenHinge freeze(const Hinge& hinge, const HingeState& state, double h, double q0, double w0, double w1, int* hint);
+Real ramp_width(const Hinge& hinge);
+Ramp ramp_over(Real x0, Real x);
+FrozenHinge freeze(const Hinge& hinge, const HingeState& state, double h, Real q0, Real w0, Real w1, int* hint);
 // its parts: capacities of both senses over a plastic flow, without the rate factor; that factor; damper and stops
-void set_capacity(const Hinge& hinge, const HingeState& state, double flow, int* hint, FrozenHinge& f);
-double rate_factor(const Hinge& hinge, double rate);
-void freeze_beside(const Hinge& hinge, double q0, double turn, FrozenHinge& f);
+void set_capacity(const Hinge& hinge, const HingeState& state, Real flow, int* hint, FrozenHinge& f);
+Real rate_factor(const Hinge& hinge, Real rate);
+void freeze_beside(const Hinge& hinge, Real q0, Real turn, FrozenHinge& f);
 // impulse of the law alone, of damper and stops alone, of the stops, and of everything
-Response law_response(const Hinge& hinge, const FrozenHinge& f, double w);
-Response beside_response(const Hinge& hinge, const FrozenHinge& f, double w);
-Response stop_response(const Hinge& hinge, const FrozenHinge& f, double w);
-Response respond(const Hinge& hinge, const FrozenHinge& f, double w);
+Response law_response(const Hinge& hinge, const FrozenHinge& f, Real w);
+Response beside_response(const Hinge& hinge, const FrozenHinge& f, Real w);
+Response stop_response(const Hinge& hinge, const FrozenHinge& f, Real w);
+Response respond(const Hinge& hinge, const FrozenHinge& f, Real w);
 // convex potentials whose derivatives over w are the impulses of the law, and of damper and stops
-double law_potential(const Hinge& hinge, const FrozenHinge& f, double w);
-double beside_potential(const Hinge& hinge, const FrozenHinge& f, double w);
+Real law_potential(const Hinge& hinge, const FrozenHinge& f, Real w);
+Real beside_potential(const Hinge& hinge, const FrozenHinge& f, Real w);
 // rates at which the slope of the response changes; returns how many (at most 10)
-int kinks(const Hinge& hinge, const FrozenHinge& f, double* rates);
-// advances the memory; returns the rotation over the step.  `guided`: prescribed motion, not the hinge's own moment,
-// may have brought it to rest
-double commit(const Hinge& hinge, const FrozenHinge& f, HingeState& state, double t0, double q0, double w1, bool guided);
+int kinks(const Hinge& hinge, const FrozenHinge& f, Real* rates);
+// Advances the memory; returns the rotation over the step.  `halt`: when within the step it came to rest, should it have
+// done so by the end; less than the step where that is known; null where its own moment alone tells.
+Real commit(const Hinge& hinge, const FrozenHinge& f, HingeState& state, double t0, Real q0, Real w1, const Real* halt);
 // its part for damper and stops, the law's moment being known
-void commit_beside(const Hinge& hinge, const FrozenHinge& f, HingeState& state, double q0, double turn, double w1);
+void commit_beside(const Hinge& hinge, const FrozenHinge& f, HingeState& state, Real q0, Real turn, Real w1);
 // elastic energy in the law's spring and in both stops at rotation q
-double elastic_energy(const Hinge& hinge, const HingeState& state);
-double stop_energy(const Hinge& hinge, double q);
+Real elastic_energy(const Hinge& hinge, const HingeState& state);
+Real stop_energy(const Hinge& hinge, Real q);
 // whether it is in plastic flow that counts
 bool turning(const Hinge& hinge, const HingeState& state);
 
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

@@ -6,6 +6,7 @@
 #include "multibody/stepper.hpp"
 
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
@@ -29,17 +30,17 @@ bool Stepper::newton() {
     std::fill(rhs_.begin(), rhs_.end(), 0.0);
     const int limit = newton_limit + newton_limit_per_hinge * static_cast<int>(frozen_.size());
     if (all_set_valued_ ? descend(bold_limit, true) : descend(limit, false)) return true;
-    double width = 1;
-    for (const double w : w_) width = std::max(width, std::fabs(w));
-    if (!std::isfinite(width)) return false;
+    Real width = 1;
+    for (const Real& w : w_) width = max(width, fabs(w));
+    if (!std::isfinite(value(width))) return false;
     for (bool narrowest = false; !narrowest; width *= narrowing) {
         narrowest = true;
         for (size_t j = 0; j < frozen_.size(); j++) {
             const Hinge& hinge = model_.hinges[j];
-            const double wanted = std::max(width, ramp_width(hinge));
-            double& w = w_[static_cast<size_t>(hinge.dof)];
+            const Real wanted = max(width, ramp_width(hinge));
+            Real& w = w_[static_cast<size_t>(hinge.dof)];
             // inside the ramp the moment is kept, so the rate shrinks with the width
-            if (wanted < frozen_[j].width && std::fabs(w) < frozen_[j].width) w *= wanted / frozen_[j].width;
+            if (wanted < frozen_[j].width && fabs(w) < frozen_[j].width) w *= wanted / frozen_[j].width;
             frozen_[j].width = wanted;
             if (wanted > ramp_width(hinge)) narrowest = false;
         }
@@ -56,22 +57,22 @@ void Stepper::take_whole_step() {
     std::fill(overload_of_children_.begin(), overload_of_children_.end(), 0.0);
     for (size_t j = 0; j < frozen_.size(); j++) {
         const auto dof = static_cast<size_t>(model_.hinges[j].dof);
-        const double width = frozen_[j].width;
-        const bool locked = std::fabs(w_[dof]) < width;
+        const Real width = frozen_[j].width;
+        const bool locked = fabs(w_[dof]) < width;
         if (!locked && next_[dof] * w_[dof] < 0) next_[dof] = 0;
-        if (locked && std::fabs(next_[dof]) > width) overload_[dof] = std::fabs(next_[dof]) / width;
+        if (locked && fabs(next_[dof]) > width) overload_[dof] = fabs(next_[dof]) / width;
     }
     const Tree& tree = model_.tree;
     for (int i = 0; i < tree.bodies(); i++) {
         if (tree[i].parent < 0) continue;
-        double& most = overload_of_children_[static_cast<size_t>(tree[tree[i].parent].dof)];
-        most = std::max(most, overload_[static_cast<size_t>(tree[i].dof)]);
+        Real& most = overload_of_children_[static_cast<size_t>(tree[tree[i].parent].dof)];
+        most = max(most, overload_[static_cast<size_t>(tree[i].dof)]);
     }
     for (int i = 0; i < tree.bodies(); i++) {
         const auto dof = static_cast<size_t>(tree[i].dof);
-        const double own = overload_[dof];
+        const Real own = overload_[dof];
         if (own == 0) continue;
-        const double above = tree[i].parent < 0 ? 0 : overload_[static_cast<size_t>(tree[tree[i].parent].dof)];
+        const Real above = tree[i].parent < 0 ? 0 : overload_[static_cast<size_t>(tree[tree[i].parent].dof)];
         if (own < above || own < overload_of_children_[dof]) next_[dof] *= 0.999 / own;
     }
     w_.swap(next_);
@@ -80,26 +81,20 @@ void Stepper::take_whole_step() {
 // Newton steps, bold (whole steps, no guarantee) or with exact line search on the potential (always downhill).
 bool Stepper::descend(int limit, bool bold) {
     for (int iteration = 0; iteration < limit; iteration++) {
-        // tangent of every hinge at the present rates
-        for (size_t j = 0; j < frozen_.size(); j++) {
-            const auto dof = static_cast<size_t>(model_.hinges[j].dof);
-            const Response r = respond(model_.hinges[j], frozen_[j], w_[dof]);
-            impedance_[dof] = r.slope;
-            rhs_[dof] = r.slope * w_[dof] - r.impulse;
-        }
+        linearise();
         solve_once();
         // what the true responses leave unbalanced there, and the slope of the potential along the step
-        double slope = 0;
+        Real slope = 0;
         bool balanced = true;
         for (size_t j = 0; j < frozen_.size(); j++) {
             const auto dof = static_cast<size_t>(model_.hinges[j].dof);
-            const double w = next_[dof], tangent = impedance_[dof] * w - rhs_[dof];
-            const double impulse = respond(model_.hinges[j], frozen_[j], w).impulse, left = impulse - tangent;
-            const double scale = frozen_[j].h * (frozen_[j].capacity[0] + frozen_[j].capacity[1]) + std::fabs(impulse);
-            if (!(std::fabs(left) <= impulse_tolerance * scale)) balanced = false;
+            const Real w = next_[dof], tangent = impedance_[dof] * w - rhs_[dof];
+            const Real impulse = respond(model_.hinges[j], frozen_[j], w).impulse, left = impulse - tangent;
+            const Real scale = frozen_[j].h * (frozen_[j].capacity[0] + frozen_[j].capacity[1]) + fabs(impulse);
+            if (!(fabs(left) <= impulse_tolerance * scale)) balanced = false;
             slope += left * (w - w_[dof]);
         }
-        if (!std::isfinite(slope)) return false;
+        if (!std::isfinite(value(slope))) return false;
         if (balanced) {
             w_.swap(next_);
             return true;
@@ -109,11 +104,30 @@ bool Stepper::descend(int limit, bool bold) {
         } else if (slope <= 0) {
             w_.swap(next_);
         } else {
-            const double a = search(slope);
+            const Real a = search(slope);
             for (size_t k = 0; k < w_.size(); k++) w_[k] += a * (next_[k] - w_[k]);
         }
     }
     return false;
+}
+
+// Tangent of every hinge at the present rates.
+void Stepper::linearise() {
+    for (size_t j = 0; j < frozen_.size(); j++) {
+        const auto dof = static_cast<size_t>(model_.hinges[j].dof);
+        const Response r = respond(model_.hinges[j], frozen_[j], w_[dof]);
+        impedance_[dof] = r.slope;
+        rhs_[dof] = r.slope * w_[dof] - r.impulse;
+    }
+}
+
+// Derivatives of the solution, by the implicit function: with the solved rates as constants, the linear problem's own
+// derivatives are those of the equilibrium, since its tangents are exact there.
+void Stepper::differentiate() {
+    for (Real& w : w_) w = value(w);
+    linearise();
+    solve_once();
+    for (size_t k = 0; k < w_.size(); k++) take_directions(w_[k], next_[k]);
 }
 
 void Stepper::solve_once() {
@@ -125,18 +139,18 @@ void Stepper::solve_once() {
 
 // Adds to w the response to the constraint impulses that bring the constrained directions, from the first on, to
 // their target rates.
-void Stepper::constrain(double* w, size_t first) {
+void Stepper::constrain(Real* w, size_t first) {
     const size_t n = rows_.size() - first, m = w_.size();
-    auto rates = [&](const double* rate, double* out) {
+    auto rates = [&](const Real* rate, Real* out) {
         model_.tree.twists(middle_.data(), rate, twist_.data());
         for (size_t k = 0; k < n; k++) out[k] = row_rate(rows_[first + k], middle_.data(), twist_.data());
     };
     for (size_t k = 0; k < n; k++) {
         const Row& row = rows_[first + k];
         std::fill(work_.begin(), work_.end(), Twist{});
-        auto push = [&](int body, Vec2 point, double sign) {
+        auto push = [&](int body, Vec2 point, Real sign) {
             const Vec2 a = arm(body, point, middle_.data());
-            const double moment = row.direction.w + cross(a, row.direction.v);
+            const Real moment = row.direction.w + cross(a, row.direction.v);
             work_[static_cast<size_t>(body)] = {sign * moment, sign * row.direction.v};
         };
         push(row.body, row.point, 1);
@@ -154,8 +168,8 @@ void Stepper::constrain(double* w, size_t first) {
 
 // Root of the potential's slope along next - w, in (0, 1): exact for piecewise linear responses, because the
 // bracket shrinks to one piece before it is interpolated.
-double Stepper::search(double slope_end) {
-    double curvature = 0, linear_end = 0;
+Real Stepper::search(Real slope_end) {
+    Real curvature = 0, linear_end = 0;
     for (size_t k = 0; k < w_.size(); k++) direction_[k] = next_[k] - w_[k];
     model_.tree.twists(middle_.data(), direction_.data(), twist_.data());
     model_.tree.to_centres(middle_.data(), twist_.data());
@@ -166,30 +180,30 @@ double Stepper::search(double slope_end) {
     breakpoints_.clear();
     for (size_t j = 0; j < frozen_.size(); j++) {
         const auto dof = static_cast<size_t>(model_.hinges[j].dof);
-        const double d = direction_[dof];
+        const Real d = direction_[dof];
         linear_end += (rhs_[dof] - impedance_[dof] * next_[dof]) * d;
-        double rates[10];
+        Real rates[10];
         const int n = kinks(model_.hinges[j], frozen_[j], rates);
         for (int k = 0; k < n; k++) {
-            const double a = (rates[k] - w_[dof]) / d;
+            const Real a = (rates[k] - w_[dof]) / d;
             if (a > 0 && a < 1) breakpoints_.push_back(a);
         }
     }
-    auto slope = [&](double a) {
-        double f = linear_end - (1 - a) * curvature;
+    auto slope = [&](Real a) {
+        Real f = linear_end - (1 - a) * curvature;
         for (size_t j = 0; j < frozen_.size(); j++) {
             const auto dof = static_cast<size_t>(model_.hinges[j].dof);
-            const double w = w_[dof] + a * direction_[dof];
+            const Real w = w_[dof] + a * direction_[dof];
             f += respond(model_.hinges[j], frozen_[j], w).impulse * direction_[dof];
         }
         return f;
     };
     std::sort(breakpoints_.begin(), breakpoints_.end());
-    double lo = 0, hi = 1, f_lo = slope(0), f_hi = slope_end;
+    Real lo = 0, hi = 1, f_lo = slope(0), f_hi = slope_end;
     size_t first = 0, last = breakpoints_.size();
     while (first < last) {
         const size_t middle = (first + last) / 2;
-        const double a = breakpoints_[middle], f = slope(a);
+        const Real a = breakpoints_[middle], f = slope(a);
         if (f > 0) {
             hi = a;
             f_hi = f;
@@ -202,14 +216,15 @@ double Stepper::search(double slope_end) {
     }
     // within one piece: secant, safeguarded by bisection where the piece is curved
     for (int k = 0; k < 40 && hi - lo > 1e-15 * hi; k++) {
-        const double a = k % 3 == 2 ? (lo + hi) / 2 : lo - f_lo * (hi - lo) / (f_hi - f_lo);
+        const Real a = k % 3 == 2 ? (lo + hi) / 2 : lo - f_lo * (hi - lo) / (f_hi - f_lo);
         if (!(a > lo && a < hi)) break;
-        const double f = slope(a);
-        if (std::fabs(f) <= 1e-12 * std::fabs(slope_end)) return a;
+        const Real f = slope(a);
+        if (fabs(f) <= 1e-12 * fabs(slope_end)) return a;
         (f > 0 ? hi : lo) = a;
         (f > 0 ? f_hi : f_lo) = f;
     }
     return f_lo < -f_hi && f_hi < -f_lo ? hi : (-f_lo < f_hi && lo > 0 ? lo : hi);
 }
 
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
@@ -40,7 +41,7 @@ double kinetic_norm(const Tree& tree, const std::vector<Twist>& a, const std::ve
         const auto k = static_cast<size_t>(i);
         Twist v = a[k];
         if (b) v = {v.w - (*b)[k].w, v.v - (*b)[k].v};
-        e += tree[i].mass * dot(v.v, v.v) + tree[i].inertia * v.w * v.w;
+        e += value(tree[i].mass * dot(v.v, v.v) + tree[i].inertia * v.w * v.w);
     }
     return std::sqrt(e);
 }
@@ -49,7 +50,7 @@ double kinetic_norm(const Tree& tree, const std::vector<Twist>& a, const std::ve
 
 Simulation::Simulation(Model model, const Settings& settings)
     : model_(std::move(model)), settings_(settings), stepper_(model_), step_tolerance_(step_tolerance(settings.accuracy)) {
-    const std::vector<double> rest(static_cast<size_t>(model_.tree.dofs()), 0.0);
+    const std::vector<Real> rest(static_cast<size_t>(model_.tree.dofs()), 0.0);
     state_ = stepper_.start(model_.q0.data(), rest.data());
     between_.resize(rest.size());
     set_damping();
@@ -60,7 +61,7 @@ void Simulation::set_damping() {
     for (Hinge& hinge : model_.hinges) {
         if (hinge.damping > 0) hinge.damped_inertia = stepper_.effective_inertia(state_, hinge.dof);
         for (Stop& stop : hinge.stop) {
-            if (std::isnan(stop.damping)) critical_.push_back({&hinge, &stop});
+            if (std::isnan(value(stop.damping))) critical_.push_back({&hinge, &stop});
         }
     }
     set_critical_damping(true);
@@ -71,15 +72,16 @@ void Simulation::set_damping() {
 void Simulation::set_critical_damping(bool all) {
     for (const Critical& c : critical_) {
         const auto dof = static_cast<size_t>(c.hinge->dof);
-        const double sign = c.stop == &c.hinge->stop[0] ? 1 : -1, gap = sign * state_.q[dof] - c.stop->rotation;
-        const bool soon = gap <= 0 && gap + 2 * h_ * std::fabs(state_.w[dof]) > 0;
+        const double sign = c.stop == &c.hinge->stop[0] ? 1 : -1;
+        const double gap = value(sign * state_.q[dof] - c.stop->rotation), rate = value(state_.w[dof]);
+        const bool soon = gap <= 0 && gap + 2 * h_ * std::fabs(rate) > 0;
         if (!all && !soon) continue;
-        c.stop->damping = 2 * std::sqrt(c.stop->stiffness * stepper_.effective_inertia(state_, c.hinge->dof));
+        c.stop->damping = 2 * sqrt(c.stop->stiffness * stepper_.effective_inertia(state_, c.hinge->dof));
     }
 }
 
-double Simulation::set_motion(const Twist* velocity, const Twist* impulse) {
-    double given = 0;
+Real Simulation::set_motion(const Twist* velocity, const Twist* impulse) {
+    Real given = 0;
     std::vector<Twist> target(static_cast<size_t>(model_.tree.bodies()));
     for (int i = 0; i < model_.tree.bodies(); i++) {
         const Body& b = model_.tree[i];
@@ -88,14 +90,14 @@ double Simulation::set_motion(const Twist* velocity, const Twist* impulse) {
         given += (b.mass * dot(target[k].v, target[k].v) + b.inertia * target[k].w * target[k].w) / 2;
     }
     const std::vector<Twist> none(target.size());
-    std::vector<double> w(static_cast<size_t>(model_.tree.dofs()));
+    std::vector<Real> w(static_cast<size_t>(model_.tree.dofs()));
     stepper_.project(state_, target.data(), none.data(), w.data());
     set_rates(w.data());
     return given - energies(model_, state_).kinetic;
 }
 
-void Simulation::set_rates(const double* w) {
-    const std::vector<double> q = state_.q;
+void Simulation::set_rates(const Real* w) {
+    const std::vector<Real> q = state_.q;
     state_ = stepper_.start(q.data(), w);
 }
 
@@ -106,12 +108,12 @@ double Simulation::error(const State& coarse, const State& fine) const {
         const int n = b.joint == Joint::revolute ? 1 : 3;
         for (int k = 0; k < n; k++) {
             const auto dof = static_cast<size_t>(b.dof + k);
-            const double e = std::fabs(fine.q[dof] - coarse.q[dof]);
-            worst = std::max(worst, k == 0 ? e : e / model_.length);
+            const double e = std::fabs(value(fine.q[dof] - coarse.q[dof]));
+            worst = std::max(worst, k == 0 ? e : e / value(model_.length));
         }
     }
     for (size_t j = 0; j < model_.hinges.size(); j++) {
-        worst = std::max(worst, fine.hinge[j].overrun - state_.hinge[j].overrun);
+        worst = std::max(worst, value(fine.hinge[j].overrun - state_.hinge[j].overrun));
     }
     double e = worst / scale_;
     if (speed_ > 0) e = std::max(e, kinetic_norm(model_.tree, coarse.velocity, &fine.velocity) / speed_);
@@ -182,13 +184,13 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
 void Simulation::watch(Record& record) {
     for (int i = 0; i < model_.tree.bodies(); i++) {
         const auto dof = static_cast<size_t>(model_.tree[i].dof);
-        scale_ = std::max(scale_, std::fabs(state_.q[dof] - model_.q0[dof]));
+        scale_ = std::max(scale_, std::fabs(value(state_.q[dof] - model_.q0[dof])));
     }
     speed_ = std::max(speed_, kinetic_norm(model_.tree, state_.velocity, nullptr));
     const Energies e = energies(model_, state_);
-    work_max_ = std::max(work_max_, std::fabs(e.external_work));
+    work_max_ = std::max(work_max_, std::fabs(value(e.external_work)));
     const double reference = std::max(start_energy_ + work_max_, negligible_energy_);
-    residual_max_ = std::max(residual_max_, std::fabs(e.balance() - start_energy_));
+    residual_max_ = std::max(residual_max_, std::fabs(value(e.balance()) - start_energy_));
     if (reference > 0) record.residual = residual_max_ / reference;
 }
 
@@ -236,12 +238,12 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     const double duration = times.back() - state_.t;
     // the rotation that the strongest hinge would need for all energy: what counts as large before anything has turned
     double strongest = 0;
-    for (const HingeState& h : state_.hinge) strongest = std::max(strongest, h.capacity);
+    for (const HingeState& h : state_.hinge) strongest = std::max(strongest, value(h.capacity));
     negligible_energy_ = negligible_turn * strongest;
-    const double expected = strongest > 0 ? energies(model_, state_).kinetic / strongest / 2 : 0;
+    const double expected = strongest > 0 ? value(energies(model_, state_).kinetic) / strongest / 2 : 0;
     scale_ = std::max(scale_, std::clamp(expected, settings_.scale_floor, 0.5));
     speed_ = std::max(speed_, kinetic_norm(model_.tree, state_.velocity, nullptr));
-    start_energy_ = energies(model_, state_).balance();
+    start_energy_ = value(energies(model_, state_).balance());
     if (h_ <= 0) {
         h_ = std::clamp(duration / 100, settings_.minimum_step, settings_.maximum_step);
         stepper_.set_drift_time(2 * h_);
@@ -255,4 +257,16 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     return record;
 }
 
+std::vector<Real> hinge_summary(const Simulation& simulation) {
+    std::vector<Real> out;
+    const std::vector<HingeState>& states = simulation.state().hinge;
+    for (size_t j = 0; j < states.size(); j++) {
+        const HingeState& s = states[j];
+        out.insert(out.end(), {s.rotation_max, s.moment_max, s.rest_time, turning(simulation.model().hinges[j], s) ? 1.0 : 0.0,
+                               s.dissipated + s.damped + s.stop_dissipated});
+    }
+    return out;
+}
+
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

@@ -8,6 +8,7 @@
 #include "multibody/stepper.hpp"
 
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 enum class Outcome { complete, step_collapsed, not_finite, cancelled, refused };
 
@@ -20,19 +21,22 @@ struct Settings {
 
 struct Record {
     std::vector<double> time;
-    std::vector<double> q, w;               // (n, dofs)
-    std::vector<double> pose, velocity;     // (n, bodies, 3): angle, x, y of the origin; of the centre of mass
-    std::vector<double> hinge;              // (n, hinges, 6), see hinge_columns
-    std::vector<double> energy;             // (n, 6): kinetic, elastic, dissipated, damped, stop, external work
-    std::vector<double> drive;              // (n, drives) [N or N m]
+    std::vector<Real> q, w;               // (n, dofs)
+    std::vector<Real> pose, velocity;     // (n, bodies, 3): angle, x, y of the origin; of the centre of mass
+    std::vector<Real> hinge;              // (n, hinges, 6), see hinge_columns
+    std::vector<Real> energy;             // (n, 6): kinetic, elastic, dissipated, damped, stop, external work
+    std::vector<Real> drive;              // (n, drives) [N or N m]
     Outcome outcome = Outcome::complete;
     std::string reason;
-    double residual = 0;                    // largest |balance - start| over (start + largest external work)
+    double residual = 0;                   // largest |balance - start| over (start + largest external work)
     long steps = 0, rejected = 0, forced = 0, solves = 0;
 };
 
 // plastic rotation, moment, capacity, dissipated energy, elastic energy, stop energy
 constexpr int hinge_columns = 6;
+
+// largest absolute rotation, largest absolute moment, time of rest, 1 while still turning, dissipated energy
+constexpr int summary_columns = 5;
 
 class Simulation {
 public:
@@ -45,8 +49,8 @@ public:
     State& state() { return state_; }
     const State& state() const { return state_; }
     // joint rates at time 0 from velocities and impulses at the centres of mass; returns the energy lost in fitting
-    double set_motion(const Twist* velocity, const Twist* impulse);
-    void set_rates(const double* w);
+    Real set_motion(const Twist* velocity, const Twist* impulse);
+    void set_rates(const Real* w);
     // runs to the last of the times; `poll` gets the time reached and returns false to cancel
     Record run(const std::vector<double>& times, const std::function<bool(double)>& poll);
     // the present state alone
@@ -71,10 +75,14 @@ private:
     Stepper stepper_;
     State state_, coarse_, fine_;
     std::vector<Critical> critical_;  // stops whose damper is left to the solver
-    std::vector<double> between_;     // rates
+    std::vector<Real> between_;     // rates
     double step_tolerance_;  // of the error measure
     double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, work_max_ = 0, residual_max_ = 0, negligible_energy_ = 0;
     long poll_at_ = 0;  // work at which `poll` is asked next
 };
 
+// (hinges, summary_columns) at the present state
+std::vector<Real> hinge_summary(const Simulation& simulation);
+
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

@@ -4,11 +4,14 @@
 #include <cmath>
 
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
 // Turn [rad] over which a constraint's error is mended to 1/e: short against any rotation of interest.
 constexpr double mending_turn = 0.02;
+// Share of its rate that a hinge of a loop may keep and still count as come to rest: what the loop's gap asks of it.
+constexpr double at_rest = 1e-3;
 
 }  // namespace
 
@@ -47,6 +50,7 @@ Stepper::Stepper(const Model& model) : model_(model), solver_(model.tree) {
             add_row({weld.body, weld.other, weld.point, weld.other_point, direction, 0});
         }
     }
+    find_loops();
     const size_t d = rows_.size();
     zero_.assign(m, 0.0);
     row_target_.resize(d);
@@ -55,7 +59,7 @@ Stepper::Stepper(const Model& model) : model_(model), solver_(model.tree) {
     row_matrix_.resize(d * d);
 }
 
-State Stepper::start(const double* q, const double* w) const {
+State Stepper::start(const Real* q, const Real* w) const {
     State s;
     const auto m = static_cast<size_t>(model_.tree.dofs()), n = static_cast<size_t>(model_.tree.bodies());
     s.q.assign(q, q + m);
@@ -74,7 +78,7 @@ State Stepper::start(const double* q, const double* w) const {
     return s;
 }
 
-void Stepper::project(const State& at, const Twist* velocity, const Twist* impulse, double* w) {
+void Stepper::project(const State& at, const Twist* velocity, const Twist* impulse, Real* w) {
     std::fill(impedance_.begin(), impedance_.end(), 0.0);
     std::fill(rhs_.begin(), rhs_.end(), 0.0);
     for (int i = 0; i < model_.tree.bodies(); i++) {
@@ -89,14 +93,14 @@ void Stepper::project(const State& at, const Twist* velocity, const Twist* impul
 }
 
 // Takes out of w what would move a held point or open a weld; drives act from the first step on.
-void Stepper::keep_joined(const State& at, double* w) {
+void Stepper::keep_joined(const State& at, Real* w) {
     if (rows_.size() == model_.drives.size()) return;
     middle_ = at.pose;
     std::fill(row_target_.begin(), row_target_.end(), 0.0);
     constrain(w, model_.drives.size());
 }
 
-double Stepper::effective_inertia(const State& at, int dof) {
+Real Stepper::effective_inertia(const State& at, int dof) {
     std::fill(impedance_.begin(), impedance_.end(), 0.0);
     std::fill(rhs_.begin(), rhs_.end(), 0.0);
     std::fill(work_.begin(), work_.end(), Twist{});
@@ -107,7 +111,7 @@ double Stepper::effective_inertia(const State& at, int dof) {
     return 1 / column_[static_cast<size_t>(dof)];
 }
 
-bool Stepper::step(State& s, double h, const double* guess, int passes) {
+bool Stepper::step(State& s, double h, const Real* guess, int passes) {
     w_.assign(guess, guess + w_.size());
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         hint_[2 * j] = s.hinge[j].hint[0];
@@ -120,6 +124,7 @@ bool Stepper::step(State& s, double h, const double* guess, int passes) {
         freeze(s, h);
         // end rates
         if (!newton()) return false;
+        if (with_directions) differentiate();
     }
     commit(s, h);
     return true;
@@ -143,7 +148,7 @@ void Stepper::predict(const State& s, double h) {
     solver_.place(middle_.data());
     for (const Load& load : model_.loads) {
         int hint = 0;
-        const double impulse = h * load.scale * load.value.at(s.t + h / 2, hint);
+        const Real impulse = h * load.scale * load.value.at(s.t + h / 2, hint);
         Twist& b = bias_[static_cast<size_t>(load.body)];
         b.v = b.v + impulse * load.direction.v;
         b.w += impulse * (load.direction.w + cross(arm(load.body, load.point, middle_.data()), load.direction.v));
@@ -153,16 +158,16 @@ void Stepper::predict(const State& s, double h) {
 
 // Rates that the constrained directions must have, told for the middle's positions.  They must be the drive's own
 // (a hold's and a weld's are zero) at the positions of the end, which the last pass predicts.  What has gone astray is mended
-// while something turns, so that nothing stirs at rest.
+// while something turns to the end, so that nothing stirs at rest, nor where a step comes to it.
 void Stepper::aim_rows(const State& s, double h) {
     if (rows_.empty()) return;
-    double turning = 0;
-    for (const double w : s.w) turning = std::max(turning, std::fabs(w));
-    const double joint_mending = std::min(turning / mending_turn, 1 / (2 * h));
+    Real turning = 0;
+    for (const Real& w : w_) turning = max(turning, fabs(w));
+    const Real joint_mending = min(turning / mending_turn, 1 / (2 * h));
     const double drive_mending = 1 / std::max(2 * h, drift_time_);
     for (size_t k = 0; k < rows_.size(); k++) {
         row_target_[k] = row_rate(rows_[k], middle_.data(), twist_.data()) - row_rate(rows_[k], end_.data(), end_twist_.data());
-        double place = 0, rate = 0, mending = joint_mending;
+        Real place = 0, rate = 0, mending = joint_mending;
         if (k < model_.drives.size()) {
             const Drive& drive = model_.drives[k];
             int hint = 0;
@@ -170,7 +175,7 @@ void Stepper::aim_rows(const State& s, double h) {
             rate = drive.rate.at(s.t + h, hint);
             mending = drive_mending;
         }
-        const double astray = relative(rows_[k], s.pose.data()) - rows_[k].origin - place;
+        const Real astray = relative(rows_[k], s.pose.data()) - rows_[k].origin - place;
         row_target_[k] += rate - astray * mending;
     }
 }
@@ -180,14 +185,14 @@ void Stepper::add_row(const Row& row) {
     rows_.back().origin = relative(row, middle_.data());
 }
 
-double Stepper::relative(const Row& row, const Pose* pose) const {
+Real Stepper::relative(const Row& row, const Pose* pose) const {
     const Pose ground, &a = pose[row.body], &b = row.other < 0 ? ground : pose[row.other];
     return row.direction.w * (a.phi - b.phi) + dot(row.direction.v, a.at(row.point) - b.at(row.other_point));
 }
 
 // Relative rate in the constrained direction.
-double Stepper::row_rate(const Row& row, const Pose* pose, const Twist* twist) const {
-    const double rate = point_rate(row.direction, twist[row.body], arm(row.body, row.point, pose));
+Real Stepper::row_rate(const Row& row, const Pose* pose, const Twist* twist) const {
+    const Real rate = point_rate(row.direction, twist[row.body], arm(row.body, row.point, pose));
     if (row.other < 0) return rate;
     return rate - point_rate(row.direction, twist[row.other], arm(row.other, row.other_point, pose));
 }
@@ -200,14 +205,48 @@ void Stepper::freeze(const State& s, double h) {
     }
 }
 
+// When within the step the hinges of loops come to rest: their rates being in proportion, all at once, after the time in
+// which their capacities do the work of their impulses.  At the end of the step where one of them slides on, or
+// prescribed motion may have brought them to rest.
+Real Stepper::common_halt(double h) const {
+    Real work = 0, power = 0;
+    for (size_t j = 0; j < frozen_.size(); j++) {
+        if (!looped_[j]) continue;
+        const FrozenHinge& f = frozen_[j];
+        const Real w1 = w_[static_cast<size_t>(model_.hinges[j].dof)];
+        if (!model_.drives.empty() || fabs(w1) > max(f.width, at_rest * fabs(f.w0))) return h;
+        work += law_response(model_.hinges[j], f, w1).impulse * f.w0;
+        power += f.capacity[f.w0 > 0 ? 0 : 1] * fabs(f.w0);
+    }
+    return power > 0 ? min(max(work / power, 0.0), h) : h;
+}
+
+// Hinges on the ways between the two bodies of each weld.
+void Stepper::find_loops() {
+    looped_.assign(model_.hinges.size(), false);
+    const Tree& tree = model_.tree;
+    for (const Weld& weld : model_.welds) {
+        std::vector<int> passed(static_cast<size_t>(tree.bodies()), 0);
+        for (int start : {weld.body, weld.other}) {
+            for (int i = start; i >= 0; i = tree[i].parent) passed[static_cast<size_t>(i)]++;
+        }
+        for (size_t j = 0; j < model_.hinges.size(); j++) {
+            for (int i = 0; i < tree.bodies(); i++) {
+                if (tree[i].dof == model_.hinges[j].dof && passed[static_cast<size_t>(i)] == 1) looped_[j] = true;
+            }
+        }
+    }
+}
+
 void Stepper::commit(State& s, double h) {
     const Tree& tree = model_.tree;
-    const bool guided = !model_.drives.empty();
+    const Real common = common_halt(h);
     for (size_t k = 0; k < w_.size(); k++) dq_[k] = h * (s.w[k] + w_[k]) / 2;
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         const Hinge& hinge = model_.hinges[j];
         const auto dof = static_cast<size_t>(hinge.dof);
-        dq_[dof] = multibody::commit(hinge, frozen_[j], s.hinge[j], s.t, s.q[dof], w_[dof], guided);
+        const Real* halt = model_.drives.empty() && !looped_[j] ? nullptr : &common;
+        dq_[dof] = multibody::commit(hinge, frozen_[j], s.hinge[j], s.t, s.q[dof], w_[dof], halt);
         s.hinge[j].hint[0] = hint_[2 * j];
         s.hinge[j].hint[1] = hint_[2 * j + 1];
     }
@@ -241,4 +280,5 @@ void Stepper::commit(State& s, double h) {
     s.t += h;
 }
 
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

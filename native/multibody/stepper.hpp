@@ -13,6 +13,7 @@
 #include "multibody/tree.hpp"
 
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 // Force or moment on a body: direction (rotation, x, y) fixed in the world, at a point of the body.
 struct Load {
@@ -20,7 +21,7 @@ struct Load {
     Vec2 point;
     Twist direction;
     Curve value;
-    double scale = 1;
+    Real scale = 1;
 };
 
 // Prescribed motion of a point of a body in one direction.  The rate is piecewise linear and the displacement its
@@ -29,7 +30,7 @@ struct Drive {
     int body = 0;
     Vec2 point;
     Twist direction;
-    double start = 0;  // displacement at time 0
+    Real start = 0;  // displacement at time 0
     Curve rate;
 };
 
@@ -55,23 +56,23 @@ struct Model {
     std::vector<Hold> holds;
     std::vector<Weld> welds;
     Vec2 gravity;
-    std::vector<double> q0;  // reference joint coordinates
-    double length = 1;       // [m] turns translations of free bodies into angles for the error measure
+    std::vector<Real> q0;  // reference joint coordinates
+    Real length = 1;       // [m] turns translations of free bodies into angles for the error measure
 };
 
 struct State {
     double t = 0;
-    std::vector<double> q, w;
+    std::vector<Real> q, w;
     std::vector<Pose> pose;       // at q
     std::vector<Twist> velocity;  // of the centres of mass, at q and w
     std::vector<HingeState> hinge;
-    std::vector<double> drive_impulse;  // mean force of every drive over the last step [N]
-    double external_work = 0;
+    std::vector<Real> drive_impulse;  // mean force of every drive over the last step [N]
+    Real external_work = 0;
 };
 
 struct Energies {
-    double kinetic = 0, elastic = 0, dissipated = 0, damped = 0, stop = 0, external_work = 0;
-    double balance() const { return kinetic + elastic + dissipated + damped + stop - external_work; }
+    Real kinetic = 0, elastic = 0, dissipated = 0, damped = 0, stop = 0, external_work = 0;
+    Real balance() const { return kinetic + elastic + dissipated + damped + stop - external_work; }
 };
 
 Energies energies(const Model& model, const State& state);
@@ -84,15 +85,15 @@ public:
     explicit Stepper(const Model& model);
 
     // a state at rest or in motion from joint coordinates and rates
-    State start(const double* q, const double* w) const;
+    State start(const Real* q, const Real* w) const;
     // joint rates nearest, in kinetic energy, to given velocities of the centres of mass plus body impulses at them
-    void project(const State& at, const Twist* velocity, const Twist* impulse, double* w);
+    void project(const State& at, const Twist* velocity, const Twist* impulse, Real* w);
     // One step of length h; false when the equations did not converge (the state is then unchanged).  `guess`: end
     // rates from which the solution starts; where they err by O(h^2) at most, one pass is enough.
     bool step(State& state, double h) { return step(state, h, state.w.data(), most_passes); }
-    bool step(State& state, double h, const double* guess, int passes);
+    bool step(State& state, double h, const Real* guess, int passes);
     // inertia that the joint coordinate feels with all other hinges free: 1 / (J M^-1 J^T)
-    double effective_inertia(const State& at, int dof);
+    Real effective_inertia(const State& at, int dof);
     // least time in which drives make up for drift; without it twice the step, so that the drift of a long step
     // would jerk a short one that follows
     void set_drift_time(double time) { drift_time_ = time; }
@@ -104,36 +105,42 @@ private:
     bool newton();
     bool descend(int limit, bool bold);
     void take_whole_step();
+    void linearise();
+    void differentiate();
     void solve_once();
     // one constrained direction: motion of a point of a body, relative to one of another body or the ground
     struct Row {
         int body = 0, other = -1;
         Vec2 point, other_point;
         Twist direction;
-        double origin = 0;  // of the relative displacement at the start
+        Real origin = 0;  // of the relative displacement at the start
     };
     void add_row(const Row& row);
-    double relative(const Row& row, const Pose* pose) const;
-    double row_rate(const Row& row, const Pose* pose, const Twist* twist) const;
+    Real relative(const Row& row, const Pose* pose) const;
+    Real row_rate(const Row& row, const Pose* pose, const Twist* twist) const;
     void aim_rows(const State& s, double h);
-    void constrain(double* w, size_t first);
-    void keep_joined(const State& at, double* w);
-    double search(double slope_end);
+    void constrain(Real* w, size_t first);
+    void keep_joined(const State& at, Real* w);
+    Real search(Real slope_end);
+    void find_loops();
+    Real common_halt(double h) const;
     void commit(State& s, double h);
     Vec2 arm(int body, Vec2 point, const Pose* pose) const { return pose[body].turned(point); }
 
     const Model& model_;
     ArticulatedSolver solver_;
     std::vector<FrozenHinge> frozen_;
-    std::vector<double> w_, next_, direction_, rhs_, impedance_, dq_, column_, breakpoints_, overload_, overload_of_children_;
+    std::vector<Real> w_, next_, direction_, rhs_, impedance_, dq_, column_, breakpoints_, overload_, overload_of_children_;
     std::vector<Pose> middle_, end_;
     std::vector<Twist> twist_, end_twist_, bias_, work_;
     std::vector<Row> rows_;  // the drives, the holds, then three per weld
-    std::vector<double> row_target_, row_rates_, row_matrix_, row_force_, zero_;
+    std::vector<Real> row_target_, row_rates_, row_matrix_, row_force_, zero_;
     std::vector<int> hint_;
+    std::vector<bool> looped_;  // hinges that are part of a loop
     bool all_set_valued_ = true;
     double drift_time_ = 0;
     long solves_ = 0;
 };
 
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

@@ -3,25 +3,26 @@
 #include <cmath>
 
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
 // sine and cosine of a small angle to round-off, else the library's
-inline void sine_cosine(double a, double& s, double& c) {
-    if (std::fabs(a) > 0.125) {
-        s = std::sin(a);
-        c = std::cos(a);
+inline void sine_cosine(Real a, Real& s, Real& c) {
+    if (fabs(a) > 0.125) {
+        s = sin(a);
+        c = cos(a);
         return;
     }
-    const double b = a * a;
+    const Real b = a * a;
     s = a - a * b * (1.0 / 6 - b * (1.0 / 120 - b * (1.0 / 5040 - b * (1.0 / 362880))));
     c = 1 - b * (0.5 - b * (1.0 / 24 - b * (1.0 / 720 - b * (1.0 / 40320 - b * (1.0 / 3628800)))));
 }
 
 // Inverse of a symmetric positive definite 3x3 matrix, stored full.
-void invert(const Inertia& a, double* out) {
-    const double p = a.xx * a.yy - a.xy * a.xy, q = a.ry * a.xy - a.rx * a.yy, r = a.rx * a.xy - a.ry * a.xx;
-    const double d = 1 / (a.rr * p + a.rx * q + a.ry * r);
+void invert(const Inertia& a, Real* out) {
+    const Real p = a.xx * a.yy - a.xy * a.xy, q = a.ry * a.xy - a.rx * a.yy, r = a.rx * a.xy - a.ry * a.xx;
+    const Real d = 1 / (a.rr * p + a.rx * q + a.ry * r);
     out[0] = p * d;
     out[1] = out[3] = q * d;
     out[2] = out[6] = r * d;
@@ -41,17 +42,10 @@ Tree::Tree(std::vector<Body> bodies) : body_(std::move(bodies)) {
     }
 }
 
-void Tree::set_mass(int i, Vec2 centre, double mass, double inertia) {
-    Body& b = body_[static_cast<size_t>(i)];
-    b.centre = centre;
-    b.mass = mass;
-    b.inertia = inertia;
-}
-
-void Tree::place(const double* q, Pose* pose) const {
+void Tree::place(const Real* q, Pose* pose) const {
     for (int i = 0; i < bodies(); i++) {
         const Body& b = (*this)[i];
-        const double* qi = q + b.dof;
+        const Real* qi = q + b.dof;
         Pose& p = pose[i];
         p.phi = qi[0];
         p.origin = b.anchor;
@@ -60,17 +54,17 @@ void Tree::place(const double* q, Pose* pose) const {
             p.origin = pose[b.parent].at(b.anchor);
         }
         if (b.joint == Joint::free) p.origin = p.origin + Vec2{qi[1], qi[2]};
-        p.s = std::sin(p.phi);
-        p.c = std::cos(p.phi);
+        p.s = sin(p.phi);
+        p.c = cos(p.phi);
     }
 }
 
-void Tree::place_ahead(const Pose* from, const double* q, const double* dq, Pose* middle, Pose* end) const {
+void Tree::place_ahead(const Pose* from, const Real* q, const Real* dq, Pose* middle, Pose* end) const {
     for (int i = 0; i < bodies(); i++) {
         const Body& b = (*this)[i];
         const Pose& f = from[i];
         Pose &m = middle[i], &e = end[i];
-        double turn = dq[b.dof];
+        Real turn = dq[b.dof];
         m.origin = e.origin = b.anchor;
         if (b.parent >= 0) {
             turn += middle[b.parent].phi - from[b.parent].phi;
@@ -82,7 +76,7 @@ void Tree::place_ahead(const Pose* from, const double* q, const double* dq, Pose
             m.origin = m.origin + to;
             e.origin = e.origin + to + moved;
         }
-        double s, c;
+        Real s, c;
         sine_cosine(turn, s, c);
         m.phi = f.phi + turn;
         m.c = f.c * c - f.s * s;
@@ -94,7 +88,7 @@ void Tree::place_ahead(const Pose* from, const double* q, const double* dq, Pose
     }
 }
 
-void Tree::twists(const Pose* pose, const double* w, Twist* twist) const {
+void Tree::twists(const Pose* pose, const Real* w, Twist* twist) const {
     for (int i = 0; i < bodies(); i++) {
         const Body& b = (*this)[i];
         Twist t;
@@ -128,11 +122,11 @@ void ArticulatedSolver::place(const Pose* pose) {
 }
 
 // Eliminates joint i, all bodies further out being done: what is left of the inertia goes to the parent.
-inline void ArticulatedSolver::eliminate(int i, const double* impedance) {
+inline void ArticulatedSolver::eliminate(int i, const Real* impedance) {
     const Body& b = tree_[i];
     Inertia& a = articulated_[static_cast<size_t>(i)];
     Row& row = row_[static_cast<size_t>(i)];
-    const double* z = impedance + b.dof;
+    const Real* z = impedance + b.dof;
     if (b.joint == Joint::free) {  // hangs on the ground and hands nothing to it
         a.rr += z[0];
         a.xx += z[1];
@@ -147,10 +141,10 @@ inline void ArticulatedSolver::eliminate(int i, const double* impedance) {
     row.kept = z[0] * row.inverse;
     if (b.parent < 0) return;
     const Vec2 r = row.arm;
-    const double fx = a.rx * row.inverse, fy = a.ry * row.inverse;
-    const double xx = a.xx - a.rx * fx, xy = a.xy - a.rx * fy, yy = a.yy - a.ry * fy;
-    const double kx = a.rx * row.kept, ky = a.ry * row.kept;
-    const double rx = kx - r.y * xx + r.x * xy, ry = ky - r.y * xy + r.x * yy;
+    const Real fx = a.rx * row.inverse, fy = a.ry * row.inverse;
+    const Real xx = a.xx - a.rx * fx, xy = a.xy - a.rx * fy, yy = a.yy - a.ry * fy;
+    const Real kx = a.rx * row.kept, ky = a.ry * row.kept;
+    const Real rx = kx - r.y * xx + r.x * xy, ry = ky - r.y * xy + r.x * yy;
     Inertia& p = articulated_[static_cast<size_t>(b.parent)];
     p.rr += a.rr * row.kept + r.x * (ky + ry) - r.y * (kx + rx);
     p.rx += rx;
@@ -160,21 +154,21 @@ inline void ArticulatedSolver::eliminate(int i, const double* impedance) {
     p.yy += yy;
 }
 
-inline void ArticulatedSolver::eliminate_impulse(int i, Twist* b, const double* r) {
+inline void ArticulatedSolver::eliminate_impulse(int i, Twist* b, const Real* r) {
     const Body& body = tree_[i];
     if (body.joint == Joint::free) return;
     const Row& row = row_[static_cast<size_t>(i)];
-    const double u = r[body.dof] + b[i].w;
+    const Real u = r[body.dof] + b[i].w;
     rhs_[static_cast<size_t>(i)] = u;
     if (body.parent < 0) return;
-    const double g = u * row.inverse;
+    const Real g = u * row.inverse;
     const Vec2 linear{b[i].v.x - row.rx * g, b[i].v.y - row.ry * g};
     Twist& p = b[body.parent];
     p.w += b[i].w * row.kept - row.rr * row.inverse * r[body.dof] + cross(row.arm, linear);
     p.v = p.v + linear;
 }
 
-void ArticulatedSolver::solve(const double* impedance, Twist* b, const double* r, double* w) {
+void ArticulatedSolver::solve(const Real* impedance, Twist* b, const Real* r, Real* w) {
     articulated_ = own_;
     for (int i = tree_.bodies() - 1; i >= 0; i--) {
         eliminate(i, impedance);
@@ -183,12 +177,12 @@ void ArticulatedSolver::solve(const double* impedance, Twist* b, const double* r
     substitute(b, r, w);
 }
 
-void ArticulatedSolver::solve_again(Twist* b, const double* r, double* w) {
+void ArticulatedSolver::solve_again(Twist* b, const Real* r, Real* w) {
     for (int i = tree_.bodies() - 1; i >= 0; i--) eliminate_impulse(i, b, r);
     substitute(b, r, w);
 }
 
-void ArticulatedSolver::substitute(const Twist* b, const double* r, double* w) {
+void ArticulatedSolver::substitute(const Twist* b, const Real* r, Real* w) {
     for (int i = 0; i < tree_.bodies(); i++) {
         const Body& body = tree_[i];
         const Row& row = row_[static_cast<size_t>(i)];
@@ -196,14 +190,14 @@ void ArticulatedSolver::substitute(const Twist* b, const double* r, double* w) {
         if (body.parent >= 0) t = carried(twist_[static_cast<size_t>(body.parent)], row.arm);
         if (body.joint == Joint::free) {
             // the carried motion of a parent is part of the body's own free motion only for ground parents
-            const double* f = &free_factor_[static_cast<size_t>(9 * i)];
-            const double b0 = b[i].w + r[body.dof], b1 = b[i].v.x + r[body.dof + 1], b2 = b[i].v.y + r[body.dof + 2];
-            double* wi = w + body.dof;
+            const Real* f = &free_factor_[static_cast<size_t>(9 * i)];
+            const Real b0 = b[i].w + r[body.dof], b1 = b[i].v.x + r[body.dof + 1], b2 = b[i].v.y + r[body.dof + 2];
+            Real* wi = w + body.dof;
             for (int k = 0; k < 3; k++) wi[k] = f[3 * k] * b0 + f[3 * k + 1] * b1 + f[3 * k + 2] * b2;
             t.w += wi[0];
             t.v = t.v + Vec2{wi[1], wi[2]};
         } else {
-            const double rate = (rhs_[static_cast<size_t>(i)] - row.rr * t.w - row.rx * t.v.x - row.ry * t.v.y) * row.inverse;
+            const Real rate = (rhs_[static_cast<size_t>(i)] - row.rr * t.w - row.rx * t.v.x - row.ry * t.v.y) * row.inverse;
             w[body.dof] = rate;
             t.w += rate;
         }
@@ -211,4 +205,5 @@ void ArticulatedSolver::substitute(const Twist* b, const double* r, double* w) {
     }
 }
 
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

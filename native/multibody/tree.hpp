@@ -12,39 +12,42 @@
 #include <cstddef>
 #include <vector>
 
+#include "multibody/real.hpp"
+
 namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
 
 using std::size_t;
 
 struct Vec2 {
-    double x = 0, y = 0;
+    Real x = 0, y = 0;
 };
 
 inline Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
 inline Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
-inline Vec2 operator*(double s, Vec2 a) { return {s * a.x, s * a.y}; }
-inline double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
-inline double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-inline Vec2 turn(double rate, Vec2 arm) { return {-rate * arm.y, rate * arm.x}; }  // rate times unit normal, crossed with arm
+inline Vec2 operator*(Real s, Vec2 a) { return {s * a.x, s * a.y}; }
+inline Real dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
+inline Real cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
+inline Vec2 turn(Real rate, Vec2 arm) { return {-rate * arm.y, rate * arm.x}; }  // rate times unit normal, crossed with arm
 
 // rotation rate and velocity; also angular and linear impulse
 struct Twist {
-    double w = 0;
+    Real w = 0;
     Vec2 v;
 };
 
 // rate of a body's point, at `arm` from where `body` is given, along a direction (rotation, x, y)
-inline double point_rate(const Twist& direction, const Twist& body, Vec2 arm) {
+inline Real point_rate(const Twist& direction, const Twist& body, Vec2 arm) {
     return direction.w * body.w + dot(direction.v, body.v + turn(body.w, arm));
 }
 
 // symmetric inertia about a point, rows and columns (rotation, x, y)
 struct Inertia {
-    double rr = 0, rx = 0, ry = 0, xx = 0, xy = 0, yy = 0;
+    Real rr = 0, rx = 0, ry = 0, xx = 0, xy = 0, yy = 0;
 };
 
 struct Pose {
-    double phi = 0, c = 1, s = 0;  // angle to the reference configuration, its cosine and sine
+    Real phi = 0, c = 1, s = 0;  // angle to the reference configuration, its cosine and sine
     Vec2 origin;
     Vec2 turned(Vec2 a) const { return {c * a.x - s * a.y, s * a.x + c * a.y}; }
     Vec2 at(Vec2 a) const { return origin + turned(a); }
@@ -58,7 +61,7 @@ struct Body {
     int dof = 0;      // first joint coordinate; revolute has one (rotation), free three (rotation, x, y)
     Vec2 anchor;      // inboard joint in the parent's frame (world for ground)
     Vec2 centre;      // centre of mass in the body's frame
-    double mass = 0, inertia = 0;  // inertia about the centre of mass
+    Real mass = 0, inertia = 0;  // inertia about the centre of mass
 };
 
 class Tree {
@@ -68,14 +71,14 @@ public:
     int bodies() const { return static_cast<int>(body_.size()); }
     int dofs() const { return dofs_; }
     const Body& operator[](int i) const { return body_[static_cast<size_t>(i)]; }
-    void set_mass(int i, Vec2 centre, double mass, double inertia);
+    Body& body(int i) { return body_[static_cast<size_t>(i)]; }
 
     // poses from joint coordinates
-    void place(const double* q, Pose* pose) const;
+    void place(const Real* q, Pose* pose) const;
     // poses at q + dq and at q + 2 dq, cheaper than `place`; `from` holds those at q
-    void place_ahead(const Pose* from, const double* q, const double* dq, Pose* middle, Pose* end) const;
+    void place_ahead(const Pose* from, const Real* q, const Real* dq, Pose* middle, Pose* end) const;
     // twists of the body origins from joint rates
-    void twists(const Pose* pose, const double* w, Twist* twist) const;
+    void twists(const Pose* pose, const Real* w, Twist* twist) const;
     // velocities of the centres of mass (w unchanged) from twists of the origins
     void to_centres(const Pose* pose, Twist* twist) const;
 
@@ -92,27 +95,28 @@ public:
     void place(const Pose* pose);
     // Gives the joint rates w for impedances Z >= 0 per joint coordinate, body impulses b about the body origins
     // (overwritten) and joint impulses r.
-    void solve(const double* impedance, Twist* b, const double* r, double* w);
+    void solve(const Real* impedance, Twist* b, const Real* r, Real* w);
     // the same for further impulses, with the impedances of the last `solve`
-    void solve_again(Twist* b, const double* r, double* w);
+    void solve_again(Twist* b, const Real* r, Real* w);
 
 private:
     struct Row {
-        double rr, rx, ry;     // column of the articulated inertia that belongs to the joint's rotation
-        double inverse;        // 1 / (rr + Z)
-        double kept;           // Z / (rr + Z)
+        Real rr, rx, ry;     // column of the articulated inertia that belongs to the joint's rotation
+        Real inverse;        // 1 / (rr + Z)
+        Real kept;           // Z / (rr + Z)
         Vec2 arm;              // from the parent's origin to this body's
     };
-    void eliminate(int i, const double* impedance);
-    void eliminate_impulse(int i, Twist* b, const double* r);
-    void substitute(const Twist* b, const double* r, double* w);
+    void eliminate(int i, const Real* impedance);
+    void eliminate_impulse(int i, Twist* b, const Real* r);
+    void substitute(const Twist* b, const Real* r, Real* w);
 
     const Tree& tree_;
     std::vector<Row> row_;
     std::vector<Inertia> own_, articulated_;  // about the body origins, alone and with all that hangs on it
-    std::vector<double> rhs_;
+    std::vector<Real> rhs_;
     std::vector<Twist> twist_;
-    std::vector<double> free_factor_;  // 3x3 inverse of every free joint
+    std::vector<Real> free_factor_;  // 3x3 inverse of every free joint
 };
 
+}  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::multibody

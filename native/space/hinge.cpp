@@ -303,7 +303,7 @@ void commit(const SpaceHinge& hinge, const FrozenSpaceHinge& f, SpaceHingeState&
         turn[k] = f.h * (f.w0[k] + w1[k]) / 2;
         q1[k] = q0[k] + turn[k];
         if (apart) {
-            multibody::commit(law_of(hinge, k), f.component[k], c, t0, q0[k], w1[k], true);
+            multibody::commit(law_of(hinge, k), f.component[k], c, t0, q0[k], w1[k], &f.component[k].h);
             continue;
         }
         const double end = elastic ? 2 * impulse[k] / f.h - f.tau0[k] : impulse[k] / f.h;

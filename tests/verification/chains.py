@@ -1,4 +1,4 @@
-"""Models M1 and M2 and their hinge law, and small trees for the kernel, shared by the verification tests.
+"""Models M1 to M3 and their hinge law, and small trees for the kernel, shared by the verification tests.
 
 The bar is a tube of 50x25x2.65 mm taken as slender and uniform, 2.8998685 kg/m. The law with scale s is
 s * 1000 * (0.576 + 0.5/sqrt(max(|rotation|, 0.05))) N m, with a stop at 1.2 rad of 1e6 s N m/rad and 2e3
@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from crumple._core.tree import JointKind, Simulation, TreeBody, TreeHinge, TreeModel
+from crumple._core.tree import JointKind, Simulation, TreeBody, TreeHinge, TreeModel, TreeWeld
 
 MASS_PER_LENGTH = 2.8998685
 PAYLOAD = 6.0
@@ -93,6 +93,32 @@ def m2(number, accuracy=1e-3, form=SET_VALUED, rate=0.05, error=1e-6):
         scale = root if i == 0 else 0.8 * root * (1 - 0.1 * i / length)
         hinges.append(softening_hinge(i, scale, form, rate, error))
     return started(TreeModel(tuple(bodies), tuple(hinges)), [15.0] + [0.0] * (number - 1), accuracy)
+
+
+def m3(accuracy=1e-3, form=SET_VALUED, rate=0.05, error=1e-6):
+    """Model M3: portal A(0,0) B(0,.5) C(1,.6) D(1,0) with 20 kg at the middle of BC.
+
+    BC starts with 10 m/s along x.  CD is in two halves that a weld joins: one hangs on C, the other on D.
+    """
+    left, right = 0.5, 0.6
+    top = math.hypot(1.0, right - left)
+    bodies, hinges = [], []
+    for parent, anchor, line, share, lump in (
+        (-1, (0.0, 0.0), (0.0, left), 1.0, 0.0),
+        (0, (0.0, left), (1.0, right - left), 1.0, 20.0),
+        (1, (1.0, right - left), (0.0, -right), 0.5, 0.0),
+        (-1, (1.0, 0.0), (0.0, right), 0.5, 0.0),
+    ):
+        length = math.hypot(*line)
+        mass = share * MASS_PER_LENGTH * length
+        inertia = mass * length**2 / 12
+        centre = (line[0] / 2, line[1] / 2)
+        bodies.append(TreeBody(parent, JointKind.REVOLUTE, anchor, centre, mass + lump, inertia))
+        hinges.append(softening_hinge(len(hinges), 0.5, form, rate, error))
+    weld = TreeWeld(2, 3, (0.0, -right), (0.0, 0.0))
+    model = TreeModel(tuple(bodies), tuple(hinges), welds=(weld,), length=top)
+    rates = [-10.0 / left, 10.0 / left, -10.0 / right, -10.0 / right]
+    return started(model, rates, accuracy)
 
 
 def started(model, rates, accuracy=1e-3, **settings):

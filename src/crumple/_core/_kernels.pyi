@@ -42,6 +42,7 @@ class _Multibody:
         @property
         def w(self) -> list[float]: ...
 
+    tangent: Any
     def solve_many(
         self,
         models: list[Model],

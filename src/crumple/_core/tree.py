@@ -281,9 +281,9 @@ class Simulation:
         return np.array(self._kernel.w)
 
 
-def kernel_model(model: TreeModel) -> Any:
-    """The compiled form of a model; frozen, and shared by any number of runs."""
-    return _kernels.multibody.Model(
+def kernel_model(model: TreeModel, kind: Callable[..., Any] | None = None) -> Any:
+    """The compiled form of a model, plain or of another arithmetic; any number of runs share it."""
+    return (kind or _kernels.multibody.Model)(
         np.array([b.parent for b in model.bodies], dtype=np.int64),
         np.array([b.joint for b in model.bodies], dtype=np.int64),
         np.array([(*b.anchor, *b.centre, b.mass, b.inertia) for b in model.bodies], dtype=float),

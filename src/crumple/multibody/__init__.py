@@ -10,6 +10,7 @@ from crumple.multibody.mobility import notes
 from crumple.multibody.model import start_of, tree_hinge, tree_model
 from crumple.multibody.plane import Plane
 from crumple.multibody.run import Run
+from crumple.multibody.sensitivity import Sensitivities, sensitivities
 from crumple.multibody.solve import solve_multibody, solver_of
 from crumple.multibody.timing import stepping_seconds
 from crumple.multibody.variants import VariantTable, solve_variants
@@ -22,10 +23,12 @@ __all__ = [
     "Piece",
     "Plane",
     "Run",
+    "Sensitivities",
     "VariantTable",
     "link",
     "lower",
     "notes",
+    "sensitivities",
     "solve_multibody",
     "solve_variants",
     "solver_of",

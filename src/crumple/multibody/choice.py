@@ -10,12 +10,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from crumple.errors import InputError, Problem
 from crumple.multibody.linkage import GROUND, Linkage, link
 from crumple.multibody.mobility import mobility
 from crumple.multibody.plane import PARALLEL, plane_of
 from crumple.multibody.rigid import Floats
 from crumple.multibody.run import Run
-from crumple.structure import PlacedHinge, Structure, across_plane
+from crumple.structure import PlacedHinge, Structure, across_plane, placed_hinges
 
 MOST_LOOPS = 8
 """Closed loops up to which the tree kernel is used: its cost grows with their square."""
@@ -42,6 +43,20 @@ def why_spatial(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run)
     if asked != "auto":
         return "asked for" if asked == "spatial" else None
     return next(_reasons(structure, hinges, run), None)
+
+
+def refuse_spatial(structure: Structure, run: Run) -> None:
+    """Refuse what only the spatial kernel solves, where the planar one alone can serve.
+
+    Raises
+    ------
+    InputError
+        With the reason.
+    """
+    reason = why_spatial(structure, placed_hinges(structure), run)
+    if reason is not None:
+        what, todo = "this is computed in a plane alone", "solve the variants one by one"
+        raise InputError(Problem(what, reason, "a structure that moves in a plane", todo))
 
 
 def _reasons(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run) -> Iterator[str]:

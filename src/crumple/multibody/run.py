@@ -65,8 +65,8 @@ def poll_of(
     return poll
 
 
-def status_of(outcome: Outcome, reason: str, residual: float, bound: float) -> tuple[Status, str]:
-    """Status of a run and the reason for it."""
+def outcome_status(outcome: Outcome, reason: str, residual: float, bound: float) -> tuple[Status, str]:
+    """Status and reason of a run, its energy residual held against its bound."""
     status = STATUS[outcome]
     if status.ok and residual > bound:
         return Status.RESIDUAL_EXCEEDED, f"energy residual {residual:.2e} above its bound {bound:.2e}"

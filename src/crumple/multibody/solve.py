@@ -20,7 +20,7 @@ from crumple.multibody.histories import (
     summaries,
 )
 from crumple.multibody.rigid import Floats
-from crumple.multibody.run import CHECK_FACTOR, Cancel, Progress, Run, picture_times, poll_of, status_of
+from crumple.multibody.run import CHECK_FACTOR, Cancel, Progress, Run, outcome_status, picture_times, poll_of
 from crumple.multibody.shapes import states_of
 from crumple.multibody.solved import Solved, Solver
 from crumple.multibody.space_solver import SpaceSolver
@@ -117,7 +117,7 @@ def _result(
     seconds: float,
 ) -> Result:
     bound = run.settings.energy_residual_bound
-    status, reason = status_of(solved.outcome, solved.reason, solved.residual, bound)
+    status, reason = outcome_status(solved.outcome, solved.reason, solved.residual, bound)
     wanted = [
         *node_channels(structure, solved.poses, run.outputs.nodes),
         *section_channels(structure, solved.poses, run.outputs),

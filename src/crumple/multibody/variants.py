@@ -21,14 +21,13 @@ from numpy.typing import ArrayLike, NDArray
 from crumple._core.batch import TreeFinals, TreeVariants, solve_many
 from crumple._core.tree import Outcome
 from crumple.errors import InputError, Problem, Status
-from crumple.multibody.choice import why_spatial
+from crumple.multibody.choice import refuse_spatial
+from crumple.multibody.factors import FACTORS, checked_names
 from crumple.multibody.finals import final_quantities, part_of
 from crumple.multibody.lowered import Lowered, RawMass, lowered, raw_mass, tree_arrays
 from crumple.multibody.rigid import Floats
-from crumple.multibody.run import STATUS, Cancel, Progress, Run
-from crumple.structure import Structure, changed, placed_hinges, value_at
-
-FACTORS = ("initial_velocity", "impulses", "loads", "gravity")
+from crumple.multibody.run import Cancel, Progress, Run, outcome_status
+from crumple.structure import Structure, changed, value_at
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,10 +106,7 @@ def solve_variants(
     ----------
     docs/theory/variants.md.  Verified in tests/unit/multibody/test_variants.py.
     """
-    across = why_spatial(structure, placed_hinges(structure), run)
-    if across is not None:
-        what, todo = "variants are solved in a plane alone", "solve them one by one"
-        raise InputError(Problem(what, across, "a structure that moves in a plane", todo))
+    refuse_spatial(structure, run)
     base = lowered(structure, run.duration)
     values = _columns(structure, base, parameters)
     slow = [name for name in values if not _quick(name)]
@@ -154,17 +150,7 @@ def _columns(structure: Structure, base: Lowered, parameters: Mapping[str, Array
         problems.append(Problem(what, "", "a path of the input, or a factor", todo, "parameters"))
     if problems:
         raise InputError(problems)
-    hinges = [name for name, _ in base.hinges]
-    for name in values:
-        head, *rest = name.split(".")
-        if head == "hinges":
-            if len(rest) != 2 or rest[0] not in hinges or rest[1] != "capacity":
-                allowed = ", ".join(f"hinges.{hinge}.capacity" for hinge in hinges)
-                raise InputError(
-                    Problem("no hinge has this factor", name, allowed, "choose one of them", name)
-                )
-        elif name not in FACTORS:
-            value_at(structure, name)
+    checked_names(structure, base, list(values))
     return {name: np.broadcast_to(column, (count,)).copy() for name, column in values.items()}
 
 
@@ -248,16 +234,11 @@ def _outcomes(
 ) -> tuple[tuple[Status, ...], tuple[str, ...]]:
     status, reason = [], []
     for row, (code, residual) in enumerate(zip(finals.outcome, finals.residual, strict=True)):
-        state, why = STATUS[Outcome(int(code))], ""
+        outcome = Outcome(int(code))
+        nonsense = "masses, inertias and capacities must be positive, and every value finite"
+        state, why = outcome_status(outcome, nonsense if outcome is Outcome.REFUSED else "", residual, bound)
         if row in refused:
             state, why = Status.REFUSED, refused[row]
-        elif state is Status.REFUSED:
-            why = "masses, inertias and capacities must be positive, and every value finite"
-        elif state.ok and residual > bound:
-            state, why = (
-                Status.RESIDUAL_EXCEEDED,
-                f"energy residual {residual:.2e} above its bound {bound:.2e}",
-            )
         status.append(state)
         reason.append(why)
     return tuple(status), tuple(reason)

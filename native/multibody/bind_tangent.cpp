@@ -1,0 +1,91 @@
+// Python face of a run with derivatives.
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "multibody/bind_model.hpp"
+#include "multibody/directions.hpp"
+#include "multibody/simulation.hpp"
+
+namespace crumple::multibody {
+inline namespace CRUMPLE_ARITHMETIC {
+
+namespace {
+
+// values of one variant, (bodies, 3), with their derivatives, (directions, bodies, 3)
+std::vector<Twist> twists(const Array& values, const Array& slopes, int bodies, size_t count) {
+    const auto n = static_cast<size_t>(3 * bodies);
+    require(values.size() == n && slopes.size() == count * n, "velocities and impulses must have shape (bodies, 3)");
+    std::vector<Twist> out(static_cast<size_t>(bodies));
+    for (size_t i = 0; i < n; i++) {
+        Real x(values.data()[i]);
+        for (size_t k = 0; k < count; k++) x.d[k] = slopes.data()[k * n + i];
+        Twist& t = out[i / 3];
+        (i % 3 == 0 ? t.w : i % 3 == 1 ? t.v.x : t.v.y) = x;
+    }
+    return out;
+}
+
+// values in the first row, derivatives in those that follow
+nb::object rows(const std::vector<Real>& values, size_t count) {
+    Doubles out;
+    for (const Real& x : values) out.push_back(x.v);
+    for (size_t k = 0; k < count; k++) {
+        for (const Real& x : values) out.push_back(x.d[k]);
+    }
+    return array(out, {count + 1, values.size()});
+}
+
+nb::dict solve(Model& given, const std::vector<Model*>& up, const std::vector<Model*>& down, const Doubles& width,
+               const Array& velocity, const Array& velocity_slopes, const Array& impulse, const Array& impulse_slopes,
+               double end, double accuracy, double minimum_step, double maximum_step, nb::object poll) {
+    const size_t count = width.size();
+    require(count <= directions && up.size() == count && down.size() == count, "too many directions at a time");
+    Model model = given;
+    require(set_directions(model, up, down, width), "a parameter changes more than numbers of the model");
+    const int bodies = model.tree.bodies();
+    const std::vector<Twist> v = twists(velocity, velocity_slopes, bodies, count);
+    const std::vector<Twist> blow = twists(impulse, impulse_slopes, bodies, count);
+    Simulation simulation(std::move(model), make_settings(accuracy, minimum_step, maximum_step));
+    simulation.set_motion(v.data(), blow.data());
+    std::function<bool(double)> ask;
+    if (!poll.is_none()) {
+        ask = [&poll](double t) {
+            nb::gil_scoped_acquire locked;
+            return nb::cast<bool>(poll(t));
+        };
+    }
+    Record record;
+    {
+        nb::gil_scoped_release released;
+        record = simulation.run({end}, ask);
+    }
+    const Record last = simulation.present();
+    nb::dict d;
+    d["q"] = rows(last.q, count);
+    d["w"] = rows(last.w, count);
+    d["pose"] = rows(last.pose, count);
+    d["velocity"] = rows(last.velocity, count);
+    d["hinge"] = rows(last.hinge, count);
+    d["energy"] = rows(last.energy, count);
+    d["summary"] = rows(hinge_summary(simulation), count);
+    d["time"] = simulation.state().t;
+    d["outcome"] = static_cast<int>(record.outcome);
+    d["reason"] = record.reason;
+    d["residual"] = record.residual;
+    d["steps"] = record.steps;
+    return d;
+}
+
+}  // namespace
+
+void bind_tangent(nb::module_& m) {
+    bind_model(m);
+    m.attr("directions") = directions;
+    m.def("solve", &solve, nb::arg("model"), nb::arg("up"), nb::arg("down"), nb::arg("width"), nb::arg("velocity"),
+          nb::arg("velocity_slopes"), nb::arg("impulse"), nb::arg("impulse_slopes"), nb::arg("end"), nb::arg("accuracy"),
+          nb::arg("minimum_step"), nb::arg("maximum_step"), nb::arg("poll").none(),
+          "One run to its end, with derivatives along directions.");
+}
+
+}  // namespace CRUMPLE_ARITHMETIC
+}  // namespace crumple::multibody

@@ -1,0 +1,65 @@
+"""Parameters of a structure: paths of its input, and factors on what it has."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from crumple.errors import InputError, Problem
+from crumple.multibody.lowered import Lowered
+from crumple.structure import Structure, value_at
+
+FACTORS = ("initial_velocity", "impulses", "loads", "gravity")
+"""Beside these, ``hinges.NAME.capacity``."""
+
+
+def checked_names(structure: Structure, base: Lowered, names: Sequence[str]) -> None:
+    """Refuse parameters that do not exist.
+
+    Raises
+    ------
+    InputError
+        If a path leads nowhere or to no number, or a hinge has another name.
+    """
+    hinges = [name for name, _ in base.hinges]
+    for name in names:
+        head, *rest = name.split(".")
+        if head == "hinges":
+            if len(rest) != 2 or rest[0] not in hinges or rest[1] != "capacity":
+                allowed = ", ".join(f"hinges.{hinge}.capacity" for hinge in hinges)
+                raise InputError(
+                    Problem("no hinge has this factor", name, allowed, "choose one of them", name)
+                )
+        elif name not in FACTORS:
+            value_at(structure, name)
+
+
+def scaled(base: Lowered, name: str) -> Callable[[float], Lowered] | None:
+    """For a factor: the model with it; None for a path of the input."""
+    tree, start = base.tree, base.start
+
+    def capacity(factor: float) -> Lowered:
+        hinge_name = name.split(".")[1]
+        hinges = tuple(
+            replace(hinge, capacity_scale=factor if own == hinge_name else 1.0)
+            for hinge, (own, _) in zip(tree.hinges, base.hinges, strict=True)
+        )
+        return replace(base, tree=replace(tree, hinges=hinges))
+
+    def loads(factor: float) -> Lowered:
+        loads = tuple(replace(load, values=factor * load.values) for load in tree.loads)
+        return replace(base, tree=replace(tree, loads=loads))
+
+    def gravity(factor: float) -> Lowered:
+        x, y = tree.gravity
+        return replace(base, tree=replace(tree, gravity=(factor * x, factor * y)))
+
+    def velocity(factor: float) -> Lowered:
+        return replace(base, start=replace(start, velocity=factor * start.velocity))
+
+    def impulses(factor: float) -> Lowered:
+        return replace(base, start=replace(start, impulse=factor * start.impulse))
+
+    if name.startswith("hinges."):
+        return capacity
+    return {"initial_velocity": velocity, "impulses": impulses, "loads": loads, "gravity": gravity}.get(name)
