@@ -51,6 +51,8 @@ static void add_material(Model& m, const nb::dict& d) {
     a.rate_reference = nb::cast<double>(d["rate_reference"]);
     a.rate_exponent = nb::cast<double>(d["rate_exponent"]);
     a.rate_time = nb::cast<double>(d["rate_time"]);
+    a.rate_logarithm = nb::cast<double>(d["rate_logarithm"]);
+    a.rigid = nb::cast<bool>(d["rigid"]);
     a.failure_strain = nb::cast<double>(d["failure_strain"]);
     a.fails_at_any_point = nb::cast<bool>(d["fails_at_any_point"]);
     if (a.plastic_strain.size() != a.yield_stress.size()) throw std::invalid_argument("a hardening table has unequal columns");
@@ -85,6 +87,8 @@ static void set_settings(Model& m, const nb::dict& d) {
     s.hourglass_membrane = nb::cast<double>(d["hourglass_membrane"]);
     s.hourglass_shear = nb::cast<double>(d["hourglass_shear"]);
     s.hourglass_bending = nb::cast<double>(d["hourglass_bending"]);
+    s.stabilised = nb::cast<bool>(d["stabilised"]);
+    s.drill_stiffness = nb::cast<double>(d["drill_stiffness"]);
 }
 
 static void set_contact(Model& m, const nb::dict& d) {

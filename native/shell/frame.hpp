@@ -59,12 +59,20 @@ CRUMPLE_INLINE Gradient gradient(const Frame& f, const Pattern& p, Vec e) {
     return {gx, gy, dot(p.alternating, e) - f.hx * gx - f.hy * gy};
 }
 
-// Largest squared frequency [1/s2] of membrane waves; `wave` holds 4 c^2 (3 c^2 for a triangle).
+// A corner that lies beyond the diagonal between its neighbours turns over: there the share of the area that grows from
+// corner to corner, h . b, passes 1.  At 3 it has gone half the way on to the opposite corner: no shape of metal.
+constexpr double turned_over = 3.0;
+
+CRUMPLE_INLINE Mask inverted(const Frame& f) {
+    const Real first = magnitude(f.hx * f.bx1 + f.hy * f.by1), second = magnitude(f.hx * f.bx2 + f.hy * f.by2);
+    return larger(first, second) > turned_over;
+}
+
+// Largest squared frequency [1/s2] of membrane waves; `wave` holds 4 c^2.
 // Row sums bound the eigenvalue of sum(b b^T): exact for rectangles, safe for skewed shapes.
-CRUMPLE_INLINE Real frequency(const Frame& f, Real wave, double triangle) {
-    const Real xx = 2.0 * (f.bx1 * f.bx1 + f.bx2 * f.bx2 + triangle * f.bx1 * f.bx2);
-    const Real yy = 2.0 * (f.by1 * f.by1 + f.by2 * f.by2 + triangle * f.by1 * f.by2);
-    const Real xy = 2.0 * (f.bx1 * f.by1 + f.bx2 * f.by2) + triangle * (f.bx1 * f.by2 + f.bx2 * f.by1);
+CRUMPLE_INLINE Real frequency(const Frame& f, Real wave) {
+    const Real xx = 2.0 * (f.bx1 * f.bx1 + f.bx2 * f.bx2), yy = 2.0 * (f.by1 * f.by1 + f.by2 * f.by2);
+    const Real xy = 2.0 * (f.bx1 * f.by1 + f.bx2 * f.by2);
     return wave * (larger(xx, yy) + magnitude(xy));
 }
 

@@ -1,34 +1,66 @@
 // The element and node stages, compiled once for each instruction set (CRUMPLE_KERNELS names the build).
 #include "kernel.hpp"
 
+#include <algorithm>
+
 #include "element.hpp"
 #include "transpose.hpp"
 
 namespace crumple::shell {
 namespace {
 
-template <Law law, int points>
+template <Formulation kind, Law law, int points>
 inline void run_block(const ElementStage& stage, const Part& part, std::size_t block, double* out, Real& stiffest) {
+    constexpr int corners = kind == Formulation::triangle ? 3 : 4;
     Vec x[4], v[4], w[4];
-    for (int c = 0; c < 4; c++) {
+    for (int c = 0; c < corners; c++) {
         const std::uint32_t* node = stage.nodes + lanes * (4 * block + c);
         x[c] = gather(stage.position, position_record, node);
         v[c] = gather(stage.velocity, velocity_record, node);
         w[c] = gather(stage.velocity + 4, velocity_record, node);
     }
+    // the frame of a triangle is that of a quadrilateral whose last side has no length
+    if constexpr (corners == 3) {
+        x[3] = x[2];
+        v[3] = v[2];
+        w[3] = w[2];
+    }
     Real* slots = reinterpret_cast<Real*>(stage.state + stage.offset[block]);
-    const CornerForces forces = update_block<law, points>(part, x, v, w, stage.dt, slots, stiffest);
-    for (int c = 0; c < 4; c++) {
+    const CornerForces forces = update_block<kind, law, points>(part, {x, v, w, stage.dt}, slots, stiffest);
+    for (int c = 0; c < corners; c++) {
         scatter(forces.force[c], out + corner_record * c, 4 * corner_record);
         scatter(forces.moment[c], out + corner_record * c + 4, 4 * corner_record);
     }
 }
 
-template <int points> inline void run_any_law(const ElementStage& stage, const Part& part, std::size_t block, double* out, Real& stiffest) {
+template <Formulation kind, int points>
+inline void run_any_law(const ElementStage& stage, const Part& part, std::size_t block, double* out, Real& stiffest) {
     switch (part.law) {
-        case Law::elastic: return run_block<Law::elastic, points>(stage, part, block, out, stiffest);
-        case Law::linear: return run_block<Law::linear, points>(stage, part, block, out, stiffest);
-        case Law::general: return run_block<Law::general, points>(stage, part, block, out, stiffest);
+        case Law::elastic: return run_block<kind, Law::elastic, points>(stage, part, block, out, stiffest);
+        case Law::linear: return run_block<kind, Law::linear, points>(stage, part, block, out, stiffest);
+        case Law::general: return run_block<kind, Law::general, points>(stage, part, block, out, stiffest);
+    }
+}
+
+template <Formulation kind>
+inline void run_any_points(const ElementStage& stage, const Part& part, std::size_t block, double* out, Real& stiffest) {
+    if (part.points == 5)
+        run_any_law<kind, 5>(stage, part, block, out, stiffest);
+    else
+        run_any_law<kind, 0>(stage, part, block, out, stiffest);
+}
+
+inline void run_any_shape(const ElementStage& stage, const Part& part, std::size_t block, double* out, Real& stiffest) {
+    // the place of the corner forces is shared with other blocks
+    if (part.rigid) {
+        std::fill_n(out, 4 * corner_record * lanes, 0.0);
+        return;
+    }
+    switch (part.formulation) {
+        case Formulation::one_point: return run_any_points<Formulation::one_point>(stage, part, block, out, stiffest);
+        case Formulation::stabilised: return run_any_points<Formulation::stabilised>(stage, part, block, out, stiffest);
+        // few: not unrolled
+        case Formulation::triangle: return run_any_law<Formulation::triangle, 0>(stage, part, block, out, stiffest);
     }
 }
 
@@ -44,11 +76,8 @@ ElementReport run_elements(const ElementStage& stage, std::size_t first, std::si
     for (std::size_t block = first; block < last; block++, out += 4 * corner_record * lanes) {
         const Part& part = stage.parts[stage.part_of[block]];
         if (stage.from_memory) prefetch(stage.state + stage.offset[block + 1], stage.offset[block + 1] - stage.offset[block]);
-        Real stiffest;
-        if (part.points == 5)
-            run_any_law<5>(stage, part, block, out, stiffest);
-        else
-            run_any_law<0>(stage, part, block, out, stiffest);
+        Real stiffest{};
+        run_any_shape(stage, part, block, out, stiffest);
         // NaN fails every comparison, so it counts as beyond the limit
         const Mask fine = stiffest <= stage.frequency_limit;
         if (report.bad_block < 0 && any(~fine)) report.bad_block = std::int64_t(block);

@@ -5,6 +5,7 @@
 // shear is corrected to the same order.  Theory: docs/theory/shell_element.md.
 #pragma once
 #include "frame.hpp"
+#include "part.hpp"
 
 namespace crumple::shell {
 namespace {
@@ -12,15 +13,34 @@ namespace {
 struct StrainIncrement {
     Real xx, yy, xy;             // membrane; xy is the engineering shear
     Real kx, ky, kxy;            // change of curvature [1/m]
-    Real xz, yz;                 // engineering transverse shear
+    Real xz{}, yz{};             // engineering transverse shear
 };
 struct HourglassRate {
     Real x, y, z, rx, ry;        // [m/s], [rad/s]
 };
-struct Kinematics {
-    StrainIncrement strain;
-    HourglassRate hourglass;
+// Gradients of velocity and of rotation rate in the element's axes.
+struct Motion {
+    Gradient vx, vy, vz, wx, wy;
 };
+
+CRUMPLE_INLINE Motion motion_of(const Frame& f, const Pattern& v, const Pattern& w) {
+    return {gradient(f, v, f.e1), gradient(f, v, f.e2), gradient(f, v, f.e3), gradient(f, w, f.e1), gradient(f, w, f.e2)};
+}
+
+CRUMPLE_INLINE StrainIncrement membrane_and_bending(const Motion& m, double dt) {
+    const Gradient &vx = m.vx, &vy = m.vy, &vz = m.vz;
+    const double half = 0.5 * dt;
+    StrainIncrement s;
+    // membrane: linear part and the quadratic part of the Almansi strain
+    s.xx = dt * (vx.x - half * (vx.x * vx.x + vy.x * vy.x + vz.x * vz.x));
+    s.yy = dt * (vy.y - half * (vx.y * vx.y + vy.y * vy.y + vz.y * vz.y));
+    s.xy = dt * (vx.y + vy.x - dt * (vx.x * vx.y + vy.x * vy.y + vz.x * vz.y));
+    // bending
+    s.kx = dt * m.wy.x;
+    s.ky = -dt * m.wx.y;
+    s.kxy = dt * (m.wy.y - m.wx.x);
+    return s;
+}
 
 // Belytschko-Wong-Chiang: in a warped element the normals p_I differ from corner to corner, so that the
 // gradient changes through the thickness, b(z) = b + z b_c.  In the plane p_1 = -p_3 = -hz b_1, p_2 = -p_4 = hz b_2.
@@ -50,33 +70,12 @@ CRUMPLE_INLINE void project_drill(const Frame& f, const Warp& w, Vec (&omega)[4]
     omega[3] = omega[3] + dot(omega[3], f.e3) * w.tilt2;
 }
 
-CRUMPLE_INLINE Kinematics kinematics(const Frame& f, const Vec (&velocity)[4], const Vec (&nodal_omega)[4], double dt,
-                                     const Part& part) {
-    Kinematics k;
-    Vec omega[4] = {nodal_omega[0], nodal_omega[1], nodal_omega[2], nodal_omega[3]};
-    if (part.warping_correction) project_drill(f, warp_of(f), omega);
-    const Pattern v = pattern(velocity), w = pattern(omega);
-    const Gradient vx = gradient(f, v, f.e1), vy = gradient(f, v, f.e2), vz = gradient(f, v, f.e3);
-    const Gradient wx = gradient(f, w, f.e1), wy = gradient(f, w, f.e2);
-    const Vec mean = part.mean_12 * (omega[0] + omega[1]) + part.mean_34 * (omega[2] + omega[3]);
-    const double half = 0.5 * dt;
-    const Real turn = 0.5 * half * (vy.x - vx.y);
-    StrainIncrement& s = k.strain;
-    // membrane: linear part and the quadratic part of the Almansi strain
-    s.xx = dt * (vx.x - half * (vx.x * vx.x + vy.x * vy.x + vz.x * vz.x));
-    s.yy = dt * (vy.y - half * (vx.y * vx.y + vy.y * vy.y + vz.y * vz.y));
-    s.xy = dt * (vx.y + vy.x - dt * (vx.x * vx.y + vy.x * vy.y + vz.x * vz.y));
-    // bending
-    s.kx = dt * wy.x;
-    s.ky = -dt * wx.y;
-    s.kxy = dt * (wy.y - wx.x);
-    if (part.warping_correction) add_warp(f, warp_of(f), v, dt, s);
-    // transverse shear
-    s.xz = dt * (vz.x + dot(mean, f.e2) + turn * vz.y);
-    s.yz = dt * (vz.y - dot(mean, f.e1) - turn * vz.x);
-    // hourglass rates, blind to linear fields and to rigid rotation of a warped element
-    k.hourglass = {vx.hourglass + f.hz * vz.x, vy.hourglass + f.hz * vz.y, vz.hourglass, wx.hourglass, wy.hourglass};
-    return k;
+// Hourglass rates, blind to linear fields and, to second order in the step, to rigid rotation of a warped element: there
+// dvx/dz = -dvz/dx - dt dvy/dx dvz/dy and so on.
+CRUMPLE_INLINE HourglassRate hourglass_rate(const Frame& f, const Motion& m, double dt) {
+    const Gradient &vx = m.vx, &vy = m.vy, &vz = m.vz;
+    return {vx.hourglass + f.hz * (vz.x + dt * vy.x * vz.y), vy.hourglass + f.hz * (vz.y + dt * vx.y * vz.x),
+            vz.hourglass - (0.5 * dt) * f.hz * (vz.x * vz.x + vz.y * vz.y), m.wx.hourglass, m.wy.hourglass};
 }
 
 }  // namespace

@@ -25,9 +25,18 @@ enum Slot : int {
 };
 // Slots of one thickness point.
 enum PointSlot : int { stress_x, stress_y, stress_xy, plastic_strain, point_slots };
+// Slots behind the points, of elements that hold more than the five hourglass modes.
+enum ExtraSlot : int {
+    edge_shear,                      // second resultant of varying transverse shear; the first is hourglass_z [N m]
+    drill_1, drill_2, drill_3, drill_4,   // moment about the normal at each corner [N m]
+    extra_slots
+};
 
 constexpr int point_slot(int point, int slot) { return common_slots + point_slots * point + slot; }
 constexpr int rate_slot(int points, int point) { return common_slots + point_slots * points + point; }
-constexpr int slots_of(int points, bool rate) { return common_slots + point_slots * points + (rate ? points : 0); }
+constexpr int extra_slot(int points, bool rate, int slot) {
+    return common_slots + (point_slots + (rate ? 1 : 0)) * points + slot;
+}
+constexpr int slots_of(int points, bool rate, bool extra) { return extra_slot(points, rate, extra ? int(extra_slots) : 0); }
 
 }  // namespace crumple::shell

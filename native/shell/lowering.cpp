@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace crumple::shell {
 
-// Cowper-Symonds exponent, table and failure of a material into a part
+// Rate law, table and failure of a material into a part
 static void set_plasticity(Part& p, const Material& a) {
-    p.rate = std::isfinite(a.rate_reference) && !a.yield_stress.empty();
-    p.inverse_rate_reference = p.rate ? 1.0 / a.rate_reference : 0.0;
-    p.inverse_rate_exponent = p.rate ? 1.0 / a.rate_exponent : 0.0;
+    const bool rate = std::isfinite(a.rate_reference) && !a.yield_stress.empty();
+    p.rate = !rate ? Rate::none : (a.rate_logarithm > 0.0 ? Rate::logarithm : Rate::power);
+    p.inverse_rate_reference = rate ? 1.0 / a.rate_reference : 0.0;
+    p.rate_exponent = p.rate == Rate::logarithm ? a.rate_logarithm : (rate ? 1.0 / a.rate_exponent : 0.0);
     p.rate_time = a.rate_time;
     p.table_size = int(a.yield_stress.size());
     p.table_strain = a.plastic_strain.data();
@@ -21,7 +23,7 @@ static void set_plasticity(Part& p, const Material& a) {
     p.yield_stress = a.yield_stress.empty() ? 0.0 : a.yield_stress[0];
     p.hardening = a.hardening_modulus;
     // one point with a slope behind it is the fast law
-    p.law = a.yield_stress.empty() ? Law::elastic : (a.yield_stress.size() == 1 && !p.rate ? Law::linear : Law::general);
+    p.law = a.yield_stress.empty() ? Law::elastic : (a.yield_stress.size() == 1 && !rate ? Law::linear : Law::general);
 }
 
 Part part_of(const Model& m, const Sheet& sheet, bool triangle) {
@@ -40,14 +42,14 @@ Part part_of(const Model& m, const Sheet& sheet, bool triangle) {
     set_plasticity(p, a);
     p.points = sheet.points;
     thickness_rule(sheet.points, sheet.lobatto, p.z, p.weight);
-    p.mean_12 = triangle ? 1.0 / 3.0 : 0.25;
-    p.mean_34 = triangle ? 1.0 / 6.0 : 0.25;
-    p.triangle = triangle ? 1.0 : 0.0;
+    p.rigid = a.rigid;
     const Settings& s = m.settings;
     p.viscous_hourglass = s.viscous_hourglass;
-    p.hourglass_membrane = triangle ? 0.0 : s.hourglass_membrane;
-    p.hourglass_shear = triangle ? 0.0 : s.hourglass_shear;
-    p.hourglass_bending = triangle ? 0.0 : s.hourglass_bending;
+    p.hourglass_membrane = s.hourglass_membrane;
+    p.hourglass_shear = s.hourglass_shear;
+    p.hourglass_bending = s.hourglass_bending;
+    p.formulation = triangle ? Formulation::triangle : (s.stabilised ? Formulation::stabilised : Formulation::one_point);
+    p.drill_stiffness = triangle ? 0.0 : s.drill_stiffness;
     p.thickness_update = s.thickness_update;
     p.warping_correction = s.warping_correction && !triangle;
     return p;
@@ -73,7 +75,7 @@ static void list_corners(const Model& m, Blocks& b) {
     };
     std::vector<std::vector<Corner>> corners(c.count());
     for (std::size_t e = 0; e < m.elements(); e++)
-        for (int k = 0; k < 4; k++) {
+        for (int k = 0; k < m.corners(e); k++) {
             const Place p = place_in_chunk(b, e, k);
             corners[p.chunk].push_back({m.quads[4 * e + std::size_t(k)], p.record});
         }
@@ -113,7 +115,7 @@ static void list_cuts(const Model& m, Blocks& b) {
         std::vector<std::uint8_t> in(m.nodes(), 0);
         for (Index n : m.cuts[i].nodes) in[n] = 1;
         for (Index e : m.cuts[i].elements)
-            for (int k = 0; k < 4; k++)
+            for (int k = 0; k < m.corners(e); k++)
                 if (in[m.quads[4 * std::size_t(e) + std::size_t(k)]]) all.push_back({place_in_chunk(b, e, k), i});
     }
     std::vector<std::size_t> order(all.size());
@@ -146,7 +148,7 @@ Blocks block_up(const Model& m, int lanes) {
             const std::size_t block = b.part_of.size();
             b.part_of.push_back(std::uint32_t(b.parts.size() - 1));
             b.offset.push_back(offset);
-            offset += std::size_t(lanes) * std::size_t(slots_of(part.points, part.rate));
+            offset += std::size_t(lanes) * std::size_t(slots_of(part.points, part.rate != Rate::none, part.extra()));
             for (int lane = 0; lane < lanes; lane++) {
                 const bool real = start + std::size_t(lane) < members.size();
                 const std::size_t e = members[real ? start + std::size_t(lane) : members.size() - 1];
@@ -172,6 +174,7 @@ Blocks block_up(const Model& m, int lanes) {
 
 double first_stable_step(const Model& m, std::size_t e) {
     const Material& a = m.materials[m.sheets[m.sheet_of[e]].material];
+    if (a.rigid) return std::numeric_limits<double>::infinity();
     Vec3 x[4];
     for (int c = 0; c < 4; c++) x[c] = read3(&m.position[3 * m.quads[4 * e + c]]);
     // the kernel's frame and bound, for one element
@@ -182,11 +185,14 @@ double first_stable_step(const Model& m, std::size_t e) {
     const Vec3 e1 = (1.0 / norm(both)) * both, e2 = cross(e3, e1);
     const double bx1 = -dot(d42, e2) * inverse, bx2 = dot(d31, e2) * inverse;
     const double by1 = dot(d42, e1) * inverse, by2 = -dot(d31, e1) * inverse;
-    const double tri = m.triangle(e) ? 1.0 : 0.0;
-    const double xx = 2.0 * (bx1 * bx1 + bx2 * bx2 + tri * bx1 * bx2), yy = 2.0 * (by1 * by1 + by2 * by2 + tri * by1 * by2);
-    const double xy = 2.0 * (bx1 * by1 + bx2 * by2) + tri * (bx1 * by2 + bx2 * by1);
+    const bool tri = m.triangle(e);
+    // the sum of b b^T over the corners: corners 3 and 4 have -b_1 and -b_2, a triangle's third has -b_1 - b_2
+    const double x3 = bx1 + bx2, y3 = by1 + by2, twice = tri ? 1.0 : 2.0;
+    const double xx = twice * (bx1 * bx1 + bx2 * bx2) + (tri ? x3 * x3 : 0.0);
+    const double yy = twice * (by1 * by1 + by2 * by2) + (tri ? y3 * y3 : 0.0);
+    const double xy = twice * (bx1 * by1 + bx2 * by2) + (tri ? x3 * y3 : 0.0);
     const double c2 = a.youngs_modulus / (1.0 - a.poissons_ratio * a.poissons_ratio) / a.density;
-    return 2.0 / std::sqrt((4.0 - tri) * c2 * (std::max(xx, yy) + std::abs(xy)));
+    return 2.0 / std::sqrt((tri ? 3.0 : 4.0) * c2 * (std::max(xx, yy) + std::abs(xy)));
 }
 
 // In a mesh the stiffest mode alternates from element to element and cannot dilate them all; an element
@@ -194,11 +200,11 @@ double first_stable_step(const Model& m, std::size_t e) {
 static std::vector<double> loose_ends(const Model& m) {
     std::vector<int> sharing(m.nodes(), 0);
     for (std::size_t e = 0; e < m.elements(); e++)
-        for (std::size_t c = 0; c < (m.triangle(e) ? 3 : 4); c++) sharing[m.quads[4 * e + c]]++;
+        for (std::size_t c = 0; c < std::size_t(m.corners(e)); c++) sharing[m.quads[4 * e + c]]++;
     std::vector<double> out(m.elements(), 1.0);
     for (std::size_t e = 0; e < m.elements(); e++) {
         int own = 0;
-        for (std::size_t c = 0; c < (m.triangle(e) ? 3 : 4); c++) own += sharing[m.quads[4 * e + c]] == 1;
+        for (std::size_t c = 0; c < std::size_t(m.corners(e)); c++) own += sharing[m.quads[4 * e + c]] == 1;
         if (own >= 2) out[e] = 1.0 + m.materials[m.sheets[m.sheet_of[e]].material].poissons_ratio;
     }
     return out;
@@ -228,8 +234,8 @@ Masses lump(const Model& m) {
         out.added += mass - plain;
         const bool tri = m.triangle(e);
         const double gyration = (t * t + (tri ? 2.0 : 1.0) * inertia_factor(m.materials[m.sheets[m.sheet_of[e]].material]) * area) / 12.0;
-        for (int c = 0; c < 4; c++) {
-            const double share = tri ? (c < 2 ? 1.0 / 3.0 : 1.0 / 6.0) : 0.25;
+        for (int c = 0; c < m.corners(e); c++) {
+            const double share = tri ? 1.0 / 3.0 : 0.25;
             out.mass[m.quads[4 * e + c]] += share * mass;
             out.inertia[m.quads[4 * e + c]] += share * mass * gyration;
         }

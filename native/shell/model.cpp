@@ -58,6 +58,7 @@ static void check_materials(const Model& m) {
         const Material& a = m.materials[i];
         if (!(a.density > 0.0)) refuse("material", i, "its density is not positive");
         if (!(a.youngs_modulus > 0.0)) refuse("material", i, "its Young's modulus is not positive");
+        if (!(a.rate_time >= 0.0)) refuse("material", i, "the smoothing time of its strain rate is negative");
         if (!(a.poissons_ratio > -1.0 && a.poissons_ratio <= 0.5)) refuse("material", i, "Poisson's ratio lies outside (-1, 0.5]");
         for (std::size_t k = 0; k < a.yield_stress.size(); k++) {
             if (!(a.yield_stress[k] > 0.0)) refuse("material", i, "a yield stress is not positive");
@@ -72,15 +73,29 @@ static void check_materials(const Model& m) {
     }
 }
 
+// what is rigid must be moved as one body, and something must give the time step
+static void check_rigid_elements(const Model& m, const std::vector<Index>& set_of) {
+    bool something_strains = false;
+    for (std::size_t e = 0; e < m.elements(); e++) {
+        const bool rigid = m.materials[m.sheets[m.sheet_of[e]].material].rigid;
+        something_strains |= !rigid;
+        const Index set = set_of[m.quads[4 * e]];
+        for (std::size_t c = 0; rigid && c < 4; c++)
+            if (!set || set_of[m.quads[4 * e + c]] != set) refuse("element", e, "it is rigid, but its nodes are not all in one rigid set");
+    }
+    if (!something_strains) throw std::invalid_argument("every element is rigid: nothing gives a time step");
+}
+
 static void check_sets(const Model& m) {
-    std::vector<std::uint8_t> taken(m.nodes(), 0);
+    std::vector<Index> taken(m.nodes(), 0);
     for (std::size_t i = 0; i < m.rigid_sets.size(); i++)
         for (Index n : m.rigid_sets[i].nodes) {
             if (n >= m.nodes()) refuse("rigid set", i, "node " + std::to_string(n) + " does not exist");
             if (taken[n]) refuse("rigid set", i, "node " + std::to_string(n) + " belongs to a rigid set already");
             if (m.fixed[n]) refuse("rigid set", i, "node " + std::to_string(n) + " is fixed; fix the set instead");
-            taken[n] = 1;
+            taken[n] = Index(i + 1);
         }
+    check_rigid_elements(m, taken);
     for (std::size_t i = 0; i < m.loads.size(); i++)
         if (m.loads[i].node >= m.nodes()) refuse("load", i, "its node does not exist");
     for (std::size_t i = 0; i < m.motions.size(); i++) {

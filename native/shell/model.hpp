@@ -22,6 +22,8 @@ struct Material {
     std::vector<double> plastic_strain, yield_stress;   // empty: elastic; constant beyond the last point
     double hardening_modulus;                           // slope behind a single point [Pa]; not with a rate effect
     double rate_reference, rate_exponent, rate_time;    // reference infinite: no rate effect
+    double rate_logarithm;                              // above 0: Johnson-Cook C in place of the power law
+    bool rigid;                                         // elements do not deform; their nodes belong to rigid sets
     double failure_strain;                              // infinite: never
     bool fails_at_any_point;
 };
@@ -91,6 +93,8 @@ struct Settings {
     Vec3 gravity;
     bool thickness_update = true, warping_correction = false, viscous_hourglass = false;
     double hourglass_membrane = 0.01, hourglass_shear = 0.01, hourglass_bending = 0.01;
+    bool stabilised = false;         // quadrilaterals are physically stabilised
+    double drill_stiffness = 0.0;    // share of G V that holds the drill of quadrilaterals
 };
 
 struct Model {
@@ -115,6 +119,7 @@ struct Model {
     std::size_t nodes() const { return position.size() / 3; }
     std::size_t elements() const { return thickness.size(); }
     bool triangle(std::size_t e) const { return quads[4 * e + 2] == quads[4 * e + 3]; }
+    int corners(std::size_t e) const { return triangle(e) ? 3 : 4; }
 };
 
 // Throws std::invalid_argument naming the first node, element or set that cannot be computed.

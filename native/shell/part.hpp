@@ -5,6 +5,8 @@
 namespace crumple::shell {
 
 enum class Law : int { elastic, linear, general };   // no yield | linear hardening | table, rate or both
+enum class Formulation : int { one_point, stabilised, triangle };
+enum class Rate : int { none, power, logarithm };    // Cowper-Symonds | Johnson-Cook
 
 struct Part {
     double youngs_modulus, poissons_ratio, density;
@@ -14,22 +16,24 @@ struct Part {
     double pressure_ratio;       // R = (1 + nu) / (3 (1 - nu)): how fast the mean stress returns, relative to the deviator
     double bulk_compliance;      // (1 - 2 nu) / E: elastic change of volume per in-plane trace of stress
     double inverse_3g;           // 1 / (3 G)
+    Formulation formulation;
     Law law;
+    bool rigid;                  // its nodes are one rigid body, so it strains nothing
     double yield_stress, hardening;              // Law::linear: Y = yield_stress + hardening * plastic strain
     int table_size;                              // Law::general
     const double* table_strain;
     const double* table_stress;
-    bool rate;
-    double inverse_rate_reference, inverse_rate_exponent, rate_time;
+    Rate rate;
+    double inverse_rate_reference, rate_exponent, rate_time;   // exponent: 1/q, or C of the logarithm
     bool fails, fails_at_any_point;
     double failure_strain;
     int points;
     double z[max_points], weight[max_points];    // in units of the thickness, z in [-1/2, 1/2], weights sum to 1
-    double mean_12, mean_34;     // share of corners 1, 2 and 3, 4 in the mean rotation: 1/4, 1/4 or 1/3, 1/6
-    double triangle;             // 0 or 1
     bool viscous_hourglass;
     double hourglass_membrane, hourglass_shear, hourglass_bending;
     bool thickness_update, warping_correction;
+    double drill_stiffness;      // share of G V; 0: nothing holds the drill
+    bool extra() const { return formulation == Formulation::stabilised || drill_stiffness > 0.0; }
 };
 
 }  // namespace crumple::shell

@@ -49,13 +49,19 @@ CRUMPLE_INLINE YieldLine yield_line(const Part& part, Real start, Real at, Real 
     return {line.value * factor, line.slope * factor};
 }
 
-// Cowper-Symonds factor 1 + (rate / D)^(1/q); `rate` is smoothed in place over part.rate_time
+// Cowper-Symonds 1 + (rate / D)^(1/q) or Johnson-Cook 1 + C ln(rate / D), 1 below D; `rate` is smoothed in place
+// over part.rate_time
 CRUMPLE_INLINE Real rate_factor(const Part& part, Real& rate, Real strain, double dt) {
     const double share = dt / (dt + part.rate_time);
     if (dt > 0.0) rate += share * (strain * (1.0 / dt) - rate);
     Real factor;
-    for (int i = 0; i < lanes; i++)
-        factor[i] = 1.0 + __builtin_pow(rate[i] * part.inverse_rate_reference, part.inverse_rate_exponent);
+    for (int i = 0; i < lanes; i++) {
+        const double relative = rate[i] * part.inverse_rate_reference;
+        const bool power = part.rate == Rate::power;
+        const double rise = power ? __builtin_pow(relative, part.rate_exponent)
+                                  : (relative > 1.0 ? part.rate_exponent * __builtin_log(relative) : 0.0);
+        factor[i] = 1.0 + rise;
+    }
     return factor;
 }
 

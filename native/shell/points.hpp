@@ -13,6 +13,12 @@ struct Resultants {
     Real kept{};                 // mean share of the deviator left by plastic return
 };
 
+// Stress integrals: resultants over the thickness, and the transverse shear stress times volume [N m].
+struct Integrals {
+    Resultants r;
+    Real volume, thickness, xz, yz;
+};
+
 template <Law law>
 CRUMPLE_INLINE void update_point(const Part& part, int k, const StrainIncrement& s, Real thickness, double dt, Real* slots,
                                  Resultants& r) {
@@ -29,7 +35,7 @@ CRUMPLE_INLINE void update_point(const Part& part, int k, const StrainIncrement&
     if constexpr (law == Law::linear) plastic = return_linear(part, now, point[plastic_strain]);
     if constexpr (law == Law::general) {
         Real factor = all(1.0);
-        if (part.rate) {
+        if (part.rate != Rate::none) {
             const Real e2 = (4.0 / 3.0) * (ex * ex + ey * ey + ex * ey + 0.25 * exy * exy);
             factor = rate_factor(part, slots[rate_slot(part.points, k)], root(e2), dt);
         }

@@ -115,7 +115,7 @@ void Simulation::start_elements() {
         auto slot = [&](int s) -> double& { return state_[blocks_.offset[block] + std::size_t(s * blocks_.lanes) + lane]; };
         slot(thickness) = model_->thickness[e];
         slot(volume0) = model_->thickness[e] * area_of(*model_, e);
-        slot(wave) = (part.triangle > 0.0 ? 3.0 : 4.0) * part.plane_modulus * masses_.loose[e] / (part.density * masses_.scale[e]);
+        slot(wave) = (part.formulation == Formulation::triangle ? 3.0 : 4.0) * part.plane_modulus * masses_.loose[e] / (part.density * masses_.scale[e]);
         slot(alive) = 1.0;
         can_fail_ |= part.fails;
     }
@@ -174,7 +174,14 @@ void Simulation::end_step(const std::vector<ElementReport>& reports) {
     dt_ = std::min(stable, 1.02 * dt_);
 }
 
-// the first element of the block that is not finite, else the one that is torn or the smallest
+// as in frame.hpp
+static bool is_inverted(const Vec3 (&x)[4]) {
+    const Vec3 d31 = x[2] - x[0], d42 = x[3] - x[1], normal = cross(d31, d42), h = (x[0] + x[2]) - (x[1] + x[3]);
+    const double area = dot(normal, normal), first = dot(h, cross(normal, d42)), second = dot(h, cross(normal, d31));
+    return std::max(std::abs(first), std::abs(second)) > 3.0 * area;
+}
+
+// the first element of the block that is not finite or inverted, else the one that is torn or the smallest
 void Simulation::note_failure(const ElementReport& r) {
     const std::size_t block = std::size_t(r.bad_block);
     end_ = std::isinf(r.frequency) ? End::torn : End::step_collapsed;
@@ -190,6 +197,11 @@ void Simulation::note_failure(const ElementReport& r) {
         const double area = norm(cross(x[2] - x[0], x[3] - x[1]));
         if (!std::isfinite(area) || !std::isfinite(slot(std::size_t(e), internal_energy))) {
             end_ = End::not_finite;
+            failed_element_ = e;
+            return;
+        }
+        if (std::isinf(r.frequency) && !model_->triangle(std::size_t(e)) && is_inverted(x)) {
+            end_ = End::inverted;
             failed_element_ = e;
             return;
         }

@@ -15,7 +15,7 @@ struct Energies {
     double residual = 0.0, eroded = 0.0;
 };
 
-enum class End : int { running, reached, not_finite, step_collapsed, torn };
+enum class End : int { running, reached, not_finite, step_collapsed, torn, inverted };
 
 struct Checkpoint {
     std::vector<double> numbers, nodes, elements, sums, bodies, drives, contact;

@@ -11,6 +11,7 @@ import numpy as np
 from crumple._core.shell_build import built, floats, kernel
 from crumple._core.shell_model import (
     Cut,
+    Element,
     Floats,
     Hourglass,
     NodalLoad,
@@ -27,6 +28,7 @@ from crumple.errors import InputError, Status
 
 __all__ = [
     "Cut",
+    "Element",
     "Hourglass",
     "NodalLoad",
     "PrescribedVelocity",
@@ -47,7 +49,13 @@ _LOOK_EVERY = 0.1
 # Point quantities by their place in the state, see native/shell/layout.hpp.
 _POINT_SLOTS = {"stress_x": 0, "stress_y": 1, "stress_xy": 2, "plastic_strain": 3}
 # How the core says that a run ended, see End in native/shell/simulation.hpp.
-_REACHED, _NOT_FINITE, _COLLAPSED, _TORN = 1, 2, 3, 4
+_REACHED, _NOT_FINITE, _COLLAPSED, _TORN, _INVERTED = 1, 2, 3, 4, 5
+_ENDS = {
+    _NOT_FINITE: Status.NOT_FINITE,
+    _COLLAPSED: Status.STEP_COLLAPSED,
+    _TORN: Status.NOT_FINITE,
+    _INVERTED: Status.INVERTED,
+}
 
 
 class ShellState:
@@ -108,10 +116,8 @@ class ShellState:
             left -= self._core.steps - before
             if progress is not None:
                 progress(self)
-            if end in (_NOT_FINITE, _TORN):
-                return Status.NOT_FINITE
-            if end == _COLLAPSED:
-                return Status.STEP_COLLAPSED
+            if end in _ENDS:
+                return _ENDS[end]
             if end == _REACHED or left <= 0:
                 return Status.COMPLETE
 
@@ -123,6 +129,8 @@ class ShellState:
             return f"the state of element {element} is not finite at {self.time:.6g} s"
         if self._core.end == _COLLAPSED:
             return f"element {element} has collapsed: stable step below the least at {self.time:.6g} s"
+        if self._core.end == _INVERTED:
+            return f"element {element} is inverted: a corner has crossed it at {self.time:.6g} s"
         if self._core.end == _TORN:
             what = f"element {element} strained by more than a third in one step"
             return f"the run has gone astray: {what} at {self.time:.6g} s"

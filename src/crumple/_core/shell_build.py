@@ -10,11 +10,13 @@ from numpy.typing import ArrayLike
 
 from crumple._core import _kernels
 from crumple._core.shell_model import (
+    Element,
     Floats,
     History,
     Hourglass,
     Indices,
     RigidObstacle,
+    RigidSet,
     ShellMaterial,
     ShellModel,
     ShellSettings,
@@ -67,21 +69,15 @@ def built(model: ShellModel) -> Any:
 
 def _add_material(core: Any, material: ShellMaterial) -> None:
     strain, stress = material.table()
-    names = (
-        "density",
-        "youngs_modulus",
-        "poissons_ratio",
-        "hardening_modulus",
-        "rate_reference",
-        "rate_exponent",
-    )
-    names += ("rate_time", "failure_strain", "fails_at_any_point")  # type: ignore[assignment]
+    names = ("density", "youngs_modulus", "poissons_ratio", "hardening_modulus", "failure_strain")
+    names += ("rate_reference", "rate_exponent", "rate_logarithm", "rate_time")  # type: ignore[assignment]
+    names += ("fails_at_any_point", "rigid")  # type: ignore[assignment]
     values = {name: getattr(material, name) for name in names}
     core.material({**values, "plastic_strain": strain, "yield_stress": stress})
 
 
 def _add_sets(core: Any, model: ShellModel) -> None:
-    for rigid in model.rigid_sets:
+    for rigid in [*model.rigid_sets, *_rigid_sheets(model)]:
         nodes = _indices(rigid.nodes)
         at = model.position[nodes].mean(axis=0) if rigid.at is None else rigid.at
         core.rigid_set(nodes, rigid.mass, floats(at), floats(rigid.inertia), _bits(rigid.fixed))
@@ -120,10 +116,24 @@ def _history(history: History | None) -> tuple[Floats, Floats] | None:
     return None if history is None else (floats(history[0]), floats(history[1]))
 
 
+def _rigid_sheets(model: ShellModel) -> list[RigidSet]:
+    """One rigid body of each sheet of a rigid material; sheets that share nodes are one."""
+    taken = {int(node) for rigid in model.rigid_sets for node in np.asarray(rigid.nodes)}
+    sheet_of = np.broadcast_to(model.sheet, (len(model.elements),))
+    bodies: list[set[int]] = []
+    for i, sheet in enumerate(model.sheets):
+        if model.materials[sheet.material].rigid:
+            nodes = {int(n) for n in np.unique(model.elements[sheet_of == i])} - taken
+            touching = [body for body in bodies if body & nodes]
+            bodies = [body for body in bodies if not body & nodes] + [nodes.union(*touching)]
+    return [RigidSet(sorted(nodes)) for nodes in bodies if nodes]
+
+
 def _add_settings(core: Any, s: ShellSettings) -> None:
     names = ("safety", "scaled_step", "least_step", "damping", "thickness_update", "warping_correction")
     coefficients = ("hourglass_membrane", "hourglass_shear", "hourglass_bending")
-    values = {name: getattr(s, name) for name in (*names, *coefficients)}
+    values = {name: getattr(s, name) for name in (*names, *coefficients, "drill_stiffness")}
+    values["stabilised"] = s.element is Element.STABILISED
     viscous = s.hourglass is Hourglass.VISCOUS
     core.settings({**values, "gravity": floats(s.gravity), "viscous_hourglass": viscous})
     contact = {"on": s.self_contact, "gap": s.contact_gap, "stiffness": s.contact_stiffness}

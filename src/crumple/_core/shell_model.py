@@ -25,6 +25,13 @@ class Hourglass(Enum):
     VISCOUS = "viscous"
 
 
+class Element(Enum):
+    """How a quadrilateral of one point holds the modes that the point does not see."""
+
+    BELYTSCHKO_TSAY = "belytschko-tsay"
+    STABILISED = "stabilised"
+
+
 @dataclass(frozen=True)
 class ShellMaterial:
     """Isotropic metal sheet.
@@ -42,12 +49,16 @@ class ShellMaterial:
         beyond its last point.  Replaces ``yield_stress``.
     rate_reference, rate_exponent
         Cowper-Symonds D [1/s] and q: yield times 1 + (rate/D)**(1/q); infinite D: no effect.
+    rate_logarithm
+        Johnson-Cook C: yield times 1 + C ln(rate/D), 1 below D, in place of the power law; 0: power law.
     rate_time
         Time constant of the smoothing of the total strain rate [s].
     failure_strain
         Plastic strain at which a thickness point has failed; infinite: never.
     fails_at_any_point
         Delete the element when its first point has failed; else when all have.
+    rigid
+        Elements move as one rigid body per sheet: their nodes become a rigid set.
     """
 
     density: float
@@ -58,9 +69,11 @@ class ShellMaterial:
     hardening: tuple[ArrayLike, ArrayLike] | None = None
     rate_reference: float = _INFINITY
     rate_exponent: float = 1.0
+    rate_logarithm: float = 0.0
     rate_time: float = 1e-5
     failure_strain: float = _INFINITY
     fails_at_any_point: bool = False
+    rigid: bool = False
 
     def table(self) -> tuple[Floats, Floats]:
         """Plastic strains and yield stresses [Pa]; empty for an elastic material."""
@@ -213,8 +226,12 @@ class ShellSettings:
     warping_correction
         Belytschko-Wong-Chiang curvature terms with the drill projected out: needed for twisted members, too
         soft in tight folds (docs/theory/shell_element.md).
+    element
+        Quadrilateral: hourglass control by coefficients, or physical stabilisation.
+    drill_stiffness
+        What holds the turning of corners about the normal of a quadrilateral, as a share of G times volume.
     hourglass, hourglass_membrane, hourglass_shear, hourglass_bending
-        Kind of control and its coefficients.
+        Kind of control and its coefficients; not used by the stabilised element.
     self_contact, contact_gap
         Contact of walls with walls; distance kept [m], 0: half of both thicknesses.
     contact_stiffness, contact_friction, contact_damping
@@ -228,6 +245,8 @@ class ShellSettings:
     gravity: tuple[float, float, float] = (0.0, 0.0, 0.0)
     thickness_update: bool = True
     warping_correction: bool = False
+    element: Element = Element.BELYTSCHKO_TSAY
+    drill_stiffness: float = 0.0
     hourglass: Hourglass = Hourglass.STIFFNESS
     hourglass_membrane: float = 0.01
     hourglass_shear: float = 0.01

@@ -40,6 +40,14 @@ def compare(
         int | None,
         typer.Option(help="Threads of the shell run; by default all cores.", min=1, show_default=False),
     ] = None,
+    second_mesh: Annotated[
+        float | None,
+        typer.Option(
+            help="Solve the shells again with elements so many times as long (2, 0.5): how well the "
+            "reference is known.",
+            show_default=False,
+        ),
+    ] = None,
     variants: Annotated[
         bool, typer.Option(help="Solve also multibody models with elastic hinges and members.")
     ] = True,
@@ -49,12 +57,15 @@ def compare(
     from crumple.cli.folder import results_errors, results_folder
     from crumple.cli.progress import progress_bar, stop_on_interrupt
     from crumple.cli.shell_run import available_threads, long_run_of
-    from crumple.comparison import picture_times, solve_and_compare
+    from crumple.comparison import picture_times, solve_and_compare, with_mesh
     from crumple.errors import InputError
     from crumple.report import write_comparison
 
     analysis = load(file)
     curves = [_curve(text, pair or []) for text in curve or []]
+    if second_mesh is not None:
+        # refused before the folder is made
+        with_mesh(analysis, second_mesh)
     folder = results_folder(out, file)
     results_folder(str(folder / "shell"), file)
     with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
@@ -64,6 +75,7 @@ def compare(
                 threads=threads or available_threads(),
                 curves=curves,
                 variants=variants,
+                second_mesh=second_mesh,
                 progress=progress,
                 cancel=cancel,
                 long_run=long_run_of(folder / "shell", None, progress),

@@ -8,7 +8,13 @@ from crumple.comparison.pairing import Pair
 from crumple.comparison.rating import EDITION, SAMPLING_RATE, Rating, rating
 from crumple.comparison.sections import at_times
 from crumple.comparison.signal import Signal
-from crumple.comparison.solving import picture_times, solve_and_compare, with_frames, with_pictures
+from crumple.comparison.solving import (
+    picture_times,
+    solve_and_compare,
+    with_frames,
+    with_mesh,
+    with_pictures,
+)
 from crumple.comparison.trust import Trust, energy_put_in
 
 __all__ = [
@@ -33,5 +39,6 @@ __all__ = [
     "read_curves",
     "solve_and_compare",
     "with_frames",
+    "with_mesh",
     "with_pictures",
 ]

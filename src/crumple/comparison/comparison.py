@@ -205,7 +205,7 @@ def _source(name: str, result: Result, structure: Structure, hinges: Sequence[Pl
     else:
         seen = measured(result, structure, hinges)
     members = member_signals(structure, seen.sections)
-    signals = signals_of(result, () if result.fidelity == "multibody" else seen.hinges, members)
+    signals = signals_of(result, seen.hinges, members)
     return Source(name, result, seen.hinges, seen.extra, signals)
 
 

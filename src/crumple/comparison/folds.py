@@ -1,12 +1,13 @@
-"""Where a result folded: found in its plastic strain along each member, not assumed.
+"""Where a result folded: found in the plastic work along each member, not assumed.
 
-Plastic strain times wall area is summed between neighbouring sections and divided by their distance.  A
-fold is a stretch in which this density passes a share of the largest density in the structure; stretches
-nearer to each other than half the section's depth are one.  Its place is the mean station weighted with the
-density.  The planes between which its rotation is measured lie half a depth outside, where the sections are
-plane again, but no nearer to a neighbouring fold than half way.
+Plastic work is summed between neighbouring sections and divided by their distance.  A fold is a stretch in
+which this density passes a share of the largest density in the structure; stretches nearer to each other than
+half the section's depth are one.  Its place is the mean station weighted with the density.  The planes
+between which its rotation is measured lie half a depth outside, where the sections are plane again, but no
+nearer to a neighbouring fold than half way.
 
-Without a field of plastic strain the change of section rotation between neighbours takes the density's place.
+Without a field of plastic work, plastic strain times wall area takes its place; without that the change of
+section rotation between neighbours.
 """
 
 from __future__ import annotations
@@ -18,10 +19,10 @@ import numpy as np
 from crumple.comparison.sections import Floats, Sections
 from crumple.result import States
 
-STRAIN = "plastic_strain"
-"""Name of the cell field: equivalent plastic strain of a wall [-]."""
+WORK, STRAIN = "plastic_work", "plastic_strain"
+"""Names of cell fields: plastic work of a piece of wall [J], its equivalent plastic strain [-]."""
 EDGE = 0.05
-"""Share of the largest density at which a fold ends; it holds some nine tenths of the plastic strain."""
+"""Share of the largest density at which a fold ends; it holds some nine tenths of the plastic work."""
 OPENED = np.radians(1.0)
 """Relative rotation [rad] from which a stretch that yields counts as folded: above its elastic bending."""
 
@@ -41,7 +42,7 @@ class Fold:
     planes
         Indices of the sections on both sides between which its rotation is measured.
     share
-        Part of the structure's plastic strain (times wall area) that lies between the planes, in every state,
+        Part of the structure's plastic work that lies between the planes, in every state,
         (n_states,).
     """
 
@@ -59,7 +60,7 @@ def find_folds(states: States, sections: dict[str, Sections], depths: dict[str, 
     Parameters
     ----------
     states
-        With the cell field ``plastic_strain`` where there is one.
+        With the cell field ``plastic_work``, or ``plastic_strain``, where there is one.
     sections
         Per member.
     depths
@@ -82,20 +83,22 @@ def find_folds(states: States, sections: dict[str, Sections], depths: dict[str, 
 
 
 def _amount(states: States, own: Sections) -> Floats:
-    """Plastic strain times area between neighbouring sections, (n_states, n_rings - 1)."""
+    """Plastic work, or what stands for it, between neighbouring sections, (n_states, n_rings - 1)."""
     bins = len(own.stations) - 1
-    strain = states.cell_data.get(STRAIN)
-    if strain is None:
+    field = next((name for name in (WORK, STRAIN) if name in states.cell_data), None)
+    if field is None:
         change = np.abs(np.diff(_bending(own), axis=1))
         return np.asarray(change)
-    corners = states.points[states.quads]
-    area = np.linalg.norm(np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]), axis=1) / 2
     member = states.member_names.index(own.member)
     mine = np.flatnonzero((states.member[states.quads] == member).all(axis=1))
+    amount = np.nan_to_num(states.cell_data[field].reshape(len(states.times), -1)[:, mine])
+    if field == STRAIN:
+        corners = states.points[states.quads[mine]]
+        across = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+        amount = amount * np.linalg.norm(across, axis=1) / 2
     place = states.station[states.quads[mine]].mean(axis=1)
     index = np.clip(np.searchsorted(own.stations, place) - 1, 0, bins - 1)
-    weights = np.nan_to_num(strain.reshape(len(states.times), -1)[:, mine]) * area[mine]
-    return np.stack([np.bincount(index, row, bins) for row in weights])
+    return np.stack([np.bincount(index, row, bins) for row in amount])
 
 
 def _bending(own: Sections) -> Floats:
@@ -125,7 +128,7 @@ def _fold(own: Sections, amount: Floats, zone: tuple[int, int]) -> Fold:
 
 
 def _share(fold: Fold, amount: Floats, totals: Floats) -> Fold:
-    """The same fold with the part of the structure's plastic strain between its planes."""
+    """The same fold with the part of the structure's plastic work between its planes."""
     held = amount[:, fold.planes[0] : fold.planes[1]].sum(axis=1)
     return replace(fold, share=held / np.where(totals > 0.0, totals, np.inf))
 

@@ -184,3 +184,8 @@ def compared(place: HingeMotion, first: HingeMotion | None, second: HingeMotion 
         fold_extent=second.extent if second is not None else None,
         how=second.how if second is not None else "",
     )
+
+
+def signed(error: float) -> str:
+    """A relative error in per cent with its sign."""
+    return f"{100 * error:+.1f} %".replace("-", "−")

@@ -2,13 +2,15 @@
 
 A multibody result says it in its channels.  In a shell result it is measured:
 
-- rotation: of the section plane beyond the fold relative to the one before it, about the hinge's axis at
-  the start;
-- plastic work: the part of the energy dissipated that falls between the planes, by plastic strain times
-  wall area (nearly so for perfect plasticity and one wall thickness);
+- rotation: of the section plane beyond the fold relative to the one before it, about the hinge's axis, which
+  moves with the plane before it;
+- plastic work: what is dissipated between the planes;
 - moment: the channel of that name where the result has one, else the moment conjugate to plastic work, work
   over rotation across a window of rotation;
 - plastic rotation: rotation - M/k, k = EI over the distance of the planes.
+
+The rate of rotation is in every source the change of rotation from shape to shape: a rate at one instant
+shows vibration that a rate over an interval does not.
 """
 
 from __future__ import annotations
@@ -44,7 +46,7 @@ class HingeMotion:
     time
         [s], (n,).
     rotation, rotation_rate, plastic_rotation
-        Signed [rad], [rad/s], (n,).
+        Signed [rad], [rad/s], (n,); the rate is the change of rotation from shape to shape.
     moment
         In the sense of the rotation rate [N m], (n,).
     plastic_work
@@ -103,6 +105,8 @@ def channel_motions(
         moved = float(np.ptp(plastic)) if rotation.size else 0.0
         own, far = sections.get(hinge.member), None
         if own is not None:
+            seen = np.interp(own.times, result.time, rotation)
+            rate = np.interp(result.time, own.times, rate_of(seen, own.times))
             far = np.interp(result.time, own.times, far_rotation(own, hinge.station, hinge.direction))
         found.append(
             HingeMotion(
@@ -239,22 +243,19 @@ def _stand_in(structure: Structure, own: Sections, fold: Fold) -> _Where:
     """A hinge for a fold where none was put, about the section axis about which it turned more."""
     frame = structure.frame_of(fold.member)
     first, last = fold.planes
-    turns = {axis: float(np.abs(_between(own, frame.axis(axis), first, last)).max()) for axis in ("y", "z")}
+    turns = {
+        axis: float(np.abs(own.relative_rotation(frame.axis(axis), first, last)).max()) for axis in ("y", "z")
+    }
     axis = max(turns, key=lambda name: turns[name])
     name = f"{fold.member} at {fold.station * 1e3:.0f} mm"
     return _Where(name, fold.member, fold.station, axis, frame.axis(axis))
-
-
-def _between(own: Sections, axis: Floats, first: int, last: int) -> Floats:
-    turned = own.rotation(axis)
-    return np.asarray(turned[:, last] - turned[:, first])
 
 
 def _measure(result: Result, structure: Structure, own: Sections, site: _Site) -> HingeMotion:
     hinge, fold = site.hinge, site.fold
     first, last = site.planes
     a, b = float(own.stations[first]), float(own.stations[last])
-    rotation = _between(own, hinge.direction, first, last)
+    rotation = own.relative_rotation(hinge.direction, first, last)
     section, material = structure.section_of(hinge.member), structure.material_of(hinge.member)
     stiffness = material.youngs_modulus * section.second_moment(hinge.axis) / (b - a)  # type: ignore[arg-type]
     work = _work(result, own.times, fold)
@@ -297,10 +298,9 @@ def far_rotation(own: Sections, station: float, axis: Floats) -> Floats:
     one in the second half the last section turns relative to that line.  For a single hinge at a clamp this
     is the angle under which the clamp sees the free end.
     """
-    turned, chord = own.rotation(axis), own.chord_rotation(axis)
     if station <= (own.stations[0] + own.stations[-1]) / 2:
-        return np.asarray(chord - turned[:, 0])
-    return np.asarray(turned[:, -1] - chord)
+        return own.chord_rotation(axis, 0)
+    return -own.chord_rotation(axis, len(own.stations) - 1)
 
 
 def rate_of(values: Floats, time: Floats) -> Floats:

@@ -17,8 +17,6 @@ MOST = 60
 """Histories that are rated against one reference; a rating takes some 50 ms for 100 ms of history."""
 NOTHING = 1e-6
 """Share of the largest history of its unit below which a reference is rounding, not motion."""
-LONGEST = 5000
-"""Samples above which dynamic time warping takes too much memory; such a pair is not rated."""
 
 _ORDER = (
     re.compile(r"hinge\..+\.rotation"),
@@ -111,13 +109,10 @@ def _pair(channel: str, candidate: tuple[str, Signal], reference: tuple[str, Sig
     (name, a), (other, b) = candidate, reference
     rated, why = None, ""
     end, start = min(a.time[-1], b.time[-1]), max(a.time[0], b.time[0])
-    if (end - start) * 1e4 > LONGEST:
-        why = f"longer than {LONGEST / 1e4:g} s"
-    else:
-        try:
-            rated = rating(b.time, b.values, a.time, a.values)
-        except InputError as error:
-            why = error.problems[0].what
+    try:
+        rated = rating(b.time, b.values, a.time, a.values)
+    except InputError as error:
+        why = error.problems[0].what
     time = np.union1d(a.time, b.time)
     time = time[(time >= start) & (time <= end)]
     x, y = at(a, time), at(b, time)

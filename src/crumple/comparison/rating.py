@@ -35,6 +35,8 @@ MAGNITUDE_LIMIT, SLOPE_LIMIT = 0.5, 2.0
 WEIGHTS = (0.4, 0.2, 0.2, 0.2)
 AVERAGED = 9
 """Samples that a slope is averaged over."""
+MOST = 5_000
+"""Samples of one rating: longer histories are sampled more coarsely: the cost grows with the square."""
 FEWEST = 20
 """Samples below which shift, window and averages mean nothing."""
 
@@ -51,6 +53,8 @@ class Rating:
         Time [s] by which the curve comes late.
     start, end
         Interval of evaluation [s].
+    sampling_rate
+        Samples a second: those of the standard, or fewer over a long interval.
     """
 
     corridor: float
@@ -60,6 +64,7 @@ class Rating:
     shift: float
     start: float
     end: float
+    sampling_rate: float = SAMPLING_RATE
 
     @property
     def overall(self) -> float:
@@ -97,7 +102,7 @@ def rating(
     Returns
     -------
     Rating
-        Both curves are interpolated linearly at 10 kHz.
+        Both curves are interpolated linearly at 10 kHz, over more than half a second at fewer samples.
 
     Raises
     ------
@@ -112,14 +117,15 @@ def rating(
     t_reference, t_curve = np.asarray(reference_time, float), np.asarray(time, float)
     begin = max(t_reference[0], t_curve[0]) if start is None else start
     finish = min(t_reference[-1], t_curve[-1]) if end is None else end
-    number = int(np.floor((finish - begin) * SAMPLING_RATE + 1e-9)) + 1
+    rate = min(SAMPLING_RATE, MOST / max(finish - begin, 1e-9))
+    number = int(np.floor((finish - begin) * rate + 1e-9)) + 1
     if number < FEWEST:
         raise _refused(
             "the curves share too short an interval",
             f"{begin:g} s to {finish:g} s",
             "at least 2 ms in common",
         )
-    sampled = begin + np.arange(number) / SAMPLING_RATE
+    sampled = begin + np.arange(number) / rate
     a = np.interp(sampled, t_reference, np.asarray(reference, float))
     b = np.interp(sampled, t_curve, np.asarray(values, float))
     if not (np.isfinite(a).all() and np.isfinite(b).all()):
@@ -133,9 +139,10 @@ def rating(
         phase=max(0.0, 1.0 - abs(late) / (LARGEST_SHIFT * number)),
         magnitude=magnitude_score(shifted_a, shifted_b),
         slope=slope_score(shifted_a, shifted_b),
-        shift=late / SAMPLING_RATE,
+        shift=late / rate,
         start=float(begin),
         end=float(sampled[-1]),
+        sampling_rate=rate,
     )
 
 
@@ -191,21 +198,28 @@ def warping_path(first: Floats, second: Floats, window: int) -> tuple[NDArray[np
         predecessors are taken in the order: one back in the first, one back in the second, both.
     """
     n = first.size
-    total = np.full((n + 1, n + 1), np.inf)
-    total[0, 0] = 0.0
-    # cells of one anti-diagonal depend on the two before it alone
+    # costs of one anti-diagonal depend on the two before it alone; place i + 1 is index i of the first curve
+    older, old, new = (np.full(n + 3, np.inf) for _ in range(3))
+    back = np.empty((2 * n - 1, window + 1), dtype=np.int8)
+    lows = np.empty(2 * n - 1, dtype=np.int64)
     for d in range(2 * n - 1):
-        i = np.arange(max(0, d - n + 1), min(d, n - 1) + 1)
-        i = i[np.abs(2 * i - d) <= window]
-        j = d - i
-        before = np.minimum(np.minimum(total[i, j + 1], total[i + 1, j]), total[i, j])
-        total[i + 1, j + 1] = (first[i] - second[j]) ** 2 + before
+        low = max(0, d - n + 1, (d - window + 1) // 2)
+        high = min(n - 1, d, (d + window) // 2)
+        lows[d] = low
+        before = np.stack([old[low : high + 1], old[low + 1 : high + 2], older[low : high + 1]])
+        steps = before.argmin(axis=0)
+        back[d, : high - low + 1] = steps
+        cheapest = np.take_along_axis(before, steps[None], axis=0)[0] if d else 0.0
+        new[low + 1 : high + 2] = (
+            first[low : high + 1] - second[d - high : d - low + 1][::-1]
+        ) ** 2 + cheapest
+        new[low] = new[high + 2] = np.inf
+        older, old, new = old, new, older
     row, column = n - 1, n - 1
     path = [(row, column)]
     while row or column:
-        steps = (total[row, column + 1], total[row + 1, column], total[row, column])
-        back = int(np.argmin(steps))
-        row, column = ((row - 1, column), (row, column - 1), (row - 1, column - 1))[back]
+        d = row + column
+        row, column = ((row - 1, column), (row, column - 1), (row - 1, column - 1))[back[d, row - lows[d]]]
         path.append((row, column))
     pairs = np.array(path[::-1], dtype=np.int64)
     return pairs[:, 0], pairs[:, 1]
@@ -219,8 +233,8 @@ def slope_score(reference: Floats, curve: Floats) -> float:
 
 
 def averaged_slope(values: Floats) -> Floats:
-    """Central differences averaged over nine samples; towards the ends over as many as lie evenly around."""
-    slope = np.gradient(values, 1.0 / SAMPLING_RATE)
+    """Differences a sample averaged over nine samples; towards the ends over as many as lie evenly around."""
+    slope = np.gradient(values)
     half = AVERAGED // 2
     averaged = np.empty_like(slope)
     averaged[half:-half] = np.convolve(slope, np.full(AVERAGED, 1.0 / AVERAGED), mode="valid")

@@ -3,10 +3,13 @@
 A ring is the set of points of one member at one station.  Its plane is the least-squares plane through the
 moved points: the eigenvector of their scatter with the smallest eigenvalue, pointing the way in which the
 outline runs round.  The rotation of a section about an axis is the angle between its normal now and at the
-start, both seen along the axis, counted on without a jump at half a turn.
+start, both seen along the axis, counted on without a jump at half a turn.  That of one section against
+another is the same as the first one sees it: all is turned back by the smallest rotation that carries its
+normal back, so that a part that tumbles as a whole shows none.
 
 Limits: a section that is flattened to a line has no plane; its angle is then noise.  A fold's own rings warp,
-so a relative rotation is taken between rings on both sides of it.
+so a relative rotation is taken between rings on both sides of it.  Twist about the member of the section that
+carries an axis is not followed.
 """
 
 from __future__ import annotations
@@ -23,6 +26,8 @@ Integers = NDArray[np.int64]
 
 SAME_STATION = 1e-6
 """Stations nearer than this share of the member's length are one: far below any element, above rounding."""
+SMALL = 1e-12
+"""Keeps a section that has turned by half a turn, whose way back is not defined, from dividing by zero."""
 FEWEST = 3
 """Points that define a plane."""
 
@@ -68,17 +73,50 @@ class Sections:
         )
         return np.asarray(np.unwrap(angle, axis=0))
 
+    def relative_rotation(self, axis: Floats, first: int, last: int) -> Floats:
+        """Rotation of one section against another about an axis that moves with it [rad], (n_states,).
+
+        Parameters
+        ----------
+        axis
+            Unit vector at the start, right-handed, across the member, (3,).
+        first, last
+            Indices of the section that carries the axis, and of the one that turns.
+        """
+        return _turn(self.start_normals[last], self.seen_from(first, self.normals[:, last]), axis)
+
+    def seen_from(self, ring: int, vectors: Floats) -> Floats:
+        """Vectors over time as one section sees them, turned back as its normal turned, (n_states, 3)."""
+        now, start = self.normals[:, ring], self.start_normals[ring]
+        middle = now + start
+        along = np.einsum("ti,ti->t", middle, vectors) / np.maximum(1.0 + now @ start, SMALL)
+        back = 2.0 * np.einsum("ti,ti->t", now, vectors)
+        return np.asarray(vectors - along[:, None] * middle + back[:, None] * start)
+
     def nearest(self, station: float) -> int:
         """Index of the ring nearest to a station [m]."""
         return int(np.argmin(np.abs(self.stations - station)))
 
-    def chord_rotation(self, axis: Floats) -> Floats:
-        """Rotation of the line from the first to the last section about an axis [rad], (n_states,)."""
+    def chord_rotation(self, axis: Floats, ring: int | None = None) -> Floats:
+        """Rotation of the line from the first to the last section about an axis [rad], (n_states,).
+
+        Parameters
+        ----------
+        axis
+            Unit vector at the start, (3,).
+        ring
+            Section that carries the axis and that the rotation is relative to; None: an axis fixed in space.
+        """
         line = self.centres[:, -1] - self.centres[:, 0]
-        first = self.start_centres[-1] - self.start_centres[0]
-        first = first - (first @ axis) * axis
-        angle = np.arctan2(line @ np.cross(axis, first), line @ first)
-        return np.asarray(np.unwrap(angle))
+        seen = line if ring is None else self.seen_from(ring, line)
+        return _turn(self.start_centres[-1] - self.start_centres[0], seen, axis)
+
+
+def _turn(start: Floats, now: Floats, axis: Floats) -> Floats:
+    """Angle from a vector (3,) to others (n, 3), seen along an axis, counted on over half a turn [rad]."""
+    first = start - (start @ axis) * axis
+    angle = np.arctan2(now @ np.cross(axis, first), now @ first)
+    return np.asarray(np.unwrap(angle))
 
 
 def sections_of(states: States, member: str) -> Sections | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -12,8 +13,15 @@ from crumple.analysis import Analysis, input_hash, solve
 from crumple.comparison.comparison import Comparison, compare
 from crumple.comparison.curve_file import CurveFile
 from crumple.comparison.sections import at_times
-from crumple.comparison.variant import with_elastic_hinges, with_elastic_members, with_measured_laws
-from crumple.errors import InputError
+from crumple.comparison.variant import (
+    ELASTIC_HINGES,
+    ELASTIC_MEMBERS,
+    SHELL_LAWS,
+    with_elastic_hinges,
+    with_elastic_members,
+    with_measured_laws,
+)
+from crumple.errors import InputError, Problem
 from crumple.multibody import Run, stepping_seconds
 from crumple.result import Result
 from crumple.structure import Structure
@@ -34,6 +42,7 @@ def solve_and_compare(
     threads: int = 1,
     curves: Sequence[CurveFile] = (),
     variants: bool = True,
+    second_mesh: float | None = None,
     progress: Progress | None = None,
     cancel: Cancel | None = None,
     long_run: LongRun | None = None,
@@ -49,9 +58,12 @@ def solve_and_compare(
     curves
         From files, to be compared too.
     variants
-        Whether to solve further multibody models: elastic hinges, elastic members, laws read off the shell
-        run. progress, cancel, long_run As `crumple.analysis.solve` takes them; progress is that of the
-        shell run.
+        Whether to solve further multibody models: elastic hinges, elastic members, laws of the shell run.
+    second_mesh
+        Factor on the size of all elements of a further shell run, which shows how well the reference is
+        known; None: no such run.
+    progress, cancel, long_run
+        As `crumple.analysis.solve` takes them; progress is that of the shell run.
 
     Returns
     -------
@@ -64,12 +76,16 @@ def solve_and_compare(
         If an engine cannot take the structure.
     """
     dense = with_frames(analysis)
+    other = None if second_mesh is None else with_mesh(dense, second_mesh)
     candidate = _hashed(solve(dense, cancel=cancel), analysis)
     shell = solve(dense, "shell", threads, progress, cancel, long_run=long_run)
     reference = _hashed(shell, analysis)
     models: dict[str, tuple[Structure, Result]] = {}
     if variants and reference.time.size:
         models = _variants(dense, candidate, reference)
+    results = {name: result for name, (_, result) in models.items()}
+    if other is not None and reference.status.ok:
+        results[mesh_name(other)] = solve(other, "shell", threads, progress, cancel)
     stepping = {
         name: seconds for name, model in models.items() if (seconds := _stepping(dense, model[0])) is not None
     }
@@ -80,7 +96,7 @@ def solve_and_compare(
         candidate,
         reference,
         analysis.structure,
-        variants={name: result for name, (_, result) in models.items()},
+        variants=results,
         curves=curves,
     )
     return replace(found, stepping=stepping)
@@ -93,6 +109,30 @@ def with_frames(analysis: Analysis, number: int = FRAMES) -> Analysis:
         float(t) for t in np.union1d(even, [t for t in analysis.outputs.pictures if t <= analysis.duration])
     )
     return analysis.model_copy(update={"outputs": analysis.outputs.model_copy(update={"pictures": wanted})})
+
+
+def with_mesh(analysis: Analysis, factor: float) -> Analysis:
+    """The same analysis with shell elements of another size.
+
+    Raises
+    ------
+    InputError
+        If the factor is not positive, or is 1, which would be the same mesh.
+    """
+    if not (math.isfinite(factor) and factor > 0.0 and factor != 1.0):
+        allowed, todo = "above 0 and not 1", "give 2 for elements twice as long, 0.5 for half as long"
+        raise InputError(Problem("this is no other mesh", f"{factor:g}", allowed, todo, where="second_mesh"))
+    shell = analysis.shell
+    sizes = {"element_size": factor * shell.element_size}
+    if shell.fine_size is not None:
+        sizes["fine_size"] = factor * shell.fine_size
+    return analysis.model_copy(update={"shell": shell.model_copy(update=sizes)})
+
+
+def mesh_name(analysis: Analysis) -> str:
+    """What a comparison calls a further shell run: by the size of its finest elements."""
+    shell = analysis.shell
+    return f"shell, {1e3 * (shell.fine_size or shell.element_size):.3g} mm"
 
 
 def picture_times(analysis: Analysis) -> tuple[float, ...]:
@@ -112,13 +152,10 @@ def _variants(dense: Analysis, candidate: Result, reference: Result) -> dict[str
     """Further models and their results, by name; a model that cannot be solved is left out."""
     structure = dense.structure
     shell = compare(candidate, reference, structure).reference
-    total = None
-    if shell.hinges and "energy.dissipated" in reference.channels:
-        total = float(reference["energy.dissipated"][-1])
     wanted = {
-        "elastic hinges": with_elastic_hinges(structure),
-        "elastic members": with_elastic_members(structure),
-        "laws of the shell run": with_measured_laws(structure, shell.hinges, total),
+        ELASTIC_HINGES: with_elastic_hinges(structure),
+        ELASTIC_MEMBERS: with_elastic_members(structure),
+        SHELL_LAWS: with_measured_laws(structure, shell.hinges),
     }
     found = {}
     for name, model in wanted.items():

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crumple.comparison.metrics import HingeComparison
+from crumple.comparison.metrics import HingeComparison, signed
 from crumple.comparison.motion import REACH, HingeMotion, largest_side
+from crumple.comparison.shortfall import shortfall
 from crumple.hinge import Form
 from crumple.result import Result
 from crumple.structure import PlacedHinge, Structure, placed_hinges
@@ -68,6 +69,7 @@ def trust_of(comparison: Comparison, structure: Structure) -> Trust:
         *_bending(comparison),
         *_contact(comparison),
         *_reference(comparison.reference),
+        *shortfall(comparison),
     ):
         (cautions if serious else facts).append(text)
     level, headline = _verdict(comparison, structure, hinges, bool(cautions))
@@ -336,12 +338,6 @@ def _reference(source: Source) -> Iterator[tuple[str, bool]]:
             "reference.",
             True,
         )
-    yield (
-        "The shell run is one mesh: solve again with elements of half the size before trusting differences "
-        "of a few "
-        "per cent.",
-        False,
-    )
 
 
 def energy_put_in(result: Result) -> float:
@@ -360,11 +356,6 @@ def _largest(result: Result, channel: str) -> float | None:
 
 def _most(motion: HingeMotion) -> float:
     return float(np.max(motion.sense * motion.rotation)) if motion.rotation.size else 0.0
-
-
-def signed(error: float) -> str:
-    """A relative error in per cent with its sign."""
-    return f"{100 * error:+.1f} %".replace("-", "−")
 
 
 def _deg(angle: float) -> str:

@@ -3,22 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from crumple.comparison.motion import HingeMotion
+<<<<<<< HEAD
 from crumple.structure import ConstantLaw, HingePlace, Member, Structure, TableLaw
 from crumple.structure.automatic import hinges_of
+=======
+from crumple.section import bending_moment
+from crumple.structure import HingePlace, Member, Structure, TableLaw
+from crumple.structure.bending import bending_axis
+>>>>>>> main
 from crumple.structure.hinges import hinge_places, law_spec
 from crumple.structure.law import LawKeys, LawReference
 from crumple.structure.member import Bars
 
 ELASTIC = "elastic-plastic"
+ELASTIC_HINGES, ELASTIC_MEMBERS, SHELL_LAWS = "elastic hinges", "elastic members", "laws of the shells"
+"""What a comparison calls the further models."""
 LEAST_TURN = np.radians(2.0)
 """Plastic rotation [rad] from which a law can be read off."""
-INTERVALS = 16
+INTERVALS = 24
 """Of that law: wide enough that vibration averages out."""
+CURVATURES = np.array([1.0, 1.03, 1.07, 1.12, 1.2, 1.3, 1.5, 2.0, 3.0, 5.0, 10.0, 30.0, 100.0])
+"""Where the moment over curvature of an elastic member is sampled, over the curvature of first yield."""
 BARS = (8, 7, 9, 6, 10, 11)
 """Numbers of rigid bars that stand for an elastic member; the first whose cuts keep clear of its hinges."""
 CLEAR = 0.15
@@ -38,20 +47,43 @@ def with_elastic_hinges(structure: Structure) -> Structure | None:
 def with_elastic_members(structure: Structure) -> Structure | None:
     """The structure with every hinge elastic-plastic and every member of one bar cut into several.
 
-    Between the bars lie elastic-plastic hinges at the plastic moment, which carry the member's elastic
-    bending and its vibration.  None where no member is one bar.
+    Between the bars lie elastic-plastic hinges that yield as the section does in bending, see `yielding_law`:
+    they carry the member's elastic bending, its vibration, and yield that spreads along it.  None where no
+    member is one bar.
     """
     elastic = with_elastic_hinges(structure) or structure
-    cut = ConstantLaw(form=ELASTIC)
     members = {
-        name: member.model_copy(update={"bars": Bars(number=_bars(structure, name), law=cut)})
-        if member.bars.number == 1
-        else member
+        name: member.model_copy(update={"bars": _cut(structure, name)}) if member.bars.number == 1 else member
         for name, member in elastic.members.items()
     }
     if members == dict(elastic.members):
         return None
     return elastic.model_copy(update={"members": members})
+
+
+def _cut(structure: Structure, member: str) -> Bars:
+    number = _bars(structure, member)
+    return Bars(
+        number=number, law=yielding_law(structure, member, structure.frame_of(member).length / number)
+    )
+
+
+def yielding_law(structure: Structure, member: str, length: float) -> TableLaw:
+    """Law of a hinge that stands for a length [m] of member bending uniformly, its walls flat.
+
+    Capacity over plastic rotation, length x (curvature - M/EI): it rises from the moment of first yield to
+    the plastic moment.
+    """
+    section, material = structure.section_of(member), structure.material_of(member)
+    axis = bending_axis(structure, member)
+    rigidity = structure.flexural_rigidity(member, axis)
+    curve = material.hardening
+    stress = material.flow_stress if curve is None else curve.yield_stress
+    curvature = CURVATURES * stress * section.elastic_section_modulus(axis) / rigidity
+    moment = bending_moment(section, material, axis, curvature)
+    plastic = length * (curvature - moment / rigidity)
+    rotation, kept = np.unique(np.maximum.accumulate(plastic - plastic[0]), return_index=True)
+    return TableLaw(form=ELASTIC, rotation=_numbers(rotation), moment=_numbers(moment[kept]), rate="off")
 
 
 def _bars(structure: Structure, member: str) -> int:
@@ -65,9 +97,7 @@ def _bars(structure: Structure, member: str) -> int:
     return next((number for number in BARS if clearance(number) > CLEAR), max(BARS, key=clearance))
 
 
-def with_measured_laws(
-    structure: Structure, motions: Sequence[HingeMotion], total: float | None = None
-) -> Structure | None:
+def with_measured_laws(structure: Structure, motions: Sequence[HingeMotion]) -> Structure | None:
     """The structure with elastic members, and hinges that carry the moments measured in another result.
 
     Parameters
@@ -76,22 +106,14 @@ def with_measured_laws(
         Any.
     motions
         Hinges measured in that result; a hinge without a fold keeps its law.
-    total
-        Plastic work of the whole structure at the end [J]: what falls outside all folds is given to
-        them in proportion to their own, since the model can take it up nowhere else.
 
     Returns
     -------
     Structure or None
-        None where no hinge folded.  The law is the moment conjugate to plastic work against plastic rotation,
-        so a run with it is no prediction: it shows what is left of the difference once the law is right.
+        None where no hinge folded.  The law is the moment against plastic rotation of the fold, so a run with
+        it is no prediction: it shows what is left of the difference once the law is right.
     """
-    folds = [m for m in motions if m.fold]
-    if total is not None and folds:
-        inside = sum(float(m.plastic_work[-1]) for m in folds)
-        factor = total / inside if inside > 0.0 else 1.0
-        folds = [replace(m, plastic_work=m.plastic_work * factor) for m in folds]
-    laws = {m.name: law for m in folds if (law := measured_law(m)) is not None}
+    laws = {m.name: law for m in motions if m.fold and (law := measured_law(m)) is not None}
     if not laws:
         return None
     base = with_elastic_members(structure) or structure
@@ -110,25 +132,31 @@ def with_measured_laws(
 
 
 def measured_law(motion: HingeMotion) -> TableLaw | None:
-    """Plastic work over plastic rotation, interval by interval, as a table; None where it hardly turned."""
+    """Moment while the plastic rotation grows, averaged over intervals of it; None where it hardly turned."""
     plastic = np.maximum.accumulate(np.maximum(motion.sense * motion.plastic_rotation, 0.0))
     if not plastic[-1] > LEAST_TURN:
         return None
-    grid, first = np.unique(plastic, return_index=True)
-    grown = np.maximum.accumulate(motion.plastic_work)
-    done = grown[np.append(first[1:] - 1, len(plastic) - 1)]
-    edges = np.linspace(0.0, plastic[-1], INTERVALS + 1)
-    moment = np.diff(np.interp(edges, grid, done)) / np.diff(edges)
-    keep = moment > 0.0
+    grown = np.diff(plastic)
+    moment = motion.sense * (motion.moment[1:] + motion.moment[:-1]) / 2
+    middle = (plastic[1:] + plastic[:-1]) / 2
+    which = np.minimum((middle / plastic[-1] * INTERVALS).astype(np.int64), INTERVALS - 1)
+    turned, rotation, work = (
+        np.bincount(which, grown * of, INTERVALS) for of in (np.ones_like(grown), middle, moment)
+    )
+    keep = (turned > 0.0) & (work > 0.0)
     if not keep.any():
         return None
-    rotation = ((edges[1:] + edges[:-1]) / 2)[keep]
+    capacity, places = work[keep] / turned[keep], rotation[keep] / turned[keep]
     return TableLaw(
         form=ELASTIC,
-        rotation=(0.0, *map(float, rotation)),
-        moment=(float(moment[keep][0]), *map(float, moment[keep])),
+        rotation=(0.0, *_numbers(places)),
+        moment=(float(capacity[0]), *_numbers(capacity)),
         rate="off",
     )
+
+
+def _numbers(values: np.ndarray) -> tuple[float, ...]:
+    return tuple(float(value) for value in values)
 
 
 def _elastic(structure: Structure, name: str, member: Member, places: dict[str, HingePlace]) -> Member:

@@ -34,6 +34,8 @@ class Material:
         Strain-rate law at yield and at large strain; None: no rate effect.
     hardening
         True stress against plastic strain, from the same yield stress; None: perfectly plastic, or unknown.
+    failure_strain
+        Plastic strain at which the metal tears [-], > 0; None: never, or unknown. Hinges do not use it.
 
     Raises
     ------
@@ -51,6 +53,7 @@ class Material:
     yield_rate: RateLaw | None = None
     flow_rate: RateLaw | None = None
     hardening: HardeningCurve | None = None
+    failure_strain: float | None = None
 
     def __post_init__(self) -> None:
         problems = [*_not_positive(self), *_inconsistent(self)]
@@ -81,9 +84,16 @@ def _not_positive(material: Material) -> list[Problem]:
         "yield_stress": (material.yield_stress, "Pa", "structural steel starts at 235 MPa"),
         "ultimate_stress": (material.ultimate_stress, "Pa", "leave it out where it is not known"),
         "flow_stress": (material.given_flow_stress, "Pa", "leave it out to use the yield stress"),
+        "failure_strain": (material.failure_strain, "", "leave it out where nothing tears"),
     }
     return [
-        Problem(f"{name.replace('_', ' ')} must be positive", f"{value:g} {unit}", f"> 0 {unit}", todo, name)
+        Problem(
+            f"{name.replace('_', ' ')} must be positive",
+            f"{value:g} {unit}".strip(),
+            f"> 0 {unit}".strip(),
+            todo,
+            name,
+        )
         for name, (value, unit, todo) in values.items()
         if value is not None and not (math.isfinite(value) and value > 0.0)
     ]

@@ -15,6 +15,8 @@ _DEGREES = math.degrees(1.0)
 _PANEL = 1.9  # height of the axes [in]
 _HEAD, _FOOT = 0.26, 0.34
 _LEFT, _RIGHT = 0.42, 0.95
+_ORDER = (1, 0, 2, 3, 4, 5)
+"""Colours of reference, candidate and further models, so that the first two keep theirs."""
 SAMPLES = 400
 """Points at which two curves are held against each other to find a shift."""
 
@@ -116,15 +118,30 @@ def variants_over_rotation(comparison: Comparison, name: str) -> str | None:
         motion = source.hinge(name)
         if motion is not None and motion.far is not None:
             energy = total_energy(source, motion.time) / factor
-            lines.append(
-                Line(source.name, motion.sense * motion.far * _DEGREES, energy, (1, 0, 2, 3, 4, 5)[index % 6])
-            )
+            lines.append(Line(source.name, motion.sense * motion.far * _DEGREES, energy, _ORDER[index % 6]))
     if len(lines) < 2:
         return None
     figure = new_figure(WIDTH, _HEAD + _PANEL + 0.4 + _FOOT)
     axes = add_axes(figure, _LEFT, _FOOT, WIDTH - _LEFT - 1.5, _PANEL + 0.4)
     _draw(axes, lines, "rotation at the far end, deg", f"Total energy, {unit}", labels=True)
     return to_svg(figure, "variants", "Total energy against rotation of every model, nothing shifted.")
+
+
+def velocity_of_models(comparison: Comparison, name: str) -> str | None:
+    """Angular velocity of one hinge against time in every model, as SVG."""
+    unit = _time_factor(comparison)
+    shown = [comparison.reference, *(s for s in comparison.sources if s is not comparison.reference)]
+    lines = [
+        Line(source.name, motion.time / unit, motion.sense * motion.rotation_rate, _ORDER[index % 6])
+        for index, source in enumerate(shown)
+        if (motion := source.hinge(name)) is not None
+    ]
+    if len(lines) < 2:
+        return None
+    figure = new_figure(WIDTH, _HEAD + _PANEL + 0.4 + _FOOT)
+    axes = add_axes(figure, _LEFT, _FOOT, WIDTH - _LEFT - 1.5, _PANEL + 0.4)
+    _draw(axes, lines, _time_name(comparison), "Angular velocity near the fold, rad/s", labels=True)
+    return to_svg(figure, "variants-velocity", f"Angular velocity of hinge {name} in every model.")
 
 
 def total_energy(source: Source, time: Floats) -> Floats:

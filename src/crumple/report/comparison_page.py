@@ -97,6 +97,13 @@ def _draw(comparison: Comparison, pictures: Sequence[float]) -> list[tuple[str, 
             svg = figures.variants_over_rotation(comparison, ranked(comparison)[0].name)
             caption = "Total energy against the rotation at the far end, nothing shifted, for every model."
             found.append(("variants", svg, caption))
+            svg = figures.velocity_of_models(comparison, ranked(comparison)[0].name)
+            caption = (
+                f"Angular velocity of hinge {ranked(comparison)[0].name} near the fold in every model, as "
+                "change of rotation from shape to shape. Rigid bars show its mean; bars that bend show its "
+                "beat."
+            )
+            found.append(("variants_velocity", svg, caption))
     return [(name, svg, caption) for name, svg, caption in found if svg is not None]
 
 

@@ -25,6 +25,7 @@ _GHOST = "#e9ecef"
 _CREASE = math.cos(math.radians(30.0))  # walls that meet at more than this get an edge between them
 _RASTER_FROM = 4000  # walls in all pictures together, from which they become an image to keep the page small
 _NAMED_HINGES = 8
+_LETTER = 4.0  # width of a letter of a hinge's name, at most [pt]
 
 
 @dataclass(frozen=True)
@@ -232,13 +233,17 @@ def draw_hinges(axes: Axes, places: dict[str, Floats], *, named: bool) -> None:
         clip_on=False,
     )
     if named and len(places) <= _NAMED_HINGES:
+        (left, right), wide = axes.get_xlim(), 72 * axes.get_window_extent().width / axes.figure.dpi
         for name, (x, y) in places.items():
+            label = short(name, 20)
+            room = wide * (right - x) / (right - left)
+            before = room < 5 + _LETTER * len(label) < wide
             axes.annotate(
-                short(name, 20),
+                label,
                 (x, y),
-                (5, -4),
+                (-5 if before else 5, -4),
                 textcoords="offset points",
-                ha="left",
+                ha="right" if before else "left",
                 va="top",
                 color=SERIES[1],
                 fontsize=7.0,

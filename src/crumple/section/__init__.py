@@ -14,6 +14,7 @@ from crumple.section.rectangular_tube import RectangularTube
 from crumple.section.section import AXES, Axis, Section
 
 if TYPE_CHECKING:
+    from crumple.section.bending_curve import bending_moment
     from crumple.section.built_up import ClosedHat, MultiCellTube
     from crumple.section.capacity import MomentCapacity, moment_capacity
     from crumple.section.interaction import PlasticInteraction, plastic_interaction
@@ -38,6 +39,7 @@ _FILES = {
     "WallSection": "wall_section",
     "WalledSection": "walled",
     "Weld": "wall",
+    "bending_moment": "bending_curve",
     "fitted_interaction": "interaction_fit",
     "moment_capacity": "capacity",
     "outline_section": "wall_section",
@@ -65,6 +67,7 @@ __all__ = [
     "WallSection",
     "WalledSection",
     "Weld",
+    "bending_moment",
     "fitted_interaction",
     "half_fold_length",
     "moment_capacity",

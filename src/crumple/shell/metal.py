@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from crumple._core.shell import ShellMaterial
-from crumple.material import CowperSymonds, JohnsonCook, Material
+from crumple._core.shell_model import Floats
+from crumple.material import CowperSymonds, HardeningCurve, HardeningTable, JohnsonCook, Material
 
 TABLE_STRAINS = np.concatenate([[0.0], np.geomspace(1e-4, 3.0, 80)])
 """Plastic strains at which a hardening curve is sampled: 14 % apart, so that straight lines between err by
@@ -14,30 +15,44 @@ less than 0.1 % of a Swift curve; constant beyond the last, which no sheet reach
 
 def shell_material(material: Material) -> ShellMaterial:
     """Elastic, then the hardening curve; without one perfectly plastic at the flow stress."""
-    rate = rate_of(material)
+    law = material.flow_rate or material.yield_rate
+    power = law if isinstance(law, CowperSymonds) else None
+    logarithm = law if isinstance(law, JohnsonCook) and law.C > 0.0 else None
     curve = material.hardening
     return ShellMaterial(
         density=material.density,
         youngs_modulus=material.youngs_modulus,
         poissons_ratio=material.poissons_ratio,
         yield_stress=material.flow_stress if curve is None else None,
-        hardening=None if curve is None else (TABLE_STRAINS, curve.stress(TABLE_STRAINS)),
-        rate_reference=np.inf if rate is None else rate.D,
-        rate_exponent=1.0 if rate is None else rate.q,
+        hardening=None if curve is None else _table(curve),
+        rate_reference=power.D if power else (logarithm.reference if logarithm else np.inf),
+        rate_exponent=power.q if power else 1.0,
+        rate_logarithm=logarithm.C if logarithm else 0.0,
+        failure_strain=np.inf if material.failure_strain is None else material.failure_strain,
     )
 
 
-def rate_of(material: Material) -> CowperSymonds | None:
-    """Strain-rate law at large strain, else at yield; a logarithmic one as the power law nearest to it."""
-    law = material.flow_rate or material.yield_rate
-    return law.as_cowper_symonds() if isinstance(law, JohnsonCook) else law
+def _table(curve: HardeningCurve) -> tuple[Floats, Floats]:
+    """Points that the elements join by straight lines: a table's own, else samples."""
+    if isinstance(curve, HardeningTable):
+        return np.array(curve.plastic_strain), np.array(curve.true_stress)
+    return TABLE_STRAINS, curve.stress(TABLE_STRAINS)
 
 
 def in_words(material: Material) -> str:
     """What the elements take the metal for."""
-    rate = rate_of(material)
+    law = material.flow_rate or material.yield_rate
     plastic = "along its hardening curve"
     if material.hardening is None:
         plastic = f"perfectly plastic at {material.flow_stress / 1e6:.4g} MPa"
-    raised = "" if rate is None else f", raised with the strain rate (D {rate.D:g} 1/s, q {rate.q:g})"
-    return f"Material {material.name} is elastic, then {plastic}{raised}."
+    raised = ""
+    if isinstance(law, CowperSymonds):
+        raised = f", raised with the strain rate (Cowper-Symonds, D {law.D:g} 1/s, q {law.q:g})"
+    elif law is not None:
+        raised = f", raised with the strain rate (Johnson-Cook, C {law.C:g} from {law.reference:g} 1/s)"
+    torn = (
+        ""
+        if material.failure_strain is None
+        else f"; it tears at a plastic strain of {material.failure_strain:g}"
+    )
+    return f"Material {material.name} is elastic, then {plastic}{raised}{torn}."

@@ -8,6 +8,7 @@ import numpy as np
 
 from crumple._core.shell import (
     Cut,
+    Element,
     Hourglass,
     RigidSet,
     Sheet,
@@ -151,7 +152,8 @@ def _sheets(
     """Materials in the order of the structure, one sheet each, and the sheet of every element."""
     names = list(dict.fromkeys(member.material for member in structure.members.values()))
     materials = [shell_material(structure.materials[name].material(name)) for name in names]
-    sheets = [Sheet(material=i, points=settings.thickness_points) for i in range(len(names))]
+    lobatto = settings.thickness_rule == "lobatto"
+    sheets = [Sheet(i, settings.thickness_points, lobatto) for i in range(len(names))]
     parts = [
         np.full(tube.bays * tube.sides, names.index(structure.members[member].material))
         for member, tube in mesh.tubes.items()
@@ -196,6 +198,7 @@ def _cut(elements: Integers, nodes: Integers) -> Cut:
 
 def _settings(structure: Structure, settings: ShellSettings) -> CoreSettings:
     coefficient = settings.hourglass_coefficient
+    warping = settings.warping_correction == "on"
     x, y, z = structure.gravity
     friction = 0.0 if structure.member_contact is None else structure.member_contact.friction
     return CoreSettings(
@@ -205,7 +208,9 @@ def _settings(structure: Structure, settings: ShellSettings) -> CoreSettings:
         damping=settings.damping,
         gravity=(x, y, z),
         thickness_update=settings.thickness_update == "on",
-        warping_correction=settings.warping_correction == "on",
+        warping_correction=warping,
+        element=Element(settings.element),
+        drill_stiffness=settings.drill_stiffness if warping else 0.0,
         hourglass=Hourglass(settings.hourglass),
         hourglass_membrane=coefficient,
         hourglass_shear=coefficient,

@@ -10,8 +10,9 @@ from crumple.shell.contour import Floats, Integers
 from crumple.shell.mesh import Mesh
 from crumple.shell.record import Record
 
-CELL_FIELDS = ("plastic_strain", "thickness", "von_mises")
-"""Largest equivalent plastic strain through the thickness [-], thickness [m], largest Mises stress [Pa]."""
+CELL_FIELDS = ("plastic_strain", "plastic_work", "thickness", "von_mises")
+"""Largest equivalent plastic strain through the thickness [-], plastic work of the element [J], thickness
+[m], largest Mises stress [Pa]."""
 
 
 def shape_of(state: ShellState, mesh: Mesh) -> dict[str, Floats]:
@@ -23,6 +24,7 @@ def shape_of(state: ShellState, mesh: Mesh) -> dict[str, Floats]:
         "time": np.array(state.time),
         "displacement": (state.position - mesh.position)[node],
         "plastic_strain": state.point_field("plastic_strain").max(axis=1),
+        "plastic_work": state.element_field("plastic_energy"),
         "thickness": state.element_field("thickness"),
         "von_mises": mises.max(axis=1),
     }

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from crumple._core.shell import ShellState
+from crumple._core.shell import Element, ShellState
 from crumple.result import StageSummary
 from crumple.shell.bodies import Body
 from crumple.shell.joints import Kind
@@ -48,9 +48,10 @@ def assumptions(structure: Structure, lowered: Lowered, settings: ShellSettings)
     """Sentences stating what the model takes for granted."""
     found = [
         f"Walls are shells along their mid-lines: {lowered.report}.",
-        f"One-point quadrilaterals with {settings.thickness_points} points through the thickness, hourglass "
-        f"control by {settings.hourglass}, thickness update {settings.thickness_update}, warping correction "
-        f"{settings.warping_correction}, self-contact {settings.self_contact}.",
+        f"One-point quadrilaterals ({settings.element}) with {settings.thickness_points} points through the "
+        f"thickness ({settings.thickness_rule}), {_held(settings)}, thickness update "
+        f"{settings.thickness_update}, warping correction {settings.warping_correction}, self-contact "
+        f"{settings.self_contact}.",
     ]
     for name in dict.fromkeys(member.material for member in structure.members.values()):
         found.append(in_words(structure.materials[name].material(name)))
@@ -70,13 +71,21 @@ def assumptions(structure: Structure, lowered: Lowered, settings: ShellSettings)
     return tuple(found)
 
 
+def _held(settings: ShellSettings) -> str:
+    """What holds the modes that one point does not see."""
+    if settings.element == "stabilised":
+        return "the varying strains held by the metal's own stiffness"
+    return f"hourglass control by {settings.hourglass}"
+
+
 def warnings(structure: Structure, lowered: Lowered, record: Record, state: ShellState) -> tuple[str, ...]:
     """Sentences that must be read before believing the result."""
     energy = {name: record["energy"][:, i] for i, name in enumerate(ENERGIES)}
     found = list(_mesh_warnings(structure, lowered))
     internal = float((energy["elastic"] + energy["plastic"]).max())
     hourglass = float(energy["hourglass"].max())
-    if internal > LEAST_ENERGY and hourglass > HOURGLASS_SHARE * internal:
+    artificial = lowered.model.settings.element is Element.BELYTSCHKO_TSAY
+    if artificial and internal > LEAST_ENERGY and hourglass > HOURGLASS_SHARE * internal:
         found.append(
             f"Hourglass energy reaches {hourglass / internal:.1%} of the internal energy: "
             "use a finer mesh, or the other hourglass control."

@@ -10,25 +10,16 @@ from pydantic import ConfigDict, Field, model_validator
 
 from crumple import material
 from crumple.errors import InputError
+from crumple.structure.metal_curves import HardeningSpec, RateSpec, hardening_keys, rate_keys
 from crumple.structure.problems import suggestion
 from crumple.structure.quantity import (
     Converted,
     PoissonsRatio,
     PositiveDensity,
-    PositiveRate,
+    PositiveNumber,
     PositiveStress,
-    RateExponent,
 )
 from crumple.structure.spec import Spec, refuse
-
-
-class RateSpec(Spec):
-    """Cowper-Symonds strain-rate law: stress times 1 + (strain rate / D)^(1/q)."""
-
-    D: PositiveRate
-    """Strain rate at which the stress doubles."""
-    q: RateExponent
-    """Exponent."""
 
 
 def _grade_or_values(schema: dict[str, Any]) -> None:
@@ -59,6 +50,11 @@ class MaterialSpec(Spec):
     """Strain-rate law at yield; without it no rate effect."""
     flow_rate: RateSpec | None = None
     """Strain-rate law at large strain; without it no rate effect."""
+    hardening: HardeningSpec | None = None
+    """True stress against plastic strain, from the yield stress; shells follow it. Without it they are
+    perfectly plastic at the flow stress."""
+    failure_strain: PositiveNumber | None = None
+    """Plastic strain at which a wall tears: a shell element goes when all its points have reached it."""
 
     @model_validator(mode="before")
     @classmethod
@@ -74,7 +70,9 @@ class MaterialSpec(Spec):
             "yield_stress": given.yield_stress,
             "ultimate_stress": given.ultimate_stress,
             "flow_stress": given.given_flow_stress,
-            **{key: _keys(rate) for key, rate in rates.items() if rate is not None},
+            **{key: rate_keys(rate) for key, rate in rates.items() if rate is not None},
+            "hardening": None if given.hardening is None else hardening_keys(given.hardening),
+            "failure_strain": given.failure_strain,
         }
 
     @model_validator(mode="before")
@@ -123,8 +121,10 @@ class MaterialSpec(Spec):
             yield_stress=self.yield_stress,
             ultimate_stress=self.ultimate_stress,
             given_flow_stress=self._flow_stress,
-            yield_rate=_rate(self.yield_rate),
-            flow_rate=_rate(self.flow_rate),
+            yield_rate=None if self.yield_rate is None else self.yield_rate.law(),
+            flow_rate=None if self.flow_rate is None else self.flow_rate.law(),
+            hardening=None if self.hardening is None else self.hardening.curve(self.yield_stress),
+            failure_strain=self.failure_strain,
         )
 
     @property
@@ -137,14 +137,3 @@ class MaterialSpec(Spec):
     def statement(self) -> str:
         """What the numbers of its grade are and are not; empty without a grade."""
         return "" if self.grade is None else material.grade(self.grade).statement
-
-
-def _keys(rate: object) -> dict[str, float]:
-    """Keys of a rate law of the physics room."""
-    if not isinstance(rate, material.CowperSymonds):
-        refuse("this rate law cannot be described", allowed="a Cowper-Symonds law", key="flow_rate")
-    return {"D": rate.D, "q": rate.q}
-
-
-def _rate(spec: RateSpec | None) -> material.CowperSymonds | None:
-    return None if spec is None else material.CowperSymonds(D=spec.D, q=spec.q)

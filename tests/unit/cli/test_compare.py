@@ -14,7 +14,7 @@ def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
     measured.write_text("time [ms],tip [deg],M2\n0,0,1\n6,5,2\n12,9,3\n")
     run = crumple(
         "compare", coarse(tmp_path, 12), "--out", tmp_path / "out", "--threads", 1,
-        "--curve", f"bench={measured}", "--pair", "tip=-member.tube.chord_rotation",
+        "--curve", f"bench={measured}", "--pair", "tip=-member.tube.chord_rotation", "--second-mesh", 1.5,
     )  # fmt: skip
     assert (run.returncode, run.stderr) == (0, "")
     assert "times faster" in run.stdout
@@ -29,7 +29,14 @@ def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
     }
     assert len(hashes) == 1
     page = (tmp_path / "out" / "report.html").read_text()
-    for expected in ("bench", "laws of the shell run", "elastic members", "left out: M2", 'id="player"'):
+    for expected in (
+        "bench",
+        "laws of the shells",
+        "elastic members",
+        "left out: M2",
+        'id="player"',
+        "shell, 30 mm",
+    ):
         assert expected in page
     assert (tmp_path / "out" / "figures" / "shapes.svg").is_file()
 
@@ -51,9 +58,11 @@ def test_run_with_both_fidelities(tmp_path: Path) -> None:
         (("--curve", "nothing"), "is not name=file.csv"),
         (("--curve", "a=missing.csv"), "there is no such file"),
         (("--curve", "a=missing.csv", "--pair", "x"), "is not column=history"),
+        (("--second-mesh", "1"), "this is no other mesh"),
+        (("--second-mesh", "nan"), "this is no other mesh"),
     ],
 )
-def test_bad_curves_are_refused_before_anything_is_solved(tmp_path: Path, arguments, says) -> None:
+def test_bad_requests_are_refused_before_anything_is_solved(tmp_path: Path, arguments, says) -> None:
     run = crumple("compare", coarse(tmp_path, 12), "--out", tmp_path / "out", *arguments)
     assert run.returncode == 2
     assert says in run.stderr

@@ -74,7 +74,7 @@ def test_run_told_to_end_can_be_read_and_goes_on_with_the_same_bits(
 
     monkeypatch.setattr("crumple.cli.shell_run.news", end)
     monkeypatch.setattr("crumple.cli.shell_run.NEWS_EVERY", -1.0)
-    monkeypatch.setattr("crumple.shell.solve.WATCH_EVERY", 0.0)
+    monkeypatch.setattr("crumple.shell.stepping.WATCH_EVERY", 0.0)
     words = ["crumple", "run", file, "--fidelity", "shell", "--out", parts, "--threads", 1]
     monkeypatch.setattr(sys, "argv", [str(word) for word in words])
     with pytest.raises(SystemExit) as ended:

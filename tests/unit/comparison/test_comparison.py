@@ -11,14 +11,18 @@ from crumple.analysis import load, solve
 from crumple.comparison import CurveFile, Signal, compare, with_frames, with_pictures
 from crumple.comparison.motion import HingeMotion
 from crumple.comparison.pairing import pairs_of
+from crumple.comparison.solving import mesh_name, with_mesh
 from crumple.comparison.trust import _across_joint
 from crumple.comparison.variant import (
+    SHELL_LAWS,
     measured_law,
     with_elastic_hinges,
     with_elastic_members,
     with_measured_laws,
+    yielding_law,
 )
 from crumple.errors import InputError, Status
+from crumple.section import bending_moment
 from crumple.structure.hinges import hinge_places, law_spec, placed_hinges
 
 TIMES = np.linspace(0.0, 0.1, 101)
@@ -105,6 +109,35 @@ def test_an_equal_rotation_does_not_excuse_another_energy(found):
     assert any("one mesh" in fact for fact in found.trust.facts)
 
 
+def test_a_second_mesh_tells_how_well_the_reference_is_known(case, multibody):
+    shell = folded_result(largest=0.6)
+    near, far = (folded_result(largest=largest) for largest in (0.605, 0.7))
+    for other, doubtful in ((near, False), (far, True)):
+        trust = compare(multibody, shell, case.structure, variants={"shell, 10 mm": other}).trust
+        said = trust.cautions if doubtful else trust.facts
+        assert any("On another mesh (shell, 10 mm" in text for text in said)
+        assert not any("one mesh" in text for text in (*trust.facts, *trust.cautions))
+
+
+def test_further_models_split_the_difference(case, multibody):
+    shell = folded_result()
+    trust = compare(multibody, shell, case.structure, variants={SHELL_LAWS: shell}).trust
+    assert any("the method lacks nothing" in fact for fact in trust.facts)
+    other = folded_result(largest=0.5)
+    trust = compare(multibody, shell, case.structure, variants={SHELL_LAWS: other}).trust
+    assert any("something besides the laws" in fact for fact in trust.facts)
+
+
+def test_another_mesh_has_elements_of_another_size(case):
+    fine = case.model_copy(update={"shell": case.shell.model_copy(update={"fine_size": 4e-3})})
+    assert with_mesh(fine, 2.0).shell.fine_size == 8e-3
+    assert with_mesh(fine, 2.0).shell.element_size == 2.0 * fine.shell.element_size
+    assert mesh_name(with_mesh(case, 2.0)) == f"shell, {2e3 * case.shell.element_size:g} mm"
+    for factor in (0.0, -1.0, 1.0, float("nan"), float("inf")):
+        with pytest.raises(InputError, match="no other mesh"):
+            with_mesh(case, factor)
+
+
 def test_a_fold_without_a_hinge_is_said(case, multibody):
     folds = [(0.01, 0.04, angle_over_time(TIMES)), (0.60, 0.63, 0.5 * angle_over_time(TIMES))]
     found = compare(multibody, folded_result(folds), case.structure)
@@ -156,6 +189,18 @@ def test_a_reference_without_shapes_is_compared_by_its_channels(case, multibody)
     found = compare(multibody, replace(folded_result(), states=None), case.structure)
     assert found.hinges[0].second is None
     assert [pair.channel for pair in found.pairs] == ["energy.kinetic", "energy.dissipated"]
+
+
+def test_bars_of_an_elastic_member_yield_as_their_section_bends(case):
+    structure, length = case.structure, 0.125
+    law = yielding_law(structure, "tube", length)
+    section, metal = structure.section_of("tube"), structure.material_of("tube")
+    assert law.moment[0] == pytest.approx(metal.flow_stress * section.elastic_section_modulus("y"), rel=1e-3)
+    assert law.moment[-1] == pytest.approx(metal.flow_stress * section.plastic_section_modulus("y"), rel=1e-3)
+    # elastic and plastic rotation together are length times curvature
+    rigidity = structure.flexural_rigidity("tube", "y")
+    curvature = (np.array(law.rotation) + length * np.array(law.moment) / rigidity) / length
+    assert bending_moment(section, metal, "y", curvature) == pytest.approx(law.moment, rel=2e-3)
 
 
 def test_variants_change_forms_and_bars_alone(case):

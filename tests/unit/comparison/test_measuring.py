@@ -1,5 +1,7 @@
 """Sections, folds and hinges measured in shapes whose truth is known."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tests.unit.comparison.folded_tube import MOMENT, analysis, angle_over_time, folded_result, folded_states
@@ -30,6 +32,33 @@ def test_the_rotation_does_not_depend_on_the_frame():
     turn *= np.sign(np.linalg.det(turn))
     own = sections_of(one_fold(turned=turn), "tube")
     assert np.allclose(own.rotation(turn @ MINUS_Y)[:, -1], angle_over_time(TIMES), atol=1e-10)
+
+
+def tumbling(states, axis, largest=2.0):
+    """The same shapes on a frame that turns about an axis while they fold."""
+    axis = np.asarray(axis) / np.linalg.norm(axis)
+    cross = np.cross(np.eye(3), -axis)
+    angles = largest * states.times / states.times[-1]
+    turns = [np.eye(3) + np.sin(a) * cross + (1.0 - np.cos(a)) * cross @ cross for a in angles]
+    places = [(states.points + u) @ r.T for u, r in zip(states.displacement, turns, strict=True)]
+    return replace(states, displacement=np.array(places) - states.points)
+
+
+def test_a_relative_rotation_moves_with_the_section_that_carries_it():
+    # about any axis across the member at the start; twist about the member is not followed
+    still = sections_of(one_fold(0.5), "tube")
+    moving = sections_of(tumbling(one_fold(0.5), [0.0, 0.6, 0.8]), "tube")
+    last = len(still.stations) - 1
+    assert np.allclose(
+        still.relative_rotation(MINUS_Y, 0, last), still.rotation(MINUS_Y)[:, -1], rtol=0.0, atol=1e-9
+    )
+    assert np.allclose(moving.relative_rotation(MINUS_Y, 0, last), angle_over_time(TIMES, 0.5), atol=1e-9)
+    assert np.allclose(
+        far_rotation(moving, 0.02, MINUS_Y), far_rotation(still, 0.02, MINUS_Y), rtol=0.0, atol=1e-9
+    )
+    # an axis fixed in space sees something else
+    turned = moving.rotation(MINUS_Y)
+    assert not np.allclose(turned[:, last] - turned[:, 0], angle_over_time(TIMES, 0.5), atol=1e-2)
 
 
 def test_more_than_half_a_turn_is_counted_on():

@@ -103,6 +103,34 @@ def test_cowper_symonds_raises_the_yield_stress():
     )  # the elastic share is still settling
 
 
+@pytest.mark.parametrize(("rate", "factor"), [(200.0, 1 + 0.03 * np.log(100.0)), (1.0, 1.0)])
+def test_johnson_cook_raises_the_yield_stress(rate, factor):
+    """1 + C ln(rate / reference) above the reference rate of 2 /s, nothing below it."""
+    material = ShellMaterial(
+        7850.0, E, NU, yield_stress=488e6, rate_reference=2.0, rate_logarithm=0.03, rate_time=0.0
+    )
+    state = ShellState(model(X, QUAD, 2e-3, material))
+    dt = 1e-4 / rate
+    velocity = X @ np.diag([rate, -0.5 * rate, 0.0])
+    for _ in range(200):
+        state.deform(X, velocity, 0 * X, dt)
+    # uniaxial incompressible flow: the equivalent rate is the axial one
+    assert mises(stress_of(state)) == pytest.approx(488e6 * factor, rel=1e-5)
+
+
+def test_rate_and_hardening_table_multiply():
+    material = ShellMaterial(
+        7850.0, E, NU, hardening=([0.0, 0.1], [300e6, 400e6]), rate_reference=1.0, rate_logarithm=0.05,
+        rate_time=0.0,
+    )  # fmt: skip
+    state = ShellState(model(X, QUAD, 2e-3, material))
+    velocity = X @ np.diag([50.0, -25.0, 0.0])
+    for _ in range(400):
+        state.deform(X, velocity, 0 * X, 2e-6)
+    ep = state.point_field("plastic_strain")[0, 0]
+    assert mises(stress_of(state)) == pytest.approx((300e6 + 1e9 * ep) * (1 + 0.05 * np.log(50.0)), rel=1e-5)
+
+
 def test_answer_of_an_element_does_not_depend_on_its_neighbours():
     """Elements that yield and that do not, in one block and alone: same bits."""
     position, quads = grid(9, 1, 0.09, 0.01)

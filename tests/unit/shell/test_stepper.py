@@ -8,6 +8,7 @@ from sheets import ELASTIC, STEEL, grid, model
 
 from crumple._core.shell import (
     Cut,
+    Element,
     NodalLoad,
     PrescribedVelocity,
     RigidObstacle,
@@ -151,6 +152,100 @@ def test_free_rigid_set_keeps_energy_and_momentum():
     centre = state.rigid_sets[0, :3]
     assert state.position == pytest.approx(x @ turn.T + centre, abs=1e-15)
     assert abs(state.point_field("stress_x")).max() < 1e-4 * 488e6
+
+
+def two_halves(rigid):
+    """A sheet of two metals, the right half perhaps rigid, spinning."""
+    x, quads = grid(8, 2, 0.08, 0.02)
+    x = x - x.mean(axis=0)
+    right = x[quads].mean(axis=1)[:, 0] > 0
+    steel = dataclasses.replace(STEEL, rigid=False)
+    return x, dataclasses.replace(
+        model(x, quads, 2e-3, velocity=np.cross([0, 0, 300.0], x)),
+        materials=[steel, dataclasses.replace(steel, density=2700.0, rigid=rigid)],
+        sheets=[Sheet(0), Sheet(1)],
+        sheet=right.astype(int),
+        spin=np.tile([0, 0, 300.0], (len(x), 1)),
+    )
+
+
+def test_rigid_material_moves_as_one_body():
+    """Distances within stay to round-off, nothing in it is stressed, and its elements do not set the step."""
+    x, m = two_halves(True)
+    state = ShellState(m)
+    first = state.energies["kinetic"]
+    assert state.advance(2e-4) is Status.COMPLETE
+    body = np.flatnonzero(x[:, 0] > -1e-9)
+    before, after = (a[body] - a[body[0]] for a in (x, state.position))
+    assert np.linalg.norm(after, axis=1) == pytest.approx(np.linalg.norm(before, axis=1), abs=1e-15)
+    inside = np.asarray(m.sheet) == 1
+    assert not state.point_field("stress_x")[inside].any()
+    assert state.point_field("stress_x")[~inside].any()
+    assert abs(state.energies["residual"]) < 1e-4 * first
+    assert state.rigid_sets.shape[0] == 1
+
+
+def test_rigid_elements_must_lie_in_one_body():
+    _, m = two_halves(True)
+    half = [int(n) for n in np.unique(m.elements[np.asarray(m.sheet) == 1])][:3]
+    with pytest.raises(InputError, match="it is rigid, but its nodes are not all in one rigid set"):
+        ShellState(dataclasses.replace(m, rigid_sets=[RigidSet(half)]))
+    with pytest.raises(InputError, match="every element is rigid"):
+        ShellState(dataclasses.replace(m, sheet=1))
+
+
+def test_rigid_sheets_that_touch_are_one_body():
+    x, m = two_halves(True)
+    both = dataclasses.replace(
+        m, materials=[*m.materials, m.materials[1]], sheets=[Sheet(0), Sheet(1), Sheet(2)]
+    )
+    sheet = np.where(x[m.elements].mean(axis=1)[:, 0] > 0.02, 2, np.asarray(m.sheet))
+    assert ShellState(dataclasses.replace(both, sheet=sheet)).rigid_sets.shape[0] == 1
+
+
+def torn_strip(any_point):
+    """Strip pulled at 20 m/s until it tears."""
+    x, quads = grid(10, 2, 0.05, 0.01)
+    fixed = np.zeros((len(x), 6), dtype=bool)
+    fixed[x[:, 0] == 0] = True
+    metal = dataclasses.replace(STEEL, failure_strain=0.1, fails_at_any_point=any_point)
+    motions = [PrescribedVelocity(n, "x", [0, 1e-5], [0, 20.0]) for n in range(30, 33)]
+    return ShellState(model(x, quads, 2e-3, metal, fixed=fixed, motions=motions))
+
+
+@pytest.mark.parametrize("any_point", [True, False])
+def test_a_strip_tears_with_its_energy_accounted(any_point):
+    """Elements go, the force on the pulled end dies, and the ledger closes over the loss."""
+    state = torn_strip(any_point)
+    assert state.advance(1e-3) is Status.COMPLETE
+    gone = state.element_field("alive") == 0
+    assert 0 < gone.sum() < 10
+    e = state.energies
+    lost = state.element_field("internal_energy") - state.element_field("plastic_energy")
+    assert e["eroded"] == pytest.approx(lost[gone].sum(), rel=1e-12)
+    assert e["eroded"] > 0
+    assert abs(e["residual"]) < 0.01 * e["external_work"]
+    work = e["external_work"]
+    state.advance(1.2e-3)
+    assert state.energies["external_work"] - work < 0.02 * work
+
+
+@pytest.mark.parametrize("element", Element)
+def test_an_element_that_inverts_ends_the_run_by_name(element):
+    """A corner driven across its element: the run stops with a status, the element and finite results."""
+    x, quads = grid(4, 4, 0.04, 0.04)
+    rim = np.abs(x[:, :2] - 0.02).max(axis=1) > 0.02 - 1e-9
+    fixed = np.repeat(rim[:, None], 6, axis=1)
+    motions = [PrescribedVelocity(12, dof, [0.0], [40.0]) for dof in ("x", "y")]
+    state = ShellState(
+        model(x, quads, 2e-3, STEEL, settings={"element": element}, motions=motions, fixed=fixed)
+    )
+    assert state.advance(1e-3) is Status.INVERTED
+    assert "is inverted: a corner has crossed it" in state.reason
+    assert np.isfinite(state.position).all()
+    # what was computed until then is sound
+    e = state.energies
+    assert abs(e["residual"]) < 0.05 * e["external_work"]
 
 
 def test_rigid_set_accelerates_by_its_whole_mass():

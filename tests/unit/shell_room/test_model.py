@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from tests.unit.shell_room.structures import cantilever, tee, thrown
 
-from crumple._core.shell import ShellState
+from crumple._core.shell import Element, ShellState
 from crumple.errors import InputError
 from crumple.function import parse_time_function
-from crumple.material import CowperSymonds, JohnsonCook, Material, Swift
+from crumple.material import CowperSymonds, HardeningTable, JohnsonCook, Material, Swift
 from crumple.shell import lower
 from crumple.shell.drives import velocity_of
-from crumple.shell.metal import shell_material
+from crumple.shell.metal import in_words, shell_material
 from crumple.structure import ShellSettings
 
 COARSE = ShellSettings(element_size=12e-3)
@@ -152,8 +152,8 @@ def test_rate_law_is_taken_from_flow_then_yield():
     given = Material("steel", 210e9, 0.3, 7850.0, 300e6, yield_rate=CowperSymonds(40.4, 5.0))
     assert shell_material(given).rate_reference == 40.4
     logarithmic = Material("steel", 210e9, 0.3, 7850.0, 300e6, flow_rate=JohnsonCook(0.014))
-    law = JohnsonCook(0.014).as_cowper_symonds()
-    assert shell_material(logarithmic).rate_exponent == law.q
+    metal = shell_material(logarithmic)
+    assert (metal.rate_logarithm, metal.rate_reference) == (0.014, 1.0)
 
 
 def test_settings_reach_the_stepper():
@@ -172,6 +172,34 @@ def test_settings_reach_the_stepper():
         0.2,
     )
     assert model.sheets[0].points == 3
+
+
+def test_element_and_thickness_rule_reach_the_stepper():
+    given = ShellSettings(
+        element_size=12e-3, element="stabilised", thickness_rule="lobatto", thickness_points=4,
+        warping_correction="on", drill_stiffness=0.02,
+    )  # fmt: skip
+    model = lower(thrown(), given).model
+    core = model.settings
+    assert (core.element, core.warping_correction, core.drill_stiffness) == (Element.STABILISED, True, 0.02)
+    assert (model.sheets[0].points, model.sheets[0].lobatto) == (4, True)
+    # nothing bends by the drill without the warping terms, and nothing has to hold it
+    off = given.model_copy(update={"warping_correction": "off"})
+    assert lower(thrown(), off).model.settings.drill_stiffness == 0.0
+
+
+def test_lobatto_needs_two_points():
+    with pytest.raises(InputError, match="Lobatto's rule has at least two points"):
+        ShellSettings(thickness_rule="lobatto", thickness_points=1)
+
+
+def test_failure_strain_and_a_table_reach_the_elements():
+    table = HardeningTable((0.0, 0.02, 0.3), (300e6, 350e6, 500e6))
+    given = Material("steel", 210e9, 0.3, 7850.0, 300e6, hardening=table, failure_strain=0.4)
+    metal = shell_material(given)
+    assert [list(column) for column in metal.table()] == [[0.0, 0.02, 0.3], [300e6, 350e6, 500e6]]
+    assert metal.failure_strain == 0.4
+    assert "tears at a plastic strain of 0.4" in in_words(given)
 
 
 def test_fine_size_above_the_element_size_is_refused():

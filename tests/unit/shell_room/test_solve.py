@@ -83,8 +83,11 @@ def test_moments_in_the_cut_and_at_the_support_agree(result):
 def test_shapes_carry_the_walls_fields(result):
     states = result.states
     assert states.times == pytest.approx([0.0, 2e-3, 4e-3], abs=1e-5)
-    assert set(states.cell_data) == {"plastic_strain", "thickness", "von_mises"}
+    assert set(states.cell_data) == {"plastic_strain", "plastic_work", "thickness", "von_mises"}
     assert all(values.shape == (3, len(states.quads)) for values in states.cell_data.values())
+    work = states.cell_data["plastic_work"].sum(axis=1)
+    assert work[-1] > 1.0
+    assert work == pytest.approx(np.interp(states.times, result.time, result["energy.dissipated"]), rel=1e-3)
     assert states.cell_data["thickness"][0] == pytest.approx(2.65e-3)
     assert states.cell_data["von_mises"].max() <= 488e6 * (1 + 1e-6)
     tip = states.station == states.station.max()

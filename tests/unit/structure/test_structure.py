@@ -7,9 +7,17 @@ import pytest
 from pydantic import ValidationError
 
 from crumple.errors import InputError
-from crumple.material import CowperSymonds, Material
+from crumple.material import CowperSymonds, JohnsonCook, Material
 from crumple.section import CircularTube, RectangularTube
-from crumple.structure import FrozenMapping, Hinge, Member, MultibodySettings, Structure, Support
+from crumple.structure import (
+    FrozenMapping,
+    Hinge,
+    MaterialSpec,
+    Member,
+    MultibodySettings,
+    Structure,
+    Support,
+)
 
 
 def test_quantities_with_units_and_plain_si_numbers_are_one(keys):
@@ -31,6 +39,47 @@ def test_parts_may_be_objects_of_their_rooms(keys):
     assert (made.flow_stress, made.ultimate_stress, made.flow_rate) == (3.5e8, 4e8, None)
     assert made.yield_rate == CowperSymonds(40.4, 5.0)
     assert structure.sections["pipe"].section() == CircularTube(0.04, 0.002)
+
+
+def test_a_metal_with_every_curve_makes_the_round_trip(keys):
+    """From a file's keys to the physics room and back through a Material."""
+    rate = {"type": "johnson-cook", "C": 0.014, "reference": "2 1/s"}
+    curves = [
+        {"type": "swift", "prestrain": 0.002, "exponent": 0.12},
+        {"type": "voce", "saturation": "150 MPa", "strain": 0.05},
+        {"type": "table", "plastic_strain": [0.0, 0.1], "true_stress": ["488 MPa", "600 MPa"]},
+    ]
+    for curve in curves:
+        keys["materials"]["steel"] |= {"flow_rate": rate, "hardening": curve, "failure_strain": 0.35}
+        metal = Structure(**keys).material_of("arm")
+        assert metal.flow_rate == JohnsonCook(0.014, 2.0)
+        assert metal.hardening.stress(0.0) == pytest.approx(488e6)
+        assert metal.hardening.stress(0.1) > 530e6
+        assert metal.failure_strain == 0.35
+        again = MaterialSpec.model_validate(metal).material(metal.name)
+        assert again == metal
+
+
+def hardening(*stresses):
+    return {"hardening": {"type": "table", "plastic_strain": [0.0, 0.1], "true_stress": list(stresses)}}
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (hardening("300 MPa", "400 MPa"), "does not begin at the yield stress"),
+        (hardening("488 MPa"), "as many stresses as strains"),
+        ({"hardening": {"type": "swift", "prestrain": 0.0, "exponent": 0.1}}, "out of range"),
+        ({"hardening": {"type": "ludwik"}}, "table, swift, voce"),
+        ({"flow_rate": {"type": "johnson-cook", "C": -0.1}}, "out of range"),
+        ({"flow_rate": {"D": "40 1/s"}}, "missing"),
+        ({"failure_strain": 0.0}, "out of range"),
+    ],
+)
+def test_a_metal_that_cannot_be_is_refused(keys, change, words):
+    keys["materials"]["steel"] |= change
+    with pytest.raises(InputError, match=words):
+        Structure(**keys)
 
 
 def test_a_structure_is_frozen_hashable_and_travels(keys):
