@@ -7,14 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from crumple.comparison.motion import HingeMotion
-<<<<<<< HEAD
-from crumple.structure import ConstantLaw, HingePlace, Member, Structure, TableLaw
-from crumple.structure.automatic import hinges_of
-=======
 from crumple.section import bending_moment
 from crumple.structure import HingePlace, Member, Structure, TableLaw
+from crumple.structure.automatic import hinges_of
 from crumple.structure.bending import bending_axis
->>>>>>> main
 from crumple.structure.hinges import hinge_places, law_spec
 from crumple.structure.law import LawKeys, LawReference
 from crumple.structure.member import Bars

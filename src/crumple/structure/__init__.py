@@ -31,13 +31,8 @@ from crumple.structure.law import (
 )
 from crumple.structure.load import ForceComponents, Load, Mass, MomentComponents, NodalImpulse
 from crumple.structure.mapping import FrozenMapping
-<<<<<<< HEAD
-from crumple.structure.material import MaterialSpec, RateSpec
-from crumple.structure.member import AutomaticHinges, Bars, Hinge, Member
-=======
 from crumple.structure.material import MaterialSpec
-from crumple.structure.member import Bars, Hinge, Member
->>>>>>> main
+from crumple.structure.member import AutomaticHinges, Bars, Hinge, Member
 from crumple.structure.motion import FREEDOMS, InitialVelocity, Motion, Support
 from crumple.structure.obstacle_checks import gap, stage_problems
 from crumple.structure.obstacles import (
