@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from tests.verification.chains import REGULARISED, SET_VALUED, m2
 
-from crumple.multibody.solve import CHECK_FACTOR
+from crumple.multibody.run import CHECK_FACTOR
 
 SUMS = {0.05: 0.6656451692, 5e-4: 0.6621691528}
 END = np.array([0.1])

@@ -68,7 +68,10 @@ def _channels(structure: Structure, outputs: Outputs) -> Iterator[str]:
         yield from (f"hinge.{place.name}.{quantity}" for quantity in HINGE_QUANTITIES)
     for node in outputs.nodes:
         yield from (f"node.{node}.{quantity}.{axis}" for quantity in NODE_QUANTITIES for axis in "xyz")
+    for obstacle in structure.obstacles:
+        yield from (f"obstacle.{obstacle}.force.{axis}" for axis in "xyz")
     yield from outputs.section_rotations
+    yield from outputs.distances
 
 
 def _problems(

@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
 FIDELITIES = ("multibody", "shell")
 """Solvers by name."""
-UNSOLVED = {
-    "multibody": ("obstacles", "member_contact", "analysis.stages"),
-    "shell": (),
+UNSOLVED: dict[str, tuple[str, ...]] = {
+    "multibody": ("obstacles", "member_contact"),
+    "shell": ("joints", "outputs.section_forces", "outputs.distances"),
 }
 """Parts of a description that a solver does not take."""
 
@@ -101,6 +101,9 @@ def _refuse_unsolved(analysis: Analysis, fidelity: str) -> None:
         "obstacles": structure.obstacles,
         "member_contact": structure.member_contact,
         "analysis.stages": analysis.stages,
+        "joints": structure.joints,
+        "outputs.section_forces": analysis.outputs.section_forces,
+        "outputs.distances": analysis.outputs.distances,
     }
     problems = [
         Problem(f"the {fidelity} solver does not take '{where}' so far", where=where, todo="take it away")
@@ -124,6 +127,7 @@ def _multibody(
         settings=analysis.multibody,
         outputs=analysis.outputs,
         title=analysis.title,
+        stages=analysis.stages,
     )
     return solve_multibody(analysis.structure, run, progress, cancel)
 

@@ -9,11 +9,15 @@ import typer
 
 
 def check(file: Annotated[Path, typer.Argument(help="Input file (YAML).", show_default=False)]) -> None:
-    """Report every mistake in an input file. Each with its place, what came, what is allowed, what to do."""
+    """Report every mistake in an input file, and tell what of the structure is free or held twice."""
     from crumple.analysis import check as problems_of
+    from crumple.analysis import load
     from crumple.errors import InputError
+    from crumple.multibody import link, notes
 
     problems = problems_of(file)
     if problems:
         raise InputError(problems)
     typer.echo(f"{file}: no mistakes found")
+    for note in notes(link(load(file).structure)):
+        typer.echo(f"  {note}")

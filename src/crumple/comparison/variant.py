@@ -9,6 +9,7 @@ import numpy as np
 from crumple.comparison.motion import HingeMotion
 from crumple.section import bending_moment
 from crumple.structure import HingePlace, Member, Structure, TableLaw
+from crumple.structure.automatic import hinges_of
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges import hinge_places, law_spec
 from crumple.structure.law import LawKeys, LawReference
@@ -116,7 +117,8 @@ def with_measured_laws(structure: Structure, motions: Sequence[HingeMotion]) -> 
         name: member.model_copy(
             update={
                 "hinges": tuple(
-                    h.model_copy(update={"law": laws[h.name]}) if h.name in laws else h for h in member.hinges
+                    h.model_copy(update={"law": laws[h.name]}) if h.name in laws else h
+                    for h in hinges_of(base, name)
                 )
             }
         )
@@ -155,7 +157,8 @@ def _numbers(values: np.ndarray) -> tuple[float, ...]:
 
 def _elastic(structure: Structure, name: str, member: Member, places: dict[str, HingePlace]) -> Member:
     hinges = tuple(
-        hinge.model_copy(update={"law": _law(structure, places[hinge.name])}) for hinge in member.hinges
+        hinge.model_copy(update={"law": _law(structure, places[hinge.name])})
+        for hinge in hinges_of(structure, name)
     )
     bars = member.bars
     between = next(

@@ -3,26 +3,35 @@
 `solve_multibody(structure, run)` is the way in; `lower` shows the mechanism that a structure becomes.
 """
 
-from crumple.multibody.mechanism import Link, Mechanism, Piece, lower
+from crumple.multibody.assembly import Piece
+from crumple.multibody.linkage import Connection, Linkage, link
+from crumple.multibody.mechanism import Link, Mechanism, lower
+from crumple.multibody.mobility import notes
 from crumple.multibody.model import start_of, tree_hinge, tree_model
 from crumple.multibody.plane import Plane
+from crumple.multibody.run import Run
 from crumple.multibody.sensitivity import Sensitivities, sensitivities
-from crumple.multibody.solve import Run, solve_multibody
+from crumple.multibody.solve import solve_multibody, solver_of
 from crumple.multibody.timing import stepping_seconds
 from crumple.multibody.variants import VariantTable, solve_variants
 
 __all__ = [
+    "Connection",
     "Link",
+    "Linkage",
     "Mechanism",
     "Piece",
     "Plane",
     "Run",
     "Sensitivities",
     "VariantTable",
+    "link",
     "lower",
+    "notes",
     "sensitivities",
     "solve_multibody",
     "solve_variants",
+    "solver_of",
     "start_of",
     "stepping_seconds",
     "tree_hinge",

@@ -9,9 +9,11 @@ from numpy.typing import NDArray
 
 from crumple._core.batch import TreeFinals
 from crumple._core.tree import Outcome, TreeRecord
-from crumple.multibody.histories import energy_channels, hinge_channels, node_channels, section_channels
+from crumple.multibody.histories import distance_channels, node_channels, section_channels
 from crumple.multibody.lowered import Lowered
+from crumple.multibody.poses import TreePoses
 from crumple.multibody.rigid import Floats
+from crumple.multibody.tree_solver import energy_of, hinge_columns
 from crumple.structure import Outputs
 
 OF_HINGES = ("rotation", "plastic_rotation", "moment", "capacity", "energy")
@@ -44,19 +46,19 @@ def final_quantities(model: Lowered, finals: TreeFinals, outputs: Outputs) -> di
         solves=0,
     )
     found: dict[str, Floats] = {}
-    for channel in hinge_channels(model.mechanism, record):
-        if channel.name.rsplit(".", 1)[1] in OF_HINGES:
-            found[channel.name] = channel.values
+    poses = TreePoses(model.mechanism, record)
+    for hinge, columns in hinge_columns(model.mechanism, record):
+        found |= {f"hinge.{hinge.name}.{name}": columns[name][1] for name in OF_HINGES}
     for k, (name, _) in enumerate(model.hinges):
         found[f"hinge.{name}.rotation_max"] = finals.summary[:, k, 0]
         found[f"hinge.{name}.moment_max"] = finals.summary[:, k, 1]
-    for channel in energy_channels(record):
-        if channel.name != "energy.residual":
-            found[channel.name] = channel.values
-    for channel in node_channels(model.structure, model.mechanism, record, outputs.nodes):
+    found |= {f"energy.{name}": values for name, values in energy_of(record).items()}
+    for channel in node_channels(model.structure, poses, outputs.nodes):
         if channel.name.split(".")[2] in OF_NODES:
             found[channel.name] = channel.values
-    for channel in section_channels(model.structure, model.mechanism, record, outputs):
+    for channel in section_channels(model.structure, poses, outputs):
+        found[channel.name] = channel.values
+    for channel in distance_channels(model.structure, poses, outputs):
         found[channel.name] = channel.values
     found["energy_residual"] = finals.residual
     return found

@@ -1,159 +1,104 @@
-"""From the kernel's record to named channels and summaries."""
+"""From a kernel's run to named channels and summaries."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from crumple._core.tree import TreeRecord
-from crumple.multibody.mechanism import GROUND, Mechanism
+from crumple.multibody.poses import Poses, piece_at
 from crumple.multibody.rigid import Floats
+from crumple.multibody.solved import HingeHistory, Solved
 from crumple.result import Channel, HingeSummary
-from crumple.structure import Outputs, PlacedHinge, Structure
+from crumple.structure import Outputs, Structure
+from crumple.structure.bending import bending_axis
 
 AXES = ("x", "y", "z")
 
 
-def hinge_links(mechanism: Mechanism) -> list[tuple[int, PlacedHinge, float]]:
-    """Joint coordinate, hinge and sign of every hinge, in the kernel's order."""
-    found, dof = [], 0
-    for link in mechanism.links:
-        if link.hinge is not None:
-            found.append((dof, link.hinge, link.sign))
-        dof += 3 if link.free else 1
-    return found
+def hinge_channels(hinges: Iterable[HingeHistory]) -> Iterator[Channel]:
+    """Rotation, rates, moment, capacity and energy of every hinge, and the energy of every member."""
+    by_member: dict[str, Floats] = {}
+    for history in hinges:
+        member = history.hinge.member
+        by_member[member] = by_member.get(member, 0.0) + history.values("energy")
+        for name, (unit, values) in history.columns.items():
+            yield Channel(f"hinge.{history.hinge.name}.{name}", unit, values)
+    yield from (Channel(f"member.{name}.energy", "J", values) for name, values in by_member.items())
 
 
-def hinge_channels(mechanism: Mechanism, record: TreeRecord) -> Iterator[Channel]:
-    """Rotation, rates, moment, capacity and absorbed energy of every hinge."""
-    for k, (dof, hinge, sign) in enumerate(hinge_links(mechanism)):
-        plastic, moment, capacity, dissipated = record.hinge[:, k, :4].T
-        columns = (
-            ("rotation", "rad", sign * record.q[:, dof]),
-            ("rotation_rate", "rad/s", sign * record.w[:, dof]),
-            ("plastic_rotation", "rad", sign * plastic),
-            ("moment", "N*m", sign * moment),
-            ("capacity", "N*m", capacity),
-            ("energy", "J", dissipated),
-        )
-        yield from (Channel(f"hinge.{hinge.name}.{name}", unit, values) for name, unit, values in columns)
-
-
-def energy_channels(record: TreeRecord) -> Iterator[Channel]:
-    """Ledger: kinetic + elastic + dissipated - external work - start = residual."""
-    kinetic, external = record.energy[:, 0], record.energy[:, 5]
-    dissipated = record.hinge[:, :, 3].sum(axis=1)
-    stored = record.energy[:, 1:5].sum(axis=1) - dissipated
-    residual = kinetic + stored + dissipated - external
-    columns = {
-        "kinetic": kinetic,
-        "elastic": stored,
-        "dissipated": dissipated,
-        "external_work": external,
-        "residual": residual - (residual[0] if residual.size else 0.0),
-    }
+def energy_channels(solved: Solved) -> Iterator[Channel]:
+    """Ledger: kinetic + elastic + dissipated (+ contact + friction) - external work - start = residual."""
+    columns = {**solved.energy, "residual": solved.balance}
     yield from (Channel(f"energy.{name}", "J", values) for name, values in columns.items())
 
 
-def node_channels(
-    structure: Structure, mechanism: Mechanism, record: TreeRecord, nodes: Sequence[str]
-) -> Iterator[Channel]:
+def node_channels(structure: Structure, poses: Poses, nodes: Sequence[str]) -> Iterator[Channel]:
     """Displacement, velocity, mean acceleration between outputs, and rotation of nodes, in global axes."""
-    plane = mechanism.plane
     for name in nodes:
-        body = mechanism.node_body[name]
+        body = poses.node_body[name]
         start = np.asarray(structure.nodes[name], float)
-        place, velocity, angle, rate = motion_of(mechanism, record, body, start)
-        acceleration = np.gradient(velocity, record.time, axis=0) if record.time.size > 1 else 0.0 * velocity
+        place, velocity = poses.place(body, start)
+        rotation, rate = poses.rotation(body)
+        acceleration = np.gradient(velocity, poses.time, axis=0) if poses.time.size > 1 else 0.0 * velocity
         fields = (
             ("displacement", "m", place - start),
             ("velocity", "m/s", velocity),
             ("acceleration", "m/s^2", acceleration),
-            ("rotation", "rad", angle[:, None] * plane.normal),
-            ("rotation_rate", "rad/s", rate[:, None] * plane.normal),
+            ("rotation", "rad", rotation),
+            ("rotation_rate", "rad/s", rate),
         )
         for field, unit, values in fields:
             for i, axis in enumerate(AXES):
                 yield Channel(f"node.{name}.{field}.{axis}", unit, np.ascontiguousarray(values[:, i]))
 
 
-def motion_of(
-    mechanism: Mechanism, record: TreeRecord, body: int, point: Floats
-) -> tuple[Floats, Floats, Floats, Floats]:
-    """Motion of a point that is fixed to a body.
-
-    Parameters
-    ----------
-    body
-        Its number; -1 for the ground.
-    point
-        Position at the start, global [m], (3,).
-
-    Returns
-    -------
-    place, velocity
-        Global [m], [m/s], (n, 3).
-    angle, rate
-        Of the body about the plane's normal [rad], [rad/s], (n,).
-    """
-    n = record.time.size
-    if body == GROUND:
-        return np.tile(point, (n, 1)), np.zeros((n, 3)), np.zeros(n), np.zeros(n)
-    plane = mechanism.plane
-    angle, rate = record.pose[:, body, 0], record.velocity[:, body, 0]
-    arm = point - mechanism.bodies[body].centre
-    origin = mechanism.bodies[body].centre - mechanism.links[body].position
-    turned = rotated(plane.flat(arm), angle)
-    centre = record.pose[:, body, 1:] + rotated(plane.flat(origin), angle)
-    across = float(point @ plane.normal) * plane.normal
-    flat_velocity = record.velocity[:, body, 1:] + rate[:, None] * np.stack(
-        [-turned[:, 1], turned[:, 0]], axis=1
-    )
-    return plane.raised(centre + turned) + across, plane.raised(flat_velocity), angle, rate
-
-
-def rotated(vector: Floats, angle: Floats) -> Floats:
-    """A plane vector (2,) turned by every angle (n,): (n, 2)."""
-    c, s = np.cos(angle), np.sin(angle)
-    return np.stack([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]], axis=1)
-
-
-def section_channels(
-    structure: Structure, mechanism: Mechanism, record: TreeRecord, outputs: Outputs
-) -> Iterator[Channel]:
-    """Rotation of one station of a member against another, about the member's own axis nearest the normal."""
+def section_channels(structure: Structure, poses: Poses, outputs: Outputs) -> Iterator[Channel]:
+    """Rotation of one station of a member against another, about the member's axis across the plane."""
     for name, asked in outputs.section_rotations.items():
         frame = structure.frame_of(asked.member)
-        projected = np.array([frame.y @ mechanism.plane.normal, frame.z @ mechanism.plane.normal])
+        ends = [piece_at(poses.pieces, asked.member, station).body for station in (asked.start, asked.end)]
+        turned = poses.relative(ends[0], ends[1])
+        if poses.normal is None:
+            yield Channel(name, "rad", turned @ frame.axis(bending_axis(structure, asked.member)))
+            continue
+        projected = np.array([frame.y @ poses.normal, frame.z @ poses.normal])
         sign = float(np.sign(projected[np.argmax(np.abs(projected))]) or 1.0)
-        ends = [mechanism.piece_at(asked.member, station).body for station in (asked.start, asked.end)]
-        angles = [record.pose[:, b, 0] if b != GROUND else np.zeros(record.time.size) for b in ends]
-        yield Channel(name, "rad", sign * (angles[1] - angles[0]))
+        yield Channel(name, "rad", sign * (turned @ poses.normal))
 
 
-def summaries(
-    mechanism: Mechanism, record: TreeRecord, errors: Floats | None = None
-) -> dict[str, HingeSummary]:
+def distance_channels(structure: Structure, poses: Poses, outputs: Outputs) -> Iterator[Channel]:
+    """Change of the distance between two nodes: negative where they come nearer."""
+    for name, asked in outputs.distances.items():
+        ends = [np.asarray(structure.nodes[node], float) for node in (asked.start, asked.end)]
+        nodes = zip((asked.start, asked.end), ends, strict=True)
+        places = [poses.place(poses.node_body[node], point)[0] for node, point in nodes]
+        before = float(np.linalg.norm(ends[1] - ends[0]))
+        yield Channel(name, "m", np.linalg.norm(places[1] - places[0], axis=1) - before)
+
+
+def summaries(hinges: Iterable[HingeHistory], errors: Floats | None = None) -> dict[str, HingeSummary]:
     """What every hinge did.
 
     Parameters
     ----------
+    hinges
+        Histories.
     errors
         Estimated error of each largest rotation [rad], (hinges,), or None.
     """
     found = {}
-    for k, (dof, hinge, sign) in enumerate(hinge_links(mechanism)):
-        rotation_max, moment_max, rest, turning, energy = record.summary[k]
+    for k, history in enumerate(hinges):
+        hinge = history.hinge
         law, envelopes = hinge.law, (hinge.record.positive, hinge.record.negative)
         rotation = np.union1d(envelopes[0].rotation, envelopes[1].rotation)
         positive, negative = (np.interp(rotation, e.rotation, e.moment) for e in envelopes)
         found[hinge.name] = HingeSummary(
-            rotation_max=float(rotation_max),
-            rotation_final=float(sign * record.q[-1, dof]),
-            time_of_rest=None if turning else float(rest),
-            energy=float(energy),
-            moment_max=float(moment_max),
+            rotation_max=history.rotation_max,
+            rotation_final=float(history.values("rotation")[-1]),
+            time_of_rest=history.time_of_rest,
+            energy=history.energy,
+            moment_max=history.moment_max,
             rotation_error=None if errors is None else float(errors[k]),
             law=law.title,
             source=f"{law.source.citation} ({law.source.trust.value})",

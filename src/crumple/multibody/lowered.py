@@ -8,10 +8,10 @@ import numpy as np
 
 from crumple._core.tree import TreeModel
 from crumple.errors import InputError
-from crumple.multibody.histories import hinge_links
-from crumple.multibody.mechanism import Mechanism, lower
-from crumple.multibody.model import Start, start_of, tree_model
+from crumple.multibody.mechanism import Mechanism, hinge_links, lower
+from crumple.multibody.model import start_of, tree_model
 from crumple.multibody.rigid import Floats
+from crumple.multibody.start import Start
 from crumple.structure import Structure
 
 RawMass = Floats
@@ -29,7 +29,7 @@ class Lowered:
     @property
     def hinges(self) -> list[tuple[str, float]]:
         """Names of the hinges in the kernel's order, and the signs of their rotations there."""
-        return [(hinge.name, sign) for _, hinge, sign in hinge_links(self.mechanism)]
+        return [(hinge.name, sign) for _, hinge, sign in hinge_links(self.mechanism.links)]
 
     @property
     def topology(self) -> tuple[object, ...]:

@@ -10,27 +10,18 @@ and welds hold the parts together.
 from __future__ import annotations
 
 from collections import defaultdict, deque
-from dataclasses import dataclass, field
-from itertools import pairwise
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
 from crumple.errors import InputError, Problem
+from crumple.multibody.assembly import Assembly, Piece, assemble
 from crumple.multibody.plane import Plane, plane_of
-from crumple.multibody.rigid import Floats, RigidMass, combined, lump_mass, piece_mass
+from crumple.multibody.rigid import Floats, RigidMass
 from crumple.structure import PlacedHinge, Structure, placed_hinges
 
 GROUND = -1
-
-
-@dataclass(frozen=True)
-class Piece:
-    """Part of a member between two cuts; ``body`` is its rigid body (-1: ground)."""
-
-    member: str
-    start: float
-    end: float
-    body: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +48,15 @@ class Link:
     hinge: PlacedHinge | None = None
     free: bool = False
     sign: float = 1.0
+
+
+def hinge_links(links: Iterable[Link]) -> Iterator[tuple[int, PlacedHinge, float]]:
+    """Joint coordinate, hinge and sign of every hinge, in the kernel's order."""
+    dof = 0
+    for link in links:
+        if link.hinge is not None:
+            yield dof, link.hinge, link.sign
+        dof += 3 if link.free else 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,47 +93,27 @@ class Mechanism:
         """Into how many equal parts a body is cut; its mass here is that of one."""
         return 1 + sum(whole == body for _, whole in self.welds)
 
-    def piece_at(self, member: str, station: float) -> Piece:
-        """Piece that holds a station [m] of a member; at a cut the one before it, at the end the last."""
-        *inner, last = self.pieces[member]
-        return next((piece for piece in inner if station <= piece.end and station < last.end), last)
 
-
-@dataclass
-class _Assembly:
-    """Pieces and nodes while they are joined; each gets the number of its cluster."""
-
-    structure: Structure
-    hinges: tuple[PlacedHinge, ...]
-    parent: list[int] = field(default_factory=list)
-    cuts: dict[str, list[tuple[float, float, int]]] = field(default_factory=dict)
-    node: dict[str, int] = field(default_factory=dict)
-
-    def new(self) -> int:
-        self.parent.append(len(self.parent))
-        return len(self.parent) - 1
-
-    def root(self, i: int) -> int:
-        while self.parent[i] != i:
-            self.parent[i] = self.parent[self.parent[i]]
-            i = self.parent[i]
-        return i
-
-    def join(self, a: int, b: int) -> None:
-        self.parent[self.root(b)] = self.root(a)
-
-
-def lower(structure: Structure) -> Mechanism:
+def lower(structure: Structure, hinges: tuple[PlacedHinge, ...] | None = None) -> Mechanism:
     """Cut a structure into rigid bodies and hinges.
+
+    Parameters
+    ----------
+    structure
+        Sound.
+    hinges
+        Its hinges; None: as `placed_hinges` gives them.
 
     Raises
     ------
     InputError
-        If hinges' axes are not parallel, a hinge cannot turn, or a body has no inertia.
+        If there are joints, hinges' axes are not parallel, a hinge cannot turn, or a body has no inertia.
     """
-    hinges = placed_hinges(structure)
+    hinges = placed_hinges(structure) if hinges is None else hinges
+    if structure.joints:
+        raise _needs_space()
     plane = plane_of(structure, hinges)
-    assembly = _cut(structure, hinges)
+    assembly = assemble(structure, hinges)
     ground = assembly.new()
     pins: dict[int, str] = {}
     for node, cluster in assembly.node.items():
@@ -145,27 +125,10 @@ def lower(structure: Structure) -> Mechanism:
     return _walk(assembly, plane, ground, pins)
 
 
-def _cut(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> _Assembly:
-    """Cut members at hinges and join what meets at nodes."""
-    assembly = _Assembly(structure, hinges)
-    assembly.node = {node: assembly.new() for node in structure.nodes}
-    by_member: dict[str, list[PlacedHinge]] = defaultdict(list)
-    for hinge in hinges:
-        by_member[hinge.member].append(hinge)
-    for name, member in structure.members.items():
-        length = structure.frame_of(name).length
-        stations = [0.0, *(hinge.station for hinge in by_member[name]), length]
-        pieces = [(a, b, assembly.new()) for a, b in pairwise(stations)]
-        assembly.cuts[name] = pieces
-        assembly.join(assembly.node[member.nodes[0]], pieces[0][2])
-        assembly.join(assembly.node[member.nodes[1]], pieces[-1][2])
-    return assembly
-
-
-def _walk(assembly: _Assembly, plane: Plane, ground: int, pins: dict[int, str]) -> Mechanism:
+def _walk(assembly: Assembly, plane: Plane, ground: int, pins: dict[int, str]) -> Mechanism:
     """Number the bodies from the ground outwards."""
     structure, root = assembly.structure, assembly.root
-    masses = _cluster_masses(assembly)
+    masses = assembly.masses()
     edges = _edges(assembly)
     number: dict[int, int] = {root(ground): GROUND}
     links: list[Link] = []
@@ -211,7 +174,7 @@ def _walk(assembly: _Assembly, plane: Plane, ground: int, pins: dict[int, str]) 
     _check_inertia(bodies, links, plane)
     pieces = {
         name: tuple(Piece(name, a, b, number.get(root(i), GROUND)) for a, b, i in cuts)
-        for name, cuts in assembly.cuts.items()
+        for name, cuts in assembly.pieces.items()
     }
     node_body = {node: number.get(root(i), GROUND) for node, i in assembly.node.items()}
     return Mechanism(
@@ -229,27 +192,12 @@ def _part(
     return RigidMass(whole.mass / parts, whole.centre, whole.inertia / parts)
 
 
-def _cluster_masses(assembly: _Assembly) -> dict[int, RigidMass]:
-    parts: dict[int, list[RigidMass]] = defaultdict(list)
-    for name, cuts in assembly.cuts.items():
-        for start, end, i in cuts:
-            parts[assembly.root(i)].append(piece_mass(assembly.structure, name, start, end))
-    for mass in assembly.structure.masses.values():
-        parts[assembly.root(assembly.node[mass.node])].append(lump_mass(assembly.structure, mass))
-    return {cluster: combined(of) for cluster, of in parts.items()}
-
-
-def _edges(assembly: _Assembly) -> dict[int, list[tuple[PlacedHinge, int, int]]]:
+def _edges(assembly: Assembly) -> dict[int, list[tuple[PlacedHinge, int, int]]]:
     edges: dict[int, list[tuple[PlacedHinge, int, int]]] = defaultdict(list)
-    place: dict[str, int] = defaultdict(int)
-    for hinge in assembly.hinges:
-        cuts, k = assembly.cuts[hinge.member], place[hinge.member]
-        place[hinge.member] += 1
-        first, second = assembly.root(cuts[k][2]), assembly.root(cuts[k + 1][2])
-        if first == second:
-            raise _idle(hinge)
-        edges[first].append((hinge, first, second))
-        edges[second].append((hinge, first, second))
+    for cut in assembly.moving_cuts():
+        if cut.hinge is not None:
+            edges[cut.first].append((cut.hinge, cut.first, cut.second))
+            edges[cut.second].append((cut.hinge, cut.first, cut.second))
     return edges
 
 
@@ -273,13 +221,6 @@ def _check_inertia(bodies: tuple[RigidMass, ...], links: list[Link], plane: Plan
         raise InputError(problems)
 
 
-def _idle(hinge: PlacedHinge) -> InputError:
-    return InputError(
-        Problem(
-            "both sides of this hinge are joined rigidly elsewhere, so it cannot turn",
-            f"hinge {hinge.name} of member {hinge.member}",
-            "hinges between parts that can move against each other",
-            "take the hinge away, or put hinges on the way around it",
-            f"members.{hinge.member}.hinges",
-        )
-    )
+def _needs_space() -> InputError:
+    what, todo = "the tree kernel does not take joints", "write kernel: auto"
+    return InputError(Problem(what, "", "hinges and supports alone", todo, "analysis.multibody.kernel"))

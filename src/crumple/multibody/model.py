@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -19,43 +18,17 @@ from crumple._core.tree import (
     TreeWeld,
 )
 from crumple.errors import InputError, Problem
-from crumple.function import TimeFunction
 from crumple.hinge import Envelope, Form, HingeRecord, SofteningVariable, Stop
 from crumple.multibody.mechanism import GROUND, Mechanism
-from crumple.multibody.rigid import Floats, RigidMass, lump_mass, piece_mass
-from crumple.structure import InitialVelocity, Structure
+from crumple.multibody.rigid import Floats
+from crumple.multibody.sampling import sampled, sampled_motion
+from crumple.multibody.start import Start, moving_parts, rate_of, velocity_at
+from crumple.structure import Structure
 
 FORMS = {Form.SET_VALUED: 0, Form.ELASTIC_PLASTIC: 1, Form.REGULARISED: 2}
 SOFTENING = {SofteningVariable.PEAK: 0, SofteningVariable.ROTATION: 1, SofteningVariable.ACCUMULATED: 2}
-SAMPLING = 1e-5
-"""Error of a sampled function of time, relative to its largest value; far below any accuracy asked for."""
-DRIVE_SAMPLING = 1e-8
-"""The same for driven motion, whose rate is sampled: its pieces then add up to the motion within 1e-6."""
-KINK = 0.01
-"""Jump of a driven rate between two samples, relative to the largest rate, that counts as a kink."""
-BRIEF = 1e-9
-"""Time in which a driven rate passes a kink, relative to the duration."""
 ACROSS = 1e-6
 """Share of a driven or initial motion that may point out of the plane: rounding of directions."""
-
-
-@dataclass(frozen=True, eq=False)
-class Start:
-    """Motion at the start.
-
-    Attributes
-    ----------
-    velocity
-        Twists (rotation, x, y) of the bodies at their centres, (bodies, 3).
-    impulse
-        Impulses on the bodies at their centres, (bodies, 3).
-    given_energy
-        Energy of the described velocity field [J], of every part that has mass, ground parts included.
-    """
-
-    velocity: Floats
-    impulse: Floats
-    given_energy: float
 
 
 def tree_model(structure: Structure, mechanism: Mechanism, duration: float) -> TreeModel:
@@ -107,8 +80,8 @@ def tree_hinge(record: HingeRecord, dof: int, sign: float = 1.0) -> TreeHinge:
         rate_reference=record.rate_reference,
         rate_exponent=record.rate_exponent,
         viscous_damping=record.viscous_damping,
-        stop_positive=_stop(stop_positive),
-        stop_negative=_stop(stop_negative),
+        stop_positive=stop_of(stop_positive),
+        stop_negative=stop_of(stop_negative),
     )
 
 
@@ -117,11 +90,11 @@ def start_of(structure: Structure, mechanism: Mechanism) -> Start:
     plane, n = mechanism.plane, len(mechanism.bodies)
     momentum, impulse = np.zeros((n, 3)), np.zeros((n, 3))
     energy = 0.0
-    for part, body, fields in _moving_parts(structure, mechanism):
+    for part, body, fields in moving_parts(structure, mechanism, structure.initial_velocity):
         if part.mass == 0.0:
             continue
-        velocity = np.sum([_velocity(field, part.centre) for field in fields], axis=0)
-        rate = np.sum([_rate(field) for field in fields], axis=0)
+        velocity = np.sum([velocity_at(field, part.centre) for field in fields], axis=0)
+        rate = np.sum([rate_of(field) for field in fields], axis=0)
         energy += (part.mass * velocity @ velocity + rate @ part.inertia @ rate) / 2
         if body == GROUND:
             continue
@@ -151,40 +124,6 @@ def start_of(structure: Structure, mechanism: Mechanism) -> Start:
     return Start(velocity, impulse, energy)
 
 
-def _moving_parts(
-    structure: Structure, mechanism: Mechanism
-) -> Iterator[tuple[RigidMass, int, list[InitialVelocity]]]:
-    """Every part with mass, its body, and the velocity fields that act on it."""
-
-    def fields(kind: str, name: str) -> list[InitialVelocity]:
-        def acts(field: InitialVelocity) -> bool:
-            everywhere = field.nodes is None and field.members is None
-            return everywhere or name in (getattr(field, kind) or ())
-
-        return [field for field in structure.initial_velocity if acts(field)]
-
-    for name, pieces in mechanism.pieces.items():
-        if found := fields("members", name):
-            for piece in pieces:
-                yield piece_mass(structure, name, piece.start, piece.end), piece.body, found
-    for mass in structure.masses.values():
-        if found := fields("nodes", mass.node):
-            yield lump_mass(structure, mass), mechanism.node_body[mass.node], found
-
-
-def _rate(field: InitialVelocity) -> Floats:
-    if field.axis is None:
-        return np.zeros(3)
-    axis = np.asarray(field.axis, float)
-    return field.rotation * axis / np.linalg.norm(axis)
-
-
-def _velocity(field: InitialVelocity, point: Floats) -> Floats:
-    return np.asarray(field.translation, float) + np.cross(
-        _rate(field), point - np.asarray(field.about, float)
-    )
-
-
 def _in_plane(mechanism: Mechanism, body: int, vector: Floats, where: str) -> None:
     """Refuse motion across the plane of a part that floats; a held one carries it in its hinges."""
     while mechanism.links[body].parent != GROUND:
@@ -209,7 +148,7 @@ def _loads(structure: Structure, mechanism: Mechanism, duration: float) -> Itera
             for axis in components.model_fields_set:
                 function, row = getattr(components, axis), plane.row(kind + axis)
                 if function is not None and any(row):
-                    yield TreeLoad(body, point, row, *_sampled(function, duration))
+                    yield TreeLoad(body, point, row, *sampled(function, duration))
 
 
 def _drives(structure: Structure, mechanism: Mechanism, duration: float) -> Iterator[TreeDrive]:
@@ -234,7 +173,7 @@ def _drives(structure: Structure, mechanism: Mechanism, duration: float) -> Iter
                         f"supports.{name}.motion",
                     )
                 )
-            times, values, rates = _sampled_motion(function, duration)
+            times, values, rates = sampled_motion(function, duration)
             yield TreeDrive(body, point, row, times, values, rates=rates)
 
 
@@ -268,28 +207,12 @@ def _point(structure: Structure, mechanism: Mechanism, node: str) -> tuple[float
     return _pair(mechanism.plane.flat(np.asarray(structure.nodes[node], float) - link.position))
 
 
-def _sampled(function: TimeFunction, duration: float, error: float = SAMPLING) -> tuple[Floats, Floats]:
-    coarse = np.abs(function(np.linspace(0.0, duration, 257)))
-    return function.sampled(0.0, duration, max(error * float(coarse.max()), 1e-12))
-
-
-def _sampled_motion(function: TimeFunction, duration: float) -> tuple[Floats, Floats, Floats]:
-    """Times, displacements and rates of a driven motion; the rate's straight pieces add up to the motion."""
-    times, values = _sampled(function, duration, DRIVE_SAMPLING)
-    rates = np.asarray(function.derivative(times))
-    # the rate just before each sample that makes its piece end where the motion does; at a kink it differs
-    before = 2.0 * np.diff(values) / np.diff(times) - rates[:-1]
-    kinks = np.flatnonzero(np.abs(before - rates[1:]) > KINK * np.abs(rates).max())
-    brief = np.minimum(BRIEF * duration, np.diff(times)[kinks] / 2)
-    times = np.insert(times, kinks + 1, times[kinks + 1] - brief)
-    return times, np.insert(values, kinks + 1, values[kinks + 1]), np.insert(rates, kinks + 1, before[kinks])
-
-
 def _curve(envelope: Envelope) -> tuple[Floats, Floats]:
     return envelope.rotation, envelope.moment
 
 
-def _stop(stop: Stop | None) -> tuple[float, ...]:
+def stop_of(stop: Stop | None) -> tuple[float, ...]:
+    """A stop as the kernels take it: rotation, stiffness, exponent, damping, penetration; empty for none."""
     if stop is None:
         return ()
     return (stop.rotation, stop.stiffness, stop.exponent, stop.damping, stop.full_damping_penetration)

@@ -11,11 +11,12 @@ from crumple._core.batch import TreeFinals
 from crumple._core.tangent import TreeDirection, TreeTangent, solve_tangent
 from crumple.errors import InputError, Problem, Status
 from crumple.hinge import HingeLaw
+from crumple.multibody.choice import refuse_spatial
 from crumple.multibody.factors import checked_names, scaled
 from crumple.multibody.finals import final_quantities
 from crumple.multibody.lowered import Lowered, lowered
 from crumple.multibody.rigid import Floats
-from crumple.multibody.solve import Cancel, Run, outcome_status
+from crumple.multibody.run import Cancel, Run, outcome_status
 from crumple.structure import Structure, changed, value_at
 
 RELATIVE_STEP = 1e-4
@@ -85,6 +86,7 @@ def sensitivities(
     Derivation and limits in docs/theory/sensitivities.md.
     Verified in tests/verification/test_sensitivities.py.
     """
+    refuse_spatial(structure, run)
     base = lowered(structure, run.duration)
     names = list(parameters)
     checked_names(structure, base, names)

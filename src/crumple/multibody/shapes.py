@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from crumple._core.tree import TreeRecord
-from crumple.multibody.histories import motion_of
-from crumple.multibody.mechanism import GROUND, Mechanism, Piece
+from crumple.multibody.assembly import Piece
+from crumple.multibody.poses import Poses
 from crumple.multibody.rigid import Floats
 from crumple.result import States
 from crumple.structure import Structure
+from crumple.structure.rotation import product, turned, vector_quaternion
 
 Integers = NDArray[np.int64]
 
@@ -18,20 +18,20 @@ LONGEST_QUAD = 2.0
 """Length of a quadrilateral over the section's largest side: smooth enough to draw, few enough to store."""
 
 
-def states_of(structure: Structure, mechanism: Mechanism, record: TreeRecord, times: Floats) -> States:
+def states_of(structure: Structure, poses: Poses, times: Floats) -> States:
     """Shapes at those of the given times [s] that the run reached; a time is taken at the nearest output."""
-    reached = times[times <= record.time[-1] * (1 + 1e-12)]
-    rows = np.array([int(np.argmin(np.abs(record.time - t))) for t in reached], dtype=np.int64)
+    reached = times[times <= poses.time[-1] * (1 + 1e-12)]
+    rows = np.array([int(np.argmin(np.abs(poses.time - t))) for t in reached], dtype=np.int64)
     points, moved, quads, member, station, contour = [], [], [], [], [], []
     count = 0
     for index, name in enumerate(structure.members):
         frame, outline = structure.frame_of(name), structure.section_of(name).outline()
         around = len(outline)
-        stations = _stations(mechanism.pieces[name], float(np.ptp(outline, axis=0).max()))
+        stations = _stations(poses.pieces[name], float(np.ptp(outline, axis=0).max()))
         for x in stations:
             ring = frame.position(x) + outline @ frame.axes[1:]
             points.append(ring)
-            moved.append(_carried(mechanism, record, name, x, ring=ring, rows=rows))
+            moved.append(_carried(poses, name, x, ring=ring, rows=rows))
         member += [index] * (around * len(stations))
         station.append(np.repeat(stations, around))
         contour.append(np.tile(np.arange(around), len(stations)))
@@ -45,7 +45,7 @@ def states_of(structure: Structure, mechanism: Mechanism, record: TreeRecord, ti
         station=np.concatenate(station),
         contour=np.concatenate(contour).astype(np.int64),
         member_names=tuple(structure.members),
-        times=record.time[rows],
+        times=poses.time[rows],
         displacement=np.concatenate(moved, axis=1) - reference,
     )
 
@@ -65,23 +65,15 @@ def _tube_quads(rings: int, around: int) -> Integers:
     return np.stack([i * around + j, (i + 1) * around + j, (i + 1) * around + k, i * around + k], axis=1)
 
 
-def _carried(
-    mechanism: Mechanism, record: TreeRecord, member: str, station: float, *, ring: Floats, rows: Integers
-) -> Floats:
+def _carried(poses: Poses, member: str, station: float, *, ring: Floats, rows: Integers) -> Floats:
     """Positions of a ring of points at some of the output times, (rows, around, 3).
 
     At a hinge the ring turns by the mean of both bodies about the hinge, so that the walls meet.
     """
-    pieces = mechanism.pieces[member]
-    meeting = [piece.body for piece in pieces if piece.start <= station <= piece.end]
-    plane, middle = mechanism.plane, ring.mean(axis=0)
-    place = motion_of(mechanism, record, meeting[0], middle)[0][rows]
-    turns = [record.pose[rows, b, 0] if b != GROUND else np.zeros(rows.size) for b in meeting]
-    angle = (turns[0] + turns[-1])[:, None] / 2
-    c, s = np.cos(angle), np.sin(angle)
-    arms = ring - middle
-    first, second = plane.flat(arms).T
-    turned = np.stack([c * first - s * second, s * first + c * second], axis=-1)
-    across = (arms @ plane.normal)[:, None] * plane.normal
-    carried: Floats = place[:, None] + plane.raised(turned) + across
+    meeting = [piece.body for piece in poses.pieces[member] if piece.start <= station <= piece.end]
+    middle = ring.mean(axis=0)
+    place = np.mean([poses.place(body, middle)[0][rows] for body in (meeting[0], meeting[-1])], axis=0)
+    half = vector_quaternion(poses.relative(meeting[0], meeting[-1])[rows] / 2.0)
+    turn = product(poses.quaternion(meeting[0])[rows], half)
+    carried: Floats = place[:, None] + turned(turn[:, None], ring - middle)
     return carried

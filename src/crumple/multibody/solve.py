@@ -3,65 +3,30 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass, field
 
 import numpy as np
 
-from crumple._core.tree import Outcome, Simulation, TreeRecord
-from crumple.errors import InputError, Problem, Status
+from crumple._core.tree import Outcome
+from crumple.errors import InputError, Problem
 from crumple.multibody import trust
+from crumple.multibody.choice import why_spatial
+from crumple.multibody.collapse import changed_capacities, collapse_log, not_unique
 from crumple.multibody.histories import (
+    distance_channels,
     energy_channels,
     hinge_channels,
     node_channels,
     section_channels,
     summaries,
 )
-from crumple.multibody.mechanism import Mechanism, lower
-from crumple.multibody.model import Start, start_of, tree_model
 from crumple.multibody.rigid import Floats
+from crumple.multibody.run import CHECK_FACTOR, Cancel, Progress, Run, outcome_status, picture_times, poll_of
 from crumple.multibody.shapes import states_of
+from crumple.multibody.solved import Solved, Solver
+from crumple.multibody.space_solver import SpaceSolver
+from crumple.multibody.tree_solver import TreeSolver
 from crumple.result import Provenance, Result
-from crumple.structure import MultibodySettings, Outputs, Structure
-
-Progress = Callable[[float], None]
-Cancel = Callable[[], bool]
-
-CHECK_FACTOR = 4.0
-"""The answer is computed at the accuracy asked for and again this much tighter, with at least two steps an
-output interval: half the step of a second-order method.  The difference bounds the error of the second."""
-
-STATUS = {
-    Outcome.COMPLETE: Status.COMPLETE,
-    Outcome.STEP_COLLAPSED: Status.STEP_COLLAPSED,
-    Outcome.NOT_FINITE: Status.NOT_FINITE,
-    Outcome.CANCELLED: Status.CANCELLED,
-    Outcome.REFUSED: Status.REFUSED,
-}
-
-
-@dataclass(frozen=True)
-class Run:
-    """What the solver is told beside the structure: duration and output interval [s], settings, outputs."""
-
-    duration: float
-    every: float
-    settings: MultibodySettings = field(default_factory=MultibodySettings)
-    outputs: Outputs = field(default_factory=Outputs)
-    title: str = ""
-
-
-@dataclass(frozen=True, eq=False)
-class _Solved:
-    """What came out, before it is told."""
-
-    mechanism: Mechanism
-    start: Start
-    record: TreeRecord
-    errors: Floats
-    lost: float
-    seconds: float
+from crumple.structure import Structure, any_automatic, placed_hinges
 
 
 def solve_multibody(
@@ -92,104 +57,107 @@ def solve_multibody(
 
     References
     ----------
-    Method in docs/theory/multibody_stepper.md.  Verified in tests/verification.
+    Methods in docs/theory/multibody_stepper.md and docs/theory/spatial_lowering.md.  Verified in
+    tests/verification.
     """
     begin = time.perf_counter()
-    mechanism = lower(structure)
-    if not mechanism.bodies:
+    solver = solver_of(structure, run)
+    if not solver.moving:
         raise _nothing_moves()
-    model = tree_model(structure, mechanism, run.duration)
-    start = start_of(structure, mechanism)
-    times = output_times(run)
-    settings = run.settings
-
-    def stepped(accuracy: float, longest: float, share: tuple[float, float]) -> tuple[TreeRecord, float]:
-        simulation = Simulation(model, accuracy, settings.minimum_time_step, longest)
-        lost = simulation.set_motion(start.velocity, start.impulse)
-        return simulation.run(times, _poll(run.duration, share, progress, cancel)), lost
-
-    longest = settings.maximum_time_step
-    record, lost = rough, _ = stepped(settings.accuracy, longest, (0.0, 0.4))
+    longest = run.settings.maximum_time_step
+    solved = rough = solver.run(
+        run.settings.accuracy, longest, poll_of(run.duration, (0.0, 0.4), progress, cancel)
+    )
     if rough.outcome is Outcome.COMPLETE:
         longest = min(longest, run.every) / 2
-        record, lost = stepped(settings.accuracy / CHECK_FACTOR, longest, (0.4, 1.0))
-    errors = np.abs(rough.summary[:, 0] - record.summary[:, 0])
-    seconds = time.perf_counter() - begin
-    return _result(structure, run, _Solved(mechanism, start, record, errors, lost, seconds))
-
-
-def outcome_status(outcome: Outcome, reason: str, residual: float, bound: float) -> tuple[Status, str]:
-    """Status and reason of a run, its energy residual held against its bound."""
-    status = STATUS[outcome]
-    if status.ok and residual > bound:
-        return Status.RESIDUAL_EXCEEDED, f"energy residual {residual:.2e} above its bound {bound:.2e}"
-    return status, reason
-
-
-def output_times(run: Run) -> Floats:
-    """Times at which the histories are recorded: the interval's multiples, the end and the pictures' [s]."""
-    number = int(np.floor(run.duration / run.every * (1 + 1e-12)))
-    regular = np.minimum(run.every * np.arange(number + 1), run.duration)
-    wanted = np.concatenate([regular, [run.duration], [t for t in run.outputs.pictures if t < run.duration]])
-    times = np.unique(wanted)
-    apart = np.concatenate([[True], np.diff(times) > 1e-9 * run.duration])
-    kept: Floats = times[apart]
-    return kept
-
-
-def _poll(
-    duration: float, share: tuple[float, float], progress: Progress | None, cancel: Cancel | None
-) -> Callable[[float], bool]:
-    since, until = share
-
-    def poll(reached: float) -> bool:
-        if progress is not None:
-            progress(since + (until - since) * reached / duration)
-        return not (cancel is not None and cancel())
-
-    return poll
-
-
-def _result(structure: Structure, run: Run, solved: _Solved) -> Result:
-    mechanism, record = solved.mechanism, solved.record
-    status, reason = outcome_status(
-        record.outcome, record.reason, record.residual, run.settings.energy_residual_bound
+        poll = poll_of(run.duration, (0.4, 1.0), progress, cancel)
+        solved = solver.run(run.settings.accuracy / CHECK_FACTOR, longest, poll)
+    errors = np.array(
+        [abs(a.rotation_max - b.rotation_max) for a, b in zip(rough.hinges, solved.hinges, strict=True)]
     )
-    wanted = list(node_channels(structure, mechanism, record, run.outputs.nodes))
-    wanted += list(section_channels(structure, mechanism, record, run.outputs))
-    channels = [*hinge_channels(mechanism, record), *energy_channels(record), *wanted]
-    hinges = summaries(mechanism, record, solved.errors)
-    result = Result(
+    doubt = _doubt(structure, run, solver, rough, cancel)
+    seconds = time.perf_counter() - begin
+    return _result(structure, run, solver, solved, errors=errors, doubt=doubt, seconds=seconds)
+
+
+def solver_of(structure: Structure, run: Run) -> Solver:
+    """The structure lowered for the kernel that suits it, or that the settings name."""
+    hinges = placed_hinges(structure)
+    if why_spatial(structure, hinges, run) is None:
+        return TreeSolver(structure, run, hinges)
+    return SpaceSolver(structure, run, hinges)
+
+
+def _doubt(
+    structure: Structure, run: Run, solver: Solver, rough: Solved, cancel: Cancel | None
+) -> str | None:
+    """A warning where a small change of the capacities folds the structure elsewhere."""
+    asked = run.settings.mechanism_check
+    if asked == "off" or (asked == "auto" and not any_automatic(structure)) or len(solver.hinges) < 2:
+        return None
+    if rough.outcome is not Outcome.COMPLETE:
+        return None
+    runs = [rough.hinges]
+    poll = poll_of(run.duration, (1.0, 1.0), None, cancel)
+    for hinges in changed_capacities(placed_hinges(structure)):
+        solved = solver.with_hinges(hinges).run(run.settings.accuracy, run.settings.maximum_time_step, poll)
+        if solved.outcome is Outcome.COMPLETE:
+            runs.append(solved.hinges)
+    return not_unique(runs)
+
+
+def _result(
+    structure: Structure,
+    run: Run,
+    solver: Solver,
+    solved: Solved,
+    *,
+    errors: Floats,
+    doubt: str | None,
+    seconds: float,
+) -> Result:
+    bound = run.settings.energy_residual_bound
+    status, reason = outcome_status(solved.outcome, solved.reason, solved.residual, bound)
+    wanted = [
+        *node_channels(structure, solved.poses, run.outputs.nodes),
+        *section_channels(structure, solved.poses, run.outputs),
+        *distance_channels(structure, solved.poses, run.outputs),
+    ]
+    channels = [*hinge_channels(solved.hinges), *energy_channels(solved), *solved.further, *wanted]
+    hinges = summaries(solved.hinges, errors)
+    openings, threshold = collapse_log(solved.hinges, solved.time)
+    return Result(
         status=status,
         reason=reason,
         fidelity="multibody",
         title=run.title,
-        time=record.time,
+        time=solved.time,
         channels={channel.name: channel for channel in channels},
         hinges=hinges,
-        states=states_of(structure, mechanism, record, _picture_times(run)),
-        energy_residual=record.residual,
-        solve_seconds=solved.seconds,
-        warnings=trust.warnings(structure, mechanism, hinges, record, lost=solved.lost, start=solved.start),
-        assumptions=trust.assumptions(structure, mechanism),
-        provenance=Provenance(version="", input_hash="", isa="scalar", settings=_settings(run, record)),
+        states=states_of(structure, solved.poses, picture_times(run)),
+        energy_residual=solved.residual,
+        solve_seconds=seconds,
+        warnings=(*trust.warnings(structure, hinges, solved), *([doubt] if doubt else [])),
+        assumptions=trust.assumptions(structure, solver),
+        provenance=Provenance(
+            version="", input_hash="", isa="scalar", settings=_settings(run, solver, solved)
+        ),
         output_names=tuple(channel.name for channel in wanted),
+        collapse=openings,
+        collapse_threshold=threshold,
+        stages=solved.stages,
     )
-    return result
 
 
-def _picture_times(run: Run) -> Floats:
-    return np.array(run.outputs.pictures or np.linspace(0.0, run.duration, 6))
-
-
-def _settings(run: Run, record: TreeRecord) -> dict[str, float | int]:
+def _settings(run: Run, solver: Solver, solved: Solved) -> dict[str, float | int | str]:
     return {
+        "kernel": solver.kernel,
         "accuracy": run.settings.accuracy,
         "minimum_time_step": run.settings.minimum_time_step,
         "maximum_time_step": run.settings.maximum_time_step,
         "energy_residual_bound": run.settings.energy_residual_bound,
-        "steps": record.steps,
-        "rejected_steps": record.rejected,
+        "steps": solved.steps,
+        "rejected_steps": solved.rejected,
     }
 
 

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import time
-
-from crumple._core.tree import Outcome, Simulation
-from crumple.multibody.mechanism import lower
-from crumple.multibody.model import start_of, tree_model
-from crumple.multibody.solve import Run, output_times
+from crumple._core.tree import Outcome
+from crumple.multibody.run import Run
+from crumple.multibody.solve import solver_of
 from crumple.structure import Structure
 
 REPEATS = 5
@@ -24,22 +21,11 @@ def stepping_seconds(structure: Structure, run: Run) -> float | None:
     run
         How long, with which settings and outputs.
     """
-    mechanism = lower(structure)
-    model, start, times = (
-        tree_model(structure, mechanism, run.duration),
-        start_of(structure, mechanism),
-        output_times(run),
-    )
+    solver = solver_of(structure, run)
     found = []
     for _ in range(REPEATS):
-        settings = run.settings
-        simulation = Simulation(
-            model, settings.accuracy, settings.minimum_time_step, settings.maximum_time_step
-        )
-        simulation.set_motion(start.velocity, start.impulse)
-        begin = time.perf_counter()
-        record = simulation.run(times, None)
-        found.append(time.perf_counter() - begin)
-        if record.outcome is not Outcome.COMPLETE:
+        solved = solver.run(run.settings.accuracy, run.settings.maximum_time_step, None)
+        if solved.outcome is not Outcome.COMPLETE:
             return None
+        found.append(solved.stepping_seconds)
     return min(found)

@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from crumple._core.tree import TreeRecord
 from crumple.hinge import Form, SofteningVariable, tributary_stiffness
-from crumple.multibody.mechanism import Mechanism
-from crumple.multibody.model import Start
+from crumple.multibody.linkage import link
+from crumple.multibody.mobility import free_parts
+from crumple.multibody.solved import Solved, Solver
 from crumple.result import HingeSummary
 from crumple.structure import PlacedHinge, Structure
 
@@ -32,19 +32,19 @@ SOFTENING = {
 }
 
 
-def hinges_of(mechanism: Mechanism) -> list[PlacedHinge]:
-    """Hinges of the mechanism in the kernel's order."""
-    return [link.hinge for link in mechanism.links if link.hinge is not None]
+PLANAR = "The motion is planar: hinges turn about parallel axes and carry everything across them rigidly."
+SPATIAL = "The motion is spatial: hinges carry rigidly what is not about their own axes."
 
 
-def assumptions(structure: Structure, mechanism: Mechanism) -> tuple[str, ...]:
+def assumptions(structure: Structure, solver: Solver) -> tuple[str, ...]:
     """Sentences stating what the model takes for granted."""
     found = [
         "Members are rigid between their hinges; masses are rigid lumps.",
-        "The motion is planar: hinges turn about parallel axes and carry everything across them rigidly.",
-        "There is no contact but the hinges' own stops.",
+        PLANAR if solver.kernel == "tree" else SPATIAL,
+        _contact(structure),
+        *free_parts(link(structure, solver.hinges)),
     ]
-    for hinge in hinges_of(mechanism):
+    for hinge in solver.hinges:
         record, member = hinge.record, structure.members[hinge.member]
         place = f"{hinge.station * 1e3:.4g} mm from node {member.nodes[0]} of member {hinge.member}"
         form = {
@@ -60,18 +60,20 @@ def assumptions(structure: Structure, mechanism: Mechanism) -> tuple[str, ...]:
     return tuple(found)
 
 
-def warnings(
-    structure: Structure,
-    mechanism: Mechanism,
-    hinges: dict[str, HingeSummary],
-    record: TreeRecord,
-    *,
-    lost: float,
-    start: Start,
-) -> tuple[str, ...]:
+def _contact(structure: Structure) -> str:
+    touching = [f"members with {', '.join(structure.obstacles)}"] if structure.obstacles else []
+    touching += ["members with members that share no node"] if structure.member_contact is not None else []
+    if not touching:
+        return "There is no contact but the hinges' own stops."
+    return (
+        f"Contact is rigid, of {' and of '.join(touching)}, and there is no other but the hinges' own stops."
+    )
+
+
+def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solved) -> tuple[str, ...]:
     """Sentences that must be read before believing the result."""
     found: list[str] = []
-    placed = hinges_of(mechanism)
+    placed = [history.hinge for history in solved.hinges]
     largest = max((summary.rotation_max for summary in hinges.values()), default=0.0)
     by_text: dict[str, list[str]] = {}
     for hinge in placed:
@@ -82,24 +84,23 @@ def warnings(
     found += [
         f"Material {name}: {spec.statement}" for name, spec in structure.materials.items() if spec.statement
     ]
-    kinetic = float(record.energy[0, 0])
-    vanished = max(start.given_energy - kinetic, lost)
-    # of an impulse only what the joints let through ever becomes energy
-    if not start.impulse.any() and vanished > LOST_SHARE * max(start.given_energy, kinetic):
+    kinetic = float(solved.energy["kinetic"][0])
+    vanished = max(solved.given - kinetic, solved.lost)
+    if not solved.struck and vanished > LOST_SHARE * max(solved.given, kinetic):
         found.append(
-            f"{vanished:.4g} J of the given {max(start.given_energy, kinetic + lost):.4g} J is lost "
+            f"{vanished:.4g} J of the given {max(solved.given, kinetic + solved.lost):.4g} J is lost "
             "at the start: the given motion does not fit the supports and hinges."
         )
     stored = sum(_elastic_limit(structure, hinge, hinges[hinge.name]) for hinge in placed)
-    total = kinetic + float(abs(record.energy[:, 5]).max())
+    total = kinetic + float(abs(solved.energy["external_work"]).max())
     if total > 0.0 and stored > ELASTIC_SHARE * total:
         found.append(
             f"The bars are rigid, but the members could store up to {stored:.3g} J elastically "
             f"({stored / total:.0%} of the energy): rotations lack the elastic part and the plastic ones are "
             "too large; use form elastic-plastic."
         )
-    if record.forced:
-        found.append(f"{record.forced} steps were taken at the smallest step without meeting the accuracy.")
+    if solved.forced:
+        found.append(f"{solved.forced} steps were taken at the smallest step without meeting the accuracy.")
     return tuple(found)
 
 

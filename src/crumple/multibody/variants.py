@@ -21,11 +21,12 @@ from numpy.typing import ArrayLike, NDArray
 from crumple._core.batch import TreeFinals, TreeVariants, solve_many
 from crumple._core.tree import Outcome
 from crumple.errors import InputError, Problem, Status
+from crumple.multibody.choice import refuse_spatial
 from crumple.multibody.factors import FACTORS, checked_names
 from crumple.multibody.finals import final_quantities, part_of
 from crumple.multibody.lowered import Lowered, RawMass, lowered, raw_mass, tree_arrays
 from crumple.multibody.rigid import Floats
-from crumple.multibody.solve import Cancel, Progress, Run, outcome_status
+from crumple.multibody.run import Cancel, Progress, Run, outcome_status
 from crumple.structure import Structure, changed, value_at
 
 
@@ -105,6 +106,7 @@ def solve_variants(
     ----------
     docs/theory/variants.md.  Verified in tests/unit/multibody/test_variants.py.
     """
+    refuse_spatial(structure, run)
     base = lowered(structure, run.duration)
     values = _columns(structure, base, parameters)
     slow = [name for name in values if not _quick(name)]

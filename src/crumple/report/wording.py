@@ -173,6 +173,40 @@ def hinge_table(result: Result) -> Table:
     return Table(f"What each hinge did.{dash}", heads, rows)
 
 
+def collapse_table(result: Result) -> Table:
+    """Hinges that opened, in their order, with the time, their plastic rotation and what they absorbed."""
+    openings = result.collapse
+    time_unit, times = column([opening.time for opening in openings], "s")
+    energy_unit, energies = column([opening.energy for opening in openings], "J")
+    _, turned = column([opening.rotation * _DEGREES for opening in openings], "1")
+    heads = (
+        "",
+        "Hinge",
+        f"Opened at, {time_unit}",
+        "Plastic rotation at the end, deg",
+        f"Energy, {energy_unit}",
+    )
+    rows = [
+        (str(i), opening.hinge, *cells)
+        for i, (opening, *cells) in enumerate(zip(openings, times, turned, energies, strict=True), 1)
+    ]
+    caption = (
+        "How it collapsed: hinges in the order in which they opened, that is passed "
+        f"{result.collapse_threshold * _DEGREES:.2g} deg of plastic rotation."
+    )
+    return Table(caption, heads, rows, frozenset({1}))
+
+
+def stage_table(result: Result) -> Table:
+    """Stages with their times and what ended them."""
+    time_unit, times = column([t for stage in result.stages for t in (stage.start, stage.end)], "s")
+    rows = [
+        (stage.name, times[2 * i], times[2 * i + 1], stage.ended_by) for i, stage in enumerate(result.stages)
+    ]
+    heads = ("Stage", f"Start, {time_unit}", f"End, {time_unit}", "Ended by")
+    return Table("How the stages went.", heads, rows, frozenset({3}))
+
+
 def output_table(result: Result) -> Table:
     """Requested outputs: last value, value of largest magnitude, and when."""
     groups, still = output_groups(result)

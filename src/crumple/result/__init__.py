@@ -4,6 +4,7 @@ from crumple.result.filters import ChannelClass, Standard, cfc
 from crumple.result.result import (
     Channel,
     HingeSummary,
+    Opening,
     OutputSummary,
     Provenance,
     Result,
@@ -17,6 +18,7 @@ __all__ = [
     "Channel",
     "ChannelClass",
     "HingeSummary",
+    "Opening",
     "OutputSummary",
     "Provenance",
     "Result",

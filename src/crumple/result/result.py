@@ -97,6 +97,28 @@ class HingeSummary:
 
 
 @dataclass(frozen=True)
+class Opening:
+    """A hinge that opened, in the collapse log.
+
+    Attributes
+    ----------
+    hinge
+        Its name.
+    time
+        When its plastic rotation passed the threshold [s], linear between outputs.
+    rotation
+        Plastic rotation at the end [rad], signed; of a hinge about several axes the length of the vector.
+    energy
+        Absorbed until the end [J].
+    """
+
+    hinge: str
+    time: float
+    rotation: float
+    energy: float
+
+
+@dataclass(frozen=True)
 class StageSummary:
     """One stage of a sequence: name, when it began and ended [s], and what ended it."""
 
@@ -199,6 +221,10 @@ class Result:
     provenance: Provenance
     output_names: tuple[str, ...] = ()
     """Names of the channels that the analysis asked for; they appear in `outputs` and summary.json."""
+    collapse: tuple[Opening, ...] = ()
+    """Hinges that opened, in the order in which they did."""
+    collapse_threshold: float = 0.0
+    """Plastic rotation from which a hinge counts as open [rad]."""
     stages: tuple[StageSummary, ...] = ()
     """Stages in their order, as far as the run came; empty where the analysis has none."""
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
+from dataclasses import asdict
 from typing import Any
 
 from crumple.result.result import Result
@@ -48,6 +49,8 @@ def summary(result: Result) -> dict[str, Any]:
         "stages": stages,
         "hinges": hinges,
         "outputs": outputs,
+        "collapse": [asdict(opening) for opening in result.collapse],
+        "collapse_threshold": result.collapse_threshold,
         "warnings": result.warnings,
         "assumptions": result.assumptions,
         "provenance": {

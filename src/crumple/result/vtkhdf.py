@@ -21,7 +21,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crumple.errors import Status
-from crumple.result.result import Channel, HingeSummary, Provenance, Result, StageSummary, States
+from crumple.result.result import (
+    Channel,
+    HingeSummary,
+    Opening,
+    Provenance,
+    Result,
+    StageSummary,
+    States,
+)
 
 if TYPE_CHECKING:
     import h5py
@@ -151,6 +159,8 @@ def _write_rest(group: h5py.Group, result: Result, field_names: FieldNames) -> N
         "assumptions": result.assumptions,
         "output_names": result.output_names,
         "provenance": asdict(result.provenance),
+        "collapse": [asdict(opening) for opening in result.collapse],
+        "collapse_threshold": result.collapse_threshold,
         "channels": [[key, channel.name, channel.unit] for key, channel in channels],
         "hinges": hinges,
         "stages": [asdict(stage) for stage in result.stages],
@@ -217,7 +227,6 @@ def read_vtkhdf(file: h5py.File) -> Result:
         states=None if text["member_names"] is None else _read_states(file, text),
         provenance=Provenance(**text["provenance"]),
         # results of earlier versions have none
-        stages=tuple(StageSummary(**stage) for stage in text.get("stages", ())),
         reason=text["reason"],
         fidelity=text["fidelity"],
         title=text["title"],
@@ -226,6 +235,10 @@ def read_vtkhdf(file: h5py.File) -> Result:
         warnings=tuple(text["warnings"]),
         assumptions=tuple(text["assumptions"]),
         output_names=tuple(text["output_names"]),
+        # absent from files of before there were any
+        collapse=tuple(Opening(**opening) for opening in text.get("collapse", ())),
+        collapse_threshold=text.get("collapse_threshold", 0.0),
+        stages=tuple(StageSummary(**stage) for stage in text.get("stages", ())),
     )
 
 

@@ -10,8 +10,8 @@ from crumple.result import Channel, HingeSummary
 from crumple.shell.contour import Floats
 from crumple.shell.places import HingeZone
 from crumple.shell.record import ENERGIES, IMPULSE, Record, Sampler
-from crumple.shell.sections import continuous, relative_rotation, rotation_vector
 from crumple.structure import Outputs, Structure
+from crumple.structure.rotation import continuous, relative_rotation, rotation_vector
 
 AXES = ("x", "y", "z")
 AT_REST = 2e-3

@@ -12,9 +12,6 @@ import numpy as np
 
 from crumple.shell.contour import Floats
 
-SMALL = 1e-9
-"""Sine of a rotation below which its direction is noise."""
-
 
 def section_frame(start: Floats, now: Floats) -> Floats:
     """Axes of a section now: columns are the fitted normal, and the carried first direction within the plane.
@@ -57,59 +54,6 @@ def best_rotation(before: Floats, after: Floats) -> Floats:
     u, _, vt = np.linalg.svd(after.T @ before)
     sign = np.sign(np.linalg.det(u @ vt))
     return np.asarray((u * np.array([1.0, 1.0, sign])) @ vt)
-
-
-def rotation_vector(rotation: Floats) -> Floats:
-    """Axis times angle [rad] of rotation matrices, (..., 3, 3) to (..., 3); angles up to half a turn."""
-    skew = np.stack(
-        [
-            rotation[..., 2, 1] - rotation[..., 1, 2],
-            rotation[..., 0, 2] - rotation[..., 2, 0],
-            rotation[..., 1, 0] - rotation[..., 0, 1],
-        ],
-        axis=-1,
-    )
-    sine = np.linalg.norm(skew, axis=-1) / 2
-    cosine = (np.trace(rotation, axis1=-2, axis2=-1) - 1) / 2
-    angle = np.arctan2(sine, cosine)
-    # for small angles axis times angle is half the skew part itself
-    factor = np.where(sine > SMALL, angle / np.maximum(2 * sine, SMALL), 0.5)
-    vectors: Floats = factor[..., None] * skew
-    return vectors
-
-
-def continuous(vectors: Floats) -> Floats:
-    """Rotation vectors over time without the jump at half a turn, (n, 3)."""
-    out = vectors.copy()
-    for i in range(1, len(out)):
-        before, angle = out[i - 1], float(np.linalg.norm(out[i]))
-        if np.linalg.norm(before) + angle < np.pi:
-            continue
-        axis = (out[i] if angle > SMALL else before) / max(angle, SMALL)
-        axis = axis / np.linalg.norm(axis)
-        turns = round((float(before @ axis) - float(out[i] @ axis)) / (2 * np.pi))
-        out[i] += 2 * np.pi * turns * axis
-    return out
-
-
-def relative_rotation(first: Floats, second: Floats, direction: Floats) -> Floats:
-    """Rotation of one section against another about an axis that moves with the first.
-
-    Parameters
-    ----------
-    first, second
-        Rotations from the start, (n, 3, 3) each.
-    direction
-        Unit vector of the axis at the start, (3,).
-
-    Returns
-    -------
-    NDArray
-        Part of the relative rotation vector along the axis [rad], (n,).
-    """
-    relative = np.swapaxes(first, -1, -2) @ second
-    turned: Floats = continuous(rotation_vector(relative)) @ direction
-    return turned
 
 
 def mean_spin(position: Floats, velocity: Floats) -> Floats:

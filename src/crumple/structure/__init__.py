@@ -12,10 +12,13 @@ For a solver:
 - `MultibodySettings`, `ShellSettings` and `Outputs` -> what the solver is told beside the structure.
 """
 
+from crumple.structure.automatic import any_automatic
+from crumple.structure.bending import across_plane, planar
 from crumple.structure.change import changed, value_at
 from crumple.structure.checks import output_problems, problems_in, shell_problems
 from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges import HingePlace, PlacedHinge, hinge_places, placed_hinges
+from crumple.structure.joint import Joint
 from crumple.structure.law import (
     LAW_SPECS,
     ConstantLaw,
@@ -29,7 +32,7 @@ from crumple.structure.law import (
 from crumple.structure.load import ForceComponents, Load, Mass, MomentComponents, NodalImpulse
 from crumple.structure.mapping import FrozenMapping
 from crumple.structure.material import MaterialSpec
-from crumple.structure.member import Bars, Hinge, Member
+from crumple.structure.member import AutomaticHinges, Bars, Hinge, Member
 from crumple.structure.motion import FREEDOMS, InitialVelocity, Motion, Support
 from crumple.structure.obstacle_checks import gap, stage_problems
 from crumple.structure.obstacles import (
@@ -41,7 +44,7 @@ from crumple.structure.obstacles import (
     Travel,
     Turning,
 )
-from crumple.structure.outputs import Filter, Outputs, SectionRotation
+from crumple.structure.outputs import Distance, Filter, Outputs, SectionForce, SectionRotation
 from crumple.structure.section import (
     AngleSpec,
     ChannelSpec,
@@ -62,12 +65,14 @@ __all__ = [
     "FREEDOMS",
     "LAW_SPECS",
     "AngleSpec",
+    "AutomaticHinges",
     "Bars",
     "ChannelSpec",
     "CircularTubeSpec",
     "ClosedHatSpec",
     "ConstantLaw",
     "CylinderObstacle",
+    "Distance",
     "Filter",
     "FinePlace",
     "ForceComponents",
@@ -77,6 +82,7 @@ __all__ = [
     "Hinge",
     "HingePlace",
     "InitialVelocity",
+    "Joint",
     "KecmanLaw",
     "LawKeys",
     "Load",
@@ -95,6 +101,7 @@ __all__ = [
     "PlaneObstacle",
     "RectangularTubeSpec",
     "Regularisation",
+    "SectionForce",
     "SectionRotation",
     "ShellSettings",
     "SphereObstacle",
@@ -111,12 +118,15 @@ __all__ = [
     "WallSpec",
     "WeldSpec",
     "WierzbickiLaw",
+    "across_plane",
+    "any_automatic",
     "changed",
     "frame_of",
     "gap",
     "hinge_places",
     "output_problems",
     "placed_hinges",
+    "planar",
     "problems_in",
     "shell_problems",
     "stage_problems",

@@ -6,7 +6,7 @@ of what moves or loads it: initial velocities, impulses, loads, driven supports,
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -77,3 +77,55 @@ def _turned(structure: Structure, line: Floats) -> Iterator[Floats]:
 def _across(vector: Floats, line: Floats) -> Floats:
     across: Floats = vector - (vector @ line) * line
     return across if float(np.linalg.norm(across)) > FLAT * float(np.linalg.norm(vector)) else 0.0 * line
+
+
+def planar(structure: Structure) -> bool:
+    """Whether a structure lies in a plane, and nothing moves or loads it across that plane."""
+    normal = structure.bending_normal
+    return normal is not None and across_plane(structure, np.asarray(normal)) is None
+
+
+def across_plane(structure: Structure, normal: Floats) -> str | None:
+    """Path of the first input that moves or loads a structure across a plane; None where all lies in it.
+
+    Parameters
+    ----------
+    structure
+        Sound.
+    normal
+        Unit vector across the plane, (3,).
+    """
+    return next((where for where, part in _parts_across(structure, normal) if part > FLAT), None)
+
+
+def _parts_across(structure: Structure, normal: Floats) -> Iterator[tuple[str, float]]:
+    """Share of every velocity, impulse, force and driven motion that leads out of a plane, by its path."""
+
+    def along(vector: Iterable[float]) -> float:
+        given = np.asarray(tuple(vector), float)
+        return abs(float(given @ normal)) / (float(np.linalg.norm(given)) or 1.0)
+
+    def aside(vector: Iterable[float]) -> float:
+        given = np.asarray(tuple(vector), float)
+        return float(np.linalg.norm(np.cross(given, normal))) / (float(np.linalg.norm(given)) or 1.0)
+
+    for i, field in enumerate(structure.initial_velocity):
+        yield f"initial_velocity[{i}]", along(field.translation)
+        if field.axis is not None and field.rotation:
+            yield f"initial_velocity[{i}]", aside(field.axis)
+    for i, impulse in enumerate(structure.impulses):
+        yield f"impulses[{i}]", max(along(impulse.impulse), aside(impulse.angular_impulse))
+    for i, load in enumerate(structure.loads):
+        for axis, unit in zip("xyz", np.eye(3), strict=True):
+            if getattr(load.force, axis) is not None:
+                yield f"loads[{i}].force", along(unit)
+            if getattr(load.moment, axis) is not None:
+                yield f"loads[{i}].moment", aside(unit)
+    for name, support in structure.supports.items():
+        for freedom in support.driven:
+            unit = np.eye(3)["xyz".index(freedom[-1])]
+            yield f"supports.{name}.motion", aside(unit) if freedom[0] == "r" else along(unit)
+    for name, mass in structure.masses.items():
+        size = float(np.linalg.norm(mass.offset))
+        yield f"masses.{name}.offset", along(mass.offset) if size > 0.0 else 0.0
+    yield "gravity", along(structure.gravity)

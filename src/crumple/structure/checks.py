@@ -15,6 +15,7 @@ import numpy as np
 from crumple.errors import Problem
 from crumple.structure.hinge_axes import AxisLaws, HingeAxes
 from crumple.structure.hinge_checks import inertia_problems, place_problems
+from crumple.structure.joint_checks import bare_node_problems, joint_problems
 from crumple.structure.law import LAW_SPECS
 from crumple.structure.obstacle_checks import obstacle_problems
 from crumple.structure.outputs import Outputs
@@ -63,6 +64,17 @@ def output_problems(outputs: Outputs, structure: Structure, defined: Names | Non
         for i, node in enumerate(outputs.nodes)
         for problem in unknown("node", node, nodes, f"outputs.nodes[{i}]")
     ]
+    for name, distance in outputs.distances.items():
+        where = f"outputs.distances.{name}"
+        problems += unknown("node", distance.start, nodes, f"{where}.from")
+        problems += unknown("node", distance.end, nodes, f"{where}.to")
+    for name, force in outputs.section_forces.items():
+        where = f"outputs.section_forces.{name}"
+        problems += unknown("member", force.member, members, f"{where}.member")
+        if structure.has_line(force.member):
+            length = structure.frame_of(force.member).length
+            if force.at > length * (1.0 + 1e-9):
+                problems.append(outside(f"{where}.at", force.at, length))
     for name, rotation in outputs.section_rotations.items():
         where = f"outputs.section_rotations.{name}"
         problems += unknown("member", rotation.member, members, f"{where}.member")
@@ -101,7 +113,7 @@ def _names(structure: Structure, known: Known) -> Iterator[Problem]:
         yield from unknown("section", member.section, known["sections"], f"{where}.section")
         yield from unknown("material", member.material, known["materials"], f"{where}.material")
         yield from _unknown_laws(member.bars, laws, f"{where}.bars")
-        for i, hinge in enumerate(member.hinges):
+        for i, hinge in enumerate(member.given_hinges):
             yield from _unknown_laws(hinge, laws, f"{where}.hinges[{i}]")
             if isinstance(hinge.at, str) and hinge.at not in member.nodes:
                 what, allowed = f"'{shown(hinge.at)}' is no node of this member", one_of(member.nodes)
@@ -208,10 +220,11 @@ _CHECKS: tuple[Callable[[Structure, Known], Iterator[Problem]], ...] = (
     _members,
     _coincident,
     place_problems,
+    joint_problems,
     _supports,
     obstacle_problems,
 )
-_CHECKS_OF_WHAT_IS_MISSING = (_connections, inertia_problems)
+_CHECKS_OF_WHAT_IS_MISSING = (_connections, inertia_problems, bare_node_problems)
 
 
 def _carriers(structure: Structure) -> Iterator[tuple[str, str, str]]:

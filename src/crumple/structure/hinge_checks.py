@@ -70,7 +70,7 @@ def inertia_problems(structure: Structure, known: Mapping[str, set[str]]) -> Ite
 def _sound_members(structure: Structure) -> Iterator[str]:
     """Members whose nodes, section and materials are there, and whose hinges name no other node."""
     for name, member in structure.members.items():
-        named = [hinge.at for hinge in member.hinges if isinstance(hinge.at, str)]
+        named = [hinge.at for hinge in member.given_hinges if isinstance(hinge.at, str)]
         if (
             structure.has_line(name)
             and member.section in structure.sections

@@ -4,12 +4,20 @@ from __future__ import annotations
 
 import re
 from numbers import Integral
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema, field_validator
+from pydantic import (
+    BeforeValidator,
+    Discriminator,
+    Field,
+    Tag,
+    ValidationInfo,
+    WithJsonSchema,
+    field_validator,
+)
 
 from crumple.structure.hinge_axes import HingeAxes
-from crumple.structure.quantity import LENGTH, Angle, Direction, Length
+from crumple.structure.quantity import LENGTH, Angle, Direction, Length, PositiveLength
 from crumple.structure.spec import Name, Spec, refuse
 
 MOST_BARS = 10_000
@@ -59,6 +67,36 @@ class Hinge(HingeAxes, Placed):
     """Plastic hinge at a place of a member."""
 
 
+class AutomaticHinges(HingeAxes):
+    """Candidate hinges wherever a fold can form; those not loaded to their capacity stay rigid.
+
+    Without `axis` and `axes` they bend across the plane of bending, or about y and z where there is none.
+    """
+
+    spacing: PositiveLength | None = None
+    """Largest distance between candidates along a member; without it they lie at its ends alone, half a fold
+    length inside."""
+
+
+def _automatic(given: Any) -> Any:
+    return {} if given == "auto" else given
+
+
+def _hinges_tag(given: Any) -> str:
+    return "(list)" if isinstance(given, list | tuple) else "(automatic)"
+
+
+OnlyAutomatic = Annotated[
+    AutomaticHinges, BeforeValidator(_automatic, json_schema_input_type=Literal["auto"] | AutomaticHinges)
+]
+"""`auto`, or how."""
+GivenOrAutomatic = Annotated[
+    Annotated[tuple[Hinge, ...], Tag("(list)")] | Annotated[OnlyAutomatic, Tag("(automatic)")],
+    Discriminator(_hinges_tag),
+]
+"""Hinges one by one, or `auto`."""
+
+
 def _plain(given: Any) -> Any:
     """An integer of NumPy as a plain one."""
     return int(given) if isinstance(given, Integral) and not isinstance(given, bool) else given
@@ -98,8 +136,13 @@ class Member(Spec):
     """Direction whose part across the member is local z; without it global z, or x for a member along z."""
     bars: Annotated[Bars, BeforeValidator(_number_of_bars, json_schema_input_type=int | Bars)] = Bars()
     """Equal rigid bars with hinges between them; a plain number stands for `{number: ...}`."""
-    hinges: tuple[Hinge, ...] = ()
-    """Further hinges."""
+    hinges: GivenOrAutomatic = ()
+    """Further hinges, one by one; or `auto`: candidates wherever a fold can form."""
+
+    @property
+    def given_hinges(self) -> tuple[Hinge, ...]:
+        """Hinges that are given one by one."""
+        return () if isinstance(self.hinges, AutomaticHinges) else self.hinges
 
     @field_validator("up", mode="after")
     @classmethod

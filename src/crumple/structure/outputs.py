@@ -25,6 +25,24 @@ class SectionRotation(Spec):
     """Distance of the second section from the member's first node."""
 
 
+class SectionForce(Spec):
+    """Force and moment in a section of a member, in its local axes, and how near they are to its capacity."""
+
+    member: Name
+    """Member."""
+    at: NonNegativeLength
+    """Distance of the section from the member's first node."""
+
+
+class Distance(Spec):
+    """Change of the distance between two nodes since the start, such as an intrusion."""
+
+    start: Annotated[Name, Field(alias="from")]
+    """First node."""
+    end: Annotated[Name, Field(alias="to")]
+    """Second node."""
+
+
 class Filter(Spec):
     """A channel passed through a channel frequency class of SAE J211 / ISO 6487."""
 
@@ -43,6 +61,10 @@ class Outputs(Spec):
     """Nodes whose displacement, velocity, acceleration and rotation are reported."""
     section_rotations: Named[SectionRotation] = FrozenMapping()
     """Relative rotations between two sections of a member, by channel name."""
+    section_forces: Named[SectionForce] = FrozenMapping()
+    """Forces and moments in sections of members, by name; multibody runs alone."""
+    distances: Named[Distance] = FrozenMapping()
+    """Changes of distances between nodes, by channel name; negative where the nodes come nearer."""
     filters: Named[Filter] = FrozenMapping()
     """Filtered channels, by the name of the new channel."""
     pictures: Annotated[tuple[NonNegativeTime, ...], Field(max_length=MOST_PICTURES)] = ()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from pydantic import model_validator
 
 from crumple.structure.quantity import Accuracy, Fraction, PositiveTime
@@ -11,12 +13,17 @@ from crumple.structure.spec import Spec, refuse
 class MultibodySettings(Spec):
     """Settings of the multibody solver."""
 
+    kernel: Literal["auto", "tree", "spatial"] = "auto"
+    """Which stepper: the planar tree, the spatial one, or the tree wherever it suits."""
     accuracy: Accuracy = 1e-3
     """Relative error allowed in the rotations."""
     minimum_time_step: PositiveTime = 1e-9
     """Below this step the run stops with a status."""
     maximum_time_step: PositiveTime = 3e-3
     """Largest step."""
+    mechanism_check: Literal["auto", "on", "off"] = "auto"
+    """Whether to solve four times more with capacities changed by 1 % and warn where other hinges open; auto:
+    where hinges find their places automatically."""
     energy_residual_bound: Fraction = 1e-3
     """Energy residual above which the run ends with a status that says not to trust it."""
 

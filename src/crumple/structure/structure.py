@@ -11,11 +11,12 @@ from crumple.material import Material
 from crumple.section import Axis, Section
 from crumple.structure.bending import bending_normal
 from crumple.structure.geometry import Frame, frame_of
+from crumple.structure.joint import Joint
 from crumple.structure.law import LawSpec
 from crumple.structure.load import Load, Mass, NodalImpulse
 from crumple.structure.mapping import FrozenMapping
 from crumple.structure.material import MaterialSpec
-from crumple.structure.member import Member
+from crumple.structure.member import Member, OnlyAutomatic
 from crumple.structure.motion import InitialVelocity, Support
 from crumple.structure.obstacles import MemberContact, ObstacleSpec
 from crumple.structure.quantity import Acceleration, Position
@@ -37,6 +38,10 @@ class Structure(Spec):
     """Positions by node name."""
     members: Named[Member] = FrozenMapping()
     """Members by name."""
+    joints: Named[Joint] = FrozenMapping()
+    """Joints between members' ends and their nodes, by name; every other end is joined rigidly."""
+    hinges: OnlyAutomatic | None = None
+    """`auto`: candidate hinges, wherever a fold can form, in every member that has no hinges of its own."""
     hinge_laws: Named[LawSpec] = FrozenMapping()
     """Hinge laws by name."""
     supports: Named[Support] = FrozenMapping()

@@ -143,6 +143,7 @@ def test_what_the_solver_refuses_is_found_by_check_with_its_line(text, tmp_path)
     turned = text.replace(
         "law: kecman}", "law: kecman}\n      - {name: second, at: 500 mm, law: kecman, axis: z}"
     )
+    turned = turned.replace("  multibody: {", "  multibody: {kernel: tree, ")
     for name, content, where, what in (
         ("held.yaml", held, "members", "nothing can move"),
         ("turned.yaml", turned, "members.tube.hinges", "different axes"),

@@ -9,7 +9,6 @@ import pytest
 
 from crumple.analysis import input_hash, load, loads, solve
 from crumple.analysis.filters import with_filters
-from crumple.analysis.solve import UNSOLVED
 from crumple.errors import InputError, Status
 from crumple.result import cfc
 
@@ -86,13 +85,11 @@ def test_a_run_that_ended_early_says_which_filters_it_lacks():
     assert any("smooth" in warning for warning in short.warnings)
 
 
-@pytest.mark.parametrize("fidelity", sorted(name for name, parts in UNSOLVED.items() if parts))
-def test_a_solver_refuses_what_it_would_leave_out(fidelity):
-    ball = "obstacles:\n  b: {type: sphere, point: [0.5 m, 0 m, 1 m], radius: 10 mm}\n"
-    stages = "analysis:\n  stages: [{name: a, duration: 100 ms}]\n"
-    text = ball + TEXT.replace("analysis:\n  duration: 100 ms\n", stages)
-    text = text.replace("crumple: 1\n", "").replace("title:", "crumple: 1\ntitle:")
+def test_a_solver_refuses_what_it_would_leave_out():
+    joints = "joints:\n  j: {node: root, member: tube, type: revolute, axis: [0, 1, 0]}\n"
+    distances = "  distances: {d: {from: root, to: tip}}\n"
+    text = TEXT.replace("supports:\n", joints + "supports:\n") + distances
     with pytest.raises(InputError) as refused:
-        solve(loads(text), fidelity)
-    given = {"obstacles", "analysis.stages"}
-    assert {problem.where for problem in refused.value.problems} == given & set(UNSOLVED[fidelity])
+        solve(loads(text), "shell")
+    assert {problem.where for problem in refused.value.problems} == {"joints", "outputs.distances"}
+    assert solve(loads(text)).status.ok

@@ -7,6 +7,7 @@ from tests.unit.multibody.parts import CLAMP, THROWN, X_LINE, member, structure
 from crumple.errors import InputError
 from crumple.multibody import lower
 from crumple.multibody.mechanism import GROUND
+from crumple.multibody.poses import piece_at
 from crumple.section import RectangularTube, half_fold_length
 
 ABOUT_Y = {"axis": "y"}
@@ -48,8 +49,8 @@ def test_members_are_welded_at_nodes():
     line = 7850.0 * (0.050 * 0.025 - 0.0447 * 0.0197)
     assert mechanism.bodies[0].mass == pytest.approx(line * (0.6 + 0.5 + 0.3) + 2.0)
     assert mechanism.bodies[1].mass == pytest.approx(line * 0.7)
-    assert mechanism.piece_at("ab", 0.2).body == GROUND
-    assert mechanism.piece_at("ab", 0.9).body == 0
+    assert piece_at(mechanism.pieces, "ab", 0.2).body == GROUND
+    assert piece_at(mechanism.pieces, "ab", 0.9).body == 0
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from tests.unit.multibody.parts import CLAMP, LAW, THROWN, X_LINE, member, struc
 
 from crumple.errors import InputError, Status
 from crumple.multibody import Run, solve_multibody
-from crumple.multibody.solve import output_times
+from crumple.multibody.run import output_times
 from crumple.structure import MultibodySettings, Outputs
 
 PAYLOAD = {"m": {"node": "b", "mass": 6.0}}

@@ -5,13 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from crumple.shell.sections import (
-    continuous,
-    mean_spin,
-    relative_rotation,
-    rotation_vector,
-    section_rotation,
-)
+from crumple.shell.sections import mean_spin, section_rotation
+from crumple.structure.rotation import continuous, relative_rotation, rotation_vector
 
 RING = np.array(
     [[0.0, y, z] for y, z in ((2, -1), (2, 0), (2, 1), (0, 1), (-2, 1), (-2, 0), (-2, -1), (0, -1))]

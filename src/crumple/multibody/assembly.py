@@ -1,0 +1,132 @@
+"""Members cut at their hinges, and what stays together: rigid parts, whatever joins them afterwards."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+from crumple.errors import InputError, Problem
+from crumple.multibody.rigid import RigidMass, combined, lump_mass, piece_mass
+from crumple.structure import Joint, PlacedHinge, Structure
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Part of a member between two cuts; ``body`` is its rigid body (-1: ground)."""
+
+    member: str
+    start: float
+    end: float
+    body: int
+
+
+@dataclass(frozen=True)
+class Cut:
+    """Hinge or joint between two rigid parts: the number of the part on its first and on its second side."""
+
+    first: int
+    second: int
+    hinge: PlacedHinge | None = None
+    joint: str | None = None
+
+
+@dataclass
+class Assembly:
+    """Pieces and nodes while they are joined: each has a number, and `root` tells its rigid part."""
+
+    structure: Structure
+    parent: list[int] = field(default_factory=list)
+    pieces: dict[str, list[tuple[float, float, int]]] = field(default_factory=dict)
+    node: dict[str, int] = field(default_factory=dict)
+    cuts: list[Cut] = field(default_factory=list)
+
+    def new(self) -> int:
+        """Number of a piece that nothing is joined to yet."""
+        self.parent.append(len(self.parent))
+        return len(self.parent) - 1
+
+    def root(self, i: int) -> int:
+        """The rigid part that a piece belongs to."""
+        while self.parent[i] != i:
+            self.parent[i] = self.parent[self.parent[i]]
+            i = self.parent[i]
+        return i
+
+    def join(self, a: int, b: int) -> None:
+        """Make one rigid part of two."""
+        self.parent[self.root(b)] = self.root(a)
+
+    def masses(self) -> dict[int, RigidMass]:
+        """Mass of every rigid part that has a piece or a lump."""
+        parts: dict[int, list[RigidMass]] = defaultdict(list)
+        for name, cuts in self.pieces.items():
+            for start, end, i in cuts:
+                parts[self.root(i)].append(piece_mass(self.structure, name, start, end))
+        for mass in self.structure.masses.values():
+            parts[self.root(self.node[mass.node])].append(lump_mass(self.structure, mass))
+        return {part: combined(of) for part, of in parts.items()}
+
+    def moving_cuts(self) -> list[Cut]:
+        """Cuts between rigid parts.
+
+        Raises
+        ------
+        InputError
+            If both sides of one belong to the same part.
+        """
+        found = []
+        for cut in self.cuts:
+            first, second = self.root(cut.first), self.root(cut.second)
+            if first == second:
+                raise _idle(self.structure, cut)
+            found.append(Cut(first, second, cut.hinge, cut.joint))
+        return found
+
+
+def assemble(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Assembly:
+    """Cut members at their hinges, and join what meets rigidly at the nodes."""
+    assembly = Assembly(structure)
+    assembly.node = {node: assembly.new() for node in structure.nodes}
+    jointed = {(joint.node, joint.member): name for name, joint in structure.joints.items()}
+    by_member: dict[str, list[PlacedHinge]] = defaultdict(list)
+    for hinge in sorted(hinges, key=lambda hinge: hinge.station):
+        by_member[hinge.member].append(hinge)
+    for name, member in structure.members.items():
+        length = structure.frame_of(name).length
+        stations = [0.0, *(hinge.station for hinge in by_member[name]), length]
+        pieces = [(a, b, assembly.new()) for a, b in pairwise(stations)]
+        assembly.pieces[name] = pieces
+        for node, end in zip(member.nodes, (pieces[0][2], pieces[-1][2]), strict=True):
+            joint = jointed.get((node, name))
+            if joint is None:
+                assembly.join(assembly.node[node], end)
+            else:
+                assembly.cuts.append(Cut(assembly.node[node], end, joint=joint))
+        for hinge, (a, b) in zip(by_member[name], pairwise(pieces), strict=True):
+            assembly.cuts.append(Cut(a[2], b[2], hinge=hinge))
+    return assembly
+
+
+def joint_of(structure: Structure, cut: Cut) -> Joint | None:
+    """The joint of a cut, None for a hinge."""
+    return None if cut.joint is None else structure.joints[cut.joint]
+
+
+def _idle(structure: Structure, cut: Cut) -> InputError:
+    if cut.hinge is not None:
+        came = f"hinge {cut.hinge.name} of member {cut.hinge.member}"
+        what = "this hinge are joined rigidly elsewhere, so it cannot turn"
+        where = f"members.{cut.hinge.member}.hinges"
+    else:
+        came = f"joint {cut.joint} of member {structure.joints[str(cut.joint)].member}"
+        what, where = "this joint are joined rigidly elsewhere, so it cannot move", f"joints.{cut.joint}"
+    return InputError(
+        Problem(
+            f"both sides of {what}",
+            came,
+            "hinges and joints between parts that can move against each other",
+            "take it away, or put hinges on the way around it",
+            where,
+        )
+    )

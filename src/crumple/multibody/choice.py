@@ -1,0 +1,98 @@
+"""Which kernel solves a structure: the planar tree where it is exact and fast, else the spatial one.
+
+The tree kernel solves parallel hinges in the plane across them.  That is exact if nothing leads out of the
+plane, or if the hinges and supports carry everything across it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from crumple.errors import InputError, Problem
+from crumple.multibody.linkage import GROUND, Linkage, link
+from crumple.multibody.mobility import mobility
+from crumple.multibody.plane import PARALLEL, plane_of
+from crumple.multibody.rigid import Floats
+from crumple.multibody.run import Run
+from crumple.structure import PlacedHinge, Structure, across_plane, placed_hinges
+
+MOST_LOOPS = 8
+"""Closed loops up to which the tree kernel is used: its cost grows with their square."""
+LOPSIDED = 1e-6
+"""Product of inertia, and distance of centres from one plane, below which they are rounding (relative)."""
+
+
+def why_spatial(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run) -> str | None:
+    """Reason for which the spatial kernel must solve a structure; None where the tree kernel does.
+
+    Parameters
+    ----------
+    structure, hinges
+        What is solved.
+    run
+        Settings, stages and outputs.
+
+    Raises
+    ------
+    InputError
+        If a hinge or joint joins a part with itself.
+    """
+    asked = run.settings.kernel
+    if asked != "auto":
+        return "asked for" if asked == "spatial" else None
+    return next(_reasons(structure, hinges, run), None)
+
+
+def refuse_spatial(structure: Structure, run: Run) -> None:
+    """Refuse what only the spatial kernel solves, where the planar one alone can serve.
+
+    Raises
+    ------
+    InputError
+        With the reason.
+    """
+    reason = why_spatial(structure, placed_hinges(structure), run)
+    if reason is not None:
+        what, todo = "this is computed in a plane alone", "solve the variants one by one"
+        raise InputError(Problem(what, reason, "a structure that moves in a plane", todo))
+
+
+def _reasons(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run) -> Iterator[str]:
+    """Reasons, the cheapest to find first."""
+    given = {
+        "joints": structure.joints,
+        "obstacles": structure.obstacles,
+        "contact between members": structure.member_contact,
+        "stages": run.stages,
+        "forces in sections": run.outputs.section_forces,
+    }
+    yield from (f"there are {what}" for what, part in given.items() if part)
+    if any(hinge.spatial is not None for hinge in hinges):
+        yield "there are hinges with several components, or that break"
+    directions = [hinge.direction for hinge in hinges]
+    if any(np.linalg.norm(np.cross(directions[0], other)) > PARALLEL for other in directions[1:]):
+        yield "hinges turn about axes that are not parallel"
+    linkage = link(structure, hinges)
+    loops = len(linkage.connections) - len(linkage.bodies)
+    if loops > MOST_LOOPS:
+        yield f"there are {loops} closed loops"
+    normal = plane_of(structure, hinges).normal
+    if not mobility(linkage, locked=True).motions:
+        return
+    across = across_plane(structure, normal)
+    if across is not None:
+        yield f"{across} leads out of the plane across the hinges"
+    if not any(GROUND in (c.first, c.second) for c in linkage.connections) and _lopsided(linkage, normal):
+        yield "a floating structure is not symmetric to the plane across the hinges"
+
+
+def _lopsided(linkage: Linkage, normal: Floats) -> bool:
+    """Whether moving in the plane would turn bodies out of it: centres apart, or products of inertia."""
+    centres = np.array([body.centre for body in linkage.bodies])
+    spread = np.ptp(centres @ normal) > LOPSIDED * max(float(np.ptp(centres, axis=0).max()), 1e-3)
+    return bool(spread) or any(
+        np.linalg.norm(np.cross(body.inertia @ normal, normal)) > LOPSIDED * np.linalg.norm(body.inertia)
+        for body in linkage.bodies
+    )

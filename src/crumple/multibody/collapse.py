@@ -1,0 +1,127 @@
+"""Which hinges opened, in which order, and whether the mechanism is the only one.
+
+A hinge counts as open from when its plastic rotation passes a threshold: a hundredth of the largest plastic
+rotation of the run, at most half a degree.
+
+Softening makes a collapse ill-posed where several hinges are equally near to their capacity: rounding then
+decides which one opens.  So the run is repeated with capacities changed by 1 %, alternately up and down along
+the structure, at random (always the same), and both the other way round.  A hinge that turns by more than a
+fifth of the largest rotation in one run and by less than a tenth in another says that the mechanism is not
+unique.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from crumple.hinge import Envelope, HingeRecord
+from crumple.multibody.solved import HingeHistory
+from crumple.result import Opening
+from crumple.structure import PlacedHinge
+
+OPEN = math.radians(0.5)
+"""Largest threshold [rad]: an angle that a test can just measure."""
+OPEN_SHARE = 0.01
+"""Threshold over the largest plastic rotation, where all stay small."""
+CHANGE = 0.01
+"""Change of the capacities: less than any law or material is known to."""
+PART = 0.2
+"""Share of the largest rotation that makes a hinge part of the mechanism; half of it makes it no part."""
+MOST_NAMES = 6
+"""Hinges that a sentence names one by one."""
+
+
+def collapse_log(hinges: Sequence[HingeHistory], time: np.ndarray) -> tuple[tuple[Opening, ...], float]:
+    """Hinges that opened in the order of their times, and the threshold [rad].
+
+    Parameters
+    ----------
+    hinges
+        Histories of one run.
+    time
+        Output times [s], (n,).
+    """
+    turned = [np.abs(history.values("plastic_rotation")) for history in hinges]
+    largest = max((float(values.max()) for values in turned), default=0.0)
+    threshold = min(OPEN, OPEN_SHARE * largest)
+    if threshold == 0.0:
+        return (), OPEN
+    openings = []
+    for history, values in zip(hinges, turned, strict=True):
+        above = np.flatnonzero(values > threshold)
+        if not len(above):
+            continue
+        i = int(above[0])
+        share = 1.0 if i == 0 else float((threshold - values[i - 1]) / (values[i] - values[i - 1]))
+        when = float(time[i]) if i == 0 else float(time[i - 1] + share * (time[i] - time[i - 1]))
+        final = float(history.values("plastic_rotation")[-1])
+        openings.append(Opening(history.hinge.name, when, final, history.energy))
+    return tuple(sorted(openings, key=lambda opening: opening.time)), threshold
+
+
+def changed_capacities(hinges: tuple[PlacedHinge, ...]) -> Iterator[tuple[PlacedHinge, ...]]:
+    """Hinges with capacities 1 % up and down: alternately along the structure, at random, and the opposites.
+
+    Parameters
+    ----------
+    hinges
+        In the structure's order.
+    """
+    alternate = np.resize([1.0, -1.0], len(hinges))
+    at_random = np.random.default_rng(0).choice([1.0, -1.0], len(hinges))
+    for signs in (alternate, -alternate, at_random, -at_random):
+        factors = 1.0 + CHANGE * signs
+        yield tuple(_scaled(hinge, float(factor)) for hinge, factor in zip(hinges, factors, strict=True))
+
+
+def not_unique(runs: Sequence[Sequence[HingeHistory]]) -> str | None:
+    """A warning where runs with changed capacities fold elsewhere; the first run is the unchanged one."""
+    turned = [{h.hinge.name: float(np.abs(h.values("plastic_rotation")[-1])) for h in run} for run in runs]
+    largest = max((value for run in turned for value in run.values()), default=0.0)
+    part = PART * largest
+    base = turned[0]
+    variants = []
+    for run in turned[1:]:
+        gained = [name for name, value in run.items() if value > part and base[name] < part / 2.0]
+        lost = [name for name, value in run.items() if value < part / 2.0 and base[name] > part]
+        if gained and lost:
+            variants.append(f"{_listed(gained)} open{_s(gained)} in place of {_listed(lost)}")
+        elif gained or lost:
+            names, verb = (gained, "open") if gained else (lost, "stay")
+            variants.append(f"{_listed(names)} {verb}{_s(names)}{'' if gained else ' closed'}")
+    if not variants:
+        return None
+    told = "; or ".join(dict.fromkeys(variants))
+    return f"The mechanism is not unique. With capacities changed by 1 %: {told}."
+
+
+def _s(names: list[str]) -> str:
+    """Ending of the verb that goes with some names."""
+    return "s" if len(names) == 1 else ""
+
+
+def _scaled(hinge: PlacedHinge, factor: float) -> PlacedHinge:
+    spatial = hinge.spatial
+    if spatial is not None:
+        parts = (replace(part, record=_stronger(part.record, factor)) for part in spatial.components)
+        spatial = replace(spatial, components=tuple(parts))
+    return replace(hinge, record=_stronger(hinge.record, factor), spatial=spatial)
+
+
+def _stronger(record: HingeRecord, factor: float) -> HingeRecord:
+    positive, negative = (
+        Envelope(envelope.rotation, envelope.moment * factor)
+        for envelope in (record.positive, record.negative)
+    )
+    return replace(record, positive=positive, negative=negative)
+
+
+def _listed(names: Iterable[str]) -> str:
+    given = list(names)
+    if len(given) > MOST_NAMES:
+        given = [*given[: MOST_NAMES - 1], f"{len(given) - MOST_NAMES + 1} more"]
+    return ", ".join(given)

@@ -1,0 +1,227 @@
+"""Forces that a spatial run transmits: in connections, on supports, and in sections of members.
+
+A connection's force is what the kernel found.  A clamp's follows from the forces on the part that it holds.
+In a section of a rigid piece it follows from the force at the piece's end and the inertia of what lies
+between:
+
+    force on the stretch between = mass times acceleration of its centre
+    moment about the section     = change of angular momentum about it
+
+Contact forces on the stretch itself are not known piece by piece and are left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from crumple.errors import InputError, Problem
+from crumple.multibody.assembly import Piece
+from crumple.multibody.linkage import GROUND, Linkage
+from crumple.multibody.poses import SpacePoses, piece_at
+from crumple.multibody.rigid import Floats, piece_mass
+from crumple.result import Channel
+from crumple.section import fitted_interaction, plastic_interaction
+from crumple.structure import Outputs, SectionForce, Structure
+from crumple.structure.rotation import product, turned, vector_quaternion
+
+AXES = ("x", "y", "z")
+
+
+@dataclass(frozen=True, eq=False)
+class Wrench:
+    """Force [N], moment about a point [N m] and that point [m], global axes, (n, 3) each."""
+
+    force: Floats
+    moment: Floats
+    point: Floats
+
+    def about(self, point: Floats) -> Floats:
+        """Moment about another point [N m], (n, 3)."""
+        return self.moment + np.cross(self.point - point, self.force)
+
+    def opposite(self) -> Wrench:
+        """What acts back."""
+        return Wrench(-self.force, -self.moment, self.point)
+
+
+def on_second(poses: SpacePoses, number: int) -> Wrench:
+    """What a connection exerts on its second body, about its place on the first."""
+    connection = poses.linkage.connections[number]
+    half = vector_quaternion(poses.relative(connection.first, connection.second) / 2.0)
+    middle = product(poses.quaternion(connection.first), half)
+    axes = turned(middle[:, None], connection.axes[None])
+    force, moment = np.split(poses.record.joint_force[:, number], 2, axis=1)
+    place = poses.place(connection.first, connection.position)[0]
+    return Wrench(np.einsum("nk,nki->ni", force, axes), np.einsum("nk,nki->ni", moment, axes), place)
+
+
+def force_channels(structure: Structure, poses: SpacePoses, local_time: Floats) -> Iterator[Channel]:
+    """What second sides exert on first ones, nodes on members, and the structure on its supports.
+
+    Parameters
+    ----------
+    structure, poses
+        What was solved.
+    local_time
+        Time since the start of the stage [s], (n,), in which loads are given.
+    """
+    for i, connection in enumerate(poses.linkage.connections):
+        wrench = on_second(poses, i)
+        if connection.kind == "hinge":
+            yield from _channels(f"cut.{connection.name}", wrench.opposite())
+        elif connection.kind == "joint":
+            yield from _channels(f"joint.{connection.name}", wrench)
+        else:
+            yield from _channels(f"support.{connection.name}", wrench.opposite())
+    for name, node in _clamps(structure, poses.linkage):
+        yield from _channels(f"support.{name}", _on_clamp(structure, poses, node, local_time))
+
+
+def section_force_channels(structure: Structure, poses: SpacePoses, outputs: Outputs) -> Iterator[Channel]:
+    """Force and moment in sections, in the member's carried axes, and their use of the capacity."""
+    for name, asked in outputs.section_forces.items():
+        force, moment = _in_section(structure, poses, asked)
+        for quantity, unit, values in (("force", "N", force), ("moment", "N*m", moment)):
+            for i, axis in enumerate(AXES):
+                yield Channel(f"{name}.{quantity}.{axis}", unit, np.ascontiguousarray(values[:, i]))
+        fit = fitted_interaction(
+            plastic_interaction(structure.section_of(asked.member), structure.material_of(asked.member))
+        )
+        together = np.column_stack([force[:, 0], moment[:, 1], moment[:, 2], moment[:, 0]])
+        yield Channel(f"{name}.use", "1", fit.gauge(together))
+
+
+def check_sections(structure: Structure, linkage: Linkage, outputs: Outputs) -> None:
+    """Refuse sections whose forces the rigid model does not determine.
+
+    Raises
+    ------
+    InputError
+        With every such section.
+    """
+    problems = [
+        Problem(
+            "the forces in this section are not determined: its piece of the member is rigid up to nodes at "
+            "both ends",
+            f"{1e3 * asked.at:.6g} mm of member {asked.member}",
+            "a section next to a hinge or joint",
+            "put a hinge into the member, for example with hinges: auto",
+            f"outputs.section_forces.{name}",
+        )
+        for name, asked in outputs.section_forces.items()
+        if _closing(linkage, piece_at(linkage.pieces, asked.member, asked.at)) is None
+    ]
+    if problems:
+        raise InputError(problems)
+
+
+def _in_section(structure: Structure, poses: SpacePoses, asked: SectionForce) -> tuple[Floats, Floats]:
+    """What the second side exerts on the first, (n, 3) each in the member's carried axes."""
+    linkage, frame = poses.linkage, structure.frame_of(asked.member)
+    piece = piece_at(linkage.pieces, asked.member, asked.at)
+    closing = _closing(linkage, piece)
+    assert closing is not None
+    side, number = closing
+    wrench = on_second(poses, number)
+    if linkage.connections[number].second != piece.body or side == "end":
+        wrench = wrench.opposite()
+    ends = (piece.start, asked.at) if side == "start" else (asked.at, piece.end)
+    section = poses.place(piece.body, frame.position(asked.at))[0]
+    needed, spin = _momentum_rate(structure, poses, piece, ends, section)
+    force = needed - wrench.force
+    moment = spin - wrench.about(section)
+    if side == "end":
+        force, moment = -force, -moment
+    axes = turned(poses.quaternion(piece.body)[:, None], frame.axes[None])
+    return np.einsum("nki,ni->nk", axes, force), np.einsum("nki,ni->nk", axes, moment)
+
+
+def _momentum_rate(
+    structure: Structure, poses: SpacePoses, piece: Piece, ends: tuple[float, float], section: Floats
+) -> tuple[Floats, Floats]:
+    """Force [N] and moment about a section [N m], (n, 3), that move a stretch, less those of gravity."""
+    stretch = piece_mass(structure, piece.member, *ends)
+    gravity = np.asarray(structure.gravity, float)
+    centre, _ = poses.place(piece.body, stretch.centre)
+    if piece.body == GROUND:
+        force = np.tile(-stretch.mass * gravity, (poses.time.size, 1))
+        return force, np.cross(centre - section, force)
+    spin, _ = np.split(poses.record.velocity[:, piece.body], 2, axis=1)
+    turning, moving = np.split(poses.record.acceleration[:, piece.body], 2, axis=1)
+    arm = centre - poses.record.centre[:, piece.body]
+    acceleration = moving + np.cross(turning, arm) + np.cross(spin, np.cross(spin, arm))
+    force = stretch.mass * (acceleration - gravity)
+    columns = turned(poses.quaternion(piece.body)[:, None], np.eye(3)[None])
+    inertia = np.einsum("nki,kl,nlj->nij", columns, stretch.inertia, columns)
+    about = np.einsum("nij,nj->ni", inertia, turning)
+    about += np.cross(spin, np.einsum("nij,nj->ni", inertia, spin))
+    return force, about + np.cross(centre - section, force)
+
+
+def _closing(linkage: Linkage, piece: Piece) -> tuple[Literal["start", "end"], int] | None:
+    """The connection at an end of a piece from which its sections follow, and at which end it is."""
+    pieces = linkage.pieces[piece.member]
+    for i, connection in enumerate(linkage.connections):
+        hinge = connection.hinge
+        if hinge is not None and hinge.member == piece.member:
+            if hinge.station == piece.start and piece is not pieces[0]:
+                return "start", i
+            if hinge.station == piece.end and piece is not pieces[-1]:
+                return "end", i
+    for i, connection in enumerate(linkage.connections):
+        if connection.end is not None and connection.end[0] == piece.member:
+            if connection.end[1] == 0 and piece is pieces[0]:
+                return "start", i
+            if connection.end[1] == 1 and piece is pieces[-1]:
+                return "end", i
+    return None
+
+
+def _clamps(structure: Structure, linkage: Linkage) -> Iterator[tuple[str, str]]:
+    """Supports that clamp a node alone on its rigid part, and the node."""
+    held: dict[str, list[str]] = {}
+    for name, support in structure.supports.items():
+        if linkage.node_part[support.node] in linkage.ground_parts:
+            held.setdefault(support.node, []).append(name)
+    parts = [linkage.node_part[node] for node in held]
+    for node, names in held.items():
+        if parts.count(linkage.node_part[node]) == 1 and len(names) == 1:
+            yield names[0], node
+
+
+def _on_clamp(structure: Structure, poses: SpacePoses, node: str, local_time: Floats) -> Wrench:
+    """What a rigid part of the ground exerts on the support of its one clamped node, about the node."""
+    linkage, part = poses.linkage, poses.linkage.node_part[node]
+    place = np.asarray(structure.nodes[node], float)
+    force, moment = np.zeros((poses.time.size, 3)), np.zeros((poses.time.size, 3))
+    for i, connection in enumerate(linkage.connections):
+        if part in connection.parts:
+            wrench = on_second(poses, i)
+            wrench = wrench if connection.parts[1] == part else wrench.opposite()
+            force, moment = force + wrench.force, moment + wrench.about(place)
+    if part in linkage.part_mass:
+        lump = linkage.part_mass[part]
+        weight = lump.mass * np.asarray(structure.gravity, float)
+        force, moment = force + weight, moment + np.cross(lump.centre - place, weight)
+    for load in structure.loads:
+        if linkage.node_part[load.node] != part:
+            continue
+        arm = np.asarray(structure.nodes[load.node], float) - place
+        for i, axis in enumerate(AXES):
+            pushed, bent = getattr(load.force, axis), getattr(load.moment, axis)
+            if pushed is not None:
+                one = np.outer(pushed(local_time), np.eye(3)[i])
+                force, moment = force + one, moment + np.cross(arm, one)
+            if bent is not None:
+                moment = moment + np.outer(bent(local_time), np.eye(3)[i])
+    return Wrench(force, moment, np.broadcast_to(place, force.shape))
+
+
+def _channels(name: str, wrench: Wrench) -> Iterator[Channel]:
+    for quantity, unit, values in (("force", "N", wrench.force), ("moment", "N*m", wrench.moment)):
+        for i, axis in enumerate(AXES):
+            yield Channel(f"{name}.{quantity}.{axis}", unit, np.ascontiguousarray(values[:, i]))

@@ -1,0 +1,228 @@
+"""What of a linkage can move at the start, and what is held more than once.
+
+Every connection leaves some relative motion: a twist of the second body against the first for each free
+freedom, written about one point for all.  A spanning tree from the ground carries every body; each
+connection beyond the tree closes a loop, around which all relative motions must cancel:
+
+    sum over the loop of +-(twists) rates = 0            six equations for each loop
+
+The null space of these equations is what can move (its size is the mobility); equations that depend on the
+others are constraints held twice, in consistent structures harmless, but then the forces in them are not
+unique.  This is the count at the start: straight structures may gain or lose motion as they deform.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict, deque
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from crumple.multibody.linkage import GROUND, Connection, Linkage
+from crumple.multibody.rigid import Floats
+
+NOTHING = 1e-9
+"""Singular value over the largest, and share of a motion, below which it is rounding."""
+MOST_NAMES = 6
+"""Members or hinges that a sentence names one by one."""
+
+
+@dataclass(frozen=True)
+class Mobility:
+    """What can move.
+
+    Attributes
+    ----------
+    motions
+        Number of independent motions.
+    moving
+        Bodies that take part in one, increasing.
+    stuck
+        Connections with free freedoms of which none can move.
+    redundant
+        Constraints that others imply.
+    loops
+        Connections of the loops that hold redundant constraints.
+    """
+
+    motions: int
+    moving: tuple[int, ...]
+    stuck: tuple[int, ...]
+    redundant: int
+    loops: tuple[int, ...]
+
+
+@dataclass
+class _Tree:
+    """Spanning tree: twists of the free freedoms, and from where every body is reached."""
+
+    columns: list[Floats] = field(default_factory=list)
+    owner: list[int] = field(default_factory=list)
+    inboard: dict[int, tuple[int, int, list[int], float]] = field(default_factory=dict)
+    """By body: the body before it, the connection (-1: floating), its freedoms, and their sign."""
+    loops: list[tuple[int, list[int]]] = field(default_factory=list)
+    """Connections beyond the tree, and their freedoms."""
+
+    def path(self, body: int) -> Iterator[tuple[int, list[int], float]]:
+        """Connections from a body to the ground."""
+        while body != GROUND:
+            body, connection, own, sign = self.inboard[body]
+            yield connection, own, sign
+
+
+def mobility(linkage: Linkage, *, locked: bool = False) -> Mobility:
+    """Motions that the connections allow.
+
+    Parameters
+    ----------
+    linkage
+        Bodies and connections.
+    locked
+        Whether hinges carry every moment, as they do until they yield.
+    """
+    if not linkage.bodies:
+        return Mobility(0, (), (), 0, ())
+    tree = _tree(linkage, locked)
+    width = len(tree.owner)
+    blocks = [_loop_rows(linkage, tree, width, closing, own) for closing, own in tree.loops]
+    system = np.concatenate([rows for rows, _ in blocks]) if blocks else np.zeros((0, width))
+    # what lies on no loop moves by itself
+    coupled = np.flatnonzero(np.any(system != 0.0, axis=0))
+    null, redundant = _null_space(system[:, coupled])
+    moves = np.ones(width, bool)
+    moves[coupled] = np.any(np.abs(null) > NOTHING, axis=0)
+    bodies = {
+        body
+        for body in range(len(linkage.bodies))
+        if any(moves[k] for _, own, _ in tree.path(body) for k in own)
+    }
+    free = {i: [k for k, owner in enumerate(tree.owner) if owner == i] for i in set(tree.owner) - {GROUND}}
+    stuck = tuple(i for i, own in sorted(free.items()) if not moves[own].any())
+    doubled = {i for rows, loop in blocks if redundant and _null_space(rows)[1] for i in loop}
+    number = width - len(coupled) + len(null)
+    return Mobility(number, tuple(sorted(bodies)), stuck, redundant, tuple(sorted(doubled)))
+
+
+def notes(linkage: Linkage) -> tuple[str, ...]:
+    """Sentences about parts that nothing holds, hinges that cannot turn, and constraints held twice."""
+    found = list(free_parts(linkage))
+    free = mobility(linkage)
+    names = [connection.name for connection in linkage.connections]
+    if free.stuck:
+        text = _named("Hinge or joint", "Hinges and joints", [names[i] for i in free.stuck])
+        found.append(f"{text} cannot move at the start: the loops around are too stiff.")
+    if free.redundant:
+        found.append(
+            f"{free.redundant} of the constraints hold what others hold already (in the loops through "
+            f"{_listed([names[i] for i in free.loops])}): the motion is unique, the forces across it "
+            "are not, and the smallest are given."
+        )
+    return tuple(found)
+
+
+def free_parts(linkage: Linkage) -> tuple[str, ...]:
+    """A sentence about what can move without any hinge turning; none where all is held."""
+    rigid = mobility(linkage, locked=True)
+    if not rigid.motions:
+        return ()
+    grounded = any(GROUND in (connection.first, connection.second) for connection in linkage.connections)
+    if not grounded and rigid.motions == 6:
+        return ("Nothing holds the structure: it moves freely in space.",)
+    ways = f"{rigid.motions} independent ways" if rigid.motions > 1 else "one way"
+    moving = set(rigid.moving)
+    names = [name for name, pieces in linkage.pieces.items() if any(p.body in moving for p in pieces)]
+    return (
+        f"The supports and joints leave {ways} to move without any hinge turning "
+        f"({_named('member', 'members', names)}).",
+    )
+
+
+def _tree(linkage: Linkage, locked: bool) -> _Tree:
+    """Breadth first from the ground; what it does not reach floats."""
+    centre, length = _scale(linkage)
+    tree = _Tree()
+    own: list[list[int]] = []
+    edges: dict[int, list[int]] = defaultdict(list)
+    for i, connection in enumerate(linkage.connections):
+        free = () if locked and connection.hinge is not None else connection.free
+        own.append(list(range(len(tree.columns), len(tree.columns) + len(free))))
+        tree.columns += [_twist(connection, freedom, centre, length) for freedom in free]
+        tree.owner += [i] * len(free)
+        edges[connection.first].append(i)
+        edges[connection.second].append(i)
+    used: set[int] = set()
+    for start in (GROUND, *range(len(linkage.bodies))):
+        if start in tree.inboard:
+            continue
+        if start != GROUND:
+            floating = list(range(len(tree.columns), len(tree.columns) + 6))
+            tree.columns += list(np.eye(6))
+            tree.owner += [GROUND] * 6
+            tree.inboard[start] = (GROUND, GROUND, floating, 1.0)
+        queue = deque([start])
+        while queue:
+            here = queue.popleft()
+            for i in edges[here]:
+                connection = linkage.connections[i]
+                ahead = here == connection.first
+                there = connection.second if ahead else connection.first
+                if there == GROUND or there in tree.inboard:
+                    continue
+                used.add(i)
+                tree.inboard[there] = (here, i, own[i], 1.0 if ahead else -1.0)
+                queue.append(there)
+    tree.loops = [(i, own[i]) for i in range(len(linkage.connections)) if i not in used]
+    return tree
+
+
+def _loop_rows(
+    linkage: Linkage, tree: _Tree, width: int, closing: int, own: list[int]
+) -> tuple[Floats, set[int]]:
+    """Six equations of a loop, and the connections along it."""
+    rows = np.zeros((6, width))
+    along = {closing}
+    for k in own:
+        rows[:, k] = tree.columns[k]
+    connection = linkage.connections[closing]
+    for body, sense in ((connection.first, 1.0), (connection.second, -1.0)):
+        for passed, free, sign in tree.path(body):
+            along ^= {passed}
+            for k in free:
+                rows[:, k] += sense * sign * tree.columns[k]
+    return rows, along - {GROUND}
+
+
+def _twist(connection: Connection, freedom: int, centre: Floats, length: float) -> Floats:
+    """Rotation and translation of the common point, over the length, of one relative freedom."""
+    axis = connection.axes[freedom % 3]
+    if freedom < 3:
+        return np.concatenate([np.zeros(3), axis])
+    return np.concatenate([axis, np.cross(axis, centre - connection.position) / length])
+
+
+def _scale(linkage: Linkage) -> tuple[Floats, float]:
+    """Common point and length of a linkage."""
+    places = np.array([c.position for c in linkage.connections] + [b.centre for b in linkage.bodies])
+    centre = places.mean(axis=0)
+    return centre, float(np.linalg.norm(places - centre, axis=1).max()) or 1.0
+
+
+def _null_space(system: Floats) -> tuple[Floats, int]:
+    """Orthonormal vectors that a system sends to zero, and how many of its rows depend on the others."""
+    if not len(system):
+        return np.zeros((0, system.shape[1])), 0
+    _, sizes, vectors = np.linalg.svd(system)
+    rank = int(np.sum(sizes > NOTHING * max(float(sizes.max(initial=0.0)), 1.0)))
+    null: Floats = vectors[rank:]
+    return null, len(system) - rank
+
+
+def _named(one: str, several: str, names: list[str]) -> str:
+    return f"{one if len(names) == 1 else several} {_listed(names)}"
+
+
+def _listed(names: list[str]) -> str:
+    few = len(names) <= MOST_NAMES
+    shown = names if few else [*names[: MOST_NAMES - 1], f"{len(names) - MOST_NAMES + 1} more"]
+    return ", ".join(shown)

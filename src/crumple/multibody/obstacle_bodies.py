@@ -1,0 +1,228 @@
+"""Obstacles and members that touch, as the spatial kernel takes them.
+
+A fixed obstacle is part of the ground.  One with a mass is a body that slides along its guide, a driven one a
+body whose every freedom is held and some are driven.  Members touch with capsules: segments with a radius.  A
+section wider than deep gets two of them side by side, so that its width and its depth are both right.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+
+from crumple._core.space_model import (
+    ObstacleKind,
+    SpaceBody,
+    SpaceCapsule,
+    SpaceContact,
+    SpaceDrive,
+    SpaceJoint,
+    SpaceModel,
+    SpaceObstacle,
+    frame_of,
+)
+from crumple.multibody.linkage import GROUND, Linkage
+from crumple.multibody.rigid import Floats
+from crumple.multibody.sampling import sampled_motion
+from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Structure
+
+LIGHT = 1e-3
+"""Mass of a driven obstacle over that of the structure: its motion is given, so that the mass changes nothing
+but the work of its drive; far smaller ones would cost digits."""
+ROUND = 1.1
+"""Ratio of the sides of a section up to which one row of capsules stands for it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Touching:
+    """A model with its obstacles, and whose its further parts are.
+
+    Attributes
+    ----------
+    model
+        For the kernel; obstacles in the structure's order, their bodies after those of the linkage.
+    joint
+        Joint of every moving obstacle by name.
+    drives
+        Owner of every drive, in the model's order: a support or an obstacle.
+    velocity
+        Velocity at the start of every body after those of the linkage [m/s], (obstacle bodies, 3).
+    """
+
+    model: SpaceModel
+    joint: dict[str, int]
+    drives: tuple[str, ...]
+    velocity: Floats
+
+
+def with_obstacles(
+    structure: Structure, linkage: Linkage, model: SpaceModel, owners: tuple[str, ...], duration: float
+) -> Touching:
+    """Add the obstacles of a structure, and the capsules of its members, to a model.
+
+    Parameters
+    ----------
+    structure, linkage
+        What is solved.
+    model
+        Without obstacles.
+    owners
+        Supports that the model's drives belong to.
+    duration
+        Prescribed motion is sampled over it [s].
+    """
+    if not structure.obstacles and structure.member_contact is None:
+        return Touching(model, {}, owners, np.zeros((0, 3)))
+    capsules, member = _capsules(structure, linkage)
+    bodies, joints, drives, names = list(model.bodies), list(model.joints), list(model.drives), list(owners)
+    light = LIGHT * sum(body.mass for body in bodies)
+    obstacles, velocity, joint = [], [], {}
+    for name, obstacle in structure.obstacles.items():
+        body = GROUND
+        if obstacle.mass is not None or obstacle.driven:
+            body, joint[name] = len(bodies), len(joints)
+            mass = obstacle.mass or light
+            place = np.asarray(obstacle.point, float)
+            bodies.append(SpaceBody(mass, mass * model.length**2 * np.eye(3), place))
+            velocity.append(obstacle.velocity if obstacle.mass is not None else (0.0, 0.0, 0.0))
+            added, driven = _moved(obstacle, body, len(joints), duration)
+            joints.append(added)
+            drives += driven
+            names += [name] * len(driven)
+        touching = None
+        if obstacle.members is not None:
+            touching = tuple(i for i, owner in enumerate(member) if owner in obstacle.members)
+        obstacles.append(_shape(obstacle, body, touching))
+    contact = structure.member_contact
+    pairs = SpaceContact()
+    if contact is not None:
+        pairs = SpaceContact(
+            tuple(_pairs(structure, capsules, member)), contact.friction, contact.restitution
+        )
+    touching_model = replace(
+        model,
+        bodies=tuple(bodies),
+        joints=tuple(joints),
+        drives=tuple(drives),
+        obstacles=tuple(obstacles),
+        capsules=tuple(capsules),
+        contact=pairs,
+    )
+    return Touching(touching_model, joint, tuple(names), np.array(velocity, float).reshape(-1, 3))
+
+
+def _shape(obstacle: Obstacle, body: int, touching: tuple[int, ...] | None) -> SpaceObstacle:
+    place = np.asarray(obstacle.point, float)
+    plain = SpaceObstacle(
+        ObstacleKind.SPHERE,
+        body,
+        place,
+        friction=obstacle.friction,
+        restitution=obstacle.restitution,
+        capsules=touching,
+    )
+    if isinstance(obstacle, PlaneObstacle):
+        edge = np.zeros(3) if obstacle.edge is None else _unit(obstacle.edge)
+        return replace(plain, kind=ObstacleKind.PLANE, direction=_unit(obstacle.normal), edge=edge)
+    if isinstance(obstacle, CylinderObstacle):
+        return replace(
+            plain,
+            kind=ObstacleKind.CYLINDER,
+            direction=_unit(obstacle.axis),
+            radius=obstacle.radius,
+            length=obstacle.length or 0.0,
+        )
+    assert isinstance(obstacle, SphereObstacle)
+    return replace(plain, radius=obstacle.radius)
+
+
+def _moved(obstacle: Obstacle, body: int, joint: int, duration: float) -> tuple[SpaceJoint, list[SpaceDrive]]:
+    """Joint that guides or drives an obstacle, and its drives."""
+    place = np.asarray(obstacle.point, float)
+    guide = obstacle.guide_direction
+    if guide is not None:
+        held = (False, True, True, True, True, True)
+        return SpaceJoint(GROUND, body, place, frame_of(guide), held), []
+    axes = np.eye(3)
+    if obstacle.turning is not None:
+        place, axes = np.asarray(obstacle.turning.about, float), frame_of(obstacle.turning.axis)
+    drives = []
+    times, rates = _travel(obstacle, duration)
+    for freedom, rate in enumerate(axes @ rates.T):
+        if np.any(rate != 0.0):
+            drives.append(SpaceDrive(joint, freedom, times, rate))
+    if obstacle.turning is not None:
+        turn_times, _, turn_rates = sampled_motion(obstacle.turning.angle, duration)
+        drives.append(SpaceDrive(joint, 3, turn_times, turn_rates))
+    return SpaceJoint(GROUND, body, place, axes, (True,) * 6), drives
+
+
+def _travel(obstacle: Obstacle, duration: float) -> tuple[Floats, Floats]:
+    """Times [s], (n,), and prescribed velocity in global axes [m/s], (n, 3)."""
+    if any(obstacle.velocity):
+        return np.array([0.0, duration]), np.tile(np.asarray(obstacle.velocity, float), (2, 1))
+    parts = []
+    for axis in "xyz":
+        function = getattr(obstacle.motion, axis)
+        times, _, rates = (
+            (np.zeros(1), None, np.zeros(1)) if function is None else sampled_motion(function, duration)
+        )
+        parts.append((times, rates))
+    union = np.unique(np.concatenate([times for times, _ in parts]))
+    return union, np.stack([np.interp(union, times, rates) for times, rates in parts], axis=1)
+
+
+def _capsules(structure: Structure, linkage: Linkage) -> tuple[list[SpaceCapsule], list[str]]:
+    """Capsules of all pieces that move, and the member of each."""
+    ends = Counter(node for member in structure.members.values() for node in member.nodes)
+    capsules, owner = [], []
+    for name, pieces in linkage.pieces.items():
+        frame, nodes = structure.frame_of(name), structure.members[name].nodes
+        places, radius = _rows(structure.section_of(name).outer_outline())
+        # the round end of a capsule ends with the member where that is free, and rounds the corner elsewhere
+        inset = [radius if ends[node] == 1 else 0.0 for node in nodes]
+        for piece in pieces:
+            if piece.body == GROUND:
+                continue
+            start = piece.start + (inset[0] if piece.start == 0.0 else 0.0)
+            end = piece.end - (inset[1] if piece is pieces[-1] else 0.0)
+            if start > end:
+                start = end = (piece.start + piece.end) / 2.0
+            for place in places:
+                shift = place @ frame.axes[1:]
+                first, second = frame.position(start) + shift, frame.position(end) + shift
+                capsules.append(SpaceCapsule(piece.body, first, second, radius))
+                owner.append(name)
+    return capsules, owner
+
+
+def _rows(outline: Floats) -> tuple[Floats, float]:
+    """Places of a member's capsules in its section [m], (rows, 2), and their radius [m]."""
+    low, high = outline.min(axis=0), outline.max(axis=0)
+    centre, size = (low + high) / 2.0, high - low
+    radius = float(size.min()) / 2.0
+    if size.max() <= ROUND * size.min():
+        return centre[None, :], float(size.mean()) / 2.0
+    apart = np.zeros(2)
+    apart[int(size.argmax())] = float(size.max()) / 2.0 - radius
+    return np.array([centre - apart, centre + apart]), radius
+
+
+def _pairs(
+    structure: Structure, capsules: list[SpaceCapsule], member: list[str]
+) -> Iterator[tuple[int, int]]:
+    """Capsules of members that share no node, on different bodies."""
+    nodes = {name: set(spec.nodes) for name, spec in structure.members.items()}
+    for i, j in combinations(range(len(capsules)), 2):
+        if capsules[i].body != capsules[j].body and not nodes[member[i]] & nodes[member[j]]:
+            yield i, j
+
+
+def _unit(direction: tuple[float, float, float]) -> Floats:
+    vector = np.asarray(direction, float)
+    unit: Floats = vector / np.linalg.norm(vector)
+    return unit

@@ -1,0 +1,183 @@
+"""Where the bodies of a solved structure are: one set of questions to the record of either kernel."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from crumple._core.space import SpaceRecord
+from crumple._core.tree import TreeRecord
+from crumple.multibody.assembly import Piece
+from crumple.multibody.linkage import GROUND, Linkage
+from crumple.multibody.mechanism import Mechanism
+from crumple.multibody.rigid import Floats
+from crumple.structure.rotation import (
+    continuous,
+    inverse,
+    product,
+    quaternion_vector,
+    turned,
+    vector_quaternion,
+)
+
+
+class Poses(Protocol):
+    """Motion of the bodies at n output times; body -1 is the ground."""
+
+    @property
+    def time(self) -> Floats:
+        """Output times [s], (n,)."""
+
+    @property
+    def pieces(self) -> Mapping[str, tuple[Piece, ...]]:
+        """Pieces of members."""
+
+    @property
+    def node_body(self) -> Mapping[str, int]:
+        """Bodies of nodes."""
+
+    @property
+    def normal(self) -> Floats | None:
+        """Unit vector across the plane in which all move, (3,); None in space."""
+
+    def place(self, body: int, point: Floats) -> tuple[Floats, Floats]:
+        """Position [m] and velocity [m/s] of a point of a body, given at the start, (n, 3) each."""
+
+    def quaternion(self, body: int) -> Floats:
+        """Rotation of a body from the start, (n, 4)."""
+
+    def rotation(self, body: int) -> tuple[Floats, Floats]:
+        """Rotation vector [rad] and angular velocity [rad/s] of a body, (n, 3) each."""
+
+    def relative(self, first: int, second: int) -> Floats:
+        """Rotation vector of one body against another [rad], in axes that move with the first, (n, 3)."""
+
+
+@dataclass(frozen=True, eq=False)
+class TreePoses:
+    """Motion in a plane."""
+
+    mechanism: Mechanism
+    record: TreeRecord
+
+    @property
+    def time(self) -> Floats:
+        """See `Poses`."""
+        return self.record.time
+
+    @property
+    def pieces(self) -> Mapping[str, tuple[Piece, ...]]:
+        """See `Poses`."""
+        return self.mechanism.pieces
+
+    @property
+    def node_body(self) -> Mapping[str, int]:
+        """See `Poses`."""
+        return self.mechanism.node_body
+
+    @property
+    def normal(self) -> Floats | None:
+        """See `Poses`."""
+        return self.mechanism.plane.normal
+
+    def place(self, body: int, point: Floats) -> tuple[Floats, Floats]:
+        """See `Poses`."""
+        if body == GROUND:
+            return _still(self.time, point)
+        mechanism, record = self.mechanism, self.record
+        plane, of = mechanism.plane, mechanism.bodies[body]
+        angle, rate = record.pose[:, body, 0], record.velocity[:, body, 0]
+        arm = _rotated(plane.flat(point - of.centre), angle)
+        origin = _rotated(plane.flat(of.centre - mechanism.links[body].position), angle)
+        across = float(point @ plane.normal) * plane.normal
+        velocity = record.velocity[:, body, 1:] + rate[:, None] * np.stack([-arm[:, 1], arm[:, 0]], axis=1)
+        return plane.raised(record.pose[:, body, 1:] + origin + arm) + across, plane.raised(velocity)
+
+    def quaternion(self, body: int) -> Floats:
+        """See `Poses`."""
+        return vector_quaternion(self.rotation(body)[0])
+
+    def rotation(self, body: int) -> tuple[Floats, Floats]:
+        """See `Poses`."""
+        if body == GROUND:
+            return _still(self.time, np.zeros(3))
+        normal = self.mechanism.plane.normal
+        angle, rate = self.record.pose[:, body, :1], self.record.velocity[:, body, :1]
+        return angle * normal, rate * normal
+
+    def relative(self, first: int, second: int) -> Floats:
+        """See `Poses`."""
+        return self.rotation(second)[0] - self.rotation(first)[0]
+
+
+@dataclass(frozen=True, eq=False)
+class SpacePoses:
+    """Motion in space."""
+
+    linkage: Linkage
+    record: SpaceRecord
+
+    @property
+    def time(self) -> Floats:
+        """See `Poses`."""
+        return self.record.time
+
+    @property
+    def pieces(self) -> Mapping[str, tuple[Piece, ...]]:
+        """See `Poses`."""
+        return self.linkage.pieces
+
+    @property
+    def node_body(self) -> Mapping[str, int]:
+        """See `Poses`."""
+        return self.linkage.node_body
+
+    @property
+    def normal(self) -> Floats | None:
+        """See `Poses`."""
+        return None
+
+    def place(self, body: int, point: Floats) -> tuple[Floats, Floats]:
+        """See `Poses`."""
+        if body == GROUND:
+            return _still(self.time, point)
+        arm = turned(self.quaternion(body), np.asarray(point - self.linkage.bodies[body].centre))
+        spin, velocity = np.split(self.record.velocity[:, body], 2, axis=1)
+        return self.record.centre[:, body] + arm, velocity + np.cross(spin, arm)
+
+    def quaternion(self, body: int) -> Floats:
+        """See `Poses`."""
+        if body == GROUND:
+            return np.tile([1.0, 0.0, 0.0, 0.0], (self.time.size, 1))
+        return self.record.rotation[:, body]
+
+    def rotation(self, body: int) -> tuple[Floats, Floats]:
+        """See `Poses`."""
+        if body == GROUND:
+            return _still(self.time, np.zeros(3))
+        return continuous(quaternion_vector(self.quaternion(body))), self.record.velocity[:, body, :3]
+
+    def relative(self, first: int, second: int) -> Floats:
+        """See `Poses`."""
+        return continuous(
+            quaternion_vector(product(inverse(self.quaternion(first)), self.quaternion(second)))
+        )
+
+
+def piece_at(pieces: Mapping[str, tuple[Piece, ...]], member: str, station: float) -> Piece:
+    """Piece that holds a station [m] of a member; at a cut the one before it, at the end the last."""
+    *inner, last = pieces[member]
+    return next((piece for piece in inner if station <= piece.end and station < last.end), last)
+
+
+def _still(time: Floats, vector: Floats) -> tuple[Floats, Floats]:
+    return np.tile(vector, (time.size, 1)), np.zeros((time.size, 3))
+
+
+def _rotated(vector: Floats, angle: Floats) -> Floats:
+    """A plane vector (2,) turned by every angle (n,): (n, 2)."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.stack([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]], axis=1)

@@ -1,0 +1,78 @@
+"""What a run is told, and what both kernels' runs have in common: output times, progress, status."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from crumple._core.tree import Outcome
+from crumple.errors import Status
+from crumple.multibody.rigid import Floats
+from crumple.structure import MultibodySettings, Outputs, Stage
+
+Progress = Callable[[float], None]
+Cancel = Callable[[], bool]
+
+CHECK_FACTOR = 4.0
+"""The answer is computed at the accuracy asked for and again this much tighter, with at least two steps an
+output interval: half the step of a second-order method.  The difference bounds the error of the second."""
+
+STATUS = {
+    Outcome.COMPLETE: Status.COMPLETE,
+    Outcome.STEP_COLLAPSED: Status.STEP_COLLAPSED,
+    Outcome.NOT_FINITE: Status.NOT_FINITE,
+    Outcome.CANCELLED: Status.CANCELLED,
+    Outcome.REFUSED: Status.REFUSED,
+}
+
+
+@dataclass(frozen=True)
+class Run:
+    """What the solver is told beside the structure: duration and output interval [s], settings, outputs."""
+
+    duration: float
+    every: float
+    settings: MultibodySettings = field(default_factory=MultibodySettings)
+    outputs: Outputs = field(default_factory=Outputs)
+    title: str = ""
+    stages: tuple[Stage, ...] = ()
+
+
+def output_times(run: Run) -> Floats:
+    """Times at which the histories are recorded: the interval's multiples, the end and the pictures' [s]."""
+    number = int(np.floor(run.duration / run.every * (1 + 1e-12)))
+    regular = np.minimum(run.every * np.arange(number + 1), run.duration)
+    wanted = np.concatenate([regular, [run.duration], [t for t in run.outputs.pictures if t < run.duration]])
+    times = np.unique(wanted)
+    apart = np.concatenate([[True], np.diff(times) > 1e-9 * run.duration])
+    kept: Floats = times[apart]
+    return kept
+
+
+def poll_of(
+    duration: float, share: tuple[float, float], progress: Progress | None, cancel: Cancel | None
+) -> Callable[[float], bool]:
+    """What a kernel asks now and then: passes the share done on, and answers whether to go on."""
+    since, until = share
+
+    def poll(reached: float) -> bool:
+        if progress is not None:
+            progress(since + (until - since) * reached / duration)
+        return not (cancel is not None and cancel())
+
+    return poll
+
+
+def outcome_status(outcome: Outcome, reason: str, residual: float, bound: float) -> tuple[Status, str]:
+    """Status and reason of a run, its energy residual held against its bound."""
+    status = STATUS[outcome]
+    if status.ok and residual > bound:
+        return Status.RESIDUAL_EXCEEDED, f"energy residual {residual:.2e} above its bound {bound:.2e}"
+    return status, reason
+
+
+def picture_times(run: Run) -> Floats:
+    """Times at which the deformed shape is stored [s]."""
+    return np.array(run.outputs.pictures or np.linspace(0.0, run.duration, 6))

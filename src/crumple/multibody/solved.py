@@ -1,0 +1,127 @@
+"""What a kernel's run comes to, before it is told: the same for both kernels."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from crumple._core.tree import Outcome
+from crumple.multibody.poses import Poses
+from crumple.multibody.rigid import Floats
+from crumple.result import Channel, StageSummary
+from crumple.structure import PlacedHinge
+
+Poll = Callable[[float], bool]
+
+
+@dataclass(frozen=True, eq=False)
+class HingeHistory:
+    """What one hinge did.
+
+    Attributes
+    ----------
+    hinge
+        Where it is and what it can carry.
+    columns
+        Unit and values, (n,), of ``rotation``, ``rotation_rate``, ``plastic_rotation``, ``moment``,
+        ``capacity`` and ``energy``; of a hinge about several axes these are lengths of vectors, and the parts
+        come beside.
+    rotation_max, moment_max
+        Largest magnitudes [rad], [N m].
+    time_of_rest
+        After which its plastic rotation no longer changed [s]; None: still turning.
+    energy
+        Absorbed [J].
+    """
+
+    hinge: PlacedHinge
+    columns: Mapping[str, tuple[str, Floats]]
+    rotation_max: float
+    moment_max: float
+    time_of_rest: float | None
+    energy: float
+
+    def values(self, name: str) -> Floats:
+        """One of its columns, (n,)."""
+        return self.columns[name][1]
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """One run of a kernel.
+
+    Attributes
+    ----------
+    outcome, reason, residual, steps, rejected, forced
+        As the kernel tells them.
+    given, lost
+        Energy of the described start, and what of it the joints took [J].
+    struck
+        Whether impulses act at the start: of these only what the joints let through becomes energy.
+    poses
+        Where the bodies are.
+    hinges
+        One history each.
+    energy
+        ``kinetic``, ``elastic``, ``dissipated``, ``external_work`` and, with obstacles, ``contact`` and
+        ``friction`` [J], (n,) each.
+    further
+        Channels that this kernel gives beside.
+    stages
+        Name, start and end [s], and what ended it, of every stage.
+    stepping_seconds
+        Wall time of the stepping alone [s].
+    """
+
+    outcome: Outcome
+    reason: str
+    residual: float
+    steps: int
+    rejected: int
+    forced: int
+    given: float
+    lost: float
+    struck: bool
+    poses: Poses
+    hinges: tuple[HingeHistory, ...]
+    energy: Mapping[str, Floats]
+    stepping_seconds: float
+    further: tuple[Channel, ...] = ()
+    stages: tuple[StageSummary, ...] = ()
+
+    @property
+    def time(self) -> Floats:
+        """Output times [s], (n,)."""
+        return self.poses.time
+
+    @property
+    def balance(self) -> Floats:
+        """Energy that is missing or too much since the start [J], (n,)."""
+        sums = sum(values for name, values in self.energy.items() if name != "external_work")
+        missing = np.asarray(sums - self.energy["external_work"])
+        return missing - (missing[0] if missing.size else 0.0)
+
+
+class Solver(Protocol):
+    """A structure lowered for one kernel."""
+
+    @property
+    def kernel(self) -> str:
+        """Its name: ``tree`` or ``spatial``."""
+
+    @property
+    def moving(self) -> bool:
+        """Whether anything can move."""
+
+    @property
+    def hinges(self) -> tuple[PlacedHinge, ...]:
+        """Hinges in the kernel's order."""
+
+    def with_hinges(self, hinges: tuple[PlacedHinge, ...]) -> Solver:
+        """The same with other hinges at the same places."""
+
+    def run(self, accuracy: float, longest: float, poll: Poll | None) -> Solved:
+        """Step at an accuracy with steps of at most `longest` [s]."""

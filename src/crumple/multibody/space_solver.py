@@ -1,0 +1,243 @@
+"""A structure in space: the spatial kernel's run, stage by stage."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from crumple._core.space import SpaceRecord, SpaceSimulation
+from crumple._core.tree import Outcome
+from crumple.multibody.forces import check_sections, force_channels, section_force_channels
+from crumple.multibody.linkage import check_inertia, link
+from crumple.multibody.obstacle_bodies import with_obstacles
+from crumple.multibody.poses import SpacePoses
+from crumple.multibody.rigid import Floats
+from crumple.multibody.run import Run, output_times
+from crumple.multibody.solved import HingeHistory, Poll, Solved
+from crumple.multibody.space_model import space_model, support_drives
+from crumple.multibody.stages import lowered_until, stages_of, told
+from crumple.multibody.start import start_in_space
+from crumple.result import Channel, StageSummary
+from crumple.structure import PlacedHinge, Stage, Structure
+
+HISTORIES = (
+    "time", "centre", "rotation", "velocity", "acceleration", "hinge_rotation", "hinge_rate", "hinge_plastic",
+    "hinge_moment", "hinge_capacity", "hinge_energy", "joint_force", "obstacle_force", "energy",
+)  # fmt: skip
+"""Fields of a record with a row for every output time."""
+COUNTS = ("steps", "rejected", "forced", "solves")
+PARTS = ("slip.x", "slip.y", "slip.z", "x", "y", "z")
+"""Names of a hinge's components by relative freedom."""
+
+
+class SpaceSolver:
+    """Bodies and connections in space, ready to step.
+
+    Parameters
+    ----------
+    structure, run
+        What is solved, and how long with which outputs and stages.
+    hinges
+        The structure's.
+
+    Raises
+    ------
+    InputError
+        If the structure cannot be solved.
+    """
+
+    kernel = "spatial"
+
+    def __init__(self, structure: Structure, run: Run, hinges: tuple[PlacedHinge, ...]) -> None:
+        self._structure, self._run = structure, run
+        self.linkage = link(structure, hinges)
+        check_inertia(self.linkage)
+        check_sections(structure, self.linkage, run.outputs)
+        self._stages = stages_of(structure, run)
+        longest = max(stage.duration for stage in self._stages)
+        plain = space_model(structure, self.linkage, longest)
+        owners = tuple(name for name, _ in support_drives(structure, self.linkage, longest))
+        self._touching = with_obstacles(structure, self.linkage, plain, owners, longest)
+
+    @property
+    def moving(self) -> bool:
+        """See `Solver`."""
+        return bool(self.linkage.bodies)
+
+    @property
+    def hinges(self) -> tuple[PlacedHinge, ...]:
+        """See `Solver`."""
+        return self.linkage.hinges
+
+    def with_hinges(self, hinges: tuple[PlacedHinge, ...]) -> SpaceSolver:
+        """See `Solver`."""
+        return SpaceSolver(self._structure, self._run, hinges)
+
+    def run(self, accuracy: float, longest: float, poll: Poll | None) -> Solved:
+        """See `Solver`."""
+        model, settings = self._touching.model, self._run.settings
+        simulation = SpaceSimulation(model, accuracy, settings.minimum_time_step, longest)
+        grid = output_times(self._run)
+        records: list[SpaceRecord] = []
+        stages: list[StageSummary] = []
+        given = lost = seconds = 0.0
+        for stage in self._stages:
+            begin = simulation.time
+            described, gone = self._begin(simulation, stage, first=not records)
+            given, lost = given + described, lost + gone
+            times = _stage_times(grid, begin, begin + stage.duration)
+            clock = time.perf_counter()
+            records.append(simulation.run(times, poll))
+            seconds += time.perf_counter() - clock
+            conditions = lowered_until(self._structure, self.linkage, self._touching, stage)
+            ended = told(stage, conditions, records[-1])
+            stages.append(StageSummary(stage.name, begin, float(records[-1].time[-1]), ended))
+            if records[-1].outcome is not Outcome.COMPLETE:
+                break
+        record = _joined(records)
+        return self._solved(record, stages, (given, lost, seconds))
+
+    def _begin(self, simulation: SpaceSimulation, stage: Stage, *, first: bool) -> tuple[float, float]:
+        """Start a stage; energy of the motion that is added, and what of it the joints took [J]."""
+        structure, touching = self._structure, self._touching
+        names = list(structure.obstacles)
+        drives = None
+        if stage.drive is not None:
+            drives = [i for i, owner in enumerate(touching.drives) if owner in stage.drive]
+        obstacles = None if stage.obstacles is None else [names.index(name) for name in stage.obstacles]
+        conditions = lowered_until(structure, self.linkage, touching, stage)
+        simulation.stage(
+            quasi_static=stage.kind == "quasi-static",
+            drives=drives,
+            obstacles=obstacles,
+            until=[condition for _, condition in conditions],
+        )
+        start = start_in_space(structure, self.linkage, stage.initial_velocity, stage.impulses)
+        further = np.zeros((len(touching.velocity), 6))
+        energy = start.given_energy
+        if first:
+            further[:, 3:] = touching.velocity
+            masses = [body.mass for body in touching.model.bodies[len(self.linkage.bodies) :]]
+            energy += float(np.sum(masses * np.sum(touching.velocity**2, axis=1)) / 2.0)
+        velocity = np.concatenate([start.velocity, further])
+        impulse = np.concatenate([start.impulse, np.zeros_like(further)])
+        return energy, simulation.set_motion(velocity, impulse)
+
+    def _solved(
+        self, record: SpaceRecord, stages: list[StageSummary], sums: tuple[float, float, float]
+    ) -> Solved:
+        poses = SpacePoses(self.linkage, record)
+        given, lost, seconds = sums
+        begins = np.array([stage.start for stage in stages])
+        # an output at the border of two stages belongs to the first
+        local = record.time - begins[np.maximum(np.searchsorted(begins, record.time) - 1, 0)]
+        return Solved(
+            outcome=record.outcome,
+            reason=record.reason,
+            residual=record.residual,
+            steps=record.steps,
+            rejected=record.rejected,
+            forced=record.forced,
+            given=given,
+            lost=lost,
+            struck=any(stage.impulses for stage in self._stages),
+            poses=poses,
+            hinges=tuple(self._hinge_histories(record)),
+            energy=_energy(record, touched=bool(self._touching.model.capsules)),
+            stepping_seconds=seconds,
+            further=(
+                *force_channels(self._structure, poses, local),
+                *section_force_channels(self._structure, poses, self._run.outputs),
+                *self._obstacle_channels(record),
+            ),
+            stages=tuple(stages) if self._run.stages else (),
+        )
+
+    def _hinge_histories(self, record: SpaceRecord) -> Iterator[HingeHistory]:
+        offsets = self._touching.model.component_offsets
+        connections = [c for c in self.linkage.connections if c.hinge is not None]
+        for k, connection in enumerate(connections):
+            assert connection.hinge is not None
+            span = slice(offsets[k], offsets[k + 1])
+            parts = {
+                "rotation": ("rad", record.hinge_rotation[:, span]),
+                "rotation_rate": ("rad/s", record.hinge_rate[:, span]),
+                "plastic_rotation": ("rad", record.hinge_plastic[:, span]),
+                "moment": ("N*m", record.hinge_moment[:, span]),
+                "capacity": ("N*m", record.hinge_capacity[:, span]),
+            }
+            columns = _columns(parts, connection.free)
+            columns["energy"] = ("J", np.ascontiguousarray(record.hinge_energy[:, k, 0]))
+            largest, moment_max, _, rest, turning, energy, _ = record.summary[k]
+            at_rest = None if turning else float(rest)
+            yield HingeHistory(
+                connection.hinge, columns, float(largest), float(moment_max), at_rest, float(energy)
+            )
+
+    def _obstacle_channels(self, record: SpaceRecord) -> Iterator[Channel]:
+        first = len(self.linkage.connections)
+        for k, name in enumerate(self._structure.obstacles):
+            columns = [("force", "N", record.obstacle_force[:, k])]
+            joint = self._touching.joint.get(name)
+            if joint is not None:
+                body = len(self.linkage.bodies) + joint - first
+                start = self._touching.model.bodies[body].centre
+                columns.append(("displacement", "m", record.centre[:, body] - start))
+                columns.append(("velocity", "m/s", record.velocity[:, body, 3:]))
+            for quantity, unit, values in columns:
+                for i, axis in enumerate("xyz"):
+                    yield Channel(
+                        f"obstacle.{name}.{quantity}.{axis}", unit, np.ascontiguousarray(values[:, i])
+                    )
+
+
+def _columns(parts: dict[str, tuple[str, Floats]], free: tuple[int, ...]) -> dict[str, tuple[str, Floats]]:
+    """Histories of one hinge: plain for one axis; for several the lengths of its rotations, and parts."""
+    if len(free) == 1:
+        return {name: (unit, np.ascontiguousarray(values[:, 0])) for name, (unit, values) in parts.items()}
+    turning = [k for k, freedom in enumerate(free) if freedom >= 3]
+    columns = {
+        name: (unit, np.linalg.norm(values[:, turning], axis=1)) for name, (unit, values) in parts.items()
+    }
+    for name, (unit, values) in parts.items():
+        for k, freedom in enumerate(free):
+            one = np.ascontiguousarray(values[:, k])
+            if freedom >= 3:
+                columns[f"{name}.{PARTS[freedom]}"] = (unit, one)
+            else:
+                columns[f"{PARTS[freedom]}.{name}"] = (unit.replace("rad", "m").replace("N*m", "N"), one)
+    return columns
+
+
+def _energy(record: SpaceRecord, *, touched: bool) -> dict[str, Floats]:
+    dissipated = record.hinge_energy[:, :, 0].sum(axis=1)
+    energy = {
+        "kinetic": record.energy[:, 0],
+        "elastic": record.energy[:, 1:6].sum(axis=1) - dissipated,
+        "dissipated": dissipated,
+    }
+    if touched:
+        energy |= {"contact": record.energy[:, 6], "friction": record.energy[:, 7]}
+    return energy | {"external_work": record.energy[:, 8]}
+
+
+def _stage_times(grid: Floats, begin: float, end: float) -> Floats:
+    """Output times of a stage: the grid's within it, and its end."""
+    inside = grid[(grid > begin * (1 + 1e-12)) & (grid < end * (1 - 1e-12))]
+    return np.concatenate([[0.0] if begin == 0.0 else [], inside, [end]])
+
+
+def _joined(records: list[SpaceRecord]) -> SpaceRecord:
+    """One record of several stages, each going on where the one before it ended."""
+    if len(records) == 1:
+        return records[0]
+    histories: dict[str, Any] = {
+        name: np.concatenate([getattr(record, name) for record in records]) for name in HISTORIES
+    }
+    counts: dict[str, Any] = {name: sum(getattr(record, name) for record in records) for name in COUNTS}
+    residual = max(record.residual for record in records)
+    return replace(records[-1], **histories, **counts, residual=residual)

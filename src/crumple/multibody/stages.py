@@ -1,0 +1,84 @@
+"""Stages as the spatial kernel takes them: what acts in each, and what ends it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from crumple._core.space import SpaceRecord, SpaceUntil
+from crumple._core.space import Until as Quantity
+from crumple.multibody.linkage import Linkage
+from crumple.multibody.obstacle_bodies import Touching
+from crumple.multibody.run import Run
+from crumple.structure import FREEDOMS, Stage, Structure, Until
+from crumple.units import format_quantity
+
+Conditions = list[tuple[Until, SpaceUntil]]
+"""What the input asks for, and what the kernel looks at: a path ends a stage in either sense."""
+
+
+def stages_of(structure: Structure, run: Run) -> tuple[Stage, ...]:
+    """The run's stages, or one for the whole; the structure's motion at the start belongs to the first."""
+    stages = run.stages or (Stage(name="run", duration=run.duration),)
+    first = stages[0]
+    if first.kind == "dynamic":
+        added = {
+            "initial_velocity": (*structure.initial_velocity, *first.initial_velocity),
+            "impulses": (*structure.impulses, *first.impulses),
+        }
+        return (first.model_copy(update=added), *stages[1:])
+    return stages
+
+
+def lowered_until(structure: Structure, linkage: Linkage, touching: Touching, stage: Stage) -> Conditions:
+    """Conditions of a stage, each as the kernel looks at it."""
+    return [
+        (until, condition)
+        for until in stage.until
+        for condition in _conditions(structure, linkage, touching, until)
+    ]
+
+
+def told(stage: Stage, conditions: Conditions, record: SpaceRecord) -> str:
+    """What ended a stage, in words."""
+    if record.ended_by < 0:
+        return f"after {format_quantity(stage.duration, 's', 3)}"
+    until = conditions[record.ended_by][0]
+    unit = {"force": "N", "energy": "J", "displacement": "m", "distance": "m"}[until.quantity]
+    of = f" of {until.of}" if until.of else ""
+    between = f" between {until.between[0]} and {until.between[1]}" if until.between else ""
+    return f"{until.quantity}{of}{between} reached {format_quantity(until.value, unit, 3)}"
+
+
+def _conditions(
+    structure: Structure, linkage: Linkage, touching: Touching, until: Until
+) -> Iterator[SpaceUntil]:
+    if until.quantity == "energy":
+        yield SpaceUntil(Quantity.WORK, until.value)
+    elif until.between is not None:
+        first, second = until.between
+        bodies = (linkage.node_body[first], linkage.node_body[second])
+        points = np.array([structure.nodes[first], structure.nodes[second]], float)
+        yield SpaceUntil(Quantity.DISTANCE, until.value, bodies=bodies, points=points)
+    elif until.quantity == "force" and until.of in structure.obstacles:
+        yield SpaceUntil(Quantity.FORCE, until.value, list(structure.obstacles).index(str(until.of)))
+    else:
+        joint, freedom = _driven(structure, linkage, touching, str(until.of))
+        if until.quantity == "force":
+            yield SpaceUntil(Quantity.DRIVE_FORCE, until.value, joint)
+        else:
+            yield from (
+                SpaceUntil(Quantity.DISPLACEMENT, sense * until.value, joint, freedom)
+                for sense in (1.0, -1.0)
+            )
+
+
+def _driven(structure: Structure, linkage: Linkage, touching: Touching, name: str) -> tuple[int, int]:
+    """Joint and first driven freedom of a support or moving obstacle."""
+    if name in structure.supports:
+        joint = next(i for i, c in enumerate(linkage.connections) if c.kind == "support" and c.name == name)
+        return joint, min(FREEDOMS.index(freedom) for freedom in structure.supports[name].driven)
+    joint = touching.joint[name]
+    drives = [drive.freedom for drive in touching.model.drives if drive.joint == joint]
+    return joint, min(drives, default=0)

@@ -1,0 +1,116 @@
+"""Motion at the start: velocity fields gathered as momentum of the rigid bodies, and impulses on them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from crumple.multibody.assembly import Piece
+from crumple.multibody.linkage import GROUND, Linkage
+from crumple.multibody.rigid import Floats, RigidMass, lump_mass, piece_mass
+from crumple.structure import InitialVelocity, NodalImpulse, Structure
+
+
+class Parts(Protocol):
+    """A lowered structure: where every piece of a member and every node went."""
+
+    @property
+    def pieces(self) -> Mapping[str, tuple[Piece, ...]]:
+        """Pieces by member."""
+
+    @property
+    def node_body(self) -> Mapping[str, int]:
+        """Bodies by node."""
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """Motion at the start.
+
+    Attributes
+    ----------
+    velocity
+        Twists of the bodies at their centres: (rotation, x, y) in a plane, (bodies, 3), or (rotation,
+        translation) in space, (bodies, 6).
+    impulse
+        Impulses on the bodies at their centres, of the same shape.
+    given_energy
+        Energy of the described velocity field [J], of every part that has mass, ground parts included.
+    """
+
+    velocity: Floats
+    impulse: Floats
+    given_energy: float
+
+
+def start_in_space(
+    structure: Structure,
+    linkage: Linkage,
+    fields: Sequence[InitialVelocity],
+    impulses: Sequence[NodalImpulse],
+) -> Start:
+    """Velocities and impulses of bodies in space, gathered as momentum of every body."""
+    n = len(linkage.bodies)
+    spin, momentum, impulse = np.zeros((n, 3)), np.zeros((n, 3)), np.zeros((n, 6))
+    energy = 0.0
+    for part, body, acting in moving_parts(structure, linkage, fields):
+        if part.mass == 0.0:
+            continue
+        velocity = np.sum([velocity_at(field, part.centre) for field in acting], axis=0)
+        rate = np.sum([rate_of(field) for field in acting], axis=0)
+        energy += (part.mass * velocity @ velocity + rate @ part.inertia @ rate) / 2
+        if body != GROUND:
+            arm = part.centre - linkage.bodies[body].centre
+            momentum[body] += part.mass * velocity
+            spin[body] += part.inertia @ rate + np.cross(arm, part.mass * velocity)
+    for given in impulses:
+        body = linkage.node_body[given.node]
+        if body != GROUND:
+            arm = np.asarray(structure.nodes[given.node], float) - linkage.bodies[body].centre
+            linear = np.asarray(given.impulse, float)
+            impulse[body, :3] += np.asarray(given.angular_impulse, float) + np.cross(arm, linear)
+            impulse[body, 3:] += linear
+    twists = [
+        np.concatenate([np.linalg.solve(body.inertia, about), along / body.mass])
+        for body, about, along in zip(linkage.bodies, spin, momentum, strict=True)
+    ]
+    return Start(np.array(twists).reshape(n, 6), impulse, energy)
+
+
+def moving_parts(
+    structure: Structure, lowered: Parts, given: Sequence[InitialVelocity]
+) -> Iterator[tuple[RigidMass, int, list[InitialVelocity]]]:
+    """Every part with mass, its body, and the velocity fields that act on it."""
+
+    def fields(kind: str, name: str) -> list[InitialVelocity]:
+        def acts(field: InitialVelocity) -> bool:
+            everywhere = field.nodes is None and field.members is None
+            return everywhere or name in (getattr(field, kind) or ())
+
+        return [field for field in given if acts(field)]
+
+    for name, pieces in lowered.pieces.items():
+        if found := fields("members", name):
+            for piece in pieces:
+                yield piece_mass(structure, name, piece.start, piece.end), piece.body, found
+    for mass in structure.masses.values():
+        if found := fields("nodes", mass.node):
+            yield lump_mass(structure, mass), lowered.node_body[mass.node], found
+
+
+def rate_of(field: InitialVelocity) -> Floats:
+    """Angular velocity of a field [rad/s], (3,)."""
+    if field.axis is None:
+        return np.zeros(3)
+    axis = np.asarray(field.axis, float)
+    return field.rotation * axis / np.linalg.norm(axis)
+
+
+def velocity_at(field: InitialVelocity, point: Floats) -> Floats:
+    """Velocity of a field at a point [m/s], (3,)."""
+    return np.asarray(field.translation, float) + np.cross(
+        rate_of(field), point - np.asarray(field.about, float)
+    )

@@ -1,0 +1,98 @@
+"""Where `hinges: auto` puts candidate hinges: wherever a fold can form.
+
+Bending moments are largest where something holds, joins or loads a member, and masses, supports and joints
+all sit on nodes: so a candidate lies at each end of a member, half a fold length inside, unless nothing there
+can carry a moment.  Distributed inertia and long spans also bend members in between: `spacing` puts further
+candidates there.  A candidate that is never loaded to its capacity stays rigid, and changes nothing.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from crumple.section import Axis, half_fold_length
+from crumple.structure.bending import bending_axis, planar
+from crumple.structure.hinge_axes import HingeAxes
+from crumple.structure.member import AutomaticHinges, Hinge
+from crumple.structure.structure import Structure
+
+
+def hinges_of(structure: Structure, member: str) -> tuple[Hinge, ...]:
+    """Hinges of a member beside those between its bars: given one by one, or put where folds can form."""
+    asked = automatic_of(structure, member)
+    if asked is None:
+        return structure.members[member].given_hinges
+    keys = {name: getattr(asked, name) for name in HingeAxes.model_fields}
+    if asked.axis is None and asked.axes is None:
+        flat = planar(structure)
+        keys |= {"axis": bending_axis(structure, member)} if flat else {"axes": ("y", "z")}
+    axes = (keys["axis"],) if keys["axis"] else tuple(axis for axis in keys["axes"] if axis != "x")
+    stations = automatic_stations(structure, member, axes, asked.spacing)
+    # names of members and nodes were checked; two of them together may be longer than a name that is given
+    return tuple(Hinge.model_construct(name=name, at=station, **keys) for name, station in stations.items())
+
+
+def automatic_of(structure: Structure, member: str) -> AutomaticHinges | None:
+    """What is asked for a member: its own wish, else the structure's where it has no hinges of its own."""
+    spec = structure.members[member]
+    if isinstance(spec.hinges, AutomaticHinges):
+        return spec.hinges
+    own = spec.hinges or spec.bars.number > 1
+    return None if own else structure.hinges
+
+
+def any_automatic(structure: Structure) -> bool:
+    """Whether hinges of any member find their places by themselves."""
+    return any(automatic_of(structure, member) is not None for member in structure.members)
+
+
+def automatic_stations(
+    structure: Structure, member: str, axes: tuple[Axis, ...], spacing: float | None
+) -> dict[str, float]:
+    """Distances of a member's candidates from its first node [m], increasing, by name.
+
+    Parameters
+    ----------
+    structure, member
+        The member must have nodes that exist and are apart.
+    axes
+        Bending axes of the candidates: the longest of their folds counts.
+    spacing
+        Largest distance between candidates [m]; None: at the ends alone.
+    """
+    section, length = structure.section_of(member), structure.frame_of(member).length
+    half = max(half_fold_length(section, axis) for axis in axes)
+    nodes = structure.members[member].nodes
+    loaded = [carries_moment(structure, member, node) for node in nodes]
+    # a member that is shorter than two folds has room for one
+    if 4.0 * half >= length:
+        return {f"{member}-1": length / 2.0} if any(loaded) else {}
+    first, last = half, length - half
+    number = 1 if spacing is None else max(1, math.ceil((last - first) / spacing * (1.0 - 1e-9)))
+    between = np.linspace(first, last, number + 1)[1:-1]
+    found = {f"{member}-{nodes[0]}": first} if loaded[0] else {}
+    found |= {f"{member}-{i}": float(station) for i, station in enumerate(between, 1)}
+    return found | ({f"{member}-{nodes[1]}": last} if loaded[1] else {})
+
+
+def carries_moment(structure: Structure, member: str, node: str) -> bool:
+    """Whether anything at a member's end can take a bending moment: another member, a support, an inertia."""
+    mine = [joint for joint in structure.joints.values() if joint.node == node]
+    if any(joint.member == member and joint.type == "spherical" for joint in mine):
+        return False
+    freed = {joint.member for joint in mine if joint.type == "spherical"}
+    others = any(
+        node in spec.nodes and name != member and name not in freed
+        for name, spec in structure.members.items()
+    )
+    turned = any(
+        support.node == node and any(freedom[0] == "r" for freedom in (*support.held, *support.driven))
+        for support in structure.supports.values()
+    )
+    inertia = any(
+        mass.node == node and (any(mass.rotary_inertia) or any(mass.offset))
+        for mass in structure.masses.values()
+    )
+    return others or turned or inertia

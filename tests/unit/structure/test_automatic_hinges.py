@@ -1,0 +1,94 @@
+"""Where `hinges: auto` puts its candidates."""
+
+import pytest
+from tests.unit.multibody.parts import CLAMP, LAW, member, structure
+
+from crumple.errors import InputError
+from crumple.section import RectangularTube, half_fold_length
+from crumple.structure import any_automatic, hinge_places, placed_hinges, planar
+from crumple.structure.automatic import automatic_stations
+
+NODES = {"a": (0.0, 0.0, 0.0), "b": (1.0, 0.0, 0.0), "c": (1.0, 0.0, 1.0), "d": (1.02, 0.0, 0.0)}
+FRAME = {"ab": member("a", "b") | {"hinges": ()}, "bc": member("b", "c") | {"hinges": ()}}
+HALF = half_fold_length(RectangularTube(0.050, 0.025, 0.00265), "y")
+
+
+def stations(whole):
+    return {place.name: pytest.approx(place.station) for place in hinge_places(whole)}
+
+
+def frame(hinges="auto", **parts):
+    parts = {"supports": CLAMP} | parts
+    return structure({k: v for k, v in NODES.items() if k != "d"}, FRAME, hinges=hinges, **parts)
+
+
+def test_candidates_lie_half_a_fold_inside_every_end_that_can_carry_a_moment():
+    # nothing is joined to node c: no moment there
+    assert stations(frame()) == {"ab-a": HALF, "ab-b": 1.0 - HALF, "bc-b": HALF}
+
+
+def test_a_mass_with_inertia_or_off_its_node_carries_a_moment_a_point_does_not():
+    point = {"m": {"node": "c", "mass": 5.0}}
+    block = {"m": {"node": "c", "mass": 5.0, "rotary_inertia": (0.1, 0.1, 0.1)}}
+    aside = {"m": {"node": "c", "mass": 5.0, "offset": (0.1, 0.0, 0.0)}}
+    assert "bc-c" not in stations(frame(masses=point))
+    assert "bc-c" in stations(frame(masses=block))
+    assert "bc-c" in stations(frame(masses=aside))
+
+
+def test_spacing_divides_the_way_between_the_ends_evenly():
+    found = list(stations(frame({"spacing": 0.3, "law": LAW})).values())[:5]
+    reach = 1.0 - 2 * HALF
+    assert found == [HALF, HALF + reach / 4, HALF + reach / 2, HALF + 3 * reach / 4, 1.0 - HALF]
+
+
+def test_a_member_too_short_for_two_folds_gets_one_in_its_middle():
+    nodes = {"a": NODES["a"], "d": (0.06, 0.0, 0.0)}
+    whole = structure(nodes, {"ad": member("a", "d") | {"hinges": "auto"}}, supports=CLAMP)
+    assert 4 * HALF > 0.06
+    assert stations(whole) == {"ad-1": 0.03}
+
+
+def test_members_with_hinges_of_their_own_keep_them():
+    members = {"ab": member("a", "b", ("mine", 0.5)), "bc": FRAME["bc"]}
+    whole = structure({k: NODES[k] for k in "abc"}, members, supports=CLAMP, hinges="auto")
+    assert set(stations(whole)) == {"mine", "bc-b"}
+    assert any_automatic(whole)
+    assert not any_automatic(whole.model_copy(update={"hinges": None}))
+
+
+def test_a_spherical_joint_frees_the_end_from_moments():
+    ball = {"j": {"node": "b", "member": "bc", "type": "spherical"}}
+    # neither the jointed member nor the one that it hangs on feels a moment there
+    assert set(stations(frame(joints=ball))) == {"ab-a"}
+
+
+def test_candidates_bend_across_the_plane_of_motion():
+    upright = {"ab": FRAME["ab"] | {"roll": 1.5707963267948966}, "bc": FRAME["bc"]}
+    whole = structure({k: NODES[k] for k in "abc"}, upright, supports=CLAMP, hinges="auto")
+    assert planar(whole)
+    assert {place.member: place.axis for place in hinge_places(whole)} == {"ab": "z", "bc": "y"}
+
+
+def test_motion_across_the_plane_of_the_nodes_is_not_planar():
+    assert planar(frame(initial_velocity=[{"translation": (1.0, 0.0, 2.0)}]))
+    assert not planar(frame(initial_velocity=[{"translation": (1.0, 0.1, 2.0)}]))
+    assert not planar(frame(initial_velocity=[{"rotation": 1.0, "axis": (0.0, 1.0, 0.5)}]))
+    assert not planar(frame(gravity=(0.0, 9.81, 0.0)))
+    assert not planar(frame(masses={"m": {"node": "c", "mass": 1.0, "offset": (0.0, 0.1, 0.0)}}))
+
+
+def test_the_law_of_candidates_is_the_one_given():
+    (first, *_) = placed_hinges(frame({"law": LAW}))
+    assert first.record.positive.moment[0] == pytest.approx(LAW["moment"])
+
+
+def test_names_of_stations_increase_along_the_member():
+    places = automatic_stations(frame(), "ab", ("y",), 0.2)
+    assert list(places.values()) == sorted(places.values())
+
+
+@pytest.mark.parametrize("hinges", ["always", {"spacing": 0.0}, {"axes": ()}, {"axes": ("x",)}])
+def test_what_is_not_a_way_of_placing_them_is_refused(hinges):
+    with pytest.raises(InputError):
+        frame(hinges)
