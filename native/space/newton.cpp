@@ -49,7 +49,8 @@ double Stepper::load(size_t link, const double* w) const {
 // next, with line search.
 bool Stepper::newton() {
     const int limit = newton_limit + newton_limit_per_hinge * static_cast<int>(frozen_.size());
-    if (all_set_valued_ ? descend(bold_limit, true) : descend(limit, false)) return true;
+    // without inertia a locked hinge is so stiff that the rates which unlock it drown in rounding: wide ramps first
+    if (!stage_.quasi_static && (all_set_valued_ ? descend(bold_limit, true) : descend(limit, false))) return true;
     double width = 1;
     for (size_t c = 0; c < connections_.size(); c++) {
         // a contact's normal rate is no slip
