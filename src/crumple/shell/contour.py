@@ -32,14 +32,14 @@ def contour_of(section: Section, size: float) -> Contour:
     Parameters
     ----------
     section
-        A tube, or walls of one metal without spot welds.
+        A tube, or walls without spot welds.
     size
         Wished length of a side [m].
 
     Raises
     ------
     InputError
-        If the section has spot welds or walls of other metals.
+        If the section has spot welds.
     """
     if isinstance(section, WalledSection):
         return walled_contour(section, size)

@@ -24,7 +24,7 @@ from crumple.shell.mesh import Mesh, mesh_of
 from crumple.shell.metal import shell_material
 from crumple.shell.obstacles import obstacles_of, refuse_walls_inside
 from crumple.shell.places import HingeZone, hinge_zones
-from crumple.shell.quality import MeshReport, report_of, wall_thickness
+from crumple.shell.quality import MeshReport, report_of, wall_metals, wall_thickness
 from crumple.shell.start import Start, start_of
 from crumple.structure import Outputs, ShellSettings, Stage, Structure
 
@@ -149,16 +149,11 @@ def model_of_stage(
 def _sheets(
     structure: Structure, mesh: Mesh, settings: ShellSettings
 ) -> tuple[list[ShellMaterial], list[Sheet], Integers]:
-    """Materials in the order of the structure, one sheet each, and the sheet of every element."""
-    names = list(dict.fromkeys(member.material for member in structure.members.values()))
-    materials = [shell_material(structure.materials[name].material(name)) for name in names]
+    """Materials of the walls, one sheet each, and the sheet of every element."""
+    metals, number = wall_metals(structure, mesh)
     lobatto = settings.thickness_rule == "lobatto"
-    sheets = [Sheet(i, settings.thickness_points, lobatto) for i in range(len(names))]
-    parts = [
-        np.full(tube.bays * tube.sides, names.index(structure.members[member].material))
-        for member, tube in mesh.tubes.items()
-    ]
-    return materials, sheets, np.concatenate(parts)
+    sheets = [Sheet(i, settings.thickness_points, lobatto) for i in range(len(metals))]
+    return [shell_material(metal) for metal in metals], sheets, number
 
 
 def _fixed(mesh: Mesh) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
