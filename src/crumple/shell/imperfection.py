@@ -1,7 +1,7 @@
-"""Small waviness of walls: a mesh without any folds as no real tube does.
+"""Small waviness of walls: a perfect mesh under axial load folds as no real tube does.
 
-Every wall node is moved across its wall by u a, with u evenly spread over -1 to 1: a hash of the member's and the
-node's number, so that a mesh is the same on every machine.  The end sections stay, since other members meet them.
+Every wall node is moved across its wall by u a, with u evenly spread over -1 to 1: a hash of the member's and
+the node's number, so a mesh is the same on every machine.  End sections stay, since other members meet them.
 """
 
 from __future__ import annotations
@@ -41,13 +41,14 @@ def normals(contour: Contour) -> Floats:
     for end in (0, 1):
         np.add.at(mean, contour.sides[:, end], across)
     size = np.linalg.norm(mean, axis=1)[:, None]
-    return np.divide(mean, size, out=np.zeros_like(mean), where=size > 1e-6)
+    return np.asarray(mean / np.maximum(size, 1e-6))
 
 
 def spread(seed: int, number: int) -> Floats:
-    """Numbers evenly spread over -1 to 1 that look random: splitmix64 (Steele, Lea & Flood 2014) of a counter."""
-    z: Words = (np.arange(1, number + 1, dtype=np.uint64) + np.uint64(seed << 40)) * np.uint64(0x9E3779B97F4A7C15)
+    """Numbers evenly spread over -1 to 1 that look random: splitmix64 of a counter, its upper 53 bits."""
+    counter: Words = np.arange(1, number + 1, dtype=np.uint64) + np.uint64(seed << 40)
+    z: Words = counter * np.uint64(0x9E3779B97F4A7C15)
     z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
     z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
-    z ^= z >> np.uint64(31)
-    return (z >> np.uint64(11)) * 2.0**-52 - 1.0
+    z = z ^ (z >> np.uint64(31))
+    return np.asarray((z >> np.uint64(11)).astype(float) * 2.0**-52 - 1.0, float)

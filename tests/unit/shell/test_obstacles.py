@@ -263,14 +263,16 @@ def test_obstacles_without_direction_are_refused():
 
 
 def test_stack_of_plates_lies_still_and_carries_its_weight():
-    """Two free plates on a plane under gravity: each a thickness above the other, no jitter, all weight below."""
+    """Two free plates on a plane under gravity: a thickness apart, no jitter, all weight below."""
     x, quads = grid(5, 5, 0.05, 0.05)
-    stack = np.concatenate([x + [0, 0, T / 2], x + np.array([0.0031, 0.0017, 1.5 * T])])
+    stack = np.concatenate([x + np.array([0, 0, T / 2]), x + np.array([0.0031, 0.0017, 1.5 * T])])
     g = 500.0
     plane = RigidObstacle(Shape.PLANE, (0, 0, 0), friction=0.2)
     m = model(
         stack, np.concatenate([quads, quads + len(x)]), T, ELASTIC, obstacles=[plane],
-        settings={"self_contact": True, "contact_friction": 0.2, "contact_damping": 0.1, "gravity": (0, 0, -g)},
+        settings={
+            "self_contact": True, "contact_friction": 0.2, "contact_damping": 0.1, "gravity": (0, 0, -g)
+        },
     )  # fmt: skip
     state = ShellState(m)
     state.advance(6e-3)
