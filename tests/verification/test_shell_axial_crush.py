@@ -1,9 +1,9 @@
 """Axial crush of a square tube in shells against the mean force of Abramowicz and Jones.
 
-examples/07_axial_crush.yaml: tube 50 x 50 x 1.5 mm, 200 mm, perfectly plastic at 300 MPa; 200 kg guided at the
-head, 10 m/s against a rigid plane with friction 0.2.  Symmetric mode, Int. J. Impact Engng 2 (1984) 179-208:
-P = 52.22 (c/h)^(1/3) s_0 h^2/4 = 28.4 kN.  Walls carry an imperfection of at most 0.02 mm; without it they
-fold outwards on all four sides at once (the extensional mode of stout tubes), as no real tube does.
+examples/07_axial_crush.yaml: tube 50 x 50 x 1.5 mm, 200 mm, perfectly plastic at 300 MPa; 200 kg guided at
+its head, 10 m/s against a rigid plane with friction 0.2.  Symmetric mode, Int. J. Impact Engng 2 (1984)
+179-208: P = 52.22 (c/h)^(1/3) s_0 h^2/4 = 28.4 kN.  Walls carry an imperfection of at most 0.02 mm; without
+it they fold outwards on all four sides at once (the extensional mode of stout tubes), as no real tube does.
 
 Tolerance 20 %: the formula is an upper bound of an assumed mechanism, corrected by a crush distance
 that was fitted to tests; which folds mix depends on the imperfection (docs/theory/shell_axial_crush.md).
