@@ -78,6 +78,12 @@ def outline_points(section: Section, size: float) -> Floats:
     return np.asarray(np.concatenate(points), float)
 
 
+def triple(vector: Floats) -> tuple[float, float, float]:
+    """Vector as the stepper's model holds it."""
+    x, y, z = (float(value) for value in vector)
+    return x, y, z
+
+
 def _is_break(outline: Floats) -> NDArray[np.bool_]:
     """Points where a wall ends."""
     after = np.roll(outline, -1, axis=0) - outline

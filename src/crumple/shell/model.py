@@ -17,7 +17,7 @@ from crumple._core.shell import (
 )
 from crumple._core.shell import ShellSettings as CoreSettings
 from crumple.shell.bodies import Body, bodies_of
-from crumple.shell.contour import Integers
+from crumple.shell.contour import Floats, Integers, triple
 from crumple.shell.drives import loads_of, motions_of
 from crumple.shell.joints import Kind
 from crumple.shell.mesh import Mesh, mesh_of
@@ -114,7 +114,7 @@ def lower(
         fixed=_fixed(mesh),
         velocity=start.velocity,
         spin=start.spin,
-        rigid_sets=[_rigid_set(body) for body in bodies],
+        rigid_sets=[_rigid_set(body, mesh.position[body.nodes[-1]]) for body in bodies],
         cuts=[*cuts, *supports.values()],
         settings=_settings(structure, settings),
     )
@@ -165,17 +165,17 @@ def _fixed(mesh: Mesh) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
     return fixed
 
 
-def _rigid_set(body: Body) -> RigidSet:
+def _rigid_set(body: Body, place: Floats) -> RigidSet:
     lump = body.lump
     xx, yy, zz = np.diag(lump.inertia)
     xy, yz, zx = lump.inertia[0, 1], lump.inertia[1, 2], lump.inertia[2, 0]
-    x, y, z = lump.centre
     return RigidSet(
         nodes=body.nodes.astype(np.uint32),
         mass=lump.mass,
-        at=(float(x), float(y), float(z)),
+        at=triple(lump.centre),
         inertia=(float(xx), float(yy), float(zz), float(xy), float(yz), float(zx)),
         fixed=body.held,
+        pin=triple(place) if body.pinned else None,
     )
 
 

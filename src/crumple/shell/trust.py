@@ -164,7 +164,7 @@ def _mesh_warnings(structure: Structure, lowered: Lowered) -> list[str]:
         )
     for body in lowered.bodies:
         distance = _off_centre(structure, lowered, body)
-        if body.held and distance:
+        if body.held and distance and not body.pinned:
             found.append(
                 f"The support of node {body.node} holds the joint's centre of mass, {1e3 * distance:.3g} mm "
                 "from the node."
