@@ -1,4 +1,4 @@
-"""The law of a contact: a convex potential, no pull, friction within its limit, and rates that a step allows."""
+"""The law of a contact: a convex potential, no pull, friction within its limit, rates that a step allows."""
 
 import numpy as np
 import pytest
@@ -59,7 +59,7 @@ def test_sticks_below_the_limit():
         (0.0, -2.0, 1.2),
         (0.0, -1e-4, 0.0),
         (0.0, 2.0, 0.0),
-        # open by 1 cm over 10 ms: at -2 m/s closed within the step; at -1.5 m/s may keep 0.5 m/s; at 1 m/s free
+        # open by 1 cm over 10 ms: closes at -2 m/s; at -1.5 m/s may keep 0.5 m/s; at 1 m/s free
         (0.01, -2.0, 0.0),
         (0.01, -1.5, -0.5),
         (0.01, 1.0, -3.0),
