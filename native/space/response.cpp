@@ -88,7 +88,9 @@ void regularised_law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const d
     const SurfacePoint p = point_of(hinge, t, tangent != nullptr ? block : nullptr);
     const multibody::Ramp ramp = multibody::ramp_over(f.power0 / full, p.value / full);
     for (int k = 0; k < n && impulse != nullptr; k++) impulse[k] = f.h * ramp.value * t.scale[k] * p.x[k];
-    if (potential != nullptr) *potential = f.h * full * ramp.integral / (1 - f.lead);
+    if (potential != nullptr) {
+        *potential = f.h * full * multibody::ramp_over_integral(f.power0 / full, p.value / full) / (1 - f.lead);
+    }
     if (tangent == nullptr) return;
     scaled_block(n, t, f.h * ramp.value, block, tangent);
     for (int j = 0; j < n; j++) {
@@ -243,7 +245,7 @@ void capacity_sensitivity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, co
     const SurfacePoint p = point_of(hinge, t, block);
     const double full = f.width * f.reference;
     const bool ramped = hinge.components[0].law.form == Form::regularised;
-    const multibody::Ramp ramp = ramped ? multibody::ramp_over(f.power0 / full, p.value / full) : multibody::Ramp{1, 0, 0};
+    const multibody::Ramp ramp = ramped ? multibody::ramp_over(f.power0 / full, p.value / full) : multibody::Ramp{1, 0};
     const double share = (elastic ? f.h / 2 : f.h) * ramp.value;
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) {
