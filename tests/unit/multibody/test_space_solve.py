@@ -1,0 +1,196 @@
+"""Structures in space: which kernel, joints, forces, obstacles, stages, the collapse log."""
+
+import numpy as np
+import pytest
+from tests.unit.multibody.parts import CLAMP, LAW, member, structure
+
+from crumple.errors import InputError
+from crumple.multibody import Run, solve_multibody
+from crumple.multibody.collapse import collapse_log, not_unique
+from crumple.multibody.solved import HingeHistory
+from crumple.structure import MultibodySettings, Outputs, Stage, placed_hinges
+
+G = 9.81
+BAR = {"ab": member("a", "b")}
+PUSH = {"table": {"time": (0.0, 1.0), "value": (0.0, -0.05)}}
+
+
+def pendulum(**joint):
+    """Bar along x from a clamped node, let go under gravity."""
+    given = {"j": {"node": "a", "member": "ab", **joint}}
+    return structure(members=BAR, joints=given, gravity=(0.0, 0.0, -G))
+
+
+def kernel(whole, **run):
+    result = solve_multibody(whole, Run(1e-3, 1e-3, **run))
+    assert result.status.ok
+    return result.provenance.settings["kernel"]
+
+
+def test_the_tree_kernel_serves_what_stays_in_a_plane():
+    thrown = [{"rotation": 5.0, "axis": (0.0, 1.0, 0.0)}]
+    assert kernel(structure(initial_velocity=thrown)) == "tree"
+    assert (
+        kernel(structure(initial_velocity=thrown), settings=MultibodySettings(kernel="spatial")) == "spatial"
+    )
+    # a clamp carries what leads across; nothing does where the structure floats
+    across = [{"translation": (0.0, 1.0, 1.0)}]
+    assert kernel(structure(initial_velocity=across)) == "tree"
+    loose = {"ab": member("a", "b", ("h", 0.5))}
+    assert kernel(structure(members=loose, initial_velocity=across, supports={})) == "spatial"
+
+
+def test_joints_and_axes_that_are_not_parallel_need_the_spatial_kernel():
+    assert kernel(pendulum(type="spherical")) == "spatial"
+    crossed = {"ab": member("a", "b", ("h", 0.3, {"axis": "y"}), ("i", 0.6, {"axis": "z"}))}
+    assert kernel(structure(members=crossed)) == "spatial"
+    with pytest.raises(InputError, match="different axes"):
+        solve_multibody(structure(members=crossed), Run(1e-3, 1e-3, MultibodySettings(kernel="tree")))
+
+
+@pytest.mark.parametrize(
+    "joint", [{"type": "revolute", "axis": (0, 1, 0)}, {"type": "spherical"},
+              {"type": "universal", "axis": (0, 1, 0), "second": (0, 0, 1)}]
+)  # fmt: skip
+def test_a_released_bar_hangs_on_its_joint_with_a_quarter_of_its_weight(joint):
+    # thin bar of mass m let go level: force at the pin m g (1 - 3/4 / (1 + 3 r^2/L^2))
+    whole = pendulum(**joint)
+    result = solve_multibody(whole, Run(1e-3, 1e-3))
+    section = whole.section_of("ab")
+    mass = section.mass_per_length(7850.0)
+    gyration = section.second_moment("y") / section.area
+    expected = mass * G * (1.0 - 0.75 / (1.0 + 3.0 * gyration))
+    assert result["joint.j.force.z"][-1] == pytest.approx(expected, rel=1e-4)
+    assert result["support.clamp.force.z"][-1] == pytest.approx(-expected, rel=1e-4)
+    assert abs(result["joint.j.moment.y"][-1]) < 1e-6 * expected
+
+
+def test_moment_in_a_released_bar_follows_from_its_inertia():
+    # M(x) = m g x (1 - x/L)^2 / 4 at x from the pin, stretching the lower side: about -y
+    outputs = Outputs(section_forces={"third": {"member": "ab", "at": 1.0 / 3.0}})
+    whole = pendulum(type="revolute", axis=(0, 1, 0))
+    result = solve_multibody(whole, Run(1e-3, 1e-3, outputs=outputs))
+    mass = whole.section_of("ab").mass_per_length(7850.0)
+    assert abs(result["third.moment.y"][-1]) == pytest.approx(mass * G / 27.0, rel=2e-3)
+    assert abs(result["third.force.x"][-1]) < 1e-3 * mass * G
+    share = result["third.use"][-1]
+    assert 0.0 < share < 0.01
+
+
+def test_a_section_between_rigid_nodes_is_refused():
+    nodes = {"a": (0, 0, 0), "b": (1, 0, 0), "c": (2, 0, 0)}
+    members = {"ab": member("a", "b", ("h", 0.5)), "bc": member("b", "c")}
+    outputs = Outputs(section_forces={"f": {"member": "bc", "at": 0.5}})
+    with pytest.raises(InputError, match="forces in this section are not determined"):
+        solve_multibody(structure(nodes, members), Run(1e-3, 1e-3, outputs=outputs))
+
+
+def test_a_mass_on_a_guide_is_stopped_by_a_hinge():
+    ram = {"type": "sphere", "point": (0.9, 0.0, 0.2), "radius": 0.1, "mass": 30.0, "velocity": (0, 0, -6.0)}
+    result = solve_multibody(structure(obstacles={"ram": ram}), Run(0.1, 2e-3))
+    assert result.status.ok
+    speed = result["obstacle.ram.velocity.z"]
+    assert speed[0] == -6.0
+    assert -5.0 < speed[-1] < 0.0
+    # what the ram loses the hinge, the bar and the impact have
+    assert np.abs(result["energy.residual"]).max() < 1e-3 * 30.0 * 36.0 / 2.0
+    assert result["obstacle.ram.force.z"].max() > 0.0
+    assert result["hinge.h.energy"][-1] > 100.0
+
+
+def test_stages_follow_each_other_on_the_same_structure():
+    driven = {"motion": {"z": {"table": {"time": (0.0, 1.0), "value": (0.0, -0.5)}}}}
+    ram = {"type": "sphere", "point": (0.9, 0.0, 0.2), "radius": 0.1} | driven
+    stages = (
+        Stage(name="push", kind="quasi-static", duration=1.0, until=[{"displacement": 0.3, "of": "ram"}]),
+        Stage(name="rest", duration=0.05, drive=()),
+    )
+    outputs = Outputs(distances={"sag": {"from": "a", "to": "b"}})
+    result = solve_multibody(
+        structure(obstacles={"ram": ram}), Run(1.05, 0.02, outputs=outputs, stages=stages)
+    )
+    assert result.status.ok
+    push, rest = result.stages
+    assert (push.name, push.ended_by) == ("push", "displacement of ram reached 300 mm")
+    assert push.end == pytest.approx(0.6, rel=1e-6)
+    assert (rest.start, rest.end) == (push.end, pytest.approx(0.65))
+    # quasi-static: the moment is the hinge's, 500 N m, over the arm to the ram
+    force = result["obstacle.ram.force.z"]
+    pushing = (result.time > 0.3) & (result.time < 0.6)
+    assert np.all((force[pushing] > 500.0 / 0.95) & (force[pushing] < 500.0 / 0.8))
+    # once halted nothing moves any more
+    end = result["hinge.h.rotation"]
+    assert end[-1] == pytest.approx(end[np.searchsorted(result.time, push.end)], abs=1e-4)
+
+
+def test_energies_of_members_are_those_of_their_hinges():
+    result = solve_multibody(
+        structure(initial_velocity=[{"rotation": 10.0, "axis": (0, 1, 0)}]), Run(0.05, 1e-3)
+    )
+    np.testing.assert_array_equal(result["member.bar.energy"], result["hinge.h.energy"])
+
+
+def history(hinge, *plastic):
+    values = np.array(plastic, float)
+    return HingeHistory(
+        hinge, {"plastic_rotation": ("rad", values)}, float(np.abs(values).max()), 1.0, None, 2.0
+    )
+
+
+def hinges():
+    members = {"bar": member("a", "b", ("h", 0.2), ("i", 0.4), ("k", 0.6))}
+    return placed_hinges(structure(members=members))
+
+
+def test_collapse_log_orders_what_passed_the_threshold():
+    h, i, k = hinges()
+    runs = [history(h, 0.0, 0.0, -0.2), history(i, 0.0, 0.1, 0.4), history(k, 0.0, 1e-4, 1e-4)]
+    log, threshold = collapse_log(runs, np.array([0.0, 1.0, 2.0]))
+    assert threshold == pytest.approx(0.004)
+    assert [opening.hinge for opening in log] == ["i", "h"]
+    assert log[0].time == pytest.approx(0.04)
+    assert log[1].time == pytest.approx(1.02)
+    assert log[1].rotation == -0.2
+    assert collapse_log([history(h, 0.0, 0.0)], np.array([0.0, 1.0]))[0] == ()
+
+
+def test_a_mechanism_that_a_small_change_moves_elsewhere_is_named():
+    h, i, k = hinges()
+    base = [history(h, 0.4), history(i, 0.3), history(k, 0.0)]
+    assert not_unique([base, [history(h, 0.41), history(i, 0.28), history(k, 0.01)]]) is None
+    text = not_unique([base, [history(h, 0.4), history(i, 0.0), history(k, 0.3)]])
+    assert text == "The mechanism is not unique. With capacities changed by 1 %: k opens in place of i."
+
+
+def test_equal_hinges_at_a_corner_make_a_mechanism_that_is_not_unique():
+    nodes = {"a": (0, 0, 0), "b": (0, 0, 1), "c": (1, 0, 1), "d": (1, 0, 0)}
+    members = {name: member(*name) | {"up": (0.0, 1.0, 0.0)} for name in ("ab", "bc", "cd")}
+    table = {"type": "table", "rotation": (0.0, 0.5), "moment": (1000.0, 300.0)}
+    frame = structure(
+        nodes,
+        members,
+        hinges={"law": table},
+        supports=CLAMP | {"other": {"node": "d", "fix": "all"}},
+        impulses=[{"node": "b", "impulse": (60.0, 0.0, 0.0)}],
+    )
+    result = solve_multibody(frame, Run(0.05, 1e-3))
+    assert any(text.startswith("The mechanism is not unique") for text in result.warnings)
+    assert {opening.hinge for opening in result.collapse} >= {"ab-a", "cd-d"}
+    quiet = solve_multibody(frame, Run(0.05, 1e-3, MultibodySettings(mechanism_check="off")))
+    assert not any("not unique" in text for text in quiet.warnings)
+
+
+def test_candidates_that_stay_closed_change_nothing():
+    thrown = [{"rotation": 10.0, "axis": (0, 1, 0)}]
+    one = {"bar": member("a", "b", ("bar-a", "a"))}
+    strong = {"law": LAW, "spacing": 0.25}
+    payload = {"m": {"node": "b", "mass": 6.0}}
+    single = solve_multibody(structure(members=one, initial_velocity=thrown, masses=payload), Run(0.05, 1e-3))
+    many = structure(members=BAR, hinges=strong, initial_velocity=thrown, masses=payload)
+    many = many.model_copy(update={"members": {"bar": many.members["ab"]}})
+    result = solve_multibody(many, Run(0.05, 1e-3))
+    assert len(result.hinges) > 2
+    # bent at the clamp alone: the others stay far below their capacity
+    assert result.hinges["bar-a"].rotation_final == pytest.approx(
+        single.hinges["bar-a"].rotation_final, rel=1e-4
+    )
