@@ -207,7 +207,7 @@ bool Stepper::balanced(double& slope) {
         for (int k = 0; k < n; k++) {
             const double left = p[k] - impulse_[at(first + k)];
             double scale = std::fabs(p[k]);
-            if (hinge_of(c)) scale += impulse_scale(frozen_[at(hinge_index(c))], k);
+            if (hinge_of(c)) scale += impulse_scale(*hinge_of(c), frozen_[at(hinge_index(c))], &w_next_[at(first)], k);
             if (is(c, Kind::contact)) scale += struck;
             if (!(std::fabs(left) <= impulse_tolerance * scale)) all = false;
             slope += left * (w_next_[at(first + k)] - w_[at(first + k)]);
