@@ -99,10 +99,7 @@ Real mean_ramp_integral(Real x0, Real x) {
 
 // The regularised form takes the ramp at the end rate while it slows down, which decays however stiff the ramp is.
 // While it speeds up it takes the mean over the rates passed: a step may leap over the whole ramp.
-Ramp ramp_of(const FrozenHinge& f, Real w) {
-    const Real x = fabs(w) / f.width, x0 = fabs(f.w0) / f.width;
-    return ramp_over(w * f.w0 < 0 ? x : x0, x);
-}
+Real ramp_start(const FrozenHinge& f, Real w) { return fabs(w * f.w0 < 0 ? w : f.w0) / f.width; }
 
 // Rate in the sense of a stop at which its spring and damper, taken without letting go, push with no force; below it the
 // stop has let go.  Needs a damper: the force then grows with the rate.
@@ -135,9 +132,13 @@ Real stop_integral(const Stop& stop, const FrozenHinge& f, int k, Real v) {
 }  // namespace
 
 Ramp ramp_over(Real x0, Real x) {
-    if (x - x0 < 1e-6) return {ramp(x), x < 1 ? half_pi * cos(half_pi * x) : 0, ramp_integral(x)};
+    if (x - x0 < 1e-6) return {ramp(x), x < 1 ? half_pi * cos(half_pi * x) : 0};
     const Real mean = mean_ramp(x0, x);
-    return {mean, (ramp(x) - mean) / (x - x0), ramp_integral(x0) + mean_ramp_integral(x0, x)};
+    return {mean, (ramp(x) - mean) / (x - x0)};
+}
+
+Real ramp_over_integral(Real x0, Real x) {
+    return x - x0 < 1e-6 ? ramp_integral(x) : ramp_integral(x0) + mean_ramp_integral(x0, x);
 }
 
 Real ramp_width(const Hinge& hinge) { return hinge.form == Form::regularised ? hinge.ramp_rate : stick_rate; }
@@ -235,7 +236,7 @@ Response law_response(const Hinge& hinge, const FrozenHinge& f, Real w) {
         return {f.h * (f.m0 + m1) / 2, m1 == trial ? f.h * f.h * hinge.stiffness / 4 : 0};
     }
     if (hinge.form == Form::regularised) {
-        const Ramp ramp = ramp_of(f, w);
+        const Ramp ramp = ramp_over(ramp_start(f, w), fabs(w) / f.width);
         const Real most = f.h * c;
         return {w < 0 ? -most * ramp.value : most * ramp.value, most * ramp.slope / f.width};
     }
@@ -278,7 +279,7 @@ Real law_potential(const Hinge& hinge, const FrozenHinge& f, Real w) {
         const Real trial = elastic_moment(hinge, f, w), m1 = clamped(f, trial);
         return f.h * f.m0 * w / 2 + m1 * (trial - m1 / 2) / hinge.stiffness;
     }
-    if (hinge.form == Form::regularised) return f.h * c * f.width * ramp_of(f, w).integral;
+    if (hinge.form == Form::regularised) return f.h * c * f.width * ramp_over_integral(ramp_start(f, w), x);
     return f.h * c * f.width * (x < 1 ? x * x / 2 : x - 0.5);
 }
 

@@ -103,15 +103,17 @@ struct Response {
     Real impulse, slope;
 };
 
-// HAVSIN over x >= 0 half-widths, from x0 >= 0: its value at x, or its mean from x0 to x where it speeds up; with the
-// slope over x and the integral from 0 of that value.
+// HAVSIN over x >= 0 half-widths, from x0 >= 0: its value at x, or its mean from x0 to x where it speeds up, and the
+// slope of that over x.
 struct Ramp {
-    Real value, slope, integral;
+    Real value, slope;
 };
 
 // half-width of the ramp of the rigid forms [rad/s]
 Real ramp_width(const Hinge& hinge);
 Ramp ramp_over(Real x0, Real x);
+// integral from 0 to x of its value
+Real ramp_over_integral(Real x0, Real x);
 FrozenHinge freeze(const Hinge& hinge, const HingeState& state, double h, Real q0, Real w0, Real w1, int* hint);
 // its parts: capacities of both senses over a plastic flow, without the rate factor; that factor; damper and stops
 void set_capacity(const Hinge& hinge, const HingeState& state, Real flow, int* hint, FrozenHinge& f);

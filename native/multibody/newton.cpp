@@ -11,7 +11,7 @@ inline namespace CRUMPLE_ARITHMETIC {
 namespace {
 
 // Whole Newton steps before the guaranteed path is taken; they fail only by cycling, which is rare.
-constexpr int bold_limit = 16;
+constexpr int bold_limit = 32;
 // Newton steps per width of the ramps before the step is given up and shortened: a fixed number, and some per
 // hinge, since in the worst case (an impulse on the end of a long chain) hinges lock and let go one at a time.
 constexpr int newton_limit = 60, newton_limit_per_hinge = 4;

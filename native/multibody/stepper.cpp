@@ -259,7 +259,7 @@ void Stepper::commit(State& s, double h) {
     };
     for (size_t k = 0; k < w_.size(); k++) s.q[k] += dq_[k];
     s.w = w_;
-    tree.place(s.q.data(), end_.data());
+    tree.place_after(s.pose.data(), s.q.data(), end_.data());
     tree.twists(end_.data(), w_.data(), end_twist_.data());
     tree.to_centres(end_.data(), end_twist_.data());
     for (int i = 0; i < tree.bodies(); i++) {

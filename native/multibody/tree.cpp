@@ -59,6 +59,28 @@ void Tree::place(const Real* q, Pose* pose) const {
     }
 }
 
+void Tree::place_after(const Pose* from, const Real* q, Pose* pose) const {
+    for (int i = 0; i < bodies(); i++) {
+        const Body& b = (*this)[i];
+        const Pose& f = from[i];
+        Pose& p = pose[i];
+        p.phi = q[b.dof];
+        p.origin = b.anchor;
+        if (b.parent >= 0) {
+            p.phi += pose[b.parent].phi;
+            p.origin = pose[b.parent].at(b.anchor);
+        }
+        if (b.joint == Joint::free) p.origin = p.origin + Vec2{q[b.dof + 1], q[b.dof + 2]};
+        Real s, c;
+        sine_cosine(p.phi - f.phi, s, c);
+        const Real cosine = f.c * c - f.s * s, sine = f.s * c + f.c * s;
+        // back to unit length, from which rounding would lead away
+        const Real unit = (3 - cosine * cosine - sine * sine) / 2;
+        p.c = unit * cosine;
+        p.s = unit * sine;
+    }
+}
+
 void Tree::place_ahead(const Pose* from, const Real* q, const Real* dq, Pose* middle, Pose* end) const {
     for (int i = 0; i < bodies(); i++) {
         const Body& b = (*this)[i];

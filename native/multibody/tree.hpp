@@ -75,7 +75,9 @@ public:
 
     // poses from joint coordinates
     void place(const Real* q, Pose* pose) const;
-    // poses at q + dq and at q + 2 dq, cheaper than `place`; `from` holds those at q
+    // poses at q, cheaper than `place`; `from` holds those a small turn away
+    void place_after(const Pose* from, const Real* q, Pose* pose) const;
+    // poses at q + dq and at q + 2 dq; `from` holds those at q
     void place_ahead(const Pose* from, const Real* q, const Real* dq, Pose* middle, Pose* end) const;
     // twists of the body origins from joint rates
     void twists(const Pose* pose, const Real* w, Twist* twist) const;

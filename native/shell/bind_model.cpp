@@ -59,8 +59,12 @@ static void add_material(Model& m, const nb::dict& d) {
     m.materials.push_back(std::move(a));
 }
 
-static void add_rigid_set(Model& m, const InIndex& nodes, double mass, const In& at, const In& inertia, unsigned fixed) {
-    RigidSet s{to_vector(nodes), mass, vec3(at), {}, fixed};
+static void add_rigid_set(Model& m, const InIndex& nodes, double mass, const In& at, const In& inertia, unsigned fixed,
+                          const In& pin) {
+    // an empty array: no pin
+    RigidSet s{to_vector(nodes), mass, vec3(at), {}, fixed, pin.size() > 0, {}};
+    if (s.pinned) s.pin = vec3(pin);
+    if (s.pinned && (fixed & 7u) != 7u) throw std::invalid_argument("a pinned rigid set holds x, y and z");
     if (inertia.size() != 6) throw std::invalid_argument("an inertia has six components");
     std::copy_n(inertia.data(), 6, s.added_inertia);
     m.rigid_sets.push_back(std::move(s));

@@ -83,6 +83,8 @@ Simulation::Kick Simulation::kick_body(std::size_t i, RigidState& s) const {
         out_moment = out_moment + (a.dof >= 3 ? f : cross(read3(&position_[position_record * a.node]) - s.centre, f));
         if (a.dof < 3) out_force = out_force + f;
     }
+    // weight turns a body that does not hang in its centre of mass
+    moment = moment + b.mass * cross(s.rotation * b.mass_arm, model_->settings.gravity);
     Kick out{};
     double wanted[6] = {0, 0, 0, 0, 0, 0};
     for (std::size_t m : drive.motions) wanted[model_->motions[m].dof] = model_->motions[m].velocity.at(time_ + 0.5 * dt_);

@@ -82,6 +82,8 @@ bool EdgeContact::stands_out(const Motions& m, const std::vector<std::uint8_t>& 
     return dot(normal[0], normal[1]) < crease * std::sqrt(dot(normal[0], normal[0]) * dot(normal[1], normal[1]));
 }
 
+// Edges of one node, and those within twice the gap at the start that hang together: a crumpled corner may bring
+// together what was farther apart, and is held there.
 bool EdgeContact::same_sheet(const Edge& a, const Edge& b) const {
     auto near = [this](const Edge& from, const Edge& to) {
         for (Index n : from.node)
@@ -89,7 +91,11 @@ bool EdgeContact::same_sheet(const Edge& a, const Edge& b) const {
                 if (walls_.neighbour(n, e)) return true;
         return false;
     };
-    return near(a, b) || near(b, a);
+    for (Index n : a.node)
+        if (n == b.node[0] || n == b.node[1]) return true;
+    auto start = [this](Index n) { return read3(&sheets_.model.position[3 * n]); };
+    const double apart = segment_distance(start(a.node[0]), start(a.node[1]), start(b.node[0]), start(b.node[1]));
+    return apart < WallContact::neighbourhood * (a.half + b.half) && (near(a, b) || near(b, a));
 }
 
 void EdgeContact::search(const Motions& m, const std::vector<std::uint8_t>& alive, double skin) {

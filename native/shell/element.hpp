@@ -144,7 +144,7 @@ CRUMPLE_INLINE CornerForces corner_forces(const Part& part, const Step& s, const
         return c;
     }
     Real* extra = slots + extra_slot(part.points, part.rate != Rate::none, 0);
-    const HourglassRate q = hourglass_rate(s.f, s.motion, dt);
+    HourglassRate q = hourglass_rate(s.f, s.motion);
     DrillMoment drill;
     if (part.drill_stiffness > 0.0)
         drill = update_drill(part, s.f, s.motion, corners.w, dt, in.volume, in.r.kept, extra, held_work);
@@ -154,6 +154,7 @@ CRUMPLE_INLINE CornerForces corner_forces(const Part& part, const Step& s, const
         held_work += update_hourglass(part, s.f, q, dt, in.thickness, in.volume, in.r.kept, slots, h);
         c = quad_forces(part, s.f, in, h, drill, true);
     } else {
+        correct_for_spin(s.f, s.motion, dt, q);
         const Stabilisation held = stabilise(part, s.f, q, s.shear, dt, in, slots, extra);
         held_work += held.work;
         c = quad_forces(part, s.f, in, held.hourglass, drill, false);

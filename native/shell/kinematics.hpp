@@ -70,12 +70,15 @@ CRUMPLE_INLINE void project_drill(const Frame& f, const Warp& w, Vec (&omega)[4]
     omega[3] = omega[3] + dot(omega[3], f.e3) * w.tilt2;
 }
 
-// Hourglass rates, blind to linear fields and, to second order in the step, to rigid rotation of a warped element: there
-// dvx/dz = -dvz/dx - dt dvy/dx dvz/dy and so on.
-CRUMPLE_INLINE HourglassRate hourglass_rate(const Frame& f, const Motion& m, double dt) {
-    const Gradient &vx = m.vx, &vy = m.vy, &vz = m.vz;
-    return {vx.hourglass + f.hz * (vz.x + dt * vy.x * vz.y), vy.hourglass + f.hz * (vz.y + dt * vx.y * vz.x),
-            vz.hourglass - (0.5 * dt) * f.hz * (vz.x * vz.x + vz.y * vz.y), m.wx.hourglass, m.wy.hourglass};
+// Hourglass rates, blind to linear fields and to rigid rotation of a warped element.
+CRUMPLE_INLINE HourglassRate hourglass_rate(const Frame& f, const Motion& m) {
+    return {m.vx.hourglass + f.hz * m.vz.x, m.vy.hourglass + f.hz * m.vz.y, m.vz.hourglass, m.wx.hourglass, m.wy.hourglass};
+}
+
+// What is missing to second order in the step, where dvx/dz = -dvz/dx - dt dvy/dx dvz/dy: needed where they are held firmly.
+CRUMPLE_INLINE void correct_for_spin(const Frame& f, const Motion& m, double dt, HourglassRate& q) {
+    q.x += dt * f.hz * m.vy.x * m.vz.y;
+    q.y += dt * f.hz * m.vx.y * m.vz.x;
 }
 
 }  // namespace

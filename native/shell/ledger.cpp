@@ -70,7 +70,11 @@ double Simulation::gravity_work() const {
     for (std::size_t n = 0; n < model_->nodes(); n++)
         if (kind_[n] != 1)
             sum += masses_.mass[n] * dot(g, read3(&position_[position_record * n]) - read3(&model_->position[3 * n]));
-    for (std::size_t i = 0; i < bodies_.size(); i++) sum += bodies_[i].mass * dot(g, body_states_[i].centre - bodies_[i].centre0);
+    for (std::size_t i = 0; i < bodies_.size(); i++) {
+        const RigidBody& b = bodies_[i];
+        const RigidState& s = body_states_[i];
+        sum += b.mass * dot(g, (s.centre + s.rotation * b.mass_arm) - (b.centre0 + b.mass_arm));
+    }
     return sum;
 }
 

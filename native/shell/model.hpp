@@ -40,6 +40,8 @@ struct RigidSet {
     Vec3 added_at;                   // where the added mass sits
     double added_inertia[6];         // xx, yy, zz, xy, yz, zx about its own centre
     unsigned fixed;                  // bits 0..5: x, y, z, rx, ry, rz held
+    bool pinned;                     // x, y and z are held at `pin` instead of the centre of mass
+    Vec3 pin;
 };
 
 struct Load {                        // nodal force or moment

@@ -22,7 +22,9 @@ RigidBody make_body(const Model& model, const RigidSet& set, const Masses& masse
         moment = moment + masses.mass[n] * read3(&model.position[3 * n]);
     }
     if (!(b.mass > 0.0)) throw std::invalid_argument("a rigid set has no mass");
-    b.centre0 = (1.0 / b.mass) * moment;
+    const Vec3 of_mass = (1.0 / b.mass) * moment;
+    b.centre0 = set.pinned ? set.pin : of_mass;
+    b.mass_arm = of_mass - b.centre0;
     const double* a = set.added_inertia;
     b.inertia = Mat3{{a[0], a[3], a[5], a[3], a[1], a[4], a[5], a[4], a[2]}};
     add_point(b.inertia, set.added_mass, set.added_at - b.centre0);
@@ -56,7 +58,10 @@ void push(const RigidBody& b, RigidState& s, const Masses& masses, const double*
         for (int i = 0; i < 3; i++) J.m[4 * i] += b.member_inertia[k];
         L = L + masses.mass[n] * cross(r, read3(velocity + 3 * n)) + b.member_inertia[k] * read3(spin + 3 * n);
     }
-    const Vec3 omega = solve(J, L), v = s.velocity + (1.0 / mass) * momentum - cross(omega, centre), w = s.omega + omega;
+    const Vec3 omega = solve(J, L), there = (1.0 / mass) * momentum - cross(omega, centre);
+    // a pin takes the momentum but not the moment about itself
+    const Vec3 turned = b.mass * cross(s.rotation * b.mass_arm, there);
+    const Vec3 v = s.velocity + there, w = s.omega + omega + solve(world_inertia(b, s.rotation), turned);
     double free[6];
     for (int i = 0; i < 3; i++) {
         free[i] = b.held & (1u << i) ? s.velocity[i] : v[i];

@@ -4,13 +4,14 @@
 
 namespace crumple::shell {
 
-// Constants: members in the axes of the start.
+// Constants: members in the axes of the start.  Its centre is that of mass, or the pin that holds it.
 struct RigidBody {
     std::vector<Index> nodes;
-    std::vector<Vec3> arm;           // member minus centre of mass at the start [m]
+    std::vector<Vec3> arm;           // member minus centre at the start [m]
     std::vector<double> member_inertia;
     double mass = 0.0;               // [kg]
-    Mat3 inertia;                    // about the centre of mass, axes of the start [kg m2]
+    Mat3 inertia;                    // about the centre, axes of the start [kg m2]
+    Vec3 mass_arm;                   // centre of mass minus centre at the start [m]; not zero for a pinned body
     unsigned held = 0;               // bits 0..5: velocity prescribed (0 where fixed)
     Vec3 centre0;
 };

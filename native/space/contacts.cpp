@@ -283,12 +283,7 @@ void Contacts::commit(double h, const Row* rows, const double* impulse, const do
         state.friction += p[1] * (w0[1] + w1[1]) / 2 + p[2] * (w0[2] + w1[2]) / 2;
         if (p[0] == 0) continue;
         state.held.push_back({c.key, -p[0] / h});
-        const int obstacle = pairs_[c.pair].obstacle;
-        if (obstacle >= 0) {
-            const Vec3 sum = p[0] * rows[3 * i].t + p[1] * rows[3 * i + 1].t + p[2] * rows[3 * i + 2].t;
-            state.impulse[at(obstacle)] = state.impulse[at(obstacle)] + sum;
-            state.force[at(obstacle)] = state.force[at(obstacle)] + (1 / h) * sum;
-        }
+        push(i, h, rows + 3 * i, p, state);
         if (c.gap <= closed_gap_) continue;
         // the motion without the contact's impulse, its rate linear in time, up to half of what counts as closed
         const double free = w1[0] + p[0] * c.inverse_mass, fastest = std::min(w0[0], free), way = c.gap - closed_gap_ / 2;
@@ -298,6 +293,14 @@ void Contacts::commit(double h, const Row* rows, const double* impulse, const do
         const double closes = t > 0 && t < h ? t : h / 2;
         state.closing = state.closing > 0 ? std::min(state.closing, closes) : closes;
     }
+}
+
+void Contacts::push(size_t i, double h, const Row* rows, const double* impulse, ContactState& state) const {
+    const int obstacle = pairs_[active_[i].pair].obstacle;
+    if (obstacle < 0) return;
+    const Vec3 sum = impulse[0] * rows[0].t + impulse[1] * rows[1].t + impulse[2] * rows[2].t;
+    state.impulse[at(obstacle)] = state.impulse[at(obstacle)] + sum;
+    state.force[at(obstacle)] = state.force[at(obstacle)] + (1 / h) * sum;
 }
 
 bool Contacts::impact_follows(const double* gap, const double* rate) const {

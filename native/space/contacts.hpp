@@ -84,6 +84,8 @@ public:
     // after the last pass: energies, forces on obstacles, and when open contacts closed; rows as in the step
     void commit(double h, const Row* rows, const double* impulse, const double* rate0, const double* rate,
                 ContactState& state) const;
+    // force on the obstacle of a contact, from an impulse (3) of a step of length h
+    void push(size_t i, double h, const Row* rows, const double* impulse, ContactState& state) const;
     // whether an impact follows from the gaps and rates (3 each, the first counts) at the end of the step
     bool impact_follows(const double* gap, const double* rate) const;
     // whether anything overlaps that was not within reach

@@ -164,6 +164,7 @@ void Stepper::mend_rates(State& s, double h) {
     work_ = x_;
     system_.solve(x_.data(), mended * speed_);
     system_.push(x_.data(), velocity_.data());
+    push_obstacles(s, h);
     for (size_t c = 0; c < links.size(); c++) {
         const bool driven = is(c, Kind::joint) && model_.joints[at(connections_[c].index)].driven;
         for (int i = 0; i < links[c].held; i++) {

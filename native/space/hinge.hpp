@@ -82,8 +82,7 @@ FrozenSpaceHinge freeze(const SpaceHinge& hinge, const SpaceHingeState& state, d
                         const double* w1);
 void widen(const SpaceHinge& hinge, FrozenSpaceHinge& f, double width);
 // impulse (n), tangent (n x n, symmetric and positive semidefinite) and potential at end rates w, of everything and of the
-// law alone, without dampers and stops; any may be null.  The potential's derivative is the impulse.  On a flat side of a
-// surface the tangent is as large as in a locked hinge while rates are not small: rounding of w is worth |tangent| |w| of it
+// law alone, without dampers and stops; any may be null.  The potential's derivative is the impulse
 void respond(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
              double* potential);
 void law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
@@ -92,8 +91,8 @@ void law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, do
 double load_factor(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w);
 // power D(w) that a coupled hinge takes at rates w where it flows
 double power_at_capacity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w);
-// scale [N m s or N s] against which an error of a component's impulse counts
-double impulse_scale(const FrozenSpaceHinge& f, int k);
+// scale [N m s or N s] against which an error of a component's impulse counts, at rates w
+double impulse_scale(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, int k);
 // d impulse_i / d ln C_j at fixed rates and ramp (n x n, row i): for implicit differentiation of a converged step
 void capacity_sensitivity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* derivative);
 // advances the memory; `turn` (n): the rotations and slip over the step, h (w0 + w1)/2

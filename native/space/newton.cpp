@@ -67,7 +67,8 @@ void Stepper::scale_rate(size_t link, double factor, double* w) const {
 // next, with line search.
 bool Stepper::newton() {
     const int limit = newton_limit + newton_limit_per_hinge * static_cast<int>(frozen_.size());
-    if (all_set_valued_ ? descend(bold_limit, true) : descend(limit, false)) return true;
+    // without inertia a locked hinge is so stiff that the rates which unlock it drown in rounding: wide ramps first
+    if (!stage_.quasi_static && (all_set_valued_ ? descend(bold_limit, true) : descend(limit, false))) return true;
     double width = 1;
     for (size_t c = 0; c < connections_.size(); c++) {
         // a contact's normal rate is no slip
@@ -220,7 +221,7 @@ bool Stepper::balanced(double& slope) {
         for (int k = 0; k < n; k++) {
             const double left = p[k] - impulse_[at(first + k)];
             double scale = std::fabs(p[k]);
-            if (hinge_of(c)) scale += impulse_scale(frozen_[at(hinge_index(c))], k);
+            if (hinge_of(c)) scale += impulse_scale(*hinge_of(c), frozen_[at(hinge_index(c))], &w_next_[at(first)], k);
             if (is(c, Kind::contact)) scale += struck;
             if (!(std::fabs(left) <= impulse_tolerance * scale)) all = false;
             slope += left * (w_next_[at(first + k)] - w_[at(first + k)]);

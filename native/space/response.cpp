@@ -10,6 +10,8 @@ namespace crumple::space {
 namespace {
 
 constexpr int most = most_components;
+// Relative errors of impulses down to 1e-9 are asked for; eight roundings of a rate, each 2.2e-16 of it, are as much.
+constexpr double rounding_weight = 8 * 2.2e-16 / 1e-9;
 
 // The problem of surface.hpp that a step's rates pose.  Components are x = tau/scale, impulses h scale x.
 struct Trial {
@@ -88,7 +90,9 @@ void regularised_law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const d
     const SurfacePoint p = point_of(hinge, t, tangent != nullptr ? block : nullptr);
     const multibody::Ramp ramp = multibody::ramp_over(f.power0 / full, p.value / full);
     for (int k = 0; k < n && impulse != nullptr; k++) impulse[k] = f.h * ramp.value * t.scale[k] * p.x[k];
-    if (potential != nullptr) *potential = f.h * full * ramp.integral / (1 - f.lead);
+    if (potential != nullptr) {
+        *potential = f.h * full * multibody::ramp_over_integral(f.power0 / full, p.value / full) / (1 - f.lead);
+    }
     if (tangent == nullptr) return;
     scaled_block(n, t, f.h * ramp.value, block, tangent);
     for (int j = 0; j < n; j++) {
@@ -204,7 +208,15 @@ double load_factor(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const dou
     return on_flange(hinge) ? gauge(t.flange, x) : gauge(hinge.surface, n, x, nullptr);
 }
 
-double impulse_scale(const FrozenSpaceHinge& f, int k) { return f.h * (f.component[k].capacity[0] + f.component[k].capacity[1]); }
+// On a flat side of a surface the tangent is as large as in a locked hinge while the rates are not small, so that their
+// rounding counts.
+double impulse_scale(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, int k) {
+    const double plain = f.h * (f.component[k].capacity[0] + f.component[k].capacity[1]);
+    if (!coupled(hinge) || hinge.components[0].law.form != Form::set_valued || f.reference == 0) return plain;
+    double power = 0;
+    for (int j = 0; j < size(hinge); j++) power += std::max(f.component[j].capacity[0], f.component[j].capacity[1]) * std::fabs(w[j]);
+    return plain * std::max(1.0, rounding_weight * power / (f.width * f.reference));
+}
 
 void capacity_sensitivity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* derivative) {
     const int n = size(hinge);
@@ -243,7 +255,7 @@ void capacity_sensitivity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, co
     const SurfacePoint p = point_of(hinge, t, block);
     const double full = f.width * f.reference;
     const bool ramped = hinge.components[0].law.form == Form::regularised;
-    const multibody::Ramp ramp = ramped ? multibody::ramp_over(f.power0 / full, p.value / full) : multibody::Ramp{1, 0, 0};
+    const multibody::Ramp ramp = ramped ? multibody::ramp_over(f.power0 / full, p.value / full) : multibody::Ramp{1, 0};
     const double share = (elastic ? f.h / 2 : f.h) * ramp.value;
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) {

@@ -26,8 +26,8 @@ constexpr long poll_interval = 20'000;  // solves times rows between calls of `p
 constexpr double met = 1e-4;
 // Energy of an approach that is not worth an impact, as a share of accuracy times the largest energy.
 constexpr double negligible_impact = 1e-3;
-// Gap [model lengths times accuracy] below which a contact counts as closed.
-constexpr double closed_gap = 1e-3;
+// Gap [model lengths, the first times accuracy] below which a contact counts as closed: more than a smallest step goes.
+constexpr double closed_gap = 1e-3, least_closed_gap = 1e-8;
 // Steps are not shortened below this many smallest ones to end where a contact closes.
 constexpr double shortest_landing = 4;
 
@@ -298,7 +298,7 @@ void Simulation::watch(Record& record) {
     }
     const Energies e = energies(model_, state_);
     largest_energy_ = std::max(largest_energy_, e.kinetic);
-    stepper_.contacts().set_limits(closed_gap * settings_.accuracy * model_.length,
+    stepper_.contacts().set_limits(std::max(closed_gap * settings_.accuracy, least_closed_gap) * model_.length,
                                    negligible_impact * settings_.accuracy * largest_energy_);
     work_max_ = std::max(work_max_, std::fabs(e.external_work - start_work_));
     const double reference = std::max(start_energy_ + start_work_ + work_max_, negligible_energy_);
@@ -351,7 +351,7 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     work_max_ = residual_max_ = 0;
     if (h_ <= 0) h_ = std::clamp(duration / 100, settings_.minimum_step, settings_.maximum_step);
     largest_energy_ = std::max(largest_energy_, e.kinetic);
-    stepper_.contacts().set_limits(closed_gap * settings_.accuracy * model_.length,
+    stepper_.contacts().set_limits(std::max(closed_gap * settings_.accuracy, least_closed_gap) * model_.length,
                                    negligible_impact * settings_.accuracy * largest_energy_);
     stepper_.look_for_impact(state_);
     show_first_moments();

@@ -75,6 +75,7 @@ private:
     void allow_closing(double h);
     bool settle(double h);
     void commit_contacts(State& s, double h);
+    void push_obstacles(State& s, double h);
     double overlap(size_t link) const;
     void see_contacts(State& s, double h);
     void predict(const State& s, double h, const std::vector<Twist>& end);

@@ -135,6 +135,16 @@ Shape shape(const Surface& s, int n, const double* x, bool curved) {
     return s.torsion < 0 ? direct : with_torque(s, n, x, direct, curved);
 }
 
+// The same on the ray through x where g = 1: the gradient stays, the curvature falls as 1/x.
+Shape on_surface(int n, Shape at, double* x) {
+    for (int j = 0; j < n; j++) {
+        x[j] /= at.g;
+        for (int k = 0; k < n; k++) at.curvature[j][k] *= at.g;
+    }
+    at.g = 1;
+    return at;
+}
+
 double objective(int n, const double* y, const double* m, const double* x) {
     double f = 0;
     for (int k = 0; k < n; k++) f += (y[k] - m[k] * x[k] / 2) * x[k];
@@ -166,9 +176,9 @@ SurfacePoint on_section(const Surface& s, int n, const double* y, const double* 
     SurfacePoint p;
     const double load = length(n, y);
     double best = -1, free[most] = {0, 0, 0, 0};
-    for (int k = 0; k < n; k++) free[k] = m[k] > 0 ? y[k] / m[k] : 0;
-    const double* starts[] = {y, free, guess};
-    for (const double* start : starts) {
+    bool equal = true;
+    for (int k = 0; k < n; k++) free[k] = m[k] > 0 ? y[k] / m[k] : 0, equal = equal && m[k] == m[0];
+    for (const double* start : {equal ? y : free, guess}) {
         if (start == nullptr) continue;
         double trial[most];
         const double g = gauge(s, n, start, nullptr);
@@ -202,10 +212,8 @@ SurfacePoint on_section(const Surface& s, int n, const double* y, const double* 
         for (int halving = 0; halving < halvings && !moved; halving++, share /= 2) {
             double trial[most], trial_r[most];
             for (int k = 0; k < n; k++) trial[k] = p.x[k] + share * step[k];
-            const double g = gauge(s, n, trial, nullptr);
-            for (int k = 0; k < n; k++) trial[k] /= g;
+            const Shape there = on_surface(n, shape(s, n, trial, true), trial);
             const double f = objective(n, y, m, trial);
-            const Shape there = shape(s, n, trial, true);
             const double multiplier = residual(trial, there, trial_r), remains = length(n, trial_r);
             // rises as far as the slope promises; close to the top, where a rise drowns in rounding, the residual decides
             if (!(f >= best + 1e-4 * share * along) && !(remains < 0.5 * left && f >= best - 1e-12 * load)) continue;

@@ -33,6 +33,19 @@ void Stepper::commit_contacts(State& s, double h) {
     contacts_.commit(h, rows_.data() + first, impulse_.data() + first, rate0_.data() + first, w_.data() + first, s.contact);
 }
 
+// Mending rates, with contacts as stiff as they were, pushes obstacles a little: x_ along the roots of their tangents.
+void Stepper::push_obstacles(State& s, double h) {
+    for (size_t i = 0; i < contacts_.size(); i++) {
+        const size_t link = connections_.size() - contacts_.size() + i, first = at(start(link));
+        const Tangent& t = tangent_[link];
+        double impulse[3] = {};
+        for (size_t k = 0; k < 3; k++) {
+            for (size_t j = 0; j < 3; j++) impulse[j] += t.value[k] * t.vectors[3 * j + k] * x_[first + k];
+        }
+        contacts_.push(i, h, &rows_[first], impulse, s.contact);
+    }
+}
+
 // Error that mending takes from a link's row of a law: overlap of closed contacts.
 double Stepper::overlap(size_t link) const {
     if (!is(link, Kind::contact)) return 0;

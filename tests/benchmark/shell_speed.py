@@ -14,7 +14,7 @@ import time
 
 import numpy as np
 
-from crumple._core.shell import RigidSet, ShellMaterial, ShellModel, ShellSettings, ShellState
+from crumple._core.shell import Element, RigidSet, ShellMaterial, ShellModel, ShellSettings, ShellState
 
 FLOOR = 14.0
 """ns per element-step: 0.73 kflop and 1.1 kB at the rates of one AVX-512 core."""
@@ -59,6 +59,23 @@ def rate(state: ShellState, threads: int, steps: int = 200, repeats: int = 12) -
     return best / steps / len(state.model.elements) * 1e9
 
 
+def elements(isa: str) -> None:
+    """Print what the other element and the warping terms cost over the default, on one thread."""
+    warped = {"warping_correction": True, "drill_stiffness": 0.01}
+    default = 0.0
+    for name, settings in (
+        ("belytschko-tsay", {}),
+        ("belytschko-tsay, warping terms", warped),
+        ("stabilised", {"element": Element.STABILISED}),
+        ("stabilised, warping terms", {"element": Element.STABILISED, **warped}),
+    ):
+        state = ShellState(tube(**settings), isa=isa)
+        state.advance(0.01, threads=2)
+        one = rate(state, 1)
+        default = default or one
+        print(f"{name}: {one:.1f} ns ({one / default:.2f}x the default)")
+
+
 def scaling(isa: str) -> None:
     """Print how the rate on one thread and the memory grow with the mesh."""
     smallest = 0.0
@@ -85,6 +102,7 @@ def main() -> None:
                 f"{name}: {one:.1f} ns, two threads {two:.1f} ns ({one / two:.2f}x), "
                 f"{one / FLOOR:.1f} times the floor"
             )
+        elements(isa)
         scaling(isa)
 
 

@@ -201,8 +201,8 @@ def test_loop_with_load_drive_and_hold():
     velocity = np.array(
         [[-3.0, 0.6, 0.0], [0.0, 1.2, 0.0], [-3.0, 1.2, 0.0], [-3.0, 0.6, 0.0], [0.0, 0.5, 0.0]]
     )
-    # moments of locked hinges are solved to 1e-9, which the differences divide by 1e-4
-    check(model, move, velocity, end=0.03, e=1e-4)
+    # moments of locked hinges are solved to 1e-9 of both capacities, which the differences divide by 1e-3
+    check(model, move, velocity, end=0.03, e=1e-3, tolerance=2e-5)
 
 
 def test_many_directions_go_in_shares():

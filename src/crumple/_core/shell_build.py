@@ -80,7 +80,8 @@ def _add_sets(core: Any, model: ShellModel) -> None:
     for rigid in [*model.rigid_sets, *_rigid_sheets(model)]:
         nodes = _indices(rigid.nodes)
         at = model.position[nodes].mean(axis=0) if rigid.at is None else rigid.at
-        core.rigid_set(nodes, rigid.mass, floats(at), floats(rigid.inertia), _bits(rigid.fixed))
+        pin = floats(() if rigid.pin is None else rigid.pin)
+        core.rigid_set(nodes, rigid.mass, floats(at), floats(rigid.inertia), _bits(rigid.fixed), pin)
     for load in model.loads:
         core.load(load.node, _DOFS[load.dof], floats(load.time), floats(load.value))
     for motion in model.motions:

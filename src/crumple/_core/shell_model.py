@@ -110,6 +110,8 @@ class RigidSet:
         (xx, yy, zz, xy, yz, zx) [kg m2].
     fixed
         Held degrees of freedom of the centre of mass, of "x", "y", "z", "rx", "ry", "rz".
+    pin
+        Place at which x, y and z are held instead [m]; no prescribed motion then.
     """
 
     nodes: Sequence[int] | Indices
@@ -117,6 +119,7 @@ class RigidSet:
     at: tuple[float, float, float] | None = None
     inertia: tuple[float, float, float, float, float, float] = (0.0,) * 6
     fixed: Sequence[str] = ()
+    pin: tuple[float, float, float] | None = None
 
 
 @dataclass(frozen=True)

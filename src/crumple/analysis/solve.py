@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 FIDELITIES = ("multibody", "shell")
 """Solvers by name."""
 UNSOLVED: dict[str, tuple[str, ...]] = {
-    "multibody": ("obstacles", "member_contact"),
+    "multibody": (),
     "shell": ("joints", "outputs.section_forces", "outputs.distances"),
 }
 """Parts of a description that a solver does not take."""

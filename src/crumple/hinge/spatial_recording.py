@@ -125,9 +125,13 @@ def scaled(record: HingeRecord, factor: float) -> HingeRecord:
 
 
 def _mirrored(rows: Floats, column: int, power: float) -> Floats:
+    """Rows of the mean of a surface and its image; a row that is its own image, or minus it, stays."""
     image = rows.copy()
     image[:, column] *= -1.0
-    return np.asarray(np.vstack([rows, image]) * 2.0 ** (-1.0 / power))
+    others = np.delete(rows, column, axis=1)
+    alone = (rows[:, column] == 0.0) | (others == 0.0).all(axis=1)
+    pairs = np.vstack([rows[~alone], image[~alone]]) * 2.0 ** (-1.0 / power)
+    return np.asarray(np.vstack([rows[alone], pairs]))
 
 
 def _component_problems(components: tuple[HingeComponent, ...]) -> list[Problem]:

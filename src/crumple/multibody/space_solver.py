@@ -99,6 +99,9 @@ class SpaceSolver:
             if records[-1].outcome is not Outcome.COMPLETE:
                 break
         record = _joined(records)
+        if self._stages[0].kind == "quasi-static":
+            # nothing pushes yet; the kernel shows the jump of a drive that starts with a rate
+            record.joint_force[0] = 0.0
         return self._solved(record, stages, (given, lost, seconds))
 
     def _begin(self, simulation: SpaceSimulation, stage: Stage, *, first: bool) -> tuple[float, float]:

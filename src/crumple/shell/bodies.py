@@ -40,12 +40,15 @@ class Body:
         Mass that is added to theirs.
     held
         Freedoms held at zero.
+    pinned
+        Whether its node stays where it is, and it can turn about it.
     """
 
     node: str
     nodes: Integers
     lump: Lump
     held: tuple[str, ...]
+    pinned: bool = False
 
 
 def bodies_of(structure: Structure, mesh: Mesh) -> tuple[Body, ...]:
@@ -57,17 +60,20 @@ def _body(structure: Structure, mesh: Mesh, joint: Joint, number: int) -> Body:
     rings = [mesh.end_ring(end.member, end.second) for end in joint.ends]
     lumps = [*_masses(structure, joint.node), *_cut_away(structure, joint)]
     place = np.asarray(structure.nodes[joint.node], float)
+    driven = any(support.driven for support in structure.supports.values() if support.node == joint.node)
     held = {
         freedom
         for support in structure.supports.values()
         if support.node == joint.node
         for freedom in support.held
     }
+    translations, rotations = set(FREEDOMS[:3]), set(FREEDOMS[3:])
     return Body(
         joint.node,
         np.append(np.unique(np.concatenate(rings)), number),
         combined(lumps, place),
         tuple(freedom for freedom in FREEDOMS if freedom in held),
+        translations <= held and not rotations <= held and not driven,
     )
 
 

@@ -32,14 +32,14 @@ def contour_of(section: Section, size: float) -> Contour:
     Parameters
     ----------
     section
-        A tube, or walls of one metal without spot welds.
+        A tube, or walls without spot welds.
     size
         Wished length of a side [m].
 
     Raises
     ------
     InputError
-        If the section has spot welds or walls of other metals.
+        If the section has spot welds.
     """
     if isinstance(section, WalledSection):
         return walled_contour(section, size)
@@ -76,6 +76,12 @@ def outline_points(section: Section, size: float) -> Floats:
     paths = [closed[a : b + 1] for a, b in pairwise(ends)]
     points = [_divided(path, _number(path, size))[:-1] for path in _without_small_bends(paths, size)]
     return np.asarray(np.concatenate(points), float)
+
+
+def triple(vector: Floats) -> tuple[float, float, float]:
+    """Vector as the stepper's model holds it."""
+    x, y, z = (float(value) for value in vector)
+    return x, y, z
 
 
 def _is_break(outline: Floats) -> NDArray[np.bool_]:

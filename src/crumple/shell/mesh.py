@@ -8,6 +8,7 @@ import numpy as np
 
 from crumple.errors import InputError, Problem
 from crumple.shell.contour import Contour, Floats, Integers, contour_of
+from crumple.shell.imperfection import offsets
 from crumple.shell.joints import SHEARED_LENGTH, Joint, Kind, joints_of
 from crumple.shell.stations import Sizes, Zone, stations
 from crumple.structure import Frame, Outputs, ShellSettings, Structure, hinge_places
@@ -130,7 +131,7 @@ def mesh_of(structure: Structure, settings: ShellSettings, outputs: Outputs | No
         name: _rings(structure, name, settings, joints, outputs or Outputs()) for name in structure.members
     }
     _check_number(contours, rings)
-    return _joined(structure, contours, joints, rings)
+    return _joined(structure, contours, joints, rings, settings.imperfection)
 
 
 def _rings(
@@ -197,6 +198,7 @@ def _joined(
     contours: dict[str, Contour],
     joints: dict[str, Joint],
     rings: dict[str, Floats],
+    imperfection: float,
 ) -> Mesh:
     """Nodes numbered member by member; a mitre's second end takes the nodes of its first."""
     positions: list[Floats] = []
@@ -207,6 +209,8 @@ def _joined(
         frame, around = structure.frame_of(name), len(contours[name].points)
         numbers = np.full((len(rings[name]), around), -1, dtype=np.int64)
         points = _points(structure, name, contours[name].points, rings[name], joints)
+        if imperfection:
+            points = points + offsets(contours[name], len(points), imperfection, len(tubes)) @ frame.axes[1:]
         for second in (False, True):
             shared = _shared(structure, joints, tubes, name, second)
             if shared is not None:

@@ -17,14 +17,14 @@ from crumple._core.shell import (
 )
 from crumple._core.shell import ShellSettings as CoreSettings
 from crumple.shell.bodies import Body, bodies_of
-from crumple.shell.contour import Integers
+from crumple.shell.contour import Floats, Integers, triple
 from crumple.shell.drives import loads_of, motions_of
 from crumple.shell.joints import Kind
 from crumple.shell.mesh import Mesh, mesh_of
 from crumple.shell.metal import shell_material
 from crumple.shell.obstacles import obstacles_of, refuse_walls_inside
 from crumple.shell.places import HingeZone, hinge_zones
-from crumple.shell.quality import MeshReport, report_of, wall_thickness
+from crumple.shell.quality import MeshReport, report_of, wall_metals, wall_thickness
 from crumple.shell.start import Start, start_of
 from crumple.structure import Outputs, ShellSettings, Stage, Structure
 
@@ -114,7 +114,7 @@ def lower(
         fixed=_fixed(mesh),
         velocity=start.velocity,
         spin=start.spin,
-        rigid_sets=[_rigid_set(body) for body in bodies],
+        rigid_sets=[_rigid_set(body, mesh.position[body.nodes[-1]]) for body in bodies],
         cuts=[*cuts, *supports.values()],
         settings=_settings(structure, settings),
     )
@@ -149,16 +149,11 @@ def model_of_stage(
 def _sheets(
     structure: Structure, mesh: Mesh, settings: ShellSettings
 ) -> tuple[list[ShellMaterial], list[Sheet], Integers]:
-    """Materials in the order of the structure, one sheet each, and the sheet of every element."""
-    names = list(dict.fromkeys(member.material for member in structure.members.values()))
-    materials = [shell_material(structure.materials[name].material(name)) for name in names]
+    """Materials of the walls, one sheet each, and the sheet of every element."""
+    metals, number = wall_metals(structure, mesh)
     lobatto = settings.thickness_rule == "lobatto"
-    sheets = [Sheet(i, settings.thickness_points, lobatto) for i in range(len(names))]
-    parts = [
-        np.full(tube.bays * tube.sides, names.index(structure.members[member].material))
-        for member, tube in mesh.tubes.items()
-    ]
-    return materials, sheets, np.concatenate(parts)
+    sheets = [Sheet(i, settings.thickness_points, lobatto) for i in range(len(metals))]
+    return [shell_material(metal) for metal in metals], sheets, number
 
 
 def _fixed(mesh: Mesh) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
@@ -170,17 +165,17 @@ def _fixed(mesh: Mesh) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
     return fixed
 
 
-def _rigid_set(body: Body) -> RigidSet:
+def _rigid_set(body: Body, place: Floats) -> RigidSet:
     lump = body.lump
     xx, yy, zz = np.diag(lump.inertia)
     xy, yz, zx = lump.inertia[0, 1], lump.inertia[1, 2], lump.inertia[2, 0]
-    x, y, z = lump.centre
     return RigidSet(
         nodes=body.nodes.astype(np.uint32),
         mass=lump.mass,
-        at=(float(x), float(y), float(z)),
+        at=triple(lump.centre),
         inertia=(float(xx), float(yy), float(zz), float(xy), float(yz), float(zx)),
         fixed=body.held,
+        pin=triple(place) if body.pinned else None,
     )
 
 

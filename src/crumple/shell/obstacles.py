@@ -10,7 +10,7 @@ import numpy as np
 from crumple._core.shell import RigidObstacle, Shape
 from crumple._core.shell_model import History
 from crumple.errors import InputError, Problem
-from crumple.shell.contour import Floats
+from crumple.shell.contour import triple
 from crumple.shell.drives import velocity_of
 from crumple.shell.mesh import Mesh
 from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Stage, Structure, gap
@@ -109,7 +109,7 @@ def _shape_of(obstacle: Obstacle) -> dict[str, Any]:
 def _mass(obstacle: Obstacle) -> dict[str, Any]:
     guide = obstacle.guide_direction
     assert guide is not None
-    return {"mass": obstacle.mass, "guide": _triple(guide), "velocity": obstacle.velocity}
+    return {"mass": obstacle.mass, "guide": triple(guide), "velocity": obstacle.velocity}
 
 
 def _driven(obstacle: Obstacle, stage: Stage, begin: float) -> dict[str, Any]:
@@ -130,8 +130,3 @@ def _driven(obstacle: Obstacle, stage: Stage, begin: float) -> dict[str, Any]:
             "turning": turning,
         }
     return given
-
-
-def _triple(vector: Floats) -> tuple[float, float, float]:
-    x, y, z = (float(value) for value in vector)
-    return x, y, z

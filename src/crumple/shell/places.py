@@ -66,8 +66,7 @@ def hinge_zones(structure: Structure, mesh: Mesh) -> tuple[HingeZone, ...]:
 
 def _zone(structure: Structure, mesh: Mesh, place: HingePlace, others: list[float]) -> HingeZone:
     tube = mesh.tubes[place.member]
-    section, material = structure.section_of(place.member), structure.material_of(place.member)
-    reach = SIDE * half_fold_length(section, place.axis)
+    reach = SIDE * half_fold_length(structure.section_of(place.member), place.axis)
     low = max([place.station - reach, *((place.station + s) / 2 for s in others if s < place.station)])
     high = min([place.station + reach, *((place.station + s) / 2 for s in others if s > place.station)])
     first, last = tube.ring_at(low), tube.ring_at(high)
@@ -84,7 +83,7 @@ def _zone(structure: Structure, mesh: Mesh, place: HingePlace, others: list[floa
         last=last,
         length=length,
         elements=tube.elements_between(first, last),
-        stiffness=material.youngs_modulus * section.second_moment(place.axis) / length,
+        stiffness=structure.flexural_rigidity(place.member, place.axis) / length,
         cut_elements=tube.bay(at),
         cut_nodes=np.asarray(tube.nodes[at]),
     )

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from crumple.material import Material
+
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
@@ -29,11 +31,18 @@ class Contour:
         Pairs of points that a wall joins, (k, 2); around a closed section counter-clockwise.
     thickness
         Of every side [m], (k,).
+    metals
+        Of every side, None where it is the member's; empty: all are.
     """
 
     points: Floats
     sides: Integers
     thickness: Floats
+    metals: tuple[Material | None, ...] = ()
+
+    def metals_of(self, member: Material) -> tuple[Material, ...]:
+        """Metal of every side of a member of a metal, (k,)."""
+        return tuple(metal or member for metal in self.metals or (None,) * len(self.sides))
 
     @property
     def area(self) -> float:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.shell.contour import Floats
+from crumple.material import Material
+from crumple.shell.contour import Floats, Integers
 from crumple.shell.mesh import Mesh
 from crumple.structure import Structure
 
@@ -68,13 +69,21 @@ def wall_thickness(mesh: Mesh) -> Floats:
     return np.concatenate([np.tile(tube.contour.thickness, tube.bays) for tube in mesh.tubes.values()])
 
 
-def wall_density(structure: Structure, mesh: Mesh) -> Floats:
-    """Density of every element [kg/m^3], (m,)."""
-    parts = [
-        np.full(tube.bays * tube.sides, structure.material_of(name).density)
+def wall_metals(structure: Structure, mesh: Mesh) -> tuple[tuple[Material, ...], Integers]:
+    """Metals of the walls, each once, and the number of every element's among them, (m,)."""
+    sides = {name: tube.contour.metals_of(structure.material_of(name)) for name, tube in mesh.tubes.items()}
+    metals = tuple(dict.fromkeys(metal for member in sides.values() for metal in member))
+    number = [
+        np.tile([metals.index(metal) for metal in sides[name]], tube.bays)
         for name, tube in mesh.tubes.items()
     ]
-    return np.concatenate(parts)
+    return metals, np.concatenate(number)
+
+
+def wall_density(structure: Structure, mesh: Mesh) -> Floats:
+    """Density of every element [kg/m^3], (m,)."""
+    metals, number = wall_metals(structure, mesh)
+    return np.asarray(np.array([metal.density for metal in metals])[number])
 
 
 def report_of(structure: Structure, mesh: Mesh) -> MeshReport:

@@ -13,6 +13,7 @@ from crumple.shell.joints import Kind
 from crumple.shell.metal import in_words
 from crumple.shell.model import Lowered
 from crumple.shell.obstacles import too_sharp
+from crumple.shell.quality import wall_metals
 from crumple.shell.record import ENERGIES, Record
 from crumple.structure import ShellSettings, Stage, Structure
 
@@ -53,8 +54,7 @@ def assumptions(structure: Structure, lowered: Lowered, settings: ShellSettings)
         f"{settings.thickness_update}, warping correction {settings.warping_correction}, self-contact "
         f"{settings.self_contact}.",
     ]
-    for name in dict.fromkeys(member.material for member in structure.members.values()):
-        found.append(in_words(structure.materials[name].material(name)))
+    found += [in_words(metal) for metal in wall_metals(structure, lowered.mesh)[0]]
     for node, joint in lowered.mesh.joints.items():
         if joint.kind is Kind.RIGID and len(joint.ends) > 1:
             members = ", ".join(end.member for end in joint.ends)
@@ -164,7 +164,7 @@ def _mesh_warnings(structure: Structure, lowered: Lowered) -> list[str]:
         )
     for body in lowered.bodies:
         distance = _off_centre(structure, lowered, body)
-        if body.held and distance:
+        if body.held and distance and not body.pinned:
             found.append(
                 f"The support of node {body.node} holds the joint's centre of mass, {1e3 * distance:.3g} mm "
                 "from the node."

@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from crumple.errors import InputError, Problem
+from crumple.material import Material
 from crumple.section.bends import Piece
 from crumple.section.skeleton import Skeleton
 from crumple.section.walled import WalledSection
@@ -25,14 +26,14 @@ def walled_contour(section: WalledSection, size: float) -> Contour:
     Parameters
     ----------
     section
-        Walls of one metal without spot welds.
+        Walls without spot welds.
     size
         Wished length of a side [m].
 
     Raises
     ------
     InputError
-        If the section has spot welds or walls of other metals.
+        If the section has spot welds.
     """
     _check(section)
     skeleton = section.skeleton
@@ -50,6 +51,7 @@ def walled_contour(section: WalledSection, size: float) -> Contour:
     index = {number: i for i, number in enumerate(used)}
     sides: list[tuple[int, int]] = []
     thickness: list[float] = []
+    metals: list[Material | None] = []
     for piece, first, second in edges:
         a, b = _root(same, first), _root(same, second)
         if a == b and piece.radius:
@@ -60,22 +62,17 @@ def walled_contour(section: WalledSection, size: float) -> Contour:
         points += inner
         sides += list(pairwise(chain))
         thickness += [piece.thickness] * number
+        metals += [section.walls[piece.wall].material] * number
     about = np.array(points) - complex(*section.properties.centroid)
-    return Contour(np.column_stack([about.real, about.imag]), np.array(sides), np.array(thickness))
+    middle = np.column_stack([about.real, about.imag])
+    return Contour(middle, np.array(sides), np.array(thickness), tuple(metals))
 
 
 def _check(section: WalledSection) -> None:
-    problems = []
     if section.welds:
         what, todo = "the shell solver cannot mesh spot welds so far", "let the walls share points instead"
-        problems.append(
-            Problem(what, f"{len(section.welds)} lines of welds", "walls that meet", todo, "sections")
-        )
-    if any(wall.material is not None for wall in section.walls):
-        what, todo = "the shell solver meshes sections of one metal so far", "leave the walls' materials out"
-        problems.append(Problem(what, section.title, "the member's material", todo, "sections"))
-    if problems:
-        raise InputError(problems)
+        came = f"{len(section.welds)} lines of welds"
+        raise InputError(Problem(what, came, "walls that meet", todo, "sections"))
 
 
 def _edges(skeleton: Skeleton) -> list[tuple[Piece, int, int]]:

@@ -53,6 +53,9 @@ class ShellSettings(Spec):
     """Largest ratio of the lengths of neighbouring elements between fine and coarse."""
     fine_at: tuple[FinePlace, ...] = ()
     """Further places with a fine mesh."""
+    imperfection: NonNegativeLength = 0.0
+    """Largest distance by which nodes of walls lie beside their place, each by another one: without any, a
+    perfect mesh under axial load folds as no real tube does."""
     thickness_points: Annotated[int, Field(ge=1, le=10, strict=True)] = 5
     """Points through the thickness."""
     thickness_rule: Literal["gauss", "lobatto"] = "gauss"

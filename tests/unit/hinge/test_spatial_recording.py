@@ -23,7 +23,7 @@ from crumple.hinge import (
 )
 from crumple.hinge.sensitivity import capacity_sensitivity
 from crumple.material import Material
-from crumple.section import RectangularTube, fitted_interaction, plastic_interaction
+from crumple.section import InteractionFit, RectangularTube, fitted_interaction, plastic_interaction
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3, density=7850.0, yield_stress=300e6)
 TUBE = RectangularTube(0.08, 0.06, 0.002)
@@ -90,6 +90,16 @@ def test_unequal_senses_stay_convex():
 
     a, b = generator.normal(size=(2, 2000, 4)) * [1e5, 1, 1, 1]
     assert (value((a + b) / 2.0) <= (value(a) + value(b)) / 2.0 + 1e-12).all()
+
+
+def test_mirrored_rows_are_the_mean_of_the_surface_and_its_image():
+    rows = np.array([[1.0, 0.0, 0.0], [0.6, 0.8, 0.1], [0.0, 0.9, 0.3], [0.2, -0.5, 0.9]])
+    fit = InteractionFit(np.ones(4), rows, 6.0)
+    surface = spatial_record([axial(), bending(Freedom.Y), bending(Freedom.Z)], interaction=fit).surface
+    pure = (rows**6).sum(axis=0) ** (1.0 / 6.0)
+    x = np.random.default_rng(4).normal(size=(50, 3))
+    powers = [(((x * [sign, 1.0, 1.0] / pure) @ rows.T) ** 6).sum(axis=1) for sign in (1.0, -1.0)]
+    np.testing.assert_allclose(surface.gauge(x), (np.mean(powers, axis=0)) ** (1.0 / 6.0), rtol=1e-12)
 
 
 def test_only_the_columns_of_the_components_count():

@@ -260,3 +260,39 @@ def test_obstacles_without_direction_are_refused():
     for wrong in ({"axis": (0, 0, 0)}, {"guide": (0, 0, 0)}):
         with pytest.raises(InputError, match="no length"):
             ShellState(block(RigidObstacle(Shape.PLANE, (0, 0, 0), **wrong), (0, 0, 0)))
+
+
+def test_stack_of_plates_lies_still_and_carries_its_weight():
+    """Two free plates on a plane under gravity: a thickness apart, no jitter, all weight below."""
+    x, quads = grid(5, 5, 0.05, 0.05)
+    stack = np.concatenate([x + np.array([0, 0, T / 2]), x + np.array([0.0031, 0.0017, 1.5 * T])])
+    g = 500.0
+    plane = RigidObstacle(Shape.PLANE, (0, 0, 0), friction=0.2)
+    m = model(
+        stack, np.concatenate([quads, quads + len(x)]), T, ELASTIC, obstacles=[plane],
+        settings={
+            "self_contact": True, "contact_friction": 0.2, "contact_damping": 0.1, "gravity": (0, 0, -g)
+        },
+    )  # fmt: skip
+    state = ShellState(m)
+    state.advance(6e-3)
+    before, start, speed = state.obstacles[0, 11:14].copy(), state.time, 0.0
+    for _ in range(6):
+        state.advance(state.time + 1e-3)
+        speed = max(speed, np.abs(state.velocity[0]).max())
+    mean = (state.obstacles[0, 11:14] - before) / (state.time - start)
+    assert mean[2] == pytest.approx(-state.mass * g, rel=0.01)
+    # falling over the same time would give 3 m/s
+    assert speed < 5e-3
+    z = state.position[:, 2]
+    assert z[: len(x)] == pytest.approx(T / 2, rel=0.01)
+    assert z[len(x) :] == pytest.approx(1.5 * T, rel=0.01)
+
+
+def test_mass_on_a_guide_falls_freely():
+    ball = RigidObstacle(Shape.SPHERE, (0, 0, 1.0), radius=0.01, mass=2.0, guide=(0, 0, -1))
+    state = ShellState(block(ball, (0, 0, 0), (0, 0, -9.81)))
+    state.advance(1e-3)
+    assert state.obstacles[0, 2] == pytest.approx(-9.81 * state.time**2 / 2, rel=2e-3)
+    e = state.energies
+    assert abs(e["residual"]) < 1e-6 * e["kinetic"]

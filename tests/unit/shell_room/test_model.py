@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tests.unit.shell_room.structures import cantilever, tee, thrown
+from tests.unit.shell_room.structures import STEEL, cantilever, tee, thrown
 
 from crumple._core.shell import Element, ShellState
 from crumple.errors import InputError
@@ -11,7 +11,7 @@ from crumple.material import CowperSymonds, HardeningTable, JohnsonCook, Materia
 from crumple.shell import lower
 from crumple.shell.drives import velocity_of
 from crumple.shell.metal import in_words, shell_material
-from crumple.structure import ShellSettings
+from crumple.structure import ShellSettings, Structure
 
 COARSE = ShellSettings(element_size=12e-3)
 
@@ -200,6 +200,38 @@ def test_failure_strain_and_a_table_reach_the_elements():
     assert [list(column) for column in metal.table()] == [[0.0, 0.02, 0.3], [300e6, 350e6, 500e6]]
     assert metal.failure_strain == 0.4
     assert "tears at a plastic strain of 0.4" in in_words(given)
+
+
+def test_walls_of_other_metals_keep_theirs():
+    """A box whose flanges are of aluminium: they have a sheet and a density of their own."""
+    b, h, wall = 0.05, 0.03, 2e-3
+    corners = [(-b / 2, -h / 2), (b / 2, -h / 2), (b / 2, h / 2), (-b / 2, h / 2)]
+    walls = [
+        {
+            "points": [corners[i], corners[(i + 1) % 4]],
+            "thickness": wall,
+            "material": "soft" if i % 2 == 0 else None,
+        }
+        for i in range(4)
+    ]
+    soft = {"youngs_modulus": 70e9, "poissons_ratio": 0.33, "density": 2700.0, "yield_stress": 200e6}
+    box = Structure(
+        materials={"steel": STEEL, "soft": soft},
+        sections={"box": {"type": "walls", "walls": walls}},
+        nodes={"root": (0, 0, 0), "tip": (0.5, 0, 0)},
+        members={"beam": {"nodes": ("root", "tip"), "section": "box", "material": "steel"}},
+        supports={"clamp": {"node": "root", "fix": "all"}},
+    )
+    lowered = lower(box, COARSE)
+    model = lowered.model
+    assert {metal.density for metal in model.materials} == {7850.0, 2700.0}
+    height = np.abs(model.position[model.elements][:, :, 2]).min(axis=1)
+    flange = height > h / 2 - 1e-9
+    densities = np.array([model.materials[model.sheets[i].material].density for i in model.sheet])
+    assert np.array_equal(densities == 2700.0, flange)
+    mass = 0.5 * wall * 2 * (b * 2700.0 + h * 7850.0)
+    assert lowered.report.mass == pytest.approx(mass, rel=1e-9)
+    assert ShellState(model).mass == pytest.approx(mass, rel=1e-9)
 
 
 def test_fine_size_above_the_element_size_is_refused():
