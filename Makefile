@@ -20,7 +20,7 @@ SANITIZED := build/sanitized
 .PHONY: demo test check verify bench clean install
 
 demo: $(VENV)/installed $(TUBE)
-	$(BIN)/crumple compare $(TUBE) --out $(DEMO)
+	$(BIN)/crumple compare $(TUBE) --out $(DEMO) --second-mesh 2
 	@echo "Report: $(CURDIR)/$(DEMO)/report.html"
 
 out/tube_upright.yaml: examples/01_tube_bending.yaml

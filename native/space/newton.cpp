@@ -44,6 +44,24 @@ double Stepper::load(size_t link, const double* w) const {
     return load_factor(model_.hinges[hinge], frozen_[hinge], w);
 }
 
+// Rates that a law sees, a w_0 + (1 - a) w for a coupled hinge that slides on; see `FrozenSpaceHinge::lead`.
+void Stepper::seen_rate(size_t link, const double* w, double* seen) const {
+    const int n = system_.links()[link].laws;
+    const FrozenSpaceHinge* f = hinge_of(link) ? &frozen_[at(hinge_index(link))] : nullptr;
+    const double lead = f ? f->lead : 0;
+    for (int k = 0; k < n; k++) seen[k] = lead > 0 ? lead * f->w0[k] + (1 - lead) * w[k] : w[k];
+}
+
+// Multiplies the rates that a law sees.
+void Stepper::scale_rate(size_t link, double factor, double* w) const {
+    const int n = system_.links()[link].laws;
+    double seen[most_components];
+    seen_rate(link, w, seen);
+    const FrozenSpaceHinge* f = hinge_of(link) ? &frozen_[at(hinge_index(link))] : nullptr;
+    const double lead = f ? f->lead : 0;
+    for (int k = 0; k < n; k++) w[k] = lead > 0 ? (factor * seen[k] - lead * f->w0[k]) / (1 - lead) : factor * w[k];
+}
+
 // A locked hinge is nearly infinitely stiff, so a line search at the true ramps unlocks hinges one at a time.  So whole
 // steps are tried first; where they cycle, the ramps are widened and narrowed in steps, each a good start for the
 // next, with line search.
@@ -75,14 +93,10 @@ void Stepper::widen(double width, bool& narrowest) {
         if (!hinge_of(c)) continue;
         const SpaceHinge& hinge = *hinge_of(c);
         FrozenSpaceHinge& f = frozen_[at(hinge_index(c))];
-        const double least = ramp_width(hinge), wanted = std::max(width, least);
+        const double least = least_width(hinge), wanted = std::max(width, least);
         double* w = &w_[at(start(c) + system_.links()[c].held)];
-        double largest = 0;
-        for (int k = 0; k < size(hinge); k++) largest = std::max(largest, std::fabs(w[k]));
         // inside the ramp the moment is kept, so the rate shrinks with the width
-        if (wanted < f.width && largest < f.width) {
-            for (int k = 0; k < size(hinge); k++) w[k] *= wanted / f.width;
-        }
+        if (wanted < f.width && load(c, w) < 1) scale_rate(c, wanted / f.width, w);
         space::widen(hinge, f, wanted);
         if (wanted > least) narrowest = false;
     }
@@ -238,11 +252,11 @@ void Stepper::take_whole_step() {
             continue;
         }
         const bool locked = load(c, &w_[at(first)]) < 1;
-        double along = 0;
-        for (int k = 0; k < n; k++) along += w_[at(first + k)] * w_next_[at(first + k)];
-        if (!locked && along < 0) {
-            for (int k = 0; k < n; k++) w_next_[at(first + k)] = 0;
-        }
+        double along = 0, before[most_components], after[most_components];
+        seen_rate(c, &w_[at(first)], before);
+        seen_rate(c, &w_next_[at(first)], after);
+        for (int k = 0; k < n; k++) along += before[k] * after[k];
+        if (!locked && along < 0) scale_rate(c, 0, &w_next_[at(first)]);
         if (!locked) continue;
         const double over = load(c, &w_next_[at(first)]);
         if (over <= 1) continue;
@@ -256,8 +270,7 @@ void Stepper::take_whole_step() {
         bool largest = true;
         for (const int body : links[c].body) largest = largest && (body < 0 || overload_[c] >= worst_near_[at(body)]);
         if (largest) continue;
-        const int first = start(c) + links[c].held;
-        for (int k = 0; k < links[c].laws; k++) w_next_[at(first + k)] *= 0.999 / overload_[c];
+        scale_rate(c, 0.999 / overload_[c], &w_next_[at(start(c) + links[c].held)]);
     }
     velocity_.swap(next_);
     w_.swap(w_next_);

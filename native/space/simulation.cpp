@@ -18,6 +18,8 @@ double step_tolerance(double accuracy) { return step_share * accuracy * std::min
 constexpr double negligible_turn = 1e-9;
 // Share of the energy of a given motion that rounding leaves where the joints take it all.
 constexpr double negligible_share = 1e-9;
+// Rate at which locked hinges may creep, over the accuracy [rad/s]: in 0.1 s 1e-3 of the accuracy, in rad.
+constexpr double creep_share = 1e-2, widest_creep = 1e-5;
 constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
 constexpr long poll_interval = 20'000;  // solves times rows between calls of `poll`: some 10 ms
 // A condition that ends a stage is met to this share of its value.
@@ -46,6 +48,7 @@ double angle_between(const Quat& a, const Quat& b) { return norm(rotation_vector
 
 Simulation::Simulation(Model model, const Settings& settings)
     : model_(std::move(model)), settings_(settings), stepper_(model_), step_tolerance_(step_tolerance(settings.accuracy)) {
+    stepper_.set_narrowest_ramp(std::min(creep_share * settings.accuracy, widest_creep));
     state_ = stepper_.start();
     first_ = state_;
     stepper_.set_obstacles(std::vector<bool>(model_.contact.obstacles.size(), true), state_);

@@ -314,6 +314,7 @@ void Stepper::freeze(const State& s, double h) {
         const size_t held = at(system_.links()[c].held), k = at(component_[at(hinge)]);
         frozen_[at(hinge)] = space::freeze(model_.hinges[at(hinge)], s.hinge[at(hinge)], h, &s.turned[k], &rate0_[first + held],
                                            &w_[first + held]);
+        space::widen(model_.hinges[at(hinge)], frozen_[at(hinge)], least_width(model_.hinges[at(hinge)]));
     }
 }
 

@@ -8,6 +8,7 @@
 // are brought back to the held rows at the end of the step, hinges keeping their tangents: errors of third order.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "space/model.hpp"
@@ -50,6 +51,9 @@ public:
     void look_for_impact(State& state);
     Contacts& contacts() { return contacts_; }
     int rows() const { return system_.rows(); }
+    // Least half-width of a hinge's ramp around rest [rad/s], the rate at which locked ones creep.  Where many are locked, a
+    // narrow ramp leaves too few digits to the moments that equilibrium does not determine.
+    void set_narrowest_ramp(double width) { narrowest_ramp_ = width; }
     long solves() const { return solves_; }
 
 private:
@@ -93,6 +97,8 @@ private:
     void solve_once();
     bool balanced(double& slope);
     void take_whole_step();
+    void seen_rate(size_t link, const double* w, double* seen) const;
+    void scale_rate(size_t link, double factor, double* w) const;
     void stop_reversing(size_t link);
     double search(double slope_end);
     void widen(double width, bool& narrowest);
@@ -104,6 +110,7 @@ private:
     void mend_rates(State& s, double h);
     void show_forces(State& s, double h);
     int start(size_t link) const { return system_.start(link); }
+    double least_width(const SpaceHinge& hinge) const { return std::max(ramp_width(hinge), narrowest_ramp_); }
     const SpaceHinge* hinge_of(size_t link) const;
     int hinge_index(size_t link) const { return model_.joints[static_cast<size_t>(connections_[link].index)].hinge; }
 
@@ -131,6 +138,7 @@ private:
     int redundant_ = 0;
     std::vector<int> redundant_rows_;
     double speed_ = 0;                       // scale of rates
+    double narrowest_ramp_ = 0;
     long solves_ = 0;
 };
 

@@ -9,6 +9,8 @@ namespace {
 // A held row whose pivot is below this share of its diagonal is redundant: four digits above rounding.
 constexpr double redundancy = 1e-12;
 constexpr int refinements = 4;
+// Unknowns of laws are refined to this share of themselves.
+constexpr double law_tolerance = 1e-6, tiny = 1e-300;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -119,17 +121,21 @@ void System::solve(double* x, double tolerance) {
         rates(impulse_.data(), residual_.data());
         double worst = 0;
         for (size_t c = 0; c < links_.size(); c++) {
-            const int first = start(c);
-            for (int i = 0; i < links_[c].rows(); i++) {
+            const int first = start(c), held = links_[c].held, n = links_[c].rows();
+            double largest = 0;
+            for (int i = held; i < n; i++) largest = std::max(largest, std::fabs(x[first + i]));
+            // what impulses take is J M^-1 J^T x, with its sign turned
+            for (int i = 0; i < n; i++) {
                 const size_t k = at(first + i);
-                const bool held = i < links_[c].held;
-                // what impulses take is J M^-1 J^T x, with its sign turned
-                residual_[k] += rhs_[k] - (held ? 0 : x[k]);
-                worst = std::max(worst, std::fabs(residual_[k]) / (held ? 1 : std::sqrt(1 + diagonal_[k])));
+                residual_[k] += rhs_[k] - (i < held ? 0 : x[k]);
+                const double left = std::fabs(residual_[k]);
+                // a locked hinge's unknown is small beside what cancels in it
+                if (i < held) worst = std::max(worst, left / (tolerance + tiny));
+                else if (left > law_tolerance * largest) worst = std::max(worst, left / (law_tolerance * largest + tiny));
             }
         }
         // rounding: no better to be had
-        if (!(worst > tolerance) || worst > last / 4) return;
+        if (!(worst > 1) || worst > last / 4) return;
         last = worst;
         correction_ = residual_;
         matrix_.solve(correction_.data());

@@ -5,8 +5,8 @@ its head, 10 m/s against a rigid plane with friction 0.2.  Symmetric mode, Int. 
 179-208: P = 52.22 (c/h)^(1/3) s_0 h^2/4 = 28.4 kN.  Walls carry an imperfection of at most 0.02 mm; without
 it they fold outwards on all four sides at once (the extensional mode of stout tubes), as no real tube does.
 
-Tolerance 20 %: the formula is an upper bound of an assumed mechanism, corrected by a crush distance
-that was fitted to tests; which folds mix depends on the imperfection (docs/theory/shell_axial_crush.md).
+Tolerance 20 %: the formula is that of an assumed mechanism, held against tests of steel tubes, which harden;
+which folds mix in a perfectly plastic tube depends on the imperfection (docs/theory/shell_axial_crush.md).
 The folds' independent check: no side of an element passes through another element.
 """
 

@@ -202,10 +202,12 @@ def _folds(
         place = f"The {second} result folds in {where} (by {_deg(_most(motion))})"
         near = _across_joint(structure, motion, hinges)
         if near:
+            turns = [s.hinge(near) for s in (comparison.candidate, comparison.reference)]
+            alone, beside = (0.0 if turn is None else _most(turn) for turn in turns)
             yield (
                 f"{place}, at the joint beside hinge {near} of another member: both members share the "
-                "rotation of this "
-                "corner, and figures of that hinge alone cannot be compared.",
+                f"rotation of this corner, {_deg(beside + _most(motion))} together against {_deg(alone)} "
+                f"{first}, and figures of that hinge alone cannot be compared.",
                 True,
             )
             continue

@@ -15,6 +15,7 @@ from crumple.errors import InputError, Problem
 from crumple.multibody.assembly import Assembly, Cut, Piece, assemble
 from crumple.multibody.rigid import Floats, RigidMass
 from crumple.structure import FREEDOMS, Joint, PlacedHinge, Structure, placed_hinges
+from crumple.structure.geometry import cross
 
 GROUND = -1
 FREEDOM = {"x": 3, "y": 4, "z": 5}
@@ -151,8 +152,8 @@ def hinge_axes(structure: Structure, hinge: PlacedHinge) -> Floats:
     """Axes of a hinge as rows, (3, 3): along the member, and its bending axes, the hinge's own exactly."""
     x = structure.frame_of(hinge.member).x
     if hinge.axis == "y":
-        return np.array([x, hinge.direction, np.cross(x, hinge.direction)])
-    return np.array([x, np.cross(hinge.direction, x), hinge.direction])
+        return np.array([x, hinge.direction, cross(x, hinge.direction)])
+    return np.array([x, cross(hinge.direction, x), hinge.direction])
 
 
 def _held(structure: Structure) -> dict[str, set[str]]:
@@ -193,10 +194,10 @@ def joint_axes(joint: Joint) -> Floats:
         second = np.asarray(joint.second, float)
         second -= (second @ x) * x
         second /= np.linalg.norm(second)
-        return np.array([np.cross(x, second), x, second])
-    y = np.cross(np.eye(3)[int(np.argmin(np.abs(x)))], x)
+        return np.array([cross(x, second), x, second])
+    y = cross(np.eye(3)[int(np.argmin(np.abs(x)))], x)
     y /= np.linalg.norm(y)
-    return np.array([x, y, np.cross(x, y)])
+    return np.array([x, y, cross(x, y)])
 
 
 def _supports(assembly: Assembly, body: dict[int, int], held: dict[str, set[str]]) -> list[Connection]:

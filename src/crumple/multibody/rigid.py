@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from crumple.structure import Mass, Structure
+from crumple.section import Section
+from crumple.structure import Frame, Mass, Structure
 
 Floats = NDArray[np.float64]
 
@@ -46,17 +48,21 @@ def combined(parts: list[RigidMass]) -> RigidMass:
 
 def piece_mass(structure: Structure, member: str, start: float, end: float) -> RigidMass:
     """Mass of a member between two stations [m]: a uniform bar with its section's own rotary inertia."""
-    frame, section, material = (
-        structure.frame_of(member),
-        structure.section_of(member),
-        structure.material_of(member),
-    )
+    material = structure.material_of(member)
+    return _bar(structure.frame_of(member), structure.section_of(member), material.density, start, end)
+
+
+# asked for by every stage of lowering
+@lru_cache(maxsize=4096)
+def _bar(frame: Frame, section: Section, density: float, start: float, end: float) -> RigidMass:
     length = end - start
-    mass = section.mass_per_length(material.density) * length
-    about_y, about_z = (material.density * length * section.second_moment(axis) for axis in ("y", "z"))
+    mass = section.mass_per_length(density) * length
+    about_y, about_z = (density * length * section.second_moment(axis) for axis in ("y", "z"))
     slender = mass * length**2 / 12
     local = np.array([about_y + about_z, slender + about_y, slender + about_z])
-    return RigidMass(mass, frame.position((start + end) / 2), (frame.axes.T * local) @ frame.axes)
+    centre, inertia = frame.position((start + end) / 2), (frame.axes.T * local) @ frame.axes
+    centre.flags.writeable = inertia.flags.writeable = False
+    return RigidMass(mass, centre, inertia)
 
 
 def lump_mass(structure: Structure, mass: Mass) -> RigidMass:

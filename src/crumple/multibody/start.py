@@ -12,6 +12,7 @@ from crumple.multibody.assembly import Piece
 from crumple.multibody.linkage import GROUND, Linkage
 from crumple.multibody.rigid import Floats, RigidMass, lump_mass, piece_mass
 from crumple.structure import InitialVelocity, NodalImpulse, Structure
+from crumple.structure.geometry import cross
 
 
 class Parts(Protocol):
@@ -65,13 +66,13 @@ def start_in_space(
         if body != GROUND:
             arm = part.centre - linkage.bodies[body].centre
             momentum[body] += part.mass * velocity
-            spin[body] += part.inertia @ rate + np.cross(arm, part.mass * velocity)
+            spin[body] += part.inertia @ rate + cross(arm, part.mass * velocity)
     for given in impulses:
         body = linkage.node_body[given.node]
         if body != GROUND:
             arm = np.asarray(structure.nodes[given.node], float) - linkage.bodies[body].centre
             linear = np.asarray(given.impulse, float)
-            impulse[body, :3] += np.asarray(given.angular_impulse, float) + np.cross(arm, linear)
+            impulse[body, :3] += np.asarray(given.angular_impulse, float) + cross(arm, linear)
             impulse[body, 3:] += linear
     twists = [
         np.concatenate([np.linalg.solve(body.inertia, about), along / body.mass])
@@ -111,6 +112,6 @@ def rate_of(field: InitialVelocity) -> Floats:
 
 def velocity_at(field: InitialVelocity, point: Floats) -> Floats:
     """Velocity of a field at a point [m/s], (3,)."""
-    return np.asarray(field.translation, float) + np.cross(
+    return np.asarray(field.translation, float) + cross(
         rate_of(field), point - np.asarray(field.about, float)
     )

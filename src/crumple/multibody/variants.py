@@ -167,6 +167,8 @@ def _models(
     for i, combined in enumerate(distinct):
         try:
             new = changed(structure, dict(zip(slow, map(float, combined), strict=True)))
+            if any(name.startswith("nodes.") for name in slow):
+                refuse_spatial(new, run)
             model = lowered(new, run.duration)
             if model.topology != base.topology:
                 raise InputError("these values join other parts than the structure's own")

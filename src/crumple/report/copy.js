@@ -1,6 +1,7 @@
-// A button beside each table puts it on the clipboard, cells apart by tabs.
+// A button beside each table puts it on the clipboard, cells apart by tabs; what is folded away is printed.
 "use strict";
 (() => {
+  addEventListener("beforeprint", () => { for (const part of document.querySelectorAll("details")) part.open = true; });
   for (const table of document.querySelectorAll("table")) {
     const button = document.createElement("button");
     button.type = "button";

@@ -90,9 +90,10 @@ class LongRun:
 
 def output_times(run: ShellRun, begin: float, duration: float) -> Floats:
     """Times at which a stage's histories are noted [s]: the interval's multiples, its end, the pictures'."""
-    number = int(np.floor(duration / run.every * (1 + 1e-12)))
-    regular = begin + np.minimum(run.every * np.arange(number + 1), duration)
     end = begin + duration
+    first, last = (int(np.floor(t / run.every * (1 + 1e-12))) for t in (begin, end))
+    # one grid for all stages, so that filters find equal steps
+    regular = np.clip(run.every * np.arange(first, last + 1), begin, end)
     pictures = [t for t in picture_times(run) if begin < t < end]
     wanted = np.unique(np.concatenate([regular, [end], pictures]))
     apart = np.concatenate([[True], np.diff(wanted) > SAME_TIME * duration])

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from tests.verification.structures import cantilever, constant_law
+from tests.verification.structures import STEEL, TUBE, cantilever, constant_law
 
 from crumple.errors import InputError, Status
 from crumple.multibody import Run, solve_variants
 from crumple.multibody.lowered import lowered
-from crumple.structure import MultibodySettings, Outputs, changed
+from crumple.structure import MultibodySettings, Outputs, Structure, changed
 
 TURN = {"rotation": 8.0, "about": (0.0, 0.0, 0.0), "axis": (0.0, -1.0, 0.0)}
 RUN = Run(0.06, 0.01, MultibodySettings(accuracy=1e-3), Outputs(nodes=("tip",)))
@@ -149,3 +149,27 @@ def alone_with(structure, run):
 def test_parameters_that_do_not_exist_are_refused(tube, parameters, message):
     with pytest.raises(InputError, match=message):
         solve_variants(tube, RUN, parameters)
+
+
+def test_a_variant_that_leaves_the_plane_is_refused():
+    """The tip moved across the plane of motion turns the axis of the second member's hinge."""
+    tube = {"section": "tube", "material": "steel"}
+    law = constant_law(500.0)
+    bent = Structure(
+        materials={"steel": STEEL},
+        sections={"tube": TUBE},
+        nodes={"root": (0.0, 0.0, 0.0), "knee": (0.5, 0.0, 0.0), "tip": (1.0, 0.0, 0.0)},
+        members={
+            "near": {
+                **tube,
+                "nodes": ("root", "knee"),
+                "hinges": [{"name": "root", "at": "root", "law": law}],
+            },
+            "far": {**tube, "nodes": ("knee", "tip"), "hinges": [{"name": "knee", "at": "knee", "law": law}]},
+        },
+        supports={"clamp": {"node": "root", "fix": "all"}},
+        initial_velocity=[TURN],
+    )
+    table = solve_variants(bent, RUN, {"nodes.tip.1": [0.0, 0.2], "nodes.tip.2": 0.1}, threads=1)
+    assert table.status == (Status.COMPLETE, Status.REFUSED)
+    assert "not parallel" in table.reason[1]

@@ -9,6 +9,7 @@ from tests.unit.shell_room.structures import cantilever, structure, thrown
 from crumple.analysis import Analysis, solve
 from crumple.errors import InputError, Status
 from crumple.shell import LongRun, ShellRun, lower, solve_shell
+from crumple.shell.stepping import output_times
 from crumple.structure import Outputs, ShellSettings, Stage
 
 COARSE = ShellSettings(element_size=24e-3)
@@ -189,3 +190,9 @@ def test_analysis_with_stages_solves_and_keeps_its_stages(tmp_path):
     assert [stage["name"] for stage in summary(result)["stages"]] == ["a", "b"]
     write(result, tmp_path)
     assert read(tmp_path).equals(result)
+
+
+def test_outputs_of_all_stages_lie_on_one_grid():
+    given = run([{"name": "a", "duration": 1.0}], outputs=Outputs(pictures=(0.0,)))
+    assert output_times(given, 5.5e-4, 6e-4) == pytest.approx([5.5e-4, 6e-4, 8e-4, 1e-3, 1.15e-3])
+    assert output_times(given, 0.0, 5e-4) == pytest.approx([0.0, 2e-4, 4e-4, 5e-4])
