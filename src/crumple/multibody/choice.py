@@ -16,7 +16,7 @@ from crumple.multibody.mobility import mobility
 from crumple.multibody.plane import PARALLEL, plane_of
 from crumple.multibody.rigid import Floats
 from crumple.multibody.run import Run
-from crumple.structure import PlacedHinge, Structure, across_plane, placed_hinges
+from crumple.structure import FREEDOMS, PlacedHinge, Structure, across_plane, placed_hinges
 
 MOST_LOOPS = 8
 """Closed loops up to which the tree kernel is used: its cost grows with their square."""
@@ -79,6 +79,9 @@ def _reasons(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run) ->
     if loops > MOST_LOOPS:
         yield f"there are {loops} closed loops"
     normal = plane_of(structure, hinges).normal
+    leaning = _leaning(structure, normal)
+    if leaning is not None:
+        yield f"{leaning} holds a direction that leans to the plane across the hinges"
     if not mobility(linkage, locked=True).motions:
         return
     across = across_plane(structure, normal)
@@ -86,6 +89,17 @@ def _reasons(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run) ->
         yield f"{across} leads out of the plane across the hinges"
     if not any(GROUND in (c.first, c.second) for c in linkage.connections) and _lopsided(linkage, normal):
         yield "a floating structure is not symmetric to the plane across the hinges"
+
+
+def _leaning(structure: Structure, normal: Floats) -> str | None:
+    """Path of a support that holds some directions, of which one lies neither in the plane nor across it."""
+    for name, support in structure.supports.items():
+        for kind in (FREEDOMS[:3], FREEDOMS[3:]):
+            held = [freedom for freedom in kind if freedom in (*support.held, *support.driven)]
+            along = [abs(float(normal["xyz".index(freedom[-1])])) for freedom in held]
+            if len(held) < 3 and any(PARALLEL < part < 1.0 - PARALLEL for part in along):
+                return f"supports.{name}"
+    return None
 
 
 def _lopsided(linkage: Linkage, normal: Floats) -> bool:

@@ -40,6 +40,17 @@ def test_the_tree_kernel_serves_what_stays_in_a_plane():
     assert kernel(structure(members=loose, initial_velocity=across, supports={})) == "spatial"
 
 
+def test_a_support_that_leans_to_the_plane_needs_the_spatial_kernel():
+    nodes = {"a": (0, 0, 0), "b": (0.6, 0.8, 0)}
+    members = {"ab": member("a", "b", ("h", 0.3, {"axis": "y"}))}
+    held = {"clamp": {"node": "a", "fix": "all"}, "roller": {"node": "b", "fix": ("x",)}}
+    assert kernel(structure(nodes, members, supports=CLAMP)) == "tree"
+    assert kernel(structure(nodes, members, supports=held)) == "spatial"
+    assert (
+        kernel(structure(nodes, members, supports=held | {"roller": {"node": "b", "fix": ("z",)}})) == "tree"
+    )
+
+
 def test_joints_and_axes_that_are_not_parallel_need_the_spatial_kernel():
     assert kernel(pendulum(type="spherical")) == "spatial"
     crossed = {"ab": member("a", "b", ("h", 0.3, {"axis": "y"}), ("i", 0.6, {"axis": "z"}))}
