@@ -10,8 +10,9 @@ inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
-// Whole Newton steps before the guaranteed path is taken; they fail only by cycling, which is rare.
-constexpr int bold_limit = 32;
+// Whole Newton steps before the guaranteed path is taken; they fail only by cycling, which is rare.  In a chain hinges
+// come loose one after another, so a long one gets one more for every so many hinges.
+constexpr int bold_limit = 16, hinges_per_bold_step = 8;
 // Newton steps per width of the ramps before the step is given up and shortened: a fixed number, and some per
 // hinge, since in the worst case (an impulse on the end of a long chain) hinges lock and let go one at a time.
 constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
@@ -29,7 +30,7 @@ bool Stepper::newton() {
     std::fill(impedance_.begin(), impedance_.end(), 0.0);
     std::fill(rhs_.begin(), rhs_.end(), 0.0);
     const int limit = newton_limit + newton_limit_per_hinge * static_cast<int>(frozen_.size());
-    if (all_set_valued_ ? descend(bold_limit, true) : descend(limit, false)) return true;
+    if (all_set_valued_ ? descend(bold_limit + static_cast<int>(frozen_.size()) / hinges_per_bold_step, true) : descend(limit, false)) return true;
     Real width = 1;
     for (const Real& w : w_) width = max(width, fabs(w));
     if (!std::isfinite(value(width))) return false;
