@@ -20,6 +20,8 @@ constexpr double narrowing = 1e-1;
 constexpr double impulse_tolerance = 1e-9;
 // Energy that a Newton step could still move, relative to the kinetic energy: below it is rounding.
 constexpr double energy_rounding = 1e-14;
+// Energy [J] that is no motion at all: what friction leaves of a speed dies away below the smallest number.
+constexpr double no_energy = 1e-60;
 // Rates of held rows and of stiff laws are met to this share of the speed; what is left is mended at the step's end.
 constexpr double rate_tolerance = 1e-10;
 
@@ -241,7 +243,7 @@ bool Stepper::balanced(double& slope) {
             moved += std::fabs(step);
         }
     }
-    return all || moved < energy_rounding * energy_;
+    return all || moved <= energy_rounding * energy_ + no_energy;
 }
 
 // A contact that would slide back is first put to rest.
