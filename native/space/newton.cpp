@@ -18,6 +18,10 @@ constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
 constexpr double narrowing = 1e-1;
 // Relative accuracy of a law's impulse; piecewise linear laws reach rounding, curved ones converge to this.
 constexpr double impulse_tolerance = 1e-9;
+// Energy that a Newton step could still move, relative to the kinetic energy: below it is rounding.
+constexpr double energy_rounding = 1e-14;
+// Energy [J] that is no motion at all: what friction leaves of a speed dies away below the smallest number.
+constexpr double no_energy = 1e-60;
 // Rates of held rows and of stiff laws are met to this share of the speed; what is left is mended at the step's end.
 constexpr double rate_tolerance = 1e-10;
 
@@ -67,8 +71,17 @@ void Stepper::scale_rate(size_t link, double factor, double* w) const {
 // next, with line search.
 bool Stepper::newton() {
     const int limit = newton_limit + newton_limit_per_hinge * static_cast<int>(frozen_.size());
+    energy_ = 0;
+    for (size_t i = 0; i < free_.size(); i++) {
+        energy_ += (model_.bodies[i].mass * dot(free_[i].v, free_[i].v) + dot(free_[i].w, inertia_[i] * free_[i].w)) / 2;
+    }
+    const std::vector<Twist> velocity = velocity_;
+    const std::vector<double> w = w_;
     // without inertia a locked hinge is so stiff that the rates which unlock it drown in rounding: wide ramps first
     if (!stage_.quasi_static && (all_set_valued_ ? descend(bold_limit, true) : descend(limit, false))) return true;
+    // what cycled may have strayed far
+    velocity_ = velocity;
+    w_ = w;
     double width = 1;
     for (size_t c = 0; c < connections_.size(); c++) {
         // a contact's normal rate is no slip
@@ -209,6 +222,7 @@ void Stepper::solve_once() {
 bool Stepper::balanced(double& slope) {
     const std::vector<Link>& links = system_.links();
     bool all = true;
+    double moved = 0;
     slope = 0;
     // friction on a point that is hardly pressed counts against the strongest contact
     double struck = 0;
@@ -224,10 +238,12 @@ bool Stepper::balanced(double& slope) {
             if (hinge_of(c)) scale += impulse_scale(*hinge_of(c), frozen_[at(hinge_index(c))], &w_next_[at(first)], k);
             if (is(c, Kind::contact)) scale += struck;
             if (!(std::fabs(left) <= impulse_tolerance * scale)) all = false;
-            slope += left * (w_next_[at(first + k)] - w_[at(first + k)]);
+            const double step = left * (w_next_[at(first + k)] - w_[at(first + k)]);
+            slope += step;
+            moved += std::fabs(step);
         }
     }
-    return all;
+    return all || moved <= energy_rounding * energy_ + no_energy;
 }
 
 // A contact that would slide back is first put to rest.

@@ -139,6 +139,7 @@ private:
     std::vector<int> redundant_rows_;
     double speed_ = 0;                       // scale of rates
     double narrowest_ramp_ = 0;
+    double energy_ = 0;                      // kinetic energy of the free motion [J]
     long solves_ = 0;
 };
 

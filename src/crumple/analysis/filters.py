@@ -72,6 +72,7 @@ def _channels(structure: Structure, outputs: Outputs) -> Iterator[str]:
         yield from (f"obstacle.{obstacle}.force.{axis}" for axis in "xyz")
     yield from outputs.section_rotations
     yield from outputs.distances
+    yield from outputs.clearances
 
 
 def _problems(

@@ -7,9 +7,10 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from crumple.multibody.poses import Poses, piece_at
-from crumple.multibody.rigid import Floats
+from crumple.multibody.rigid import Floats, lump_mass, piece_mass
 from crumple.multibody.solved import HingeHistory, Solved
 from crumple.result import Channel, HingeSummary
+from crumple.result.clearance import clearance
 from crumple.structure import Outputs, Structure
 from crumple.structure.bending import bending_axis
 
@@ -75,6 +76,40 @@ def distance_channels(structure: Structure, poses: Poses, outputs: Outputs) -> I
         places = [poses.place(poses.node_body[node], point)[0] for node, point in nodes]
         before = float(np.linalg.norm(ends[1] - ends[0]))
         yield Channel(name, "m", np.linalg.norm(places[1] - places[0], axis=1) - before)
+
+
+def clearance_channels(structure: Structure, poses: Poses, outputs: Outputs) -> Iterator[Channel]:
+    """Least distance between a space that moves with a member and the others, negative inside."""
+    for name, asked in outputs.clearances.items():
+        middle = structure.frame_of(asked.moves_with).length / 2.0
+        carrier = piece_at(poses.pieces, asked.moves_with, middle).body
+        corners = [poses.place(carrier, np.asarray(point, float))[0] for point in asked.points]
+        bars, radii = [], []
+        for member in asked.members or [other for other in structure.members if other != asked.moves_with]:
+            frame, outline = structure.frame_of(member), structure.section_of(member).outer_outline()
+            for piece in poses.pieces[member]:
+                ends = [poses.place(piece.body, frame.position(s))[0] for s in (piece.start, piece.end)]
+                bars.append(np.stack(ends, axis=1))
+                radii.append(float(np.ptp(outline, axis=0).max()) / 2.0)
+        least = clearance(np.stack(corners, axis=1), np.stack(bars, axis=1), np.array(radii))
+        yield Channel(name, "m", least)
+
+
+def gravity_channels(structure: Structure, poses: Poses) -> Iterator[Channel]:
+    """Work that gravity has done since the start; none without gravity."""
+    gravity = np.asarray(structure.gravity, float)
+    if not gravity.any():
+        return
+    parts = [
+        (piece_mass(structure, member, piece.start, piece.end), piece.body)
+        for member, pieces in poses.pieces.items()
+        for piece in pieces
+    ]
+    parts += [(lump_mass(structure, lump), poses.node_body[lump.node]) for lump in structure.masses.values()]
+    work = sum(
+        part.mass * ((poses.place(body, part.centre)[0] - part.centre) @ gravity) for part, body in parts
+    )
+    yield Channel("energy.gravity", "J", np.asarray(work, float))
 
 
 def summaries(hinges: Iterable[HingeHistory], errors: Floats | None = None) -> dict[str, HingeSummary]:

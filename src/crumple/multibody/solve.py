@@ -12,8 +12,10 @@ from crumple.multibody import trust
 from crumple.multibody.choice import why_spatial
 from crumple.multibody.collapse import changed_capacities, collapse_log, not_unique
 from crumple.multibody.histories import (
+    clearance_channels,
     distance_channels,
     energy_channels,
+    gravity_channels,
     hinge_channels,
     node_channels,
     section_channels,
@@ -122,8 +124,14 @@ def _result(
         *node_channels(structure, solved.poses, run.outputs.nodes),
         *section_channels(structure, solved.poses, run.outputs),
         *distance_channels(structure, solved.poses, run.outputs),
+        *clearance_channels(structure, solved.poses, run.outputs),
     ]
-    channels = [*hinge_channels(solved.hinges), *energy_channels(solved), *solved.further, *wanted]
+    channels = [
+        *hinge_channels(solved.hinges),
+        *energy_channels(solved),
+        *gravity_channels(structure, solved.poses),
+    ]
+    channels += [*solved.further, *wanted]
     hinges = summaries(solved.hinges, errors)
     openings, threshold = collapse_log(solved.hinges, solved.time)
     return Result(

@@ -18,6 +18,7 @@ from crumple.report.style import (
     Line,
     add_axes,
     draw_lines,
+    label_room,
     name_axes,
     new_figure,
     short,
@@ -33,7 +34,7 @@ MAX_OUTPUTS = 12
 _DEGREES = math.degrees(1.0)
 _PANEL = 1.75  # height of the axes of a panel [in]
 _HEAD, _FOOT = 0.26, 0.34  # above the axes for their name, below them for the time axis [in]
-_LEFT, _RIGHT = 0.42, 0.62  # for numbers and for names at the ends of lines [in]
+_LEFT = 0.42  # for numbers [in]
 _EDGE = 0.12  # for half of the last number of the time axis [in]
 
 _LEDGER = (
@@ -74,7 +75,8 @@ def rotations(result: Result) -> str | None:
         return None
     figure = new_figure(WIDTH, _HEAD + _PANEL + _FOOT)
     # one hinge: radians stand right of its rotation; several: their names stand right of both
-    right = (_LEFT, _EDGE) if len(turned) == 1 else (_RIGHT, _RIGHT)
+    room = label_room([line.name for line in turned if not line.faint])
+    right = (_LEFT, _EDGE) if len(turned) == 1 else (room, room)
     width = (WIDTH - 2 * _LEFT - sum(right)) / 2
     axes = add_axes(figure, _LEFT, _FOOT, width, _PANEL)
     over_time(axes, result.time, turned, "Rotation, deg")
@@ -99,7 +101,7 @@ def energy_over_rotation(result: Result) -> str | None:
     if not lines or not len(result.time):
         return None
     figure = new_figure(HALF, _HEAD + _PANEL + _FOOT)
-    right = _RIGHT if len(lines) > 1 else _EDGE
+    right = label_room([line.name for line in lines if not line.faint]) if len(lines) > 1 else _EDGE
     axes = add_axes(figure, _LEFT, _FOOT, HALF - _LEFT - right, _PANEL)
     axes.set_xlim(*spread([line.x for line in lines], margin=0.04))
     axes.set_ylim(*spread([line.y for line in lines]))

@@ -201,6 +201,7 @@ def _render(
         collapse_table=wording.collapse_table(result),
         stage_table=wording.stage_table(result),
         output_table=wording.output_table(result),
+        fall_table=wording.fall_table(result),
         law_table=wording.law_table(result),
         assumptions=result.assumptions,
         provenance_table=_provenance(result, wording.Table),

@@ -121,7 +121,7 @@ def _description(states: States) -> str:
 
 def picture_time(time: float) -> str:
     """Time of a picture [s] as people read it."""
-    return f"{time * 1e3:.4g} ms"
+    return f"{time:.4g} s" if time > 2.0 else f"{time * 1e3:.4g} ms"
 
 
 def _columns(aspect: float, n: int) -> int:

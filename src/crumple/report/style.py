@@ -74,6 +74,7 @@ _SETTINGS: dict[Any, Any] = {
     "grid.color": GRID,
     "grid.linewidth": 0.6,
 }
+_LABEL = 20  # characters of a name at the end of a curve
 _LOCK = threading.Lock()  # matplotlib keeps its settings in one global table
 _TAG = re.compile(r"<[^>]+>")
 _FONT = re.compile(r"(font-family:|font: [^;\"]*?[\d.]+px) [^;\"]+")
@@ -150,6 +151,11 @@ def draw_lines(axes: Axes, lines: Sequence[Line], *, labels: bool = True) -> Non
         _label_ends(axes, [line for line in lines if not line.faint])
 
 
+def label_room(names: Sequence[str]) -> float:
+    """Room for names at the ends of curves [in]."""
+    return 0.1 + 0.056 * max((len(short(name, _LABEL)) for name in names), default=0)
+
+
 def _label_ends(axes: Axes, lines: Sequence[Line]) -> None:
     low, high = axes.get_ylim()
     height = axes.get_window_extent().height / axes.figure.dpi * 72
@@ -175,7 +181,7 @@ def _label_ends(axes: Axes, lines: Sequence[Line]) -> None:
         if x < 0.98 * edge:
             axes.plot([x, edge], [height, place], color=colour, linewidth=0.4, transform=transform)
         axes.annotate(
-            short(line.name, 20),
+            short(line.name, _LABEL),
             (edge, place),
             (4, 0),
             xycoords=transform,

@@ -6,11 +6,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from crumple.report.scales import display_unit, output_groups
 from crumple.result import HingeSummary, Result
 from crumple.units import format_quantity
 
 _DEGREES = math.degrees(1.0)
+_FALL = 0.05  # work of gravity over the largest energy, from which a fall is worth a table
 
 
 @dataclass(frozen=True)
@@ -222,6 +225,32 @@ def output_table(result: Result) -> Table:
     if still:
         caption += f" Zero throughout: {', '.join(still)}."
     return Table(caption, heads, rows)
+
+
+def fall_table(result: Result) -> Table:
+    """Work of gravity from the highest place of the centre of mass to the end, and who took it."""
+    work = result.channels.get("energy.gravity")
+    empty = Table("", (), [])
+    if work is None or not len(work.values):
+        return empty
+    highest = int(np.argmin(work.values))
+    fall = float(work.values[-1] - work.values[highest])
+    put_in = max(float(np.max(np.abs(result["energy.kinetic"]))), float(np.max(np.abs(work.values))))
+    if not fall > _FALL * put_in:
+        return empty
+    rows = [("M g Δh, from the highest place of the centre of mass to the end", fall)]
+    rows += [("0.75 M g Δh, the reference energy of UN R66 for calculations", 0.75 * fall)]
+    taken = {
+        "Absorbed by hinges": "energy.dissipated",
+        "By contact": "energy.contact",
+        "By friction": "energy.friction",
+        "Kinetic at the end": "energy.kinetic",
+    }
+    rows += [(name, float(result[key][-1])) for name, key in taken.items() if key in result.channels]
+    unit, cells = column([value for _, value in rows], "J")
+    shares = [percent(value / fall) for _, value in rows]
+    named = [(name, cell, share) for (name, _), cell, share in zip(rows, cells, shares, strict=True)]
+    return Table("Energy of the fall.", ("Energy", f"{unit}", "of M g Δh"), named)
 
 
 def law_table(result: Result) -> Table:

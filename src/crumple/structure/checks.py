@@ -64,6 +64,11 @@ def output_problems(outputs: Outputs, structure: Structure, defined: Names | Non
         for i, node in enumerate(outputs.nodes)
         for problem in unknown("node", node, nodes, f"outputs.nodes[{i}]")
     ]
+    for name, clearance in outputs.clearances.items():
+        where = f"outputs.clearances.{name}"
+        problems += unknown("member", clearance.moves_with, members, f"{where}.moves_with")
+        for i, member in enumerate(clearance.members or ()):
+            problems += unknown("member", member, members, f"{where}.members[{i}]")
     for name, distance in outputs.distances.items():
         where = f"outputs.distances.{name}"
         problems += unknown("node", distance.start, nodes, f"{where}.from")

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from crumple.structure.mapping import FrozenMapping
-from crumple.structure.quantity import NonNegativeLength, NonNegativeTime, PositiveTime
+from crumple.structure.quantity import NonNegativeLength, NonNegativeTime, Position, PositiveTime
 from crumple.structure.spec import Name, Named, Spec
 
 MOST_PICTURES = 1000
@@ -43,6 +43,20 @@ class Distance(Spec):
     """Second node."""
 
 
+class Clearance(Spec):
+    """Least distance between a plane space that must stay free and the members around it, negative inside.
+
+    A member counts as a round bar as thick as its section is deep or wide, whichever is more.
+    """
+
+    points: Annotated[tuple[Position, ...], Field(min_length=3, max_length=100)]
+    """Corners of the space at the start, in order, in one plane; across it the space has no end."""
+    moves_with: Name
+    """Member whose middle carries the space along."""
+    members: tuple[Name, ...] | None = None
+    """Members that must stay outside; without it all others."""
+
+
 class Filter(Spec):
     """A channel passed through a channel frequency class of SAE J211 / ISO 6487."""
 
@@ -65,6 +79,8 @@ class Outputs(Spec):
     """Forces and moments in sections of members, by name; multibody runs alone."""
     distances: Named[Distance] = FrozenMapping()
     """Changes of distances between nodes, by channel name; negative where the nodes come nearer."""
+    clearances: Named[Clearance] = FrozenMapping()
+    """Distances between spaces that must stay free and members, by channel name."""
     filters: Named[Filter] = FrozenMapping()
     """Filtered channels, by the name of the new channel."""
     pictures: Annotated[tuple[NonNegativeTime, ...], Field(max_length=MOST_PICTURES)] = ()
