@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from crumple.hinge import Form, SofteningVariable, tributary_stiffness
+from crumple.hinge import Form, Freedom, SofteningVariable, tributary_stiffness
 from crumple.multibody.linkage import link
 from crumple.multibody.mobility import free_parts
 from crumple.multibody.solved import Solved, Solver
@@ -104,6 +104,11 @@ def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solv
     return tuple(found)
 
 
+def _bends_both_ways(hinge: PlacedHinge) -> bool:
+    """Whether it turns about both section axes, so that nothing that bends it is carried rigidly."""
+    return hinge.spatial is not None and {Freedom.Y, Freedom.Z} <= set(hinge.spatial.freedoms)
+
+
 def _of_hinge(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -> list[str]:
     """Sentences about one hinge; those that many hinges share read the same."""
     law, found = hinge.law, list(hinge.law.validity.warnings)
@@ -115,7 +120,7 @@ def _of_hinge(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -
         backed = math.degrees(law.validity.rotation_max)
         found.append(f"{turned}; its law is backed up to {backed:.1f} deg only ({law.validity.basis})")
     normal = structure.bending_normal
-    if normal is not None:
+    if normal is not None and not _bends_both_ways(hinge):
         off = math.degrees(math.acos(min(1.0, abs(float(hinge.direction @ np.asarray(normal))))))
         if off > OFF_AXIS:
             found.append(
