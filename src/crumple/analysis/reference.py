@@ -63,7 +63,10 @@ def _tables(
                 # a law in place has the keys of a named one
                 base = _common(found)
                 inner = inner if base is None else COMMON[base]
-                yield from _tables(f"{inner}, type {kind.default}" if kind else inner, found, seen)
+                several = kind is not None and not kind.is_required()
+                yield from _tables(
+                    f"{inner}, type {kind.default}" if kind and several else inner, found, seen
+                )
 
 
 def _common(model: type[BaseModel]) -> type[BaseModel] | None:

@@ -85,14 +85,15 @@ def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solv
         f"Material {name}: {spec.statement}" for name, spec in structure.materials.items() if spec.statement
     ]
     kinetic = float(solved.energy["kinetic"][0])
-    vanished = max(solved.given - kinetic, solved.lost)
+    # later stages add motion that is not there at the start
+    vanished = solved.lost if len(solved.stages) > 1 else max(solved.given - kinetic, solved.lost)
     if not solved.struck and vanished > LOST_SHARE * max(solved.given, kinetic):
         found.append(
             f"{vanished:.4g} J of the given {max(solved.given, kinetic + solved.lost):.4g} J is lost "
             "at the start: the given motion does not fit the supports and hinges."
         )
     stored = sum(_elastic_limit(structure, hinge, hinges[hinge.name]) for hinge in placed)
-    total = kinetic + float(abs(solved.energy["external_work"]).max())
+    total = max(kinetic, solved.given - solved.lost) + float(abs(solved.energy["external_work"]).max())
     if total > 0.0 and stored > ELASTIC_SHARE * total:
         found.append(
             f"The bars are rigid, but the members could store up to {stored:.3g} J elastically "

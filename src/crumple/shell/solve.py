@@ -14,7 +14,7 @@ from crumple.shell import trust
 from crumple.shell.contour import Floats
 from crumple.shell.histories import channels_of, summaries
 from crumple.shell.model import Lowered, lower
-from crumple.shell.record import ENERGIES
+from crumple.shell.record import ENERGIES, Record
 from crumple.shell.shapes import states_of
 from crumple.shell.stepping import Cancel, Hooks, LongRun, Progress, ShellRun, Stepping, with_place
 from crumple.structure import Structure
@@ -91,7 +91,7 @@ def _result(structure: Structure, run: ShellRun, stepping: Stepping, status: Sta
         warnings=trust.warnings(structure, lowered, record, state)
         + trust.slow_warnings(run.stages, stepping.ended, record),
         assumptions=trust.assumptions(structure, lowered, run.settings),
-        provenance=Provenance("", "", state.isa, run.threads, _settings(run, lowered, state)),
+        provenance=Provenance("", "", state.isa, run.threads, _settings(run, lowered, state, record)),
         stages=stepping.ended if run.stages else (),
         output_names=tuple(
             channel.name for channel in channels if channel.name in asked or channel.name.startswith(prefixes)
@@ -104,7 +104,9 @@ def _at(channel: Channel, times: Floats, noted: Floats) -> Channel:
     return Channel(channel.name, channel.unit, np.interp(times, noted, channel.values))
 
 
-def _settings(run: ShellRun, lowered: Lowered, state: ShellState) -> dict[str, float | int | str]:
+def _settings(
+    run: ShellRun, lowered: Lowered, state: ShellState, record: Record
+) -> dict[str, float | int | str]:
     given = {
         key: value for key, value in run.settings.model_dump(mode="json").items() if value not in (None, [])
     }
@@ -120,12 +122,8 @@ def _settings(run: ShellRun, lowered: Lowered, state: ShellState) -> dict[str, f
         "steps": state.steps,
         "added_mass": state.added_mass,
         "deepest_penetration": state.deepest_penetration,
-        "largest_hourglass_energy": _largest(state, "hourglass"),
+        "largest_hourglass_energy": float(record["energy"][:, ENERGIES.index("hourglass")].max()),
     }
-
-
-def _largest(state: ShellState, name: str) -> float:
-    return float(state.energies[name]) if name in ENERGIES else 0.0
 
 
 def _named(error: InputError, lowered: Lowered) -> InputError:

@@ -104,6 +104,12 @@ def warnings(structure: Structure, lowered: Lowered, record: Record, state: Shel
             found.append(
                 f"Walls went {row[-1]:.2g} half thicknesses into obstacle {name}: it could not hold them."
             )
+    torn = int((state.element_field("alive") < 0.5).sum())
+    if torn:
+        found.append(
+            f"{torn} of {len(state.model.elements)} elements have torn and are gone: where walls tear "
+            "depends on the size of the elements."
+        )
     if state.added_mass > ADDED_SHARE * state.mass:
         found.append(f"Mass scaling added {state.added_mass:.3g} kg to {state.mass:.3g} kg of walls.")
     kinetic, given = float(energy["kinetic"][0]), lowered.start.given_energy

@@ -13,6 +13,7 @@ from itertools import combinations, product
 import numpy as np
 
 from crumple.errors import Problem
+from crumple.structure.geometry import Floats
 from crumple.structure.hinge_axes import AxisLaws, HingeAxes
 from crumple.structure.hinge_checks import inertia_problems, place_problems
 from crumple.structure.joint_checks import bare_node_problems, joint_problems
@@ -27,6 +28,10 @@ COINCIDENT = 1e-6
 """Distance [m] below which two nodes are one place: a thousandth of a wall, far above rounding."""
 JUMP = 1e-12
 """Prescribed displacement [m] or rotation [rad] at the start that is still rounding."""
+FLAT = 1e-9
+"""Area over the square of the size below which a polygon has none."""
+UNEVEN = 1e-3
+"""Distance from its plane over the size up to which a polygon counts as plane."""
 KINDS = ("nodes", "members", "sections", "materials", "hinge_laws", "supports", "obstacles")
 
 Names = Mapping[str, Iterable[str]]
@@ -67,6 +72,7 @@ def output_problems(outputs: Outputs, structure: Structure, defined: Names | Non
     for name, clearance in outputs.clearances.items():
         where = f"outputs.clearances.{name}"
         problems += unknown("member", clearance.moves_with, members, f"{where}.moves_with")
+        problems += _shape_problems(np.asarray(clearance.points, float), f"{where}.points")
         for i, member in enumerate(clearance.members or ()):
             problems += unknown("member", member, members, f"{where}.members[{i}]")
     for name, distance in outputs.distances.items():
@@ -90,6 +96,20 @@ def output_problems(outputs: Outputs, structure: Structure, defined: Names | Non
                 outside(f"{where}.{key}", s, length) for key, s in stations if s > length * (1.0 + 1e-9)
             ]
     return problems
+
+
+def _shape_problems(corners: Floats, where: str) -> Iterator[Problem]:
+    """Corners that span no area or do not lie in one plane."""
+    arms = corners[1:] - corners[0]
+    normal = np.cross(arms[:-1], arms[1:]).sum(axis=0)
+    size, area = float(np.abs(arms).max()), float(np.linalg.norm(normal))
+    todo = "correct the points"
+    if area <= FLAT * size**2 or not arms[0].any():
+        what, came = "the space has no area", "corners in a line or at one place, or sides that cross"
+        yield Problem(what, came, "corners in order around it", todo, where)
+    elif float(np.abs(arms @ normal).max()) > UNEVEN * size * area:
+        what, came = "the corners do not lie in one plane", f"{len(corners)} corners"
+        yield Problem(what, came, "corners in one plane", todo, where)
 
 
 def shell_problems(

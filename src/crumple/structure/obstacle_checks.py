@@ -16,6 +16,8 @@ from crumple.structure.structure import Structure
 
 JUMP = 1e-12
 """Prescribed displacement [m] or rotation [rad] at the start that is still rounding."""
+ALONG = np.linspace(0.0, 1.0, 201)
+"""Places along a member that are held against an obstacle."""
 INSIDE = 1e-6
 """Depth [m] of a node in an obstacle that is still rounding."""
 
@@ -41,6 +43,19 @@ def obstacle_problems(structure: Structure, known: Mapping[str, set[str]]) -> It
             if depth > INSIDE:
                 what, todo = f"the node '{node}' starts inside the obstacle", "move the node or the obstacle"
                 yield Problem(what, f"{1e3 * depth:.4g} mm deep", "outside it", todo, where)
+        yield from _members_inside(structure, obstacle, where)
+
+
+def _members_inside(structure: Structure, obstacle: Obstacle, where: str) -> Iterator[Problem]:
+    """Members whose line starts inside although their ends do not."""
+    for name in structure.members if obstacle.members is None else obstacle.members:
+        if not structure.has_line(name):
+            continue
+        first, second = (np.asarray(structure.nodes[node], float) for node in structure.members[name].nodes)
+        gaps = [gap(obstacle, first + share * (second - first)) for share in ALONG]
+        if min(gaps[0], gaps[-1]) >= -INSIDE > min(gaps):
+            what, todo = f"the member '{name}' starts inside the obstacle", "move the member or the obstacle"
+            yield Problem(what, f"{-1e3 * min(gaps):.4g} mm deep", "outside it", todo, where)
 
 
 def gap(obstacle: Obstacle, point: Floats) -> float:
@@ -112,7 +127,12 @@ def stage_problems(
 
 def _until_problems(until: Until, stage: Stage, structure: Structure, where: str) -> Iterator[Problem]:
     """Conditions that look at an obstacle that is not there or does not move."""
-    if until.of in structure.obstacles and until.of not in (stage.obstacles or structure.obstacles):
+    there = structure.obstacles if stage.obstacles is None else stage.obstacles
+    obstacle = structure.obstacles.get(until.of or "")
+    if until.displacement is not None and obstacle is not None and not (obstacle.driven or obstacle.mass):
+        what, todo = f"the obstacle '{until.of}' never moves", "add 'motion', 'velocity' or 'mass' to it"
+        yield Problem(what, str(until.of), "an obstacle that moves", todo, f"{where}.of")
+    if obstacle is not None and until.of not in there:
         what, todo = f"the obstacle '{until.of}' is not there in this stage", "add it to 'obstacles'"
         yield Problem(what, str(until.of), ", ".join(stage.obstacles or ()), todo, f"{where}.of")
     support = structure.supports.get(until.of or "")

@@ -67,6 +67,8 @@ def test_wrong_clearances_are_refused():
         ("moves_with: post", "moves_with: past", "no member 'past'"),
         ("members: [bar]", "members: [bor]", "no member 'bor'"),
         (", [2 m, 0 m, -1.5 m], [-1 m, 0 m, -1.5 m]]", "]", "clearances"),
+        ("[2 m, 0 m, -1.5 m], [-1 m, 0 m, -1.5 m]]", "[3 m, 0 m, -2 m]]", "no area"),
+        ("[2 m, 0 m, -1.5 m], [-1 m", "[2 m, 1 m, -1.5 m], [-1 m", "in one plane"),
     ):
         with pytest.raises(InputError, match=says):
             loads(SWINGING.replace(old, new))

@@ -93,6 +93,11 @@ def test_wrong_obstacle_is_refused(name, keys):
     assert found[0].where.endswith(key)
 
 
+def test_member_that_starts_inside_is_refused_although_its_nodes_do_not(keys):
+    with pytest.raises(InputError, match="the member 'arm' starts inside"):
+        Structure(**keys, obstacles={"ball": {**BALL, "point": (0.5, 0, 0.05)}})
+
+
 def test_obstacle_and_support_of_one_name_are_refused(keys):
     with pytest.raises(InputError, match="both called 'clamp'"):
         Structure(**keys, obstacles={"clamp": BALL})

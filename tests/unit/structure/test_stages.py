@@ -57,6 +57,8 @@ WRONG = {
     "of": ({"until": ({"force": 1, "of": "rom"},)}, "until[0].of", "no obstacle or support 'rom'"),
     "absent": ({"obstacles": ("wall",), "until": ({"force": 1, "of": "ram"},)}, "until[0].of", "not there"),
     "clamp": ({"until": ({"force": 1, "of": "clamp"},)}, "until[0].of", "not driven"),
+    "still": ({"until": ({"displacement": 1, "of": "wall"},)}, "until[0].of", "never moves"),
+    "none there": ({"obstacles": (), "until": ({"force": 1, "of": "ram"},)}, "until[0].of", "not there"),
     "between": ({"until": ({"distance": 1, "between": ("root", "tap")},)}, "until[0].between[1]", "'tap'"),
     "impulse": ({"impulses": ({"node": "x"},)}, "impulses[0].node", "no node 'x'"),
     "nodes": ({"initial_velocity": ({"nodes": ("x",)},)}, "initial_velocity[0].nodes[0]", "no node 'x'"),
