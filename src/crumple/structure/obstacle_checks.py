@@ -104,6 +104,7 @@ def stage_problems(
         if stage.name in [other.name for other in stages[:i]]:
             what = f"two stages are called '{stage.name}'"
             problems.append(Problem(what, stage.name, "a name of its own", "rename one", f"{where}.name"))
+        problems += _thrown(stage, structure, where) if i == 0 else ()
         for j, name in enumerate(stage.drive or ()):
             problems += unknown("obstacle or support", name, moving, f"{where}.drive[{j}]")
         for j, name in enumerate(stage.obstacles or ()):
@@ -123,6 +124,16 @@ def stage_problems(
                 place = f"{where}.initial_velocity[{j}].members[{k}]"
                 problems += unknown("member", member, names("members"), place)
     return problems
+
+
+def _thrown(stage: Stage, structure: Structure, where: str) -> Iterator[Problem]:
+    """Masses that would start with a velocity in a stage without inertia."""
+    for name in structure.obstacles if stage.obstacles is None else stage.obstacles:
+        obstacle = structure.obstacles.get(name)
+        if stage.kind == "quasi-static" and obstacle is not None and obstacle.mass and any(obstacle.velocity):
+            what = f"the obstacle '{name}' has a velocity that a quasi-static stage cannot carry"
+            todo = "make the stage dynamic, or drive the obstacle: take its mass away"
+            yield Problem(what, name, "a driven obstacle, or a mass at rest", todo, f"{where}.kind")
 
 
 def _until_problems(until: Until, stage: Stage, structure: Structure, where: str) -> Iterator[Problem]:

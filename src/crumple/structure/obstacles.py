@@ -95,6 +95,10 @@ class Obstacle(Spec):
     @model_validator(mode="after")
     def _moves_one_way(self) -> Obstacle:
         given = [key for key in ("x", "y", "z") if getattr(self.motion, key) is not None]
+        if self.members == ():
+            refuse(
+                "no member can touch it", key="members", todo="name members, or take 'members' away for all"
+            )
         if self.guide is not None:
             _refuse_zero("guide", self.guide)
         if self.mass is None:

@@ -76,6 +76,7 @@ WRONG = {
         "across the guide",
     ),
     "elastic beyond one": ({**BALL, "restitution": 1.5}, "restitution", "out of range"),
+    "nothing to touch": ({**BALL, "members": ()}, "members", "no member can touch it"),
     "unknown member": ({**BALL, "members": ("arn",)}, "members[0]", "no member 'arn'"),
     "node inside": ({**BALL, "point": (1.05, 0, 0)}, "", "'tip' starts inside"),
     "jump": ({**BALL, "motion": {"z": {"constant": 0.1}}}, "motion.z", "starts with a jump"),

@@ -88,3 +88,13 @@ def test_sound_stages_have_no_problem(keys):
     hit = Stage(name="hit", duration=0.1, initial_velocity=({"translation": (10, 0, 0)},))
     assert stage_problems((push, hit), structure) == []
     assert "two stages" in stage_problems((push, push), structure)[0].what
+
+
+def test_thrown_mass_needs_inertia(keys):
+    ram = {**RAM, "mass": 5.0}
+    structure = Structure(**keys, obstacles={"ram": ram, "wall": WALL})
+    push = Stage(name="push", kind="quasi-static", duration=1.0)
+    (problem,) = stage_problems((push,), structure)
+    assert "'ram' has a velocity" in problem.what
+    assert stage_problems((push.model_copy(update={"obstacles": ("wall",)}),), structure) == []
+    assert stage_problems((push.model_copy(update={"kind": "dynamic"}),), structure) == []
