@@ -93,6 +93,13 @@ static Array obstacle_states(const Simulation& s) {
     return to_array(std::move(v), {s.contact().obstacles().states().size(), 15});
 }
 
+// depth of the deepest node when an obstacle appeared, and that node (2)
+static Array appeared_inside(const Simulation& s) {
+    std::vector<double> v;
+    for (const ObstacleContact::State& o : s.contact().obstacles().states()) v.insert(v.end(), {o.inside, double(o.inside_node)});
+    return to_array(std::move(v), {s.contact().obstacles().states().size(), 2});
+}
+
 static nb::dict save(const Simulation& s) {
     Checkpoint c = s.save();
     nb::dict d;
@@ -168,6 +175,7 @@ static void bind_simulation(nb::module_& m) {
         .def("save", &save)
         .def("restore", &restore)
         .def("obstacle_states", &obstacle_states)
+        .def("appeared_inside", &appeared_inside)
         .def("add_motion", &add_motion)
         .def("stop", &Simulation::stop)
         .def("external_work", &Simulation::external_work)

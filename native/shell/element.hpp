@@ -88,6 +88,14 @@ CRUMPLE_INLINE void silence(CornerForces& c, Mask live) {
     }
 }
 
+// Work that the forces of the end of a step do in it.  An element that goes with this step carries none of them, so
+// this half is not done: it is taken from what was dissipated, and what is stored in the element stays as it is.
+CRUMPLE_INLINE Real second_half(const Corners& corners, const CornerForces& c) {
+    Real power{};
+    for (int i = 0; i < 4; i++) power += dot(c.force[i], corners.v[i]) + dot(c.moment[i], corners.w[i]);
+    return (0.5 * corners.dt) * power;
+}
+
 // A strain increment beyond a third in one step is not a motion of metal but a run that has gone astray.
 constexpr double torn_strain = 0.33;
 
@@ -206,8 +214,9 @@ CRUMPLE_INLINE CornerForces update_block(const Part& part, const Corners& corner
     // accumulate energies, of lanes that are alive
     if (part.fails) {
         const Mask before = slots[alive] > 0.5, live = still_alive(part, slots);
-        slots[internal_energy] += before ? work : Real{};
-        slots[plastic_energy] += before ? in.volume * in.r.plastic : Real{};
+        const Real undone = (before & ~live) ? second_half(corners, c) : Real{};
+        slots[internal_energy] += before ? work - undone : Real{};
+        slots[plastic_energy] += before ? in.volume * in.r.plastic - undone : Real{};
         slots[hourglass_energy] += before ? held_work : Real{};
         stiffest = live ? stiffest : Real{};
         silence(c, live);

@@ -67,12 +67,17 @@ void ObstacleContact::place(const Motions& m) {
     for (std::size_t i = 0; i < model_.size(); i++) {
         const bool appears = model_[i].active && !present_[i];
         present_[i] = model_[i].active;
+        states_[i].inside = 0.0;
         if (!appears) continue;
         for (std::size_t k = 0; k < gap_[i].size(); k++) {
             const Index n = model_[i].nodes[k];
             const double distance = distance_from(model_[i], in_frame(i, position_of(m, n))).value;
             gap_[i][k] = std::min(sheets_.half[n] + model_[i].gap, distance);
             stick_[i][k] = {};
+            if (-distance > states_[i].inside) {
+                states_[i].inside = -distance;
+                states_[i].inside_node = n;
+            }
         }
     }
 }

@@ -24,6 +24,8 @@ public:
         Vec3 force_before, moment_before;
         Vec3 impulse;                // of the structure on it so far [N s]
         double deepest = 0.0;        // penetration so far over half the wall's thickness
+        double inside = 0.0;         // depth of the deepest node when it appeared in this model [m]
+        Index inside_node = 0;
     };
 
     explicit ObstacleContact(const Sheets& sheets);

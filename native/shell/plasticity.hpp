@@ -65,8 +65,19 @@ CRUMPLE_INLINE Real rate_factor(const Part& part, Real& rate, Real strain, doubl
     return factor;
 }
 
+// Work of the step's plastic strain on the mean stress of the step, as the total work is taken: so their difference is the change of
+// what the stress stores, and never falls below zero.  With the stress of the end alone, that of a strain that turns about in a few
+// steps would be booked as dissipated beyond what was put in.
+CRUMPLE_INLINE Real plastic_work(const Part& part, const Stress& old, const Stress& trial, const Stress& now) {
+    const double nu = part.poissons_ratio;
+    const Real dx = trial.x - now.x, dy = trial.y - now.y;
+    return ((old.x + now.x) * (dx - nu * dy) + (old.y + now.y) * (dy - nu * dx)) * (0.5 / part.youngs_modulus) +
+           ((0.5 / part.shear_modulus) * (old.xy + now.xy)) * (trial.xy - now.xy);
+}
+
 // Linear hardening.
-CRUMPLE_INLINE Returned return_linear(const Part& part, Stress& s, Real& ep) {
+CRUMPLE_INLINE Returned return_linear(const Part& part, const Stress& old, Stress& s, Real& ep) {
+    const Stress trial = s;
     const double R = part.pressure_ratio, h = part.hardening * part.inverse_3g;
     const Real Y = part.yield_stress + part.hardening * ep;
     Real p = s.x + s.y, d = s.x - s.y;
@@ -92,13 +103,13 @@ CRUMPLE_INLINE Returned return_linear(const Part& part, Stress& s, Real& ep) {
     s.xy = yields ? s.xy * v : s.xy;
     s.x = yields ? 0.5 * (p + d) : s.x;
     s.y = yields ? 0.5 * (p - d) : s.y;
-    const Real Y_end = Y / (1.0 - h * X), increment = X * Y_end * part.inverse_3g;   // X is 0 where nothing yields
-    ep += increment;
-    return {Y_end * increment, v};
+    ep += X * (Y / (1.0 - h * X)) * part.inverse_3g;   // X is 0 where nothing yields
+    return {plastic_work(part, old, trial, s), v};
 }
 
 // Table and rate factor: the line in force is looked up at every Newton step.
-CRUMPLE_INLINE Returned return_general(const Part& part, Stress& s, Real& ep, Real factor) {
+CRUMPLE_INLINE Returned return_general(const Part& part, const Stress& old, Stress& s, Real& ep, Real factor) {
+    const Stress trial = s;
     const double R = part.pressure_ratio;
     YieldLine line = yield_line(part, ep, ep, factor);
     Real p = s.x + s.y, d = s.x - s.y;
@@ -125,9 +136,8 @@ CRUMPLE_INLINE Returned return_general(const Part& part, Stress& s, Real& ep, Re
     s.xy = yields ? s.xy * v : s.xy;
     s.x = yields ? 0.5 * (p + d) : s.x;
     s.y = yields ? 0.5 * (p - d) : s.y;
-    const Real increment = X * q * part.inverse_3g;
-    ep += increment;
-    return {q * increment, v};
+    ep += X * q * part.inverse_3g;
+    return {plastic_work(part, old, trial, s), v};
 }
 
 }  // namespace

@@ -32,14 +32,14 @@ CRUMPLE_INLINE void update_point(const Part& part, int k, const StrainIncrement&
     Stress now = {old.x + C * (ex + nu * ey), old.y + C * (ey + nu * ex), old.xy + part.shear_modulus * exy};
     // return to the yield surface
     Returned plastic;
-    if constexpr (law == Law::linear) plastic = return_linear(part, now, point[plastic_strain]);
+    if constexpr (law == Law::linear) plastic = return_linear(part, old, now, point[plastic_strain]);
     if constexpr (law == Law::general) {
         Real factor = all(1.0);
         if (part.rate != Rate::none) {
             const Real e2 = (4.0 / 3.0) * (ex * ex + ey * ey + ex * ey + 0.25 * exy * exy);
             factor = rate_factor(part, slots[rate_slot(part.points, k)], root(e2), dt);
         }
-        plastic = return_general(part, now, point[plastic_strain], factor);
+        plastic = return_general(part, old, now, point[plastic_strain], factor);
     }
     r.plastic += weight * plastic.work;
     r.kept += weight * plastic.kept;

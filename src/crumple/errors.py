@@ -73,6 +73,7 @@ class Status(Enum):
     STEP_COLLAPSED = "stopped: the time step fell below its minimum"
     NOT_CONVERGED = "stopped: the step's equations did not converge"
     NOT_FINITE = "stopped: a state became infinite or not a number"
+    OVERLAPPING = "stopped: an obstacle appeared inside the structure"
     INVERTED = "stopped: an element turned inside out"
     CANCELLED = "cancelled by the caller"
     REFUSED = "refused: the input cannot be solved"

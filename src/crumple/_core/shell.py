@@ -241,6 +241,11 @@ class ShellState:
         return _array(self._core.obstacle_states())
 
     @property
+    def appeared_inside(self) -> Floats:
+        """Depth [m] and number of the deepest node in obstacles that appeared with this stage, (k, 2)."""
+        return _array(self._core.appeared_inside())
+
+    @property
     def external_work(self) -> float:
         """Work from outside so far [J], as in `energies` but at less cost."""
         return float(self._core.external_work())

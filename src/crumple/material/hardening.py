@@ -165,15 +165,18 @@ class HardeningTable:
         problems = []
         if strain.size != stress.size or strain.size == 0:
             came = f"{strain.size} strains, {stress.size} stresses"
-            raise InputError(Problem("the table needs as many stresses as strains", came, "at least one"))
+            what, todo = "the table needs as many stresses as strains", "add or take away points"
+            raise InputError(Problem(what, came, "as many, at least one", todo, "true_stress"))
         if not np.all(np.isfinite(strain)) or strain[0] != 0.0 or np.any(np.diff(strain) <= 0.0):
             todo = "begin at plastic strain 0 (first yield) and leave out repeated points"
             what = "plastic strains must increase strictly from 0"
-            problems.append(Problem(what, "", "0 < 1st < 2nd < ...", todo, "plastic_strain"))
+            came = _first_wrong(strain, np.concatenate([[strain[0] != 0.0], ~(np.diff(strain) > 0.0)]))
+            problems.append(Problem(what, came, "0 < 1st < 2nd < ...", todo, "plastic_strain"))
         if not np.all(np.isfinite(stress)) or stress[0] <= 0.0 or np.any(np.diff(stress) < 0.0):
             todo = "give true stress: an engineering curve falls after necking, a true one does not"
             what = "true stresses must be positive and must not fall"
-            problems.append(Problem(what, "", "0 < 1st <= 2nd <= ...", todo, "true_stress"))
+            came = _first_wrong(stress, np.concatenate([[not stress[0] > 0.0], ~(np.diff(stress) >= 0.0)]))
+            problems.append(Problem(what, came, "0 < 1st <= 2nd <= ...", todo, "true_stress"))
         if problems:
             raise InputError(problems)
 
@@ -243,6 +246,12 @@ def swift_from_tensile_test(yield_stress: float, ultimate_stress: float, uniform
         low, high = (middle, high) if rise > wanted else (low, middle)
     prestrain = math.exp(high)
     return Swift(yield_stress, prestrain, min(strain + prestrain, 1.0))
+
+
+def _first_wrong(values: Floats, wrong: NDArray[np.bool_]) -> str:
+    """First point of a table that is marked, in words."""
+    at = int(np.argmax(wrong))
+    return f"point {at + 1}: {values[at]:g}" + (f" after {values[at - 1]:g}" if at else "")
 
 
 def _refuse_not_positive(**values: tuple[float, str]) -> None:

@@ -10,6 +10,7 @@ from crumple.errors import InputError, Problem
 from crumple.shell.contour import Contour, Floats, Integers, contour_of
 from crumple.shell.imperfection import offsets
 from crumple.shell.joints import SHEARED_LENGTH, Joint, Kind, joints_of
+from crumple.shell.refusals import refuse_sizes, refuse_waves
 from crumple.shell.stations import Sizes, Zone, stations
 from crumple.structure import Frame, Outputs, ShellSettings, Structure, hinge_places
 
@@ -124,6 +125,7 @@ def mesh_of(structure: Structure, settings: ShellSettings, outputs: Outputs | No
     InputError
         If a member cannot be meshed, by name.
     """
+    refuse_sizes(structure, settings)
     size = settings.fine_size or settings.element_size
     contours = {name: contour_of(structure.section_of(name), size) for name in structure.members}
     joints = joints_of(structure, contours)
@@ -131,6 +133,7 @@ def mesh_of(structure: Structure, settings: ShellSettings, outputs: Outputs | No
         name: _rings(structure, name, settings, joints, outputs or Outputs()) for name in structure.members
     }
     _check_number(contours, rings)
+    refuse_waves(settings, contours, rings)
     return _joined(structure, contours, joints, rings, settings.imperfection)
 
 

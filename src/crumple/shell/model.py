@@ -25,13 +25,12 @@ from crumple.shell.metal import shell_material
 from crumple.shell.obstacles import obstacles_of, refuse_walls_inside
 from crumple.shell.places import HingeZone, hinge_zones
 from crumple.shell.quality import MeshReport, report_of, wall_metals, wall_thickness
+from crumple.shell.refusals import damping_of
 from crumple.shell.start import Start, start_of
 from crumple.structure import Outputs, ShellSettings, Stage, Structure
 
 CONTACT_DAMPING = 0.1
 """Damping of contact, share of critical: takes the chatter of single nodes, not the rebound of walls."""
-SLOW_DAMPING = 40.0
-"""Damping rate of a quasi-static stage times its duration: vibration loses 1/e within a twentieth of it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,15 +133,12 @@ def model_of_stage(
     stage, begin
         The stage, and the time at which it starts [s].
     """
-    damping = settings.damping
-    if stage.kind == "quasi-static" and not damping:
-        damping = SLOW_DAMPING / stage.duration
     return replace(
         lowered.model,
         loads=list(loads_of(structure, lowered.mesh, stage, begin)),
         motions=list(motions_of(structure, lowered.bodies, stage, begin)),
         obstacles=list(obstacles_of(structure, lowered.mesh, stage, begin)),
-        settings=replace(lowered.model.settings, damping=damping),
+        settings=replace(lowered.model.settings, damping=damping_of(settings, stage)),
     )
 
 

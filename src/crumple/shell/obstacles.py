@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from crumple._core.shell import RigidObstacle, Shape
+from crumple._core.shell import RigidObstacle, Shape, ShellState
 from crumple._core.shell_model import History
 from crumple.errors import InputError, Problem
 from crumple.shell.contour import triple
@@ -77,6 +77,17 @@ def refuse_walls_inside(structure: Structure, mesh: Mesh, stage: Stage) -> None:
             problems.append(Problem(what, came, "walls outside it", todo, f"obstacles.{name}"))
     if problems:
         raise InputError(problems)
+
+
+def appeared_inside(structure: Structure, mesh: Mesh, state: ShellState) -> str:
+    """Which obstacle of this stage appeared inside the deformed structure, in words; empty where none did."""
+    for name, (depth, node) in zip(structure.obstacles, state.appeared_inside, strict=True):
+        if depth > INSIDE:
+            member = next(m for m, tube in mesh.tubes.items() if int(node) in tube.nodes)
+            return (
+                f"walls of member {member} lie {1e3 * depth:.4g} mm deep in obstacle {name} when it appears"
+            )
+    return ""
 
 
 def too_sharp(structure: Structure, largest_side: float) -> list[str]:

@@ -7,7 +7,8 @@ import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from zipfile import BadZipFile
+from zipfile import BadZipFile, is_zipfile
+from zlib import error as BadStream  # noqa: N812
 
 import numpy as np
 
@@ -81,6 +82,24 @@ def write_restart(path: Path, saved: Saved, mark: str) -> None:
         np.savez(file, allow_pickle=False, head=np.frombuffer(text.encode(), dtype=np.uint8), **arrays)
 
 
+def _unreadable(path: Path, error: Exception) -> InputError:
+    """What is wrong with a file that is no restart file, or no longer one."""
+    allowed, todo = "the file that an interrupted run wrote", "give that file, or start from the beginning"
+    if not path.exists():
+        what = "there is no such restart file"
+    elif path.is_dir():
+        what = "this is a folder and not a restart file"
+    elif isinstance(error, OSError):
+        what = f"the restart file cannot be read: {error.strerror or 'the disk gives no answer'}"
+    elif path.stat().st_size == 0:
+        what = "the restart file is empty"
+    elif is_zipfile(path):
+        what = "the restart file is damaged, or another program's"
+    else:
+        what = "this is no restart file, or it was cut off"
+    return InputError(Problem(what, path.name, allowed, todo, file=str(path)))
+
+
 def read_restart(path: Path, mark: str, isa: str) -> Saved:
     """Read a restart file.
 
@@ -95,11 +114,8 @@ def read_restart(path: Path, mark: str, isa: str) -> Saved:
         head = json.loads(arrays["head"].tobytes())
         found = {key: head[key] for key in ("format", "mark", "isa", "seconds")}
         ended = tuple(StageSummary(**stage) for stage in head.get("ended", ()))
-    except (OSError, KeyError, TypeError, ValueError, EOFError, BadZipFile) as error:
-        what, todo = "the restart file cannot be read", "give the file that an interrupted run wrote"
-        raise InputError(
-            Problem(what, f"{type(error).__name__}: {str(error)[:200]}", "", todo, file=str(path))
-        ) from error
+    except (OSError, KeyError, TypeError, ValueError, EOFError, BadZipFile, BadStream) as error:
+        raise _unreadable(path, error) from error
     if found["format"] != FORMAT or found["mark"] != mark:
         what, todo = (
             "the restart file belongs to another input",

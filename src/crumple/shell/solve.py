@@ -15,6 +15,7 @@ from crumple.shell.contour import Floats
 from crumple.shell.histories import channels_of, summaries
 from crumple.shell.model import Lowered, lower
 from crumple.shell.record import ENERGIES, Record
+from crumple.shell.refusals import refuse_steps
 from crumple.shell.shapes import states_of
 from crumple.shell.stepping import Cancel, Hooks, LongRun, Progress, ShellRun, Stepping, with_place
 from crumple.structure import Structure
@@ -50,7 +51,7 @@ def solve_shell(
     Raises
     ------
     InputError
-        If the structure cannot be meshed, or the restart file is not of this run.
+        If the structure cannot be meshed, a setting does not fit its mesh, or the restart file is another's.
 
     References
     ----------
@@ -62,6 +63,7 @@ def solve_shell(
         state = ShellState(lowered.model)
     except InputError as error:
         raise _named(error, lowered) from error
+    refuse_steps(run.settings, run.sequence, state.first_time_step)
     lowered = replace(lowered, report=replace(lowered.report, time_step=state.first_time_step))
     hooks = Hooks(begin, progress, cancel, long_run or LongRun())
     stepping = Stepping(structure, run, lowered, state, hooks)

@@ -17,6 +17,7 @@ from crumple.shell import trust
 from crumple.shell.bodies import moved
 from crumple.shell.contour import Floats
 from crumple.shell.model import Lowered, model_of_stage
+from crumple.shell.obstacles import appeared_inside
 from crumple.shell.record import Record, Sampler
 from crumple.shell.restart import Saved, fingerprint, read_restart, write_restart
 from crumple.shell.shapes import shape_of
@@ -162,6 +163,9 @@ class Stepping:
         begin = self.ended[-1].end if self.ended else 0.0
         if self.resumed is None:
             self._enter(stage, begin, number)
+            inside = appeared_inside(self.structure, self.lowered.mesh, self.state)
+            if number > 0 and inside:
+                return Status.OVERLAPPING, f"stage {stage.name}: {inside}"
         self.watch = Watch(self.structure, self.lowered, stage, self.state)
         if self.resumed is not None:
             self.watch.restore(self.resumed.watch)

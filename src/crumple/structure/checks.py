@@ -22,6 +22,7 @@ from crumple.structure.obstacle_checks import obstacle_problems
 from crumple.structure.outputs import Outputs
 from crumple.structure.problems import one_of, outside, shown, suggestion, unknown
 from crumple.structure.shell_settings import ShellSettings
+from crumple.structure.start_checks import start_problems
 from crumple.structure.structure import Structure
 
 COINCIDENT = 1e-6
@@ -247,6 +248,7 @@ _CHECKS: tuple[Callable[[Structure, Known], Iterator[Problem]], ...] = (
     place_problems,
     joint_problems,
     _supports,
+    start_problems,
     obstacle_problems,
 )
 _CHECKS_OF_WHAT_IS_MISSING = (_connections, inertia_problems, bare_node_problems)

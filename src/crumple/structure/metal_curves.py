@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from crumple import material
+from crumple.errors import InputError
 from crumple.structure.quantity import (
     NUMBER,
     NonNegativeNumber,
@@ -76,6 +77,14 @@ class HardeningTableSpec(Spec):
     """Plastic strains, from 0."""
     true_stress: Annotated[tuple[PositiveStress, ...], Field(min_length=1, max_length=MOST_POINTS)]
     """True stresses, the first one the yield stress."""
+
+    @model_validator(mode="after")
+    def _rises(self) -> HardeningTableSpec:
+        try:
+            material.HardeningTable(self.plastic_strain, self.true_stress)
+        except InputError as error:
+            refuse("this is no hardening table", problems=error.problems)
+        return self
 
     def curve(self, yield_stress: float) -> material.HardeningCurve:
         """Curve of the physics room."""

@@ -12,6 +12,7 @@ from crumple.structure.geometry import Floats
 from crumple.structure.obstacles import CylinderObstacle, Obstacle, PlaneObstacle
 from crumple.structure.problems import unknown
 from crumple.structure.stages import Stage, Until
+from crumple.structure.start_checks import swallowed
 from crumple.structure.structure import Structure
 
 JUMP = 1e-12
@@ -115,6 +116,7 @@ def stage_problems(
                 problems += unknown("obstacle or support", until.of, moving, f"{where}.until[{j}].of")
             for k, node in enumerate(until.between or ()):
                 problems += unknown("node", node, nodes, f"{where}.until[{j}].between[{k}]")
+        problems += swallowed(structure, stage.impulses, stage.initial_velocity, f"{where}.")
         for j, struck in enumerate(stage.impulses):
             problems += unknown("node", struck.node, nodes, f"{where}.impulses[{j}].node")
         for j, field in enumerate(stage.initial_velocity):

@@ -52,6 +52,10 @@ def placed_problems(
         if context.get("key") and isinstance(value, Mapping):
             value = value.get(context["key"])
         problem = _problem(str(details["type"]), details["msg"], value, context, place, keys)
+        if details["type"] == "missing" and place and isinstance(place[-1], int):
+            problem, place = _too_short(value, place), place[:-1]
+            # every entry that is missing comes by itself; the last one tells how many there should be
+            placed = [other for other in placed if other[0] != place]
         placed.append((place, problem))
     # a misspelt key and the missing one that it stands for are one mistake
     meant = {(*place[:-1], key) for place, problem in placed for key in _MEANT.findall(problem.todo)}
@@ -147,6 +151,12 @@ def _problem(
         return Problem("this is none of the known choices", came, allowed, suggestion(value, words), where)
     what, allowed = _WORDS.get(kind, (message, ""))
     return Problem(what, came, allowed.format_map(_Blank(context)), "", where)
+
+
+def _too_short(value: Any, place: Place) -> Problem:
+    """A list of fixed length that ends before its entry at a place."""
+    allowed = f"{int(place[-1]) + 1} entries"
+    return Problem("the list is too short", shown(value), allowed, "add what is missing", spelled(place[:-1]))
 
 
 def _unknown_type(value: Any, context: Mapping[str, Any], where: str) -> Problem:

@@ -11,8 +11,8 @@ from crumple.structure.quantity import (
     NUMBER,
     Dimension,
     Fraction,
+    FrictionCoefficient,
     NonNegativeLength,
-    NonNegativeNumber,
     PositiveLength,
     PositiveTime,
 )
@@ -82,7 +82,7 @@ class ShellSettings(Spec):
     """A stable time step below it ends the run with a status."""
     self_contact: Switch = "on"
     """Contact of walls with walls."""
-    contact_friction: NonNegativeNumber = 0.0
+    contact_friction: FrictionCoefficient = 0.0
     """Coulomb coefficient between walls."""
     damping: Damping = 0.0
     """Damping force over momentum."""

@@ -66,6 +66,35 @@ CASES = {
     "missing node": ("[root, tip]\n", "[root, tipp]\n", "members.tube.nodes[1]", "there is no node 'tipp'"),
     "three nodes": ("[root, tip]\n", "[root, tip, tip]\n", "members.tube.nodes", "too long"),
     "zero length": ("tip: [1 m,", "tip: [0 m,", "members.tube", "the member has no length"),
+    "falling strain": (
+        "yield_stress: 488 MPa",
+        "yield_stress: 488 MPa\n    hardening:\n      type: table\n"
+        "      plastic_strain: [0, 0.1, 0.05]\n      true_stress: [488 MPa, 500 MPa, 510 MPa]",
+        "materials.steel.hardening.plastic_strain",
+        "point 3: 0.05 after 0.1",
+    ),
+    "falling stress": (
+        "yield_stress: 488 MPa",
+        "yield_stress: 488 MPa\n    hardening:\n      type: table\n"
+        "      plastic_strain: [0, 0.1]\n      true_stress: [488 MPa, 480 MPa]",
+        "materials.steel.hardening.true_stress",
+        "point 2: 4.8e+08 after 4.88e+08",
+    ),
+    "uneven table": (
+        "yield_stress: 488 MPa",
+        "yield_stress: 488 MPa\n    hardening:\n      type: table\n"
+        "      plastic_strain: [0, 0.1, 0.2]\n      true_stress: [488 MPa, 500 MPa]",
+        "materials.steel.hardening.true_stress",
+        "3 strains, 2 stresses",
+    ),
+    "short axis": ("axis: [0, -1, 0]", "axis: [0, -1]", "initial_velocity[0].axis", "3 entries"),
+    "short nodes": ("[root, tip]\n", "[root]\n", "members.tube.nodes", "2 entries"),
+    "impulse on a clamp": (
+        "masses:",
+        "impulses: [{node: root, impulse: [0, 0, 3 N*s]}]\nmasses:",
+        "impulses[0].impulse[2]",
+        "the support 'clamp' takes z",
+    ),
     "zero mass": ("mass: 6 kg", "mass: 0 kg", "masses.payload.mass", "no inertia"),
     "zero density": ("7850 kg/m^3", "0 kg/m^3", "materials.steel.density", "it must be more than 0"),
     "zero inertia": ("at: root", "at: tip", "members.tube.hinges[0].at", "zero inertia beyond the hinge"),

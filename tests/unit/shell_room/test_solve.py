@@ -165,7 +165,7 @@ def test_restart_file_of_another_input_is_refused(tmp_path):
     with pytest.raises(InputError, match="another input"):
         solve_shell(thrown(), run(every=1e-4), long_run=LongRun(restart_from=file))
     file.write_bytes(b"PK\x03\x04 not whole")
-    with pytest.raises(InputError, match="cannot be read"):
+    with pytest.raises(InputError, match="no restart file"):
         solve_shell(thrown(), run(), long_run=LongRun(restart_from=file))
 
 
