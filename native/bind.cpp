@@ -18,6 +18,7 @@ namespace crumple::space {
 void bind(nb::module_& m);
 void bind_hinge(nb::module_& m);
 void bind_contact(nb::module_& m);
+void bind_batch(nb::module_& m);
 }
 
 NB_MODULE(_kernels, m) {
@@ -28,6 +29,7 @@ NB_MODULE(_kernels, m) {
     crumple::space::bind(space);
     crumple::space::bind_hinge(space);
     crumple::space::bind_contact(space);
+    crumple::space::bind_batch(space);
     auto tangent = multibody.def_submodule("tangent", "The same stepper with derivatives.");
     crumple::multibody::bind_tangent(tangent);
     auto shell = m.def_submodule("shell", "Explicit stepper for thin shells.");

@@ -1,13 +1,9 @@
 #include "multibody/batch.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <cmath>
-#include <condition_variable>
-#include <exception>
-#include <mutex>
-#include <thread>
+
+#include "multibody/team.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {
@@ -16,7 +12,6 @@ namespace {
 
 // Variants that a thread takes at a time: some milliseconds of work, so that threads seldom meet.
 constexpr size_t share = 16;
-constexpr auto poll_pause = std::chrono::milliseconds(20);
 
 Model varied(const Variations& v, size_t row) {
     Model model = *v.models[v.model ? static_cast<size_t>(v.model[row]) : 0];
@@ -115,44 +110,8 @@ Finals sized(const Variations& v) {
 Finals solve_many(const Variations& v, double end, const Settings& settings, int threads,
                   const std::function<bool(double)>& poll) {
     Finals out = sized(v);
-    std::atomic<size_t> next{0}, done{0};
-    std::atomic<bool> cancelled{false};
-    const std::function<bool(double)> go_on = [&](double) { return !cancelled.load(std::memory_order_relaxed); };
-    auto work = [&] {
-        for (size_t begin = next.fetch_add(share); begin < v.count; begin = next.fetch_add(share)) {
-            for (size_t row = begin; row < std::min(begin + share, v.count); row++) {
-                if (!go_on(0)) return;
-                solve_row(v, row, end, settings, go_on, out);
-                done++;
-            }
-        }
-    };
-    std::mutex mutex;
-    std::condition_variable ended;
-    int working = std::max(1, threads);
-    std::vector<std::thread> team;
-    for (int i = working; i > 0; i--) {
-        team.emplace_back([&] {
-            work();
-            const std::lock_guard<std::mutex> lock(mutex);
-            working--;
-            ended.notify_one();
-        });
-    }
-    std::exception_ptr failed;
-    std::unique_lock<std::mutex> lock(mutex);
-    while (!ended.wait_for(lock, poll_pause, [&] { return working == 0; })) {
-        try {
-            if (poll && !poll(static_cast<double>(done) / static_cast<double>(v.count))) cancelled = true;
-        } catch (...) {
-            failed = std::current_exception();
-            cancelled = true;
-            break;
-        }
-    }
-    lock.unlock();
-    for (std::thread& thread : team) thread.join();
-    if (failed) std::rethrow_exception(failed);
+    auto solve = [&](size_t row, const std::function<bool(double)>& go_on) { solve_row(v, row, end, settings, go_on, out); };
+    share_out(v.count, share, threads, solve, poll);
     return out;
 }
 

@@ -12,6 +12,7 @@
 #include "multibody/bind_hinge.hpp"
 #include "space/bind_contact.hpp"
 #include "space/bind_hinge.hpp"
+#include "space/bind_model.hpp"
 #include "space/simulation.hpp"
 
 namespace nb = nanobind;
@@ -182,6 +183,8 @@ void add_contact(Model& model, const nb::dict& d) {
     contact.between = {between.first, between.second};
 }
 
+}  // namespace
+
 Model make_model(const nb::dict& d) {
     Model model;
     add_bodies(model, d);
@@ -221,6 +224,17 @@ Condition make_condition(const Model& model, const nb::tuple& t) {
     }
     return c;
 }
+
+std::vector<bool> chosen(const std::vector<int>& indices, size_t n, const char* unknown) {
+    std::vector<bool> out(n);
+    for (const int k : indices) {
+        require(k >= 0 && static_cast<size_t>(k) < n, unknown);
+        out[static_cast<size_t>(k)] = true;
+    }
+    return out;
+}
+
+namespace {
 
 std::vector<Twist> to_twists(const Array& a, size_t bodies) {
     require(a.ndim() == 2 && a.shape(0) == bodies && a.shape(1) == 6, "motions must have shape (bodies, 6)");
@@ -269,14 +283,6 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
 
 void stage(Simulation& sim, bool quasi_static, const std::vector<int>& drives, const std::vector<int>& obstacles,
            const nb::list& until) {
-    auto chosen = [](const std::vector<int>& indices, size_t n, const char* unknown) {
-        std::vector<bool> out(n);
-        for (const int k : indices) {
-            require(k >= 0 && static_cast<size_t>(k) < n, unknown);
-            out[static_cast<size_t>(k)] = true;
-        }
-        return out;
-    };
     const std::vector<bool> acting = chosen(drives, sim.model().drives.size(), "a drive is unknown");
     const std::vector<bool> present = chosen(obstacles, sim.model().contact.obstacles.size(), "an obstacle is unknown");
     std::vector<Condition> conditions;

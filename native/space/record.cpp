@@ -62,6 +62,12 @@ void Simulation::store(Record& r) {
                                      e.external_work});
 }
 
+Record Simulation::present() {
+    Record r;
+    store(r);
+    return r;
+}
+
 std::vector<double> Simulation::summary() const {
     std::vector<double> out;
     constexpr double none = std::numeric_limits<double>::quiet_NaN();

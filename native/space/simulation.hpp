@@ -9,7 +9,7 @@
 
 namespace crumple::space {
 
-enum class Outcome { complete, step_collapsed, not_finite, cancelled };
+enum class Outcome { complete, step_collapsed, not_finite, cancelled, refused };
 
 struct Settings {
     double accuracy = 1e-3;      // allowed error of the motion, relative to the largest rotation
@@ -59,6 +59,8 @@ public:
     bool step(double h) { return stepper_.step(state_, h, nullptr); }
     // runs to the last of the times; `poll` gets the time reached and returns false to cancel
     Record run(const std::vector<double>& times, const std::function<bool(double)>& poll);
+    // the present state alone
+    Record present();
     // per hinge, and per component
     std::vector<double> summary() const;
     std::vector<double> peaks() const;

@@ -105,7 +105,8 @@ State Stepper::start() {
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         for (int k = 0; k < size(model_.hinges[j]); k++) {
             int hint = 0;
-            s.hinge[j].component[k].capacity = model_.hinges[j].components[at(k)].law.positive.at(0, hint);
+            const multibody::Hinge& law = model_.hinges[j].components[at(k)].law;
+            s.hinge[j].component[k].capacity = law.scale * law.positive.at(0, hint);
         }
     }
     return s;

@@ -118,6 +118,11 @@ def ball_hinge(joint, scale, form=0, rate=0.05, error=1e-6):
 
 def m4(accuracy=1e-3, form=0, rate=0.05, error=1e-6, turn=None):
     """Model M4: cube frame of 0.5 m on a fixed base, its top ring starting at 10 m/s along x."""
+    return started(*m4_parts(form, rate, error, turn), accuracy)
+
+
+def m4_parts(form=0, rate=0.05, error=1e-6, turn=None):
+    """The model M4 and the velocities of its bodies at the start."""
     turn = np.eye(3) if turn is None else np.asarray(turn, float)
     corners = [np.array(c, float) * 0.5 for c in ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0))]
     up = np.array([0.0, 0.0, 0.5])
@@ -131,7 +136,7 @@ def m4(accuracy=1e-3, form=0, rate=0.05, error=1e-6, turn=None):
     speed, omega = turn @ (10.0, 0.0, 0.0), turn @ (0.0, 20.0, 0.0)
     velocity = [about(turn @ c, omega, body) for c, body in zip(corners, columns, strict=True)]
     velocity += [np.concatenate([np.zeros(3), speed])] * 4
-    return started(model, velocity, accuracy)
+    return model, np.array(velocity)
 
 
 def pendulum(accuracy=1e-6, joint=revolute):

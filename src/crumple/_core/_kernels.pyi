@@ -79,6 +79,34 @@ class _Space:
         @property
         def time(self) -> float: ...
 
+    class Case:
+        def __init__(self, model: dict[str, Any]) -> None: ...
+        def add_stage(
+            self,
+            duration: float,
+            quasi_static: bool,
+            drives: list[int],
+            obstacles: list[int],
+            until: list[tuple[Any, ...]],
+        ) -> None: ...
+
+    def solve_many(
+        self,
+        cases: list[Case],
+        case_of: NDArray[np.int64],
+        velocity: NDArray[np.float64] | None,
+        impulse: NDArray[np.float64] | None,
+        capacity_scale: NDArray[np.float64] | None,
+        load_scale: NDArray[np.float64] | None,
+        bodies: NDArray[np.float64] | None,
+        gravity: NDArray[np.float64] | None,
+        accuracy: float,
+        minimum_step: float,
+        maximum_step: float,
+        threads: int,
+        poll: Callable[[float], bool] | None,
+    ) -> dict[str, Any]: ...
+
     HingeElement: Any
     surface_point: Any
     surface_gauge: Any

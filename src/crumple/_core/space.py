@@ -146,7 +146,7 @@ class SpaceSimulation:
         maximum_step: float = math.inf,
     ) -> None:
         self.model = model
-        self._kernel = _kernels.space.Simulation(_as_dict(model), accuracy, minimum_step, maximum_step)
+        self._kernel = _kernels.space.Simulation(as_dict(model), accuracy, minimum_step, maximum_step)
 
     def set_motion(self, velocity: Floats, impulse: Floats) -> float:
         """Add velocities of the bodies and impulses on them, both (bodies, 6): (omega, v), (moment, force).
@@ -185,7 +185,7 @@ class SpaceSimulation:
             quasi_static,
             list(range(len(model.drives)) if drives is None else drives),
             list(range(len(model.obstacles)) if obstacles is None else obstacles),
-            [_until(condition) for condition in until],
+            [as_until(condition) for condition in until],
         )
 
     def run(self, times: Floats, poll: Callable[[float], bool] | None = None) -> SpaceRecord:
@@ -213,7 +213,7 @@ class SpaceSimulation:
         return self._kernel.time
 
 
-def _as_dict(model: SpaceModel) -> dict[str, Any]:
+def as_dict(model: SpaceModel) -> dict[str, Any]:
     """As the kernel takes it."""
     return {
         "mass": np.array([body.mass for body in model.bodies], float),
@@ -316,6 +316,6 @@ def _obstacle(obstacle: SpaceObstacle) -> dict[str, Any]:
     }
 
 
-def _until(until: SpaceUntil) -> tuple[Any, ...]:
+def as_until(until: SpaceUntil) -> tuple[Any, ...]:
     points = np.zeros((2, 3)) if until.points is None else until.points
     return (int(until.kind), until.value, until.index, until.freedom, list(until.bodies), _list(points))

@@ -55,7 +55,7 @@ def refuse_spatial(structure: Structure, run: Run) -> None:
     """
     reason = why_spatial(structure, placed_hinges(structure), run)
     if reason is not None:
-        what, todo = "this is computed in a plane alone", "solve the variants one by one"
+        what, todo = "this is computed in a plane alone", "ask for the spatial kernel in the settings"
         raise InputError(Problem(what, reason, "a structure that moves in a plane", todo))
 
 

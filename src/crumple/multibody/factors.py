@@ -2,26 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from crumple.errors import InputError, Problem
 from crumple.multibody.lowered import Lowered
+from crumple.multibody.rigid import Floats
 from crumple.structure import Structure, value_at
 
 FACTORS = ("initial_velocity", "impulses", "loads", "gravity")
 """Beside these, ``hinges.NAME.capacity``."""
 
 
-def checked_names(structure: Structure, base: Lowered, names: Sequence[str]) -> None:
-    """Refuse parameters that do not exist.
+def quick(name: str) -> bool:
+    """Whether a parameter only scales arrays of the kernel."""
+    head, *rest = name.split(".")
+    return (not rest and head in FACTORS) or head == "hinges" or _is_mass(name)
+
+
+def masses_of(values: Mapping[str, Floats]) -> dict[str, Floats]:
+    """Those of the parameters that are masses of lumps."""
+    return {name: column for name, column in values.items() if _is_mass(name)}
+
+
+def _is_mass(name: str) -> bool:
+    head, *rest = name.split(".")
+    return head == "masses" and rest[1:] == ["mass"]
+
+
+def checked_names(structure: Structure, hinges: Sequence[str], names: Sequence[str]) -> None:
+    """Refuse parameters that do not exist; `hinges` by their names.
 
     Raises
     ------
     InputError
         If a path leads nowhere or to no number, or a hinge has another name.
     """
-    hinges = [name for name, _ in base.hinges]
     for name in names:
         head, *rest = name.split(".")
         if head == "hinges":

@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import fields, replace
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from crumple._core.batch import TreeFinals
+from crumple._core.space_batch import SpaceFinals
 from crumple._core.tree import Outcome, TreeRecord
-from crumple.multibody.histories import distance_channels, node_channels, section_channels
+from crumple.multibody.histories import (
+    clearance_channels,
+    distance_channels,
+    node_channels,
+    section_channels,
+)
 from crumple.multibody.lowered import Lowered
 from crumple.multibody.poses import TreePoses
 from crumple.multibody.rigid import Floats
@@ -20,7 +27,10 @@ OF_HINGES = ("rotation", "plastic_rotation", "moment", "capacity", "energy")
 OF_NODES = ("displacement", "rotation")
 
 
-def part_of(finals: TreeFinals, rows: NDArray[np.int64]) -> TreeFinals:
+Finals = TypeVar("Finals", TreeFinals, SpaceFinals)
+
+
+def part_of(finals: Finals, rows: NDArray[np.int64]) -> Finals:
     """Some of the rows."""
     return replace(finals, **{field.name: getattr(finals, field.name)[rows] for field in fields(finals)})
 
@@ -56,9 +66,7 @@ def final_quantities(model: Lowered, finals: TreeFinals, outputs: Outputs) -> di
     for channel in node_channels(model.structure, poses, outputs.nodes):
         if channel.name.split(".")[2] in OF_NODES:
             found[channel.name] = channel.values
-    for channel in section_channels(model.structure, poses, outputs):
-        found[channel.name] = channel.values
-    for channel in distance_channels(model.structure, poses, outputs):
-        found[channel.name] = channel.values
+    for channels in (section_channels, distance_channels, clearance_channels):
+        found |= {channel.name: channel.values for channel in channels(model.structure, poses, outputs)}
     found["energy_residual"] = finals.residual
     return found

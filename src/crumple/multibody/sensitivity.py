@@ -89,7 +89,7 @@ def sensitivities(
     refuse_spatial(structure, run)
     base = lowered(structure, run.duration)
     names = list(parameters)
-    checked_names(structure, base, names)
+    checked_names(structure, [name for name, _ in base.hinges], names)
     given = dict(parameters) if isinstance(parameters, Mapping) else {}
     moved = [_moved(base, run, name, given.get(name)) for name in names]
     settings = run.settings

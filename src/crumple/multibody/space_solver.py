@@ -12,15 +12,15 @@ import numpy as np
 from crumple._core.space import SpaceRecord, SpaceSimulation
 from crumple._core.tree import Outcome
 from crumple.multibody.forces import check_sections, force_channels, section_force_channels
-from crumple.multibody.linkage import check_inertia, link
+from crumple.multibody.linkage import Linkage, check_inertia, link
 from crumple.multibody.obstacle_bodies import with_obstacles
 from crumple.multibody.poses import SpacePoses
 from crumple.multibody.rigid import Floats
 from crumple.multibody.run import Run, output_times
 from crumple.multibody.solved import HingeHistory, Poll, Solved
+from crumple.multibody.space_lowered import added_motion, kernel_stage
 from crumple.multibody.space_model import space_model, support_drives
 from crumple.multibody.stages import lowered_until, stages_of, told
-from crumple.multibody.start import start_in_space
 from crumple.result import Channel, StageSummary
 from crumple.structure import PlacedHinge, Stage, Structure
 
@@ -106,28 +106,15 @@ class SpaceSolver:
 
     def _begin(self, simulation: SpaceSimulation, stage: Stage, *, first: bool) -> tuple[float, float]:
         """Start a stage; energy of the motion that is added, and what of it the joints took [J]."""
-        structure, touching = self._structure, self._touching
-        names = list(structure.obstacles)
-        drives = None
-        if stage.drive is not None:
-            drives = [i for i, owner in enumerate(touching.drives) if owner in stage.drive]
-        obstacles = None if stage.obstacles is None else [names.index(name) for name in stage.obstacles]
-        conditions = lowered_until(structure, self.linkage, touching, stage)
+        parts = (self._structure, self.linkage, self._touching, stage)
+        lowered = kernel_stage(*parts)
         simulation.stage(
-            quasi_static=stage.kind == "quasi-static",
-            drives=drives,
-            obstacles=obstacles,
-            until=[condition for _, condition in conditions],
+            quasi_static=lowered.quasi_static,
+            drives=lowered.drives,
+            obstacles=lowered.obstacles,
+            until=lowered.until,
         )
-        start = start_in_space(structure, self.linkage, stage.initial_velocity, stage.impulses)
-        further = np.zeros((len(touching.velocity), 6))
-        energy = start.given_energy
-        if first:
-            further[:, 3:] = touching.velocity
-            masses = [body.mass for body in touching.model.bodies[len(self.linkage.bodies) :]]
-            energy += float(np.sum(masses * np.sum(touching.velocity**2, axis=1)) / 2.0)
-        velocity = np.concatenate([start.velocity, further])
-        impulse = np.concatenate([start.impulse, np.zeros_like(further)])
+        velocity, impulse, energy = added_motion(*parts, first=first)
         return energy, simulation.set_motion(velocity, impulse)
 
     def _solved(
@@ -150,7 +137,7 @@ class SpaceSolver:
             struck=any(stage.impulses for stage in self._stages),
             poses=poses,
             hinges=tuple(self._hinge_histories(record)),
-            energy=_energy(record, touched=bool(self._touching.model.capsules)),
+            energy=energy_in_space(record, touched=bool(self._touching.model.capsules)),
             stepping_seconds=seconds,
             further=(
                 *force_channels(self._structure, poses, local),
@@ -162,24 +149,10 @@ class SpaceSolver:
 
     def _hinge_histories(self, record: SpaceRecord) -> Iterator[HingeHistory]:
         offsets = self._touching.model.component_offsets
-        connections = [c for c in self.linkage.connections if c.hinge is not None]
-        for k, connection in enumerate(connections):
-            assert connection.hinge is not None
-            span = slice(offsets[k], offsets[k + 1])
-            parts = {
-                "rotation": ("rad", record.hinge_rotation[:, span]),
-                "rotation_rate": ("rad/s", record.hinge_rate[:, span]),
-                "plastic_rotation": ("rad", record.hinge_plastic[:, span]),
-                "moment": ("N*m", record.hinge_moment[:, span]),
-                "capacity": ("N*m", record.hinge_capacity[:, span]),
-            }
-            columns = _columns(parts, connection.free)
-            columns["energy"] = ("J", np.ascontiguousarray(record.hinge_energy[:, k, 0]))
+        for k, (hinge, columns) in enumerate(hinge_columns(self.linkage, offsets, record)):
             largest, moment_max, _, rest, turning, energy, _ = record.summary[k]
             at_rest = None if turning else float(rest)
-            yield HingeHistory(
-                connection.hinge, columns, float(largest), float(moment_max), at_rest, float(energy)
-            )
+            yield HingeHistory(hinge, columns, float(largest), float(moment_max), at_rest, float(energy))
 
     def _obstacle_channels(self, record: SpaceRecord) -> Iterator[Channel]:
         first = len(self.linkage.connections)
@@ -196,6 +169,26 @@ class SpaceSolver:
                     yield Channel(
                         f"obstacle.{name}.{quantity}.{axis}", unit, np.ascontiguousarray(values[:, i])
                     )
+
+
+def hinge_columns(
+    linkage: Linkage, offsets: list[int], record: SpaceRecord
+) -> Iterator[tuple[PlacedHinge, dict[str, tuple[str, Floats]]]]:
+    """Every hinge and its columns, see `HingeHistory`; `offsets` of its components as of a `SpaceModel`."""
+    connections = [c for c in linkage.connections if c.hinge is not None]
+    for k, connection in enumerate(connections):
+        assert connection.hinge is not None
+        span = slice(offsets[k], offsets[k + 1])
+        parts = {
+            "rotation": ("rad", record.hinge_rotation[:, span]),
+            "rotation_rate": ("rad/s", record.hinge_rate[:, span]),
+            "plastic_rotation": ("rad", record.hinge_plastic[:, span]),
+            "moment": ("N*m", record.hinge_moment[:, span]),
+            "capacity": ("N*m", record.hinge_capacity[:, span]),
+        }
+        columns = _columns(parts, connection.free)
+        columns["energy"] = ("J", np.ascontiguousarray(record.hinge_energy[:, k, 0]))
+        yield connection.hinge, columns
 
 
 def _columns(parts: dict[str, tuple[str, Floats]], free: tuple[int, ...]) -> dict[str, tuple[str, Floats]]:
@@ -216,7 +209,8 @@ def _columns(parts: dict[str, tuple[str, Floats]], free: tuple[int, ...]) -> dic
     return columns
 
 
-def _energy(record: SpaceRecord, *, touched: bool) -> dict[str, Floats]:
+def energy_in_space(record: SpaceRecord, *, touched: bool) -> dict[str, Floats]:
+    """The ledger, (n,) each [J]; `touched`: with contact and friction."""
     dissipated = record.hinge_energy[:, :, 0].sum(axis=1)
     energy = {
         "kinetic": record.energy[:, 0],

@@ -14,20 +14,62 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from crumple._core.batch import TreeFinals, TreeVariants, solve_many
 from crumple._core.tree import Outcome
 from crumple.errors import InputError, Problem, Status
-from crumple.multibody.choice import refuse_spatial
-from crumple.multibody.factors import FACTORS, checked_names
-from crumple.multibody.finals import final_quantities, part_of
-from crumple.multibody.lowered import Lowered, RawMass, lowered, raw_mass, tree_arrays
+from crumple.multibody.choice import why_spatial
+from crumple.multibody.factors import checked_names, quick
+from crumple.multibody.finals import Finals, part_of
+from crumple.multibody.planar_batch import PlanarBatch
 from crumple.multibody.rigid import Floats
 from crumple.multibody.run import Cancel, Progress, Run, outcome_status
-from crumple.structure import Structure, changed, value_at
+from crumple.multibody.solved import Poll
+from crumple.multibody.space_batch import SpaceBatch
+from crumple.structure import Structure, changed, placed_hinges
+
+REASONS = {
+    Outcome.REFUSED: "masses, inertias and capacities must be positive, and every value finite",
+    Outcome.STEP_COLLAPSED: "the equations of a step did not converge at the smallest step",
+    Outcome.NOT_FINITE: "the place of a body is not a number",
+}
+
+
+class Lowered(Protocol):
+    """A structure as a kernel's arrays."""
+
+    @property
+    def topology(self) -> tuple[object, ...]:
+        """What must be the same for two models to be variants of each other."""
+
+
+Model = TypeVar("Model", bound=Lowered)
+
+
+class Batch(Protocol[Model, Finals]):
+    """How a kernel solves many variants."""
+
+    def lower(self, structure: Structure, *, moved: bool = False) -> Model:
+        """Lower a structure; `moved`: its nodes are not where those of the one that was asked about are."""
+
+    def hinges(self, model: Model) -> list[str]:
+        """Names of the hinges in the kernel's order."""
+
+    def solve(
+        self,
+        values: Mapping[str, Floats],
+        models: Sequence[Model],
+        model_of: NDArray[np.int64],
+        threads: int,
+        poll: Poll | None,
+    ) -> Finals:
+        """Solve variants, (n,), of which quick parameters have `values` and each has one of the models."""
+
+    def quantities(self, model: Model, finals: Finals) -> dict[str, Floats]:
+        """Named quantities of variants that share a model, (n,) each."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,9 +82,11 @@ class VariantTable:
         The values that were asked for, (n,) each.
     quantities
         Final values by channel name, (n,) each; NaN, which stands for no value, in rows that were refused.
-        ``hinge.NAME.`` rotation, plastic_rotation, moment, capacity, energy, rotation_max, moment_max;
-        ``energy.``kinetic, elastic, dissipated, external_work; ``node.NAME.displacement.x`` and
-        ``node.NAME.rotation.x`` of the nodes asked for; section rotations asked for; ``energy_residual``.
+        ``hinge.NAME.`` rotation, plastic_rotation, moment, capacity, energy, rotation_max, moment_max, and of
+        a hinge with several components each of them; ``energy.`` kinetic, elastic, dissipated,
+        external_work, with obstacles also contact and friction; ``node.NAME.displacement.x`` and
+        ``node.NAME.rotation.x`` of the nodes asked for; section rotations, distances and clearances asked
+        for; ``energy_residual``.
     status
         How each variant ended.
     reason
@@ -99,44 +143,45 @@ def solve_variants(
     Notes
     -----
     Each variant is solved once, at the accuracy of the settings; `solve_multibody` solves a second time at a
-    quarter of it to state an error.  Rows have the bits of a single run of the kernel with the same arrays;
+    quarter of it to state an error.  All have the kernel that the structure itself gets, in space with its
+    stages.  Rows have the bits of a single run of the kernel with the same arrays;
     masses enter these arrays to rounding as they do in `solve_multibody`.
 
     References
     ----------
     docs/theory/variants.md.  Verified in tests/unit/multibody/test_variants.py.
     """
-    refuse_spatial(structure, run)
-    base = lowered(structure, run.duration)
-    values = _columns(structure, base, parameters)
-    slow = [name for name in values if not _quick(name)]
-    models, model_of, refused = _models(structure, run, values, slow, base)
-    arrays = _variants(values, models, model_of)
-    settings = run.settings
-    finals = solve_many(
-        arrays,
-        run.duration,
-        settings.accuracy,
-        settings.minimum_time_step,
-        settings.maximum_time_step,
-        threads or os.cpu_count() or 1,
-        poll=_poll(progress, cancel),
-    )
-    status, reason = _outcomes(finals, refused, run.settings.energy_residual_bound)
-    quantities = _quantities(models, model_of, finals, run)
+    count = threads or os.cpu_count() or 1
+    poll = _poll(progress, cancel)
+    if why_spatial(structure, placed_hinges(structure), run) is None:
+        return _table(PlanarBatch(run), structure, parameters, count, poll, run)
+    return _table(SpaceBatch(run), structure, parameters, count, poll, run)
+
+
+def _table(
+    batch: Batch[Model, Finals],
+    structure: Structure,
+    parameters: Mapping[str, ArrayLike],
+    threads: int,
+    poll: Poll | None,
+    run: Run,
+) -> VariantTable:
+    base = batch.lower(structure)
+    values = _columns(structure, batch.hinges(base), parameters)
+    models, model_of, refused = _models(batch, structure, values, base)
+    finals = batch.solve(values, models, model_of, threads, poll)
+    bound = run.settings.energy_residual_bound
+    status, reason = _outcomes(finals.outcome, finals.residual, refused, bound)
+    quantities = _quantities(batch, models, model_of, finals)
     lost = np.array([state is Status.REFUSED for state in status])
     for column in quantities.values():
         column[lost] = np.nan
     return VariantTable(values, quantities, status, reason)
 
 
-def _quick(name: str) -> bool:
-    """Whether a parameter only scales arrays of the kernel."""
-    head, *rest = name.split(".")
-    return (not rest and head in FACTORS) or (head == "hinges") or (head == "masses" and rest[1:] == ["mass"])
-
-
-def _columns(structure: Structure, base: Lowered, parameters: Mapping[str, ArrayLike]) -> dict[str, Floats]:
+def _columns(
+    structure: Structure, hinges: Sequence[str], parameters: Mapping[str, ArrayLike]
+) -> dict[str, Floats]:
     """One array per parameter, all as long."""
     values = {name: np.atleast_1d(np.asarray(given, float)) for name, given in parameters.items()}
     count = max((column.size for column in values.values()), default=0)
@@ -150,26 +195,26 @@ def _columns(structure: Structure, base: Lowered, parameters: Mapping[str, Array
         problems.append(Problem(what, "", "a path of the input, or a factor", todo, "parameters"))
     if problems:
         raise InputError(problems)
-    checked_names(structure, base, list(values))
+    checked_names(structure, hinges, list(values))
     return {name: np.broadcast_to(column, (count,)).copy() for name, column in values.items()}
 
 
 def _models(
-    structure: Structure, run: Run, values: Mapping[str, Floats], slow: Sequence[str], base: Lowered
-) -> tuple[list[Lowered], NDArray[np.int64], dict[int, str]]:
+    batch: Batch[Model, Finals], structure: Structure, values: Mapping[str, Floats], base: Model
+) -> tuple[list[Model], NDArray[np.int64], dict[int, str]]:
     """A model for every distinct combination of slow parameters, which one each variant has, and refusals."""
     count = len(next(iter(values.values())))
+    slow = [name for name in values if not quick(name)]
     if not slow:
         return [base], np.zeros(count, np.int64), {}
+    moved = any(name.startswith("nodes.") for name in slow)
     rows = np.stack([values[name] for name in slow], axis=1)
     distinct, combination = np.unique(rows, axis=0, return_inverse=True)
     models, number, failed = [base], np.zeros(len(distinct), np.int64), {}
     for i, combined in enumerate(distinct):
         try:
             new = changed(structure, dict(zip(slow, map(float, combined), strict=True)))
-            if any(name.startswith("nodes.") for name in slow):
-                refuse_spatial(new, run)
-            model = lowered(new, run.duration)
+            model = batch.lower(new, moved=moved)
             if model.topology != base.topology:
                 raise InputError("these values join other parts than the structure's own")
         except InputError as error:
@@ -180,43 +225,6 @@ def _models(
     combination = combination.reshape(-1)
     refused = {row: failed[i] for row, i in enumerate(combination.tolist()) if i in failed}
     return models, number[combination], refused
-
-
-def _variants(
-    values: Mapping[str, Floats], models: Sequence[Lowered], model_of: NDArray[np.int64]
-) -> TreeVariants:
-    """The kernel's arrays: what each model has, with masses and factors."""
-    count = model_of.size
-    velocity = np.stack([model.start.velocity for model in models])[model_of]
-    impulse = np.stack([model.start.impulse for model in models])[model_of]
-    bodies = None
-    masses = {name: column for name, column in values.items() if name.startswith("masses.") and _quick(name)}
-    if masses:
-        raw = np.stack([raw_mass(model) for model in models])[model_of]
-        for name, column in masses.items():
-            steps = np.stack([_per_kilogram(model, name) for model in models])
-            since = np.array([value_at(model.structure, name) for model in models])
-            raw += (column - since[model_of])[:, None, None] * steps[model_of]
-        bodies, velocity, impulse = tree_arrays(raw)
-    velocity *= values.get("initial_velocity", np.ones(count))[:, None, None]
-    impulse *= values.get("impulses", np.ones(count))[:, None, None]
-    base = models[0]
-    scale = np.ones((count, len(base.hinges)))
-    for k, (name, _) in enumerate(base.hinges):
-        scale[:, k] = values.get(f"hinges.{name}.capacity", 1.0)
-    loads = np.ones((count, len(base.tree.loads))) * values.get("loads", np.ones(count))[:, None]
-    gravity = np.stack([model.tree.gravity for model in models])[model_of]
-    gravity = gravity * values.get("gravity", np.ones(count))[:, None]
-    trees = [model.tree for model in models]
-    return TreeVariants(trees, model_of, velocity, impulse, scale, loads, bodies, gravity)
-
-
-def _per_kilogram(model: Lowered, name: str) -> RawMass:
-    """What one more kilogram of a lump adds to mass, moments and momentum, which are linear in it."""
-    since = value_at(model.structure, name)
-    more = lowered(changed(model.structure, {name: since + 1.0}), 1.0)
-    step: RawMass = raw_mass(more) - raw_mass(model)
-    return step
 
 
 def _poll(progress: Progress | None, cancel: Cancel | None) -> Callable[[float], bool] | None:
@@ -232,13 +240,12 @@ def _poll(progress: Progress | None, cancel: Cancel | None) -> Callable[[float],
 
 
 def _outcomes(
-    finals: TreeFinals, refused: Mapping[int, str], bound: float
+    outcomes: NDArray[np.int64], residuals: Floats, refused: Mapping[int, str], bound: float
 ) -> tuple[tuple[Status, ...], tuple[str, ...]]:
     status, reason = [], []
-    for row, (code, residual) in enumerate(zip(finals.outcome, finals.residual, strict=True)):
+    for row, (code, residual) in enumerate(zip(outcomes, residuals, strict=True)):
         outcome = Outcome(int(code))
-        nonsense = "masses, inertias and capacities must be positive, and every value finite"
-        state, why = outcome_status(outcome, nonsense if outcome is Outcome.REFUSED else "", residual, bound)
+        state, why = outcome_status(outcome, REASONS.get(outcome, ""), residual, bound)
         if row in refused:
             state, why = Status.REFUSED, refused[row]
         status.append(state)
@@ -247,7 +254,7 @@ def _outcomes(
 
 
 def _quantities(
-    models: Sequence[Lowered], model_of: NDArray[np.int64], finals: TreeFinals, run: Run
+    batch: Batch[Model, Finals], models: Sequence[Model], model_of: NDArray[np.int64], finals: Finals
 ) -> dict[str, Floats]:
     """Final quantities of all variants, model by model."""
     found: dict[str, Floats] = {}
@@ -257,6 +264,9 @@ def _quantities(
         rows = order[ends[i] : ends[i + 1]]
         if rows.size == 0:
             continue
-        for name, column in final_quantities(model, part_of(finals, rows), run.outputs).items():
+        # a run that failed may have gone anywhere
+        with np.errstate(all="ignore"):
+            named = batch.quantities(model, part_of(finals, rows))
+        for name, column in named.items():
             found.setdefault(name, np.zeros(model_of.size))[rows] = column
     return found

@@ -99,7 +99,7 @@ def test_laws_are_sampled_once_for_each_distinct_combination(tube, monkeypatch):
         made.append(structure)
         return lowered(structure, duration)
 
-    monkeypatch.setattr("crumple.multibody.variants.lowered", counted)
+    monkeypatch.setattr("crumple.multibody.planar_batch.lowered", counted)
     yields = np.array([400e6, 450e6, 400e6, 450e6] * 5)
     solve_variants(
         tube, RUN, {"materials.steel.yield_stress": yields, "initial_velocity": np.linspace(0.5, 1, 20)}

@@ -1,0 +1,63 @@
+#include "multibody/team.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace crumple::multibody {
+
+namespace {
+
+constexpr auto poll_pause = std::chrono::milliseconds(20);
+
+}  // namespace
+
+void share_out(std::size_t count, std::size_t share, int threads,
+               const std::function<void(std::size_t, const std::function<bool(double)>&)>& task,
+               const std::function<bool(double)>& poll) {
+    std::atomic<std::size_t> next{0}, done{0};
+    std::atomic<bool> cancelled{false};
+    const std::function<bool(double)> go_on = [&](double) { return !cancelled.load(std::memory_order_relaxed); };
+    auto work = [&] {
+        for (std::size_t begin = next.fetch_add(share); begin < count; begin = next.fetch_add(share)) {
+            for (std::size_t i = begin; i < std::min(begin + share, count); i++) {
+                if (!go_on(0)) return;
+                task(i, go_on);
+                done++;
+            }
+        }
+    };
+    std::mutex mutex;
+    std::condition_variable ended;
+    int working = std::max(1, threads);
+    std::vector<std::thread> team;
+    for (int i = working; i > 0; i--) {
+        team.emplace_back([&] {
+            work();
+            const std::lock_guard<std::mutex> lock(mutex);
+            working--;
+            ended.notify_one();
+        });
+    }
+    std::exception_ptr failed;
+    std::unique_lock<std::mutex> lock(mutex);
+    while (!ended.wait_for(lock, poll_pause, [&] { return working == 0; })) {
+        try {
+            if (poll && !poll(static_cast<double>(done) / static_cast<double>(count))) cancelled = true;
+        } catch (...) {
+            failed = std::current_exception();
+            cancelled = true;
+            break;
+        }
+    }
+    lock.unlock();
+    for (std::thread& thread : team) thread.join();
+    if (failed) std::rethrow_exception(failed);
+}
+
+}  // namespace crumple::multibody

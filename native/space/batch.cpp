@@ -1,0 +1,181 @@
+#include "space/batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "multibody/team.hpp"
+
+namespace crumple::space {
+
+namespace {
+
+Vec3 vector(const double* v) { return {v[0], v[1], v[2]}; }
+
+// What a body carries keeps its place in the world while the centre moves.
+void set_body(Model& model, size_t index, const double* row) {
+    Body& body = model.bodies[index];
+    const Vec3 shift = vector(row) - body.centre;
+    const int i = static_cast<int>(index);
+    auto move = [&](int owner, Vec3& arm) {
+        if (owner == i) arm = arm - shift;
+    };
+    for (Joint& joint : model.joints) {
+        for (int k = 0; k < 2; k++) move(joint.body[k], joint.arm[k]);
+    }
+    for (Spring& spring : model.springs) {
+        for (int k = 0; k < 2; k++) move(spring.body[k], spring.arm[k]);
+    }
+    for (Load& load : model.loads) move(load.body, load.arm);
+    for (Obstacle& obstacle : model.contact.obstacles) move(obstacle.body, obstacle.solid.point);
+    for (Capsule& capsule : model.contact.capsules) {
+        move(capsule.body, capsule.segment.first);
+        move(capsule.body, capsule.segment.second);
+    }
+    body.centre = vector(row);
+    body.mass = row[3];
+    body.inertia = {{vector(row + 4), vector(row + 7), vector(row + 10)}};
+    body.inverse = inverse(body.inertia);
+}
+
+Model varied(const Variations& v, const Case& of, size_t row) {
+    Model model = of.model;
+    const size_t bodies = model.bodies.size();
+    for (size_t i = 0; v.bodies && i < bodies; i++) set_body(model, i, v.bodies + body_columns * (row * bodies + i));
+    for (size_t j = 0; v.capacity_scale && j < model.hinges.size(); j++) {
+        for (Component& c : model.hinges[j].components) c.law.scale *= v.capacity_scale[row * model.hinges.size() + j];
+    }
+    for (size_t j = 0; v.load_scale && j < model.loads.size(); j++) {
+        const double scale = v.load_scale[row * model.loads.size() + j];
+        model.loads[j].force = scale * model.loads[j].force;
+        model.loads[j].moment = scale * model.loads[j].moment;
+    }
+    if (v.gravity) model.gravity = vector(v.gravity + 3 * row);
+    return model;
+}
+
+bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+bool positive(const Body& body) {
+    const Vec3 *r = body.inertia.r, minor = cross(r[0], r[1]);
+    const bool rotary = r[0].x > 0 && minor.z > 0 && dot(minor, r[2]) > 0;
+    return body.mass > 0 && std::isfinite(body.mass) && rotary && finite(r[0]) && finite(r[1]) && finite(r[2]) && finite(body.centre);
+}
+
+// whether the equations make sense: positive masses, inertias and capacities, finite loads
+bool sensible(const Model& model) {
+    for (const Body& body : model.bodies) {
+        if (!positive(body)) return false;
+    }
+    for (const SpaceHinge& hinge : model.hinges) {
+        for (const Component& c : hinge.components) {
+            if (!(c.law.scale > 0 && std::isfinite(c.law.scale))) return false;
+        }
+    }
+    for (const Load& load : model.loads) {
+        if (!finite(load.force) || !finite(load.moment)) return false;
+    }
+    return finite(model.gravity);
+}
+
+std::vector<Twist> twists(const double* rows, size_t row, size_t count, bool& all_finite) {
+    std::vector<Twist> out(count);
+    for (size_t i = 0; rows && i < count; i++) {
+        const double* t = rows + 6 * (row * count + i);
+        out[i] = {vector(t), vector(t + 3)};
+        all_finite = all_finite && finite(out[i].w) && finite(out[i].v);
+    }
+    return out;
+}
+
+void put(std::vector<double>& all, size_t row, const std::vector<double>& values) {
+    std::copy(values.begin(), values.end(), all.begin() + static_cast<std::ptrdiff_t>(row * values.size()));
+}
+
+void solve_row(const Variations& v, size_t row, const Settings& settings, const std::function<bool(double)>& go_on, Finals& out) {
+    const Case& of = *v.cases[v.case_of ? static_cast<size_t>(v.case_of[row]) : 0];
+    Model model = varied(v, of, row);
+    const size_t count = of.stages.size() * model.bodies.size();
+    bool all_finite = true;
+    const std::vector<Twist> velocity = twists(v.velocity, row, count, all_finite);
+    const std::vector<Twist> impulse = twists(v.impulse, row, count, all_finite);
+    out.outcome[row] = static_cast<int>(Outcome::refused);
+    if (!all_finite || !sensible(model)) return;
+    Simulation simulation(std::move(model), settings);
+    run_stages(simulation, of, velocity, impulse, go_on, row, out);
+}
+
+}  // namespace
+
+bool alike(const Case& a, const Case& b) {
+    const Model &m = a.model, &n = b.model;
+    bool same = m.bodies.size() == n.bodies.size() && m.joints.size() == n.joints.size() && m.hinges.size() == n.hinges.size() &&
+                m.loads.size() == n.loads.size() && m.springs.size() == n.springs.size() && m.drives.size() == n.drives.size() &&
+                m.contact.obstacles.size() == n.contact.obstacles.size() && a.stages.size() == b.stages.size();
+    for (size_t j = 0; same && j < m.joints.size(); j++) {
+        for (int k = 0; k < 2; k++) same = same && m.joints[j].body[k] == n.joints[j].body[k];
+    }
+    for (size_t j = 0; same && j < m.hinges.size(); j++) same = size(m.hinges[j]) == size(n.hinges[j]);
+    return same;
+}
+
+Finals sized(const Case& of, size_t n) {
+    const size_t bodies = of.model.bodies.size(), hinges = of.model.hinges.size();
+    size_t components = 0;
+    for (const SpaceHinge& hinge : of.model.hinges) components += static_cast<size_t>(size(hinge));
+    Finals out;
+    for (auto* column : {&out.time, &out.residual, &out.lost}) column->assign(n, 0.0);
+    for (auto* column : {&out.start, &out.centre}) column->assign(n * bodies * 3, 0.0);
+    out.rotation.assign(n * bodies * 4, 0.0);
+    out.velocity.assign(n * bodies * 6, 0.0);
+    for (auto* column : {&out.hinge_rotation, &out.hinge_rate, &out.hinge_plastic, &out.hinge_moment, &out.hinge_capacity}) {
+        column->assign(n * components, 0.0);
+    }
+    out.hinge_energy.assign(n * hinges * 3, 0.0);
+    out.summary.assign(n * hinges * summary_columns, 0.0);
+    out.energy.assign(n * energy_columns, 0.0);
+    out.steps.assign(n, 0);
+    out.outcome.assign(n, static_cast<int>(Outcome::cancelled));
+    return out;
+}
+
+void run_stages(Simulation& simulation, const Case& of, const std::vector<Twist>& velocity, const std::vector<Twist>& impulse,
+                const std::function<bool(double)>& go_on, size_t row, Finals& out) {
+    Outcome outcome = Outcome::complete;
+    const size_t bodies = of.model.bodies.size();
+    for (size_t k = 0; k < of.stages.size() && outcome == Outcome::complete; k++) {
+        const CaseStage& stage = of.stages[k];
+        simulation.begin_stage(stage.quasi_static, stage.drives, stage.obstacles, stage.until);
+        out.lost[row] += simulation.set_motion(velocity.data() + k * bodies, impulse.data() + k * bodies);
+        const Record record = simulation.run({simulation.state().t + stage.duration}, go_on);
+        outcome = record.outcome;
+        out.residual[row] = std::max(out.residual[row], record.residual);
+        out.steps[row] += record.steps;
+    }
+    const Record last = simulation.present();
+    out.time[row] = last.time.back();
+    std::vector<double> start;
+    for (const Body& body : simulation.model().bodies) start.insert(start.end(), {body.centre.x, body.centre.y, body.centre.z});
+    put(out.start, row, start);
+    put(out.centre, row, last.centre);
+    put(out.rotation, row, last.rotation);
+    put(out.velocity, row, last.velocity);
+    put(out.hinge_rotation, row, last.hinge_rotation);
+    put(out.hinge_rate, row, last.hinge_rate);
+    put(out.hinge_plastic, row, last.hinge_plastic);
+    put(out.hinge_moment, row, last.hinge_moment);
+    put(out.hinge_capacity, row, last.hinge_capacity);
+    put(out.hinge_energy, row, last.hinge_energy);
+    put(out.summary, row, simulation.summary());
+    put(out.energy, row, last.energy);
+    out.outcome[row] = static_cast<int>(outcome);
+}
+
+Finals solve_many(const Variations& v, const Settings& settings, int threads, const std::function<bool(double)>& poll) {
+    Finals out = sized(*v.cases.front(), v.count);
+    auto solve = [&](size_t row, const std::function<bool(double)>& go_on) { solve_row(v, row, settings, go_on, out); };
+    // a variant takes a millisecond or more, so threads take them one by one
+    multibody::share_out(v.count, 1, threads, solve, poll);
+    return out;
+}
+
+}  // namespace crumple::space

@@ -1,0 +1,64 @@
+// Many variants of a spatial model, each solved as one run would solve it, on several threads.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "space/simulation.hpp"
+
+namespace crumple::space {
+
+// A stage as every variant of a case passes it; motion that it adds is the variant's.
+struct CaseStage {
+    double duration = 0;
+    bool quasi_static = false;
+    std::vector<bool> drives, obstacles;  // those that act
+    std::vector<Condition> until;
+};
+
+// A model and the stages of its run.
+struct Case {
+    Model model;
+    std::vector<CaseStage> stages;
+};
+
+// inertia is a 3 x 3 matrix about the centre, all in world axes at the start
+constexpr size_t body_columns = 13;  // centre (3), mass, inertia (9)
+
+// What varies, one row per variant; a null pointer leaves the model's own.
+struct Variations {
+    size_t count = 0;
+    std::vector<const Case*> cases;          // alike, see `alike`
+    const int64_t* case_of = nullptr;        // (count)
+    const double* velocity = nullptr;        // (count, stages, bodies, 6): added as a stage begins, at the centres of mass
+    const double* impulse = nullptr;         // (count, stages, bodies, 6)
+    const double* capacity_scale = nullptr;  // (count, hinges): times the model's
+    const double* load_scale = nullptr;      // (count, loads): times the model's
+    const double* bodies = nullptr;          // (count, bodies, body_columns)
+    const double* gravity = nullptr;         // (count, 3)
+};
+
+// Where every variant ended, row by row; a row of a variant that was not solved holds zeros.
+struct Finals {
+    std::vector<double> time;                                     // (count)
+    std::vector<double> start;                                    // (count, bodies, 3): centres at the start
+    std::vector<double> centre, rotation, velocity;               // (count, bodies, 3), (.., 4), (.., 6)
+    std::vector<double> hinge_rotation, hinge_rate, hinge_plastic, hinge_moment, hinge_capacity;  // (count, components)
+    std::vector<double> hinge_energy, summary;                    // (count, hinges, 3), (count, hinges, summary_columns)
+    std::vector<double> energy;                                   // (count, energy_columns)
+    std::vector<double> residual, lost;                           // (count); lost: energy that the joints took from given motion
+    std::vector<int64_t> outcome, steps;
+};
+
+// whether cases have the same bodies, hinges, loads and stages, so that one set of arrays serves all
+bool alike(const Case& a, const Case& b);
+// rows of zeros, not begun
+Finals sized(const Case& of, size_t count);
+// runs a simulation through the stages of its case, motion (stages, bodies) added, and stores where it ends in a row
+void run_stages(Simulation& simulation, const Case& of, const std::vector<Twist>& velocity, const std::vector<Twist>& impulse,
+                const std::function<bool(double)>& go_on, size_t row, Finals& out);
+// `poll` gets the share done, now and then, on the calling thread, and returns false to cancel.
+Finals solve_many(const Variations& variations, const Settings& settings, int threads, const std::function<bool(double)>& poll);
+
+}  // namespace crumple::space

@@ -1,0 +1,120 @@
+// Python face of `solve_many`, and of a run with its followers.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <optional>
+
+#include "multibody/bind_model.hpp"
+#include "space/batch.hpp"
+#include "space/bind_model.hpp"
+
+namespace nb = nanobind;
+
+namespace crumple::space {
+
+namespace {
+
+using multibody::array;
+using multibody::Array;
+using multibody::Integers;
+using multibody::require;
+using Rows = std::optional<Array>;
+
+void add_stage(Case& of, double duration, bool quasi_static, const std::vector<int>& drives, const std::vector<int>& obstacles,
+               const nb::list& until) {
+    require(duration > 0, "a stage must last");
+    CaseStage stage;
+    stage.duration = duration;
+    stage.quasi_static = quasi_static;
+    stage.drives = chosen(drives, of.model.drives.size(), "a drive is unknown");
+    stage.obstacles = chosen(obstacles, of.model.contact.obstacles.size(), "an obstacle is unknown");
+    for (nb::handle h : until) stage.until.push_back(make_condition(of.model, nb::cast<nb::tuple>(h)));
+    of.stages.push_back(stage);
+}
+
+// rows of a variant's values, (count, ...) in all, or null
+const double* rows(const Rows& given, size_t count, size_t each, const char* what) {
+    if (!given) return nullptr;
+    require(given->size() == count * each && given->ndim() > 0 && given->shape(0) == count, what);
+    return given->data();
+}
+
+nb::dict to_dict(const Finals& f, const Case& of, size_t n) {
+    const size_t bodies = of.model.bodies.size(), hinges = of.model.hinges.size(), components = n > 0 ? f.hinge_rate.size() / n : 0;
+    nb::dict d;
+    d["time"] = array(f.time, {n});
+    d["start"] = array(f.start, {n, bodies, 3});
+    d["centre"] = array(f.centre, {n, bodies, 3});
+    d["rotation"] = array(f.rotation, {n, bodies, 4});
+    d["velocity"] = array(f.velocity, {n, bodies, 6});
+    d["hinge_rotation"] = array(f.hinge_rotation, {n, components});
+    d["hinge_rate"] = array(f.hinge_rate, {n, components});
+    d["hinge_plastic"] = array(f.hinge_plastic, {n, components});
+    d["hinge_moment"] = array(f.hinge_moment, {n, components});
+    d["hinge_capacity"] = array(f.hinge_capacity, {n, components});
+    d["hinge_energy"] = array(f.hinge_energy, {n, hinges, 3});
+    d["summary"] = array(f.summary, {n, hinges, static_cast<size_t>(summary_columns)});
+    d["energy"] = array(f.energy, {n, static_cast<size_t>(energy_columns)});
+    d["residual"] = array(f.residual, {n});
+    d["lost"] = array(f.lost, {n});
+    d["outcome"] = f.outcome;
+    d["steps"] = f.steps;
+    return d;
+}
+
+nb::dict solve(const std::vector<const Case*>& cases, const Integers& case_of, const Rows& velocity, const Rows& impulse,
+               const Rows& capacity_scale, const Rows& load_scale, const Rows& bodies, const Rows& gravity, double accuracy,
+               double minimum_step, double maximum_step, int threads, nb::object poll) {
+    require(!cases.empty(), "at least one model is needed");
+    const Case& first = *cases.front();
+    require(!first.stages.empty(), "a case needs a stage");
+    for (const Case* other : cases) {
+        require(alike(first, *other), "all models of a batch must have the same bodies, hinges, loads, drives and stages");
+    }
+    const size_t n = first.model.bodies.size(), motions = 6 * n * first.stages.size();
+    Variations v;
+    v.count = case_of.shape(0);
+    v.cases = cases;
+    v.case_of = case_of.data();
+    for (size_t i = 0; i < v.count; i++) {
+        require(v.case_of[i] >= 0 && static_cast<size_t>(v.case_of[i]) < cases.size(), "a variant names an unknown model");
+    }
+    v.velocity = rows(velocity, v.count, motions, "velocity must have shape (variants, stages, bodies, 6)");
+    v.impulse = rows(impulse, v.count, motions, "impulse must have shape (variants, stages, bodies, 6)");
+    v.capacity_scale = rows(capacity_scale, v.count, first.model.hinges.size(), "capacity_scale must have shape (variants, hinges)");
+    v.load_scale = rows(load_scale, v.count, first.model.loads.size(), "load_scale must have shape (variants, loads)");
+    v.bodies = rows(bodies, v.count, body_columns * n, "bodies must have shape (variants, bodies, 13)");
+    v.gravity = rows(gravity, v.count, 3, "gravity must have shape (variants, 3)");
+    std::function<bool(double)> ask;
+    if (!poll.is_none()) {
+        ask = [&poll](double share) {
+            nb::gil_scoped_acquire locked;
+            return nb::cast<bool>(poll(share));
+        };
+    }
+    Settings settings;
+    settings.accuracy = accuracy;
+    settings.minimum_step = minimum_step;
+    settings.maximum_step = maximum_step;
+    Finals finals;
+    {
+        nb::gil_scoped_release released;
+        finals = solve_many(v, settings, threads, ask);
+    }
+    return to_dict(finals, first, v.count);
+}
+
+}  // namespace
+
+void bind_batch(nb::module_& m) {
+    nb::class_<Case>(m, "Case", "A model and the stages of its run.")
+        .def("__init__", [](Case* self, const nb::dict& model) { new (self) Case{make_model(model), {}}; })
+        .def("add_stage", &add_stage);
+    m.def("solve_many", &solve, nb::arg("cases"), nb::arg("case_of"), nb::arg("velocity").none(), nb::arg("impulse").none(),
+          nb::arg("capacity_scale").none(), nb::arg("load_scale").none(), nb::arg("bodies").none(), nb::arg("gravity").none(),
+          nb::arg("accuracy"), nb::arg("minimum_step"), nb::arg("maximum_step"), nb::arg("threads"), nb::arg("poll").none(),
+          "Solve every variant as one run would, on several threads.");
+}
+
+}  // namespace crumple::space

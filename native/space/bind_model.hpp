@@ -1,0 +1,15 @@
+// Models and conditions from Python's plain values.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include "space/simulation.hpp"
+
+namespace crumple::space {
+
+Model make_model(const nanobind::dict& d);
+Condition make_condition(const Model& model, const nanobind::tuple& t);
+// flags of n things, true for the indices given
+std::vector<bool> chosen(const std::vector<int>& indices, size_t n, const char* unknown);
+
+}  // namespace crumple::space

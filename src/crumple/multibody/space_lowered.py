@@ -1,0 +1,192 @@
+"""A structure as the spatial kernel's case; mass and momentum of its bodies in a form linear in masses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple._core.space_batch import SpaceCase, SpaceStage
+from crumple._core.space_model import SpaceModel
+from crumple.errors import InputError
+from crumple.multibody.linkage import Linkage, check_inertia, link
+from crumple.multibody.obstacle_bodies import Touching, with_obstacles
+from crumple.multibody.rigid import Floats
+from crumple.multibody.run import Run
+from crumple.multibody.space_model import space_model, support_drives
+from crumple.multibody.stages import lowered_until, stages_of
+from crumple.multibody.start import start_in_space
+from crumple.structure import Stage, Structure
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceLowered:
+    """A structure, the linkage that it becomes, and what the kernel gets.
+
+    Attributes
+    ----------
+    structure, linkage, touching
+        What is solved, its bodies and connections, and those of its obstacles.
+    case
+        Model and stages.
+    velocity, impulse
+        Motion that every stage adds, at the centres of mass, (stages, bodies, 6).
+    """
+
+    structure: Structure
+    linkage: Linkage
+    touching: Touching
+    case: SpaceCase
+    velocity: Floats
+    impulse: Floats
+
+    @property
+    def model(self) -> SpaceModel:
+        """The kernel's model."""
+        return self.case.model
+
+    @property
+    def hinges(self) -> list[str]:
+        """Names of the hinges in the kernel's order."""
+        return [c.name for c in self.linkage.connections if c.hinge is not None]
+
+    @property
+    def topology(self) -> tuple[object, ...]:
+        """What must be the same for two models to be variants of each other."""
+        model = self.model
+        joints = tuple((joint.first, joint.second, joint.held) for joint in model.joints)
+        hinges = tuple(tuple(part.freedom for part in hinge.components) for hinge in model.hinges)
+        bodies = (
+            len(model.bodies),
+            tuple(load.body for load in model.loads),
+            tuple(self.linkage.node_body.items()),
+        )
+        counts = len(model.drives), len(model.obstacles), len(model.capsules), len(self.case.stages)
+        return (*self.hinges, joints, hinges, bodies, counts)
+
+
+def lowered_in_space(structure: Structure, run: Run) -> SpaceLowered:
+    """Lower a structure and the stages of its run for the spatial kernel.
+
+    Raises
+    ------
+    InputError
+        If it cannot be solved, or nothing can move.
+    """
+    linkage = link(structure)
+    if not linkage.bodies:
+        raise InputError("nothing can move: every part is held and no member has a hinge")
+    check_inertia(linkage)
+    stages = stages_of(structure, run)
+    longest = max(stage.duration for stage in stages)
+    owners = tuple(name for name, _ in support_drives(structure, linkage, longest))
+    touching = with_obstacles(structure, linkage, space_model(structure, linkage, longest), owners, longest)
+    motions = [
+        added_motion(structure, linkage, touching, stage, first=i == 0)[:2] for i, stage in enumerate(stages)
+    ]
+    return SpaceLowered(
+        structure,
+        linkage,
+        touching,
+        SpaceCase(touching.model, tuple(kernel_stage(structure, linkage, touching, s) for s in stages)),
+        np.stack([velocity for velocity, _ in motions]),
+        np.stack([impulse for _, impulse in motions]),
+    )
+
+
+def kernel_stage(structure: Structure, linkage: Linkage, touching: Touching, stage: Stage) -> SpaceStage:
+    """What acts in a stage, and what ends it, by the kernel's indices."""
+    names = list(structure.obstacles)
+    drives = obstacles = None
+    if stage.drive is not None:
+        drives = tuple(i for i, owner in enumerate(touching.drives) if owner in stage.drive)
+    if stage.obstacles is not None:
+        obstacles = tuple(names.index(name) for name in stage.obstacles)
+    conditions = lowered_until(structure, linkage, touching, stage)
+    return SpaceStage(
+        stage.duration,
+        stage.kind == "quasi-static",
+        drives,
+        obstacles,
+        tuple(condition for _, condition in conditions),
+    )
+
+
+def added_motion(
+    structure: Structure, linkage: Linkage, touching: Touching, stage: Stage, *, first: bool
+) -> tuple[Floats, Floats, float]:
+    """Velocities and impulses, (bodies, 6) each, that a stage adds as it begins, and their energy [J].
+
+    Thrown obstacles are thrown in the `first` stage.
+    """
+    start = start_in_space(structure, linkage, stage.initial_velocity, stage.impulses)
+    further = np.zeros((len(touching.velocity), 6))
+    energy = start.given_energy
+    if first:
+        further[:, 3:] = touching.velocity
+        masses = [body.mass for body in touching.model.bodies[len(linkage.bodies) :]]
+        energy += float(np.sum(masses * np.sum(touching.velocity**2, axis=1)) / 2.0)
+    velocity = np.concatenate([start.velocity, further])
+    return velocity, np.concatenate([start.impulse, np.zeros_like(further)]), energy
+
+
+def space_raw_mass(model: SpaceLowered, about: Floats) -> Floats:
+    """Mass, momenta and impulses of every body about a fixed point of each, (bodies, 13 + 12 stages).
+
+    Parameters
+    ----------
+    model
+        Lowered.
+    about
+        The points [m], (bodies, 3).
+
+    Returns
+    -------
+    ndarray
+        Mass [kg], mass times centre [kg m] (3), inertia [kg m^2] (9); of every stage angular momentum [N m s]
+        (3), momentum [N s] (3) and the same of its impulses.  All are sums over parts, so linear in masses.
+    """
+    rows = []
+    for i, (body, point) in enumerate(zip(model.model.bodies, about, strict=True)):
+        arm, mass = np.asarray(body.centre, float) - point, body.mass
+        inertia = body.inertia + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+        row = [[mass], mass * arm, inertia.ravel()]
+        for velocity, impulse in zip(model.velocity[:, i], model.impulse[:, i], strict=True):
+            momentum = mass * velocity[3:]
+            row += [body.inertia @ velocity[:3] + np.cross(arm, momentum), momentum]
+            row += [impulse[:3] + np.cross(arm, impulse[3:]), impulse[3:]]
+        rows.append(np.concatenate(row))
+    return np.array(rows)
+
+
+def space_arrays(raw: Floats, about: Floats) -> tuple[Floats, Floats, Floats]:
+    """The kernel's arrays of raw masses, (n, bodies, 13 + 12 stages).
+
+    Parameters
+    ----------
+    raw, about
+        As of `space_raw_mass`; points (n, bodies, 3).
+
+    Returns
+    -------
+    bodies
+        Centre, mass, inertia about the centre, (n, bodies, 13).
+    velocity, impulse
+        Of and at the centres, (n, stages, bodies, 6).
+    """
+    mass = raw[..., :1]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # a body without mass is refused by the kernel, row by row
+        arm = raw[..., 1:4] / mass
+        square = np.sum(arm**2, axis=-1)[..., None, None] * np.eye(3) - arm[..., :, None] * arm[..., None, :]
+        inertia = raw[..., 4:13].reshape(*raw.shape[:-1], 3, 3) - mass[..., None] * square
+        stages = np.moveaxis(raw[..., 13:].reshape(*raw.shape[:-1], -1, 4, 3), 2, 1)
+        spin, momentum, blow, force = np.moveaxis(stages, 3, 0)
+        arm_now = arm[:, None]
+        sound = np.abs(np.linalg.det(inertia)) > 0.0
+        inverse = np.linalg.inv(np.where(sound[..., None, None], inertia, np.nan * np.eye(3)))
+        rate = np.einsum("nbij,nsbj->nsbi", inverse, spin - np.cross(arm_now, momentum))
+        velocity = np.concatenate([rate, momentum / mass[:, None]], axis=-1)
+    impulse = np.concatenate([blow - np.cross(arm_now, force), force], axis=-1)
+    bodies = np.concatenate([about + arm, mass, inertia.reshape(*raw.shape[:-1], 9)], axis=-1)
+    return bodies, velocity, impulse
