@@ -79,7 +79,7 @@ class Assembly:
         for cut in self.cuts:
             first, second = self.root(cut.first), self.root(cut.second)
             if first == second:
-                raise _idle(self.structure, cut)
+                raise idle(self.structure, cut)
             found.append(Cut(first, second, cut.hinge, cut.joint))
         return found
 
@@ -113,14 +113,18 @@ def joint_of(structure: Structure, cut: Cut) -> Joint | None:
     return None if cut.joint is None else structure.joints[cut.joint]
 
 
-def _idle(structure: Structure, cut: Cut) -> InputError:
+def idle(structure: Structure, cut: Cut) -> InputError:
+    """What is wrong with a cut both sides of which move as one, or not at all."""
     if cut.hinge is not None:
         came = f"hinge {cut.hinge.name} of member {cut.hinge.member}"
-        what = "this hinge are joined rigidly elsewhere, so it cannot turn"
+        what = "this hinge are held or joined rigidly elsewhere, so it cannot turn"
         where = f"members.{cut.hinge.member}.hinges"
     else:
         came = f"joint {cut.joint} of member {structure.joints[str(cut.joint)].member}"
-        what, where = "this joint are joined rigidly elsewhere, so it cannot move", f"joints.{cut.joint}"
+        what, where = (
+            "this joint are held or joined rigidly elsewhere, so it cannot move",
+            f"joints.{cut.joint}",
+        )
     return InputError(
         Problem(
             f"both sides of {what}",

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.multibody.assembly import Assembly, Cut, Piece, assemble
+from crumple.multibody.assembly import Assembly, Cut, Piece, assemble, idle
 from crumple.multibody.rigid import Floats, RigidMass
 from crumple.structure import FREEDOMS, Joint, PlacedHinge, Structure, placed_hinges
 from crumple.structure.geometry import cross
@@ -117,13 +117,16 @@ def link(structure: Structure, hinges: tuple[PlacedHinge, ...] | None = None) ->
     Raises
     ------
     InputError
-        If a hinge or joint joins a part with itself.
+        If a hinge or joint joins a part with itself, or two held parts.
     """
     hinges = placed_hinges(structure) if hinges is None else hinges
     assembly = assemble(structure, hinges)
     cuts, masses = assembly.moving_cuts(), assembly.masses()
     held = _held(structure)
     clamped = {assembly.root(assembly.node[node]) for node, freedoms in held.items() if len(freedoms) == 6}
+    for cut in cuts:
+        if cut.first in clamped and cut.second in clamped:
+            raise idle(structure, cut)
     parts = list(dict.fromkeys(assembly.root(i) for i in range(len(assembly.parent))))
     used = {side for cut in cuts for side in (cut.first, cut.second)} | set(masses)
     moving = [part for part in parts if part in used and part not in clamped]

@@ -5,9 +5,10 @@ import pytest
 from tests.unit.multibody.parts import CLAMP, LAW, member, structure
 
 from crumple.errors import InputError
-from crumple.multibody import link, notes
+from crumple.multibody import Run, link, notes, solve_multibody
 from crumple.multibody.linkage import GROUND, check_inertia
 from crumple.multibody.mobility import free_parts, mobility
+from crumple.structure import MultibodySettings
 
 SQUARE = {"a": (0, 0, 0), "b": (0, 0, 1), "c": (1, 0, 1), "d": (1, 0, 0)}
 BOTH = CLAMP | {"other": {"node": "d", "fix": "all"}}
@@ -128,7 +129,7 @@ def test_a_joint_between_parts_that_are_one_is_refused():
     members = {name: bar(*name) for name in ("ab", "bc", "cd")} | {"da": member("d", "a")}
     joint = {"j": {"node": "a", "member": "ab", "type": "spherical"}}
     whole = structure(SQUARE, members, supports={}, joints=joint)
-    with pytest.raises(InputError, match="both sides of this joint are joined rigidly elsewhere"):
+    with pytest.raises(InputError, match="both sides of this joint are held or joined rigidly elsewhere"):
         link(whole)
 
 
@@ -138,3 +139,14 @@ def test_a_body_that_nothing_resists_turning_is_refused():
     linkage = link(structure(members=members, supports=rolling))
     with pytest.raises(InputError, match="the body between 1000 mm and 1000 mm of member bar has no inertia"):
         check_inertia(linkage)
+
+
+@pytest.mark.parametrize("kernel", ["tree", "spatial"])
+def test_a_hinge_between_two_clamps_is_refused(kernel):
+    nodes = {"a": (0.0, 0.0, 0.0), "b": (1.0, 0.0, 0.0), "c": (1.0, 0.0, 1.0)}
+    members = {"held": member("a", "b", ("between", 0.5)), "post": member("b", "c", ("foot", 0.1))}
+    supports = CLAMP | {"other": {"node": "b", "fix": "all"}}
+    thrown = [{"rotation": 5.0, "axis": (0.0, 1.0, 0.0), "about": nodes["b"], "members": ["post"]}]
+    whole = structure(nodes, members, supports=supports, initial_velocity=thrown)
+    with pytest.raises(InputError, match="hinge between of member held"):
+        solve_multibody(whole, Run(0.05, 0.01, MultibodySettings(kernel=kernel)))
