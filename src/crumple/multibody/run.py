@@ -16,8 +16,9 @@ Progress = Callable[[float], None]
 Cancel = Callable[[], bool]
 
 CHECK_FACTOR = 4.0
-"""The answer is computed at the accuracy asked for and again this much tighter, with at least two steps an
-output interval: half the step of a second-order method.  The difference bounds the error of the second."""
+"""The answer is computed this much tighter than asked for, which halves the step of a second-order method.
+A run at the accuracy asked for follows, without outputs on the way, so that its steps are those which the
+error control chooses; the difference bounds the error of the answer."""
 
 STATUS = {
     Outcome.COMPLETE: Status.COMPLETE,
@@ -40,14 +41,15 @@ class Run:
     stages: tuple[Stage, ...] = ()
 
 
-def output_times(run: Run) -> Floats:
+def output_times(run: Run, *, ends_only: bool = False) -> Floats:
     """Times at which the histories are recorded: the interval's multiples, the end and the pictures' [s]."""
+    if ends_only:
+        return np.array([0.0, run.duration])
     number = int(np.floor(run.duration / run.every * (1 + 1e-12)))
     regular = np.minimum(run.every * np.arange(number + 1), run.duration)
-    wanted = np.concatenate([regular, [run.duration], [t for t in run.outputs.pictures if t < run.duration]])
-    times = np.unique(wanted)
-    apart = np.concatenate([[True], np.diff(times) > 1e-9 * run.duration])
-    kept: Floats = times[apart]
+    pictures = [t for t in run.outputs.pictures if t < run.duration]
+    times = np.sort(np.concatenate([regular, [run.duration], pictures]))
+    kept: Floats = times[np.diff(times, prepend=-1.0) > 1e-9 * run.duration]
     return kept
 
 

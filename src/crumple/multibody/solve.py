@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 
 import numpy as np
 
@@ -66,14 +67,14 @@ def solve_multibody(
     solver = solver_of(structure, run)
     if not solver.moving:
         raise _nothing_moves()
-    longest = run.settings.maximum_time_step
-    solved = rough = solver.run(
-        run.settings.accuracy, longest, poll_of(run.duration, (0.0, 0.4), progress, cancel)
-    )
-    if rough.outcome is Outcome.COMPLETE:
-        longest = min(longest, run.every) / 2
-        poll = poll_of(run.duration, (0.4, 1.0), progress, cancel)
-        solved = solver.run(run.settings.accuracy / CHECK_FACTOR, longest, poll)
+    accuracy = run.settings.accuracy
+    poll = poll_of(run.duration, (0.0, 0.7), progress, cancel)
+    solved = rough = solver.run(accuracy / CHECK_FACTOR, poll)
+    if solved.outcome is Outcome.COMPLETE:
+        poll = poll_of(run.duration, (0.7, 1.0), progress, cancel)
+        rough = solver.run(accuracy, poll, ends_only=True)
+        if rough.outcome is Outcome.CANCELLED:
+            solved = replace(solved, outcome=rough.outcome, reason=rough.reason)
     errors = np.array(
         [abs(a.rotation_max - b.rotation_max) for a, b in zip(rough.hinges, solved.hinges, strict=True)]
     )
@@ -102,7 +103,7 @@ def _doubt(
     runs = [rough.hinges]
     poll = poll_of(run.duration, (1.0, 1.0), None, cancel)
     for hinges in changed_capacities(placed_hinges(structure)):
-        solved = solver.with_hinges(hinges).run(run.settings.accuracy, run.settings.maximum_time_step, poll)
+        solved = solver.with_hinges(hinges).run(run.settings.accuracy, poll, ends_only=True)
         if solved.outcome is Outcome.COMPLETE:
             runs.append(solved.hinges)
     return not_unique(runs)

@@ -123,5 +123,5 @@ class Solver(Protocol):
     def with_hinges(self, hinges: tuple[PlacedHinge, ...]) -> Solver:
         """The same with other hinges at the same places."""
 
-    def run(self, accuracy: float, longest: float, poll: Poll | None) -> Solved:
-        """Step at an accuracy with steps of at most `longest` [s]."""
+    def run(self, accuracy: float, poll: Poll | None, *, ends_only: bool = False) -> Solved:
+        """Step at an accuracy, recording at the run's output times or at the ends of its stages alone."""

@@ -77,11 +77,11 @@ class SpaceSolver:
         """See `Solver`."""
         return SpaceSolver(self._structure, self._run, hinges)
 
-    def run(self, accuracy: float, longest: float, poll: Poll | None) -> Solved:
+    def run(self, accuracy: float, poll: Poll | None, *, ends_only: bool = False) -> Solved:
         """See `Solver`."""
         model, settings = self._touching.model, self._run.settings
-        simulation = SpaceSimulation(model, accuracy, settings.minimum_time_step, longest)
-        grid = output_times(self._run)
+        simulation = SpaceSimulation(model, accuracy, settings.minimum_time_step, settings.maximum_time_step)
+        grid = output_times(self._run, ends_only=ends_only)
         records: list[SpaceRecord] = []
         stages: list[StageSummary] = []
         given = lost = seconds = 0.0

@@ -24,7 +24,7 @@ def stepping_seconds(structure: Structure, run: Run) -> float | None:
     solver = solver_of(structure, run)
     found = []
     for _ in range(REPEATS):
-        solved = solver.run(run.settings.accuracy, run.settings.maximum_time_step, None)
+        solved = solver.run(run.settings.accuracy, None)
         if solved.outcome is not Outcome.COMPLETE:
             return None
         found.append(solved.stepping_seconds)

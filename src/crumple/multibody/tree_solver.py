@@ -56,12 +56,13 @@ class TreeSolver:
         """See `Solver`."""
         return TreeSolver(self._structure, self._run, hinges)
 
-    def run(self, accuracy: float, longest: float, poll: Poll | None) -> Solved:
+    def run(self, accuracy: float, poll: Poll | None, *, ends_only: bool = False) -> Solved:
         """See `Solver`."""
-        simulation = Simulation(self._model, accuracy, self._run.settings.minimum_time_step, longest)
+        settings = self._run.settings
+        simulation = Simulation(self._model, accuracy, settings.minimum_time_step, settings.maximum_time_step)
         lost = simulation.set_motion(self._start.velocity, self._start.impulse)
         begin = time.perf_counter()
-        record = simulation.run(output_times(self._run), poll)
+        record = simulation.run(output_times(self._run, ends_only=ends_only), poll)
         seconds = time.perf_counter() - begin
         return Solved(
             outcome=record.outcome,
