@@ -100,8 +100,12 @@ def test_moment_is_the_slope_of_the_energy(mechanism, share):
     rotation = share * mechanism.jamming_angle
     step = 1e-4 * rotation
     slope = (mechanism.energy(rotation + step) - mechanism.energy(rotation - step)) / (2 * step)
-    # the difference quotient errs by about step^2/theta^2/6, the complex step not at all
+    # the difference quotient errs by about step^2/theta^2/6
     assert mechanism.moment(rotation) == pytest.approx(slope, rel=1e-7)
+    # a complex step is exact to rounding, line by line
+    stepped = mechanism.energy_terms(rotation + 1e-30j)
+    for name, rate in mechanism.energy_rates(rotation).items():
+        assert rate == pytest.approx(stepped[name].imag / 1e-30, rel=1e-10, abs=1e-13 * mechanism.depth), name
     curve = (mechanism.moment(rotation + step) - mechanism.moment(rotation - step)) / (2 * step)
     assert mechanism.slope(rotation) == pytest.approx(
         curve, rel=1e-6, abs=1e-6 * mechanism.moment(rotation) / rotation

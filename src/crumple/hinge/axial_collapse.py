@@ -55,6 +55,7 @@ class AxialCollapse:
     """
 
     name: ClassVar[str] = "axial_collapse"
+    symmetric: ClassVar[bool] = False
     title: ClassVar[str] = "axial collapse"
 
     peak: float

@@ -115,6 +115,11 @@ class ScaledLaw:
         """Stop of the law inside."""
         return self.law.stop
 
+    @property
+    def symmetric(self) -> bool:
+        """Whether both senses have one curve."""
+        return self.law.symmetric
+
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Kinks of the law inside [rad]."""
         return self.law.kinks(sense)

@@ -104,6 +104,8 @@ class HingeLaw(Protocol):
         Strain-rate law of the hinge, or None.
     stop
         Stop that the law itself asks for (jammed walls), or None.
+    symmetric
+        Whether both senses have one curve, so that it is sampled once.
     """
 
     def __hash__(self) -> int: ...
@@ -126,6 +128,8 @@ class HingeLaw(Protocol):
     def rate(self) -> HingeRate | None: ...
     @property
     def stop(self) -> Stop | None: ...
+    @property
+    def symmetric(self) -> bool: ...
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Rotations [rad] up to half a turn where the slope of the capacity jumps; sampling keeps them."""

@@ -18,7 +18,9 @@ flange halves touch (x_E = t/2) at theta_J = 2 asin((h - t/2)/b).
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -60,15 +62,15 @@ class FoldMechanism:
     flow_stress: float
     rolling_weight: float = 1.0
 
-    @property
+    @cached_property
     def half_length(self) -> float:
         """Half the length of the folded zone, h = min(a, b)/2 [m]."""
         return min(self.width, self.depth) / 2.0
 
-    @property
+    @cached_property
     def jamming_angle(self) -> float:
         """Rotation at which the flange halves touch, 2 asin((h - t/2)/b) [rad]."""
-        return float(2.0 * np.arcsin((self.half_length - self.thickness / 2.0) / self.depth))
+        return 2.0 * math.asin((self.half_length - self.thickness / 2.0) / self.depth)
 
     def rolling_radius(self, rotation: ArrayLike) -> NDArray[Any]:
         """Radius of the rolling lines, (0.07 - theta/70) h [m], theta in rad."""
@@ -108,10 +110,47 @@ class FoldMechanism:
         line_moment = self.flow_stress * self.thickness**2 / 4.0
         return np.asarray(line_moment * sum(self.energy_terms(rotation).values()))
 
+    def energy_rates(self, rotation: ArrayLike) -> dict[str, Floats]:
+        """Derivatives of `energy_terms` [m] by the rotation [rad], which must not be zero."""
+        a, b, h = self.width, self.depth, self.half_length
+        rotation = np.asarray(rotation, np.float64)
+        s, c = np.sin(rotation / 2.0), np.cos(rotation / 2.0)
+        corners = self.corners(rotation)
+        x, y, z, tilt = corners["x_E"], corners["y_B"], corners["z_A"], corners["tilt"]
+        drop = np.sqrt((h + x) * b * s)
+        tilt_rate = b * c / (2.0 * drop)
+        drop_rate = x * tilt_rate
+        y_rate = -b * s / 2.0 - drop_rate
+        z_rate = c * (h / 2.0 - x + drop_rate) - s * drop / 2.0
+        out, out_rate = c * h - s * y, -(s * h + c * y) / 2.0 - s * y_rate
+        at_web_end_rate = (z_rate * out - z * out_rate) / (out**2 + z**2)
+        # the lower plate's y and z are the legs of a triangle whose third side is b - z
+        side = b - z
+        length = np.sqrt(h**2 + side**2)
+        length_rate = -side * z_rate / length
+        sine, cosine = c * z * length, c * h * y - s * side**2
+        sine_rate = (c * z_rate - s * z / 2.0) * length + c * z * length_rate
+        cosine_rate = h * (c * y_rate - s * y / 2.0) - side * (c * side / 2.0 - 2.0 * s * z_rate)
+        at_diagonal_rate = (sine_rate * cosine - sine * cosine_rate) / (sine**2 + cosine**2)
+        radius = self.rolling_radius(rotation) / h
+        rolled_rate = (z_rate + z / (70.0 * radius)) / radius
+        return {
+            "W1": 2.0 * a * (tilt_rate - 0.5),
+            "W2": 2.0 * a * tilt_rate,
+            "W3": np.full_like(rotation, a),
+            "W4": 4.0 * (z_rate * tilt + z * tilt_rate),
+            "W5": 4.0 * b * at_web_end_rate,
+            "W6": 4.0 * h * (z_rate * y - z * y_rate) / side**2,
+            "W7": 4.0 * (length_rate * np.arctan2(sine, cosine) + length * at_diagonal_rate),
+            "W8": 4.0 * rolled_rate,
+            "W8b": self.rolling_weight * (8.0 / 3.0) * rolled_rate,
+        }
+
     def moment(self, rotation: ArrayLike) -> Floats:
         """Moment dW/dtheta [N m]; grows without bound as the rotation [rad] goes to zero."""
         rotation = np.maximum(np.asarray(rotation, np.float64), SMALLEST_ROTATION)
-        return np.asarray(self.energy(rotation + 1j * COMPLEX_STEP).imag / COMPLEX_STEP, np.float64)
+        line_moment = self.flow_stress * self.thickness**2 / 4.0
+        return np.asarray(line_moment * sum(self.energy_rates(rotation).values()), np.float64)
 
     def slope(self, rotation: ArrayLike) -> Floats:
         """dM/dtheta [N m/rad]."""

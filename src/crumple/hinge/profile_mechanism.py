@@ -19,6 +19,7 @@ from typing import Any
 
 from numpy.typing import ArrayLike, NDArray
 
+from crumple.hinge.law import Floats
 from crumple.hinge.mechanism import FoldMechanism
 
 
@@ -43,7 +44,13 @@ class ProfileMechanism(FoldMechanism):
 
     def energy_terms(self, rotation: ArrayLike) -> dict[str, NDArray[Any]]:
         """Plastic work of each line over m_p [m] at a rotation [rad]."""
-        terms = super().energy_terms(rotation)
+        return self._of_faces(super().energy_terms(rotation))
+
+    def energy_rates(self, rotation: ArrayLike) -> dict[str, Floats]:
+        """Derivatives of `energy_terms` [m] by the rotation [rad], which must not be zero."""
+        return self._of_faces(super().energy_rates(rotation))
+
+    def _of_faces(self, terms: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
         for name in ("W1", "W2"):
             terms[name] = terms[name] * (self.compressed_face / self.width)
         terms["W3"] = terms["W3"] * (self.stretched_face / self.width)

@@ -5,16 +5,11 @@ from __future__ import annotations
 import math
 from typing import Literal
 
-import numpy as np
-
 from crumple.errors import InputError, Problem
 from crumple.hinge.law import HingeLaw, SofteningVariable
-from crumple.hinge.record import Envelope, Form, HingeRecord
+from crumple.hinge.record import Form, HingeRecord
 from crumple.hinge.sampling import sampled_envelope
 from crumple.hinge.stop import Stop
-
-SAME = 1e-12
-"""Relative difference of two capacities that are the same but for rounding."""
 
 Stops = Literal["law"] | Stop | tuple[Stop | None, Stop | None] | None
 
@@ -89,7 +84,7 @@ def record_of(
         form=form,
         softening_variable=softening or law.softening_variable,
         positive=positive,
-        negative=positive if _mirrors(law, positive, error) else sampled_envelope(law, -1, error),
+        negative=positive if law.symmetric else sampled_envelope(law, -1, error),
         elastic_stiffness=stiffness,
         regularisation_rate=regularisation_rate,
         rate_reference=math.inf if rate_law is None else rate_law.reference,
@@ -110,17 +105,6 @@ def tributary_stiffness(flexural_rigidity: float, tributary_length: float) -> fl
     the beam.
     """
     return flexural_rigidity / tributary_length
-
-
-def _mirrors(law: HingeLaw, positive: Envelope, error: float) -> bool:
-    """Whether the curve of the positive sense is one of the negative sense too, kinks and error alike."""
-    if law.kinks(1) != law.kinks(-1):
-        return False
-    ends, moment = positive.rotation, positive.moment
-    seen = np.concatenate([ends, (ends[1:] + ends[:-1]) / 2.0])
-    at_ends, between = np.split(law.moment_capacity(seen, -1), [ends.size])
-    same = np.abs(at_ends / moment - 1.0).max() < SAME
-    return bool(same and np.abs((moment[1:] + moment[:-1]) / 2.0 / between - 1.0).max(initial=0.0) < error)
 
 
 def _stiffness(

@@ -11,9 +11,9 @@ from crumple.hinge.law import Floats
 GRID = 65
 """Points of the first pass: a change that turns back within a sixty-fourth of the interval may be missed."""
 PASSES = 60
-"""A smooth function needs about five; halving the bracket alone would need this many."""
+"""A smooth function needs about four; halving the bracket alone would need this many."""
 AROUND = 4.0 ** -np.arange(27.0)
-"""Places around the secant's guess over the width of the bracket: 4**-26 is its rounding."""
+"""Places around the guess over the width of the bracket: 4**-26 is its rounding."""
 
 
 def sign_change(function: Callable[[Floats], Floats], low: float, high: float) -> float | None:
@@ -34,8 +34,8 @@ def sign_change(function: Callable[[Floats], Floats], low: float, high: float) -
     Notes
     -----
     Each pass is one call, since a law costs more by the call than by the rotation: the middle of the bracket
-    and many places around the secant's guess, nearer and nearer to it, so that the bracket that is left is
-    about as narrow as the guess was good.
+    and many places around a guess by inverse interpolation, nearer and nearer to it, so that the bracket that
+    is left is about as narrow as the guess was good.
     """
     grid = np.linspace(low, high, GRID)
     found = None
@@ -50,9 +50,21 @@ def sign_change(function: Callable[[Floats], Floats], low: float, high: float) -
         if first == 0 or found - grid[first - 1] <= 2.0 * np.spacing(found):
             return found
         low, high = float(grid[first - 1]), found
-        below, above = values[first - 1 : first + 1]
-        guess = low + (high - low) * below / (below - above)
+        near = slice(max(first - 2, 0), first + 2)
+        guess = min(max(_inverse(values[near].tolist(), grid[near].tolist()), low), high)
         around = (high - low) * AROUND
-        grid = np.concatenate([[low, (low + high) / 2.0, high], guess - around, guess + around])
-        grid = np.unique(np.clip(grid, low, high))
+        grid = np.concatenate([guess - around, [low, (low + high) / 2.0, guess, high], guess + around])
+        grid = np.sort(np.clip(grid, low, high))
     return found
+
+
+def _inverse(values: list[float], places: list[float]) -> float:
+    """Place of the value zero by Neville's interpolation over the values; the middle if two are equal."""
+    found = list(places)
+    for width in range(1, len(found)):
+        for i in range(len(found) - width):
+            apart = values[i + width] - values[i]
+            if apart == 0.0:
+                return (places[0] + places[-1]) / 2.0
+            found[i] = (values[i + width] * found[i] - values[i] * found[i + 1]) / apart
+    return found[0]

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from crumple.errors import InputError, Problem
+from crumple.multibody.assembly import assemble
 from crumple.multibody.linkage import GROUND, Linkage, link
 from crumple.multibody.mobility import mobility
 from crumple.multibody.plane import PARALLEL, plane_of
@@ -74,6 +75,8 @@ def _reasons(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run) ->
     directions = [hinge.direction for hinge in hinges]
     if any(np.linalg.norm(np.cross(directions[0], other)) > PARALLEL for other in directions[1:]):
         yield "hinges turn about axes that are not parallel"
+    if _hangs_on_clamps(structure, hinges):
+        return
     linkage = link(structure, hinges)
     loops = len(linkage.connections) - len(linkage.bodies)
     if loops > MOST_LOOPS:
@@ -89,6 +92,22 @@ def _reasons(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run) ->
         yield f"{across} leads out of the plane across the hinges"
     if not any(GROUND in (c.first, c.second) for c in linkage.connections) and _lopsided(linkage, normal):
         yield "a floating structure is not symmetric to the plane across the hinges"
+
+
+def _hangs_on_clamps(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> bool:
+    """Whether hinges alone join every part to clamps, without loops: the commonest case, and quick to see."""
+    if any(len(support.held) < len(FREEDOMS) for support in structure.supports.values()):
+        return False
+    assembly = assemble(structure, hinges)
+    ground = assembly.new()
+    for support in structure.supports.values():
+        assembly.join(ground, assembly.node[support.node])
+    for cut in assembly.moving_cuts():
+        # a cut within what is joined already closes a loop
+        if assembly.root(cut.first) == assembly.root(cut.second):
+            return False
+        assembly.join(cut.first, cut.second)
+    return all(assembly.root(i) == assembly.root(ground) for i in range(ground))
 
 
 def _leaning(structure: Structure, normal: Floats) -> str | None:

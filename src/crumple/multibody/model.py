@@ -22,7 +22,7 @@ from crumple.hinge import Envelope, Form, HingeRecord, SofteningVariable, Stop
 from crumple.multibody.mechanism import GROUND, Mechanism
 from crumple.multibody.rigid import Floats
 from crumple.multibody.sampling import sampled, sampled_motion
-from crumple.multibody.start import Start, moving_parts, rate_of, velocity_at
+from crumple.multibody.start import Start, motion_of, moving_parts
 from crumple.structure import Structure
 
 FORMS = {Form.SET_VALUED: 0, Form.ELASTIC_PLASTIC: 1, Form.REGULARISED: 2}
@@ -93,9 +93,8 @@ def start_of(structure: Structure, mechanism: Mechanism) -> Start:
     for part, body, fields in moving_parts(structure, mechanism, structure.initial_velocity):
         if part.mass == 0.0:
             continue
-        velocity = np.sum([velocity_at(field, part.centre) for field in fields], axis=0)
-        rate = np.sum([rate_of(field) for field in fields], axis=0)
-        energy += (part.mass * velocity @ velocity + rate @ part.inertia @ rate) / 2
+        velocity, rate = motion_of(fields, part.centre)
+        energy += float(part.mass * velocity @ velocity + rate @ part.inertia @ rate) / 2
         if body == GROUND:
             continue
         _in_plane(mechanism, body, velocity, "initial_velocity")

@@ -7,6 +7,7 @@ and constraints across it are carried by the hinges.  So the mechanism is solved
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -66,7 +67,12 @@ class Plane:
 
     def flat(self, vector: Floats) -> Floats:
         """Components in the plane, (..., 2)."""
-        return np.stack([vector @ self.first, vector @ self.second], axis=-1)
+        flat: Floats = vector @ self._basis
+        return flat
+
+    @cached_property
+    def _basis(self) -> Floats:
+        return np.array([self.first, self.second]).T
 
     def raised(self, flat: Floats) -> Floats:
         """Vectors in space from components in the plane, (..., 2) to (..., 3)."""

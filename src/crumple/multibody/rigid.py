@@ -38,11 +38,13 @@ def combined(parts: list[RigidMass]) -> RigidMass:
     mass = sum(part.mass for part in parts)
     if mass == 0.0:
         return RigidMass(0.0, np.zeros(3), sum((part.inertia for part in parts), np.zeros((3, 3))))
-    centre = np.sum([part.mass * part.centre for part in parts], axis=0) / mass
-    inertia = np.zeros((3, 3))
+    if len(parts) == 1:
+        return parts[0]
+    centre = sum((part.mass * part.centre for part in parts), np.zeros(3)) / mass
+    inertia, unit = np.zeros((3, 3)), np.eye(3)
     for part in parts:
         arm = part.centre - centre
-        inertia += part.inertia + part.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+        inertia += part.inertia + part.mass * (arm @ arm * unit - arm[:, None] * arm)
     return RigidMass(mass, centre, inertia)
 
 

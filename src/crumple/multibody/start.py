@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
@@ -60,9 +61,8 @@ def start_in_space(
     for part, body, acting in moving_parts(structure, linkage, fields):
         if part.mass == 0.0:
             continue
-        velocity = np.sum([velocity_at(field, part.centre) for field in acting], axis=0)
-        rate = np.sum([rate_of(field) for field in acting], axis=0)
-        energy += (part.mass * velocity @ velocity + rate @ part.inertia @ rate) / 2
+        velocity, rate = motion_of(acting, part.centre)
+        energy += float(part.mass * velocity @ velocity + rate @ part.inertia @ rate) / 2
         if body != GROUND:
             arm = part.centre - linkage.bodies[body].centre
             momentum[body] += part.mass * velocity
@@ -102,16 +102,17 @@ def moving_parts(
             yield lump_mass(structure, mass), lowered.node_body[mass.node], found
 
 
-def rate_of(field: InitialVelocity) -> Floats:
-    """Angular velocity of a field [rad/s], (3,)."""
+def motion_of(fields: Sequence[InitialVelocity], point: Floats) -> tuple[Floats, Floats]:
+    """Velocity [m/s] at a point and angular velocity [rad/s] of fields together, (3,) each."""
+    velocity, rate = np.zeros(3), np.zeros(3)
+    for field in fields:
+        turn = _rate_of(field)
+        velocity += np.asarray(field.translation, float) + cross(turn, point - np.asarray(field.about, float))
+        rate += turn
+    return velocity, rate
+
+
+def _rate_of(field: InitialVelocity) -> Floats:
     if field.axis is None:
         return np.zeros(3)
-    axis = np.asarray(field.axis, float)
-    return field.rotation * axis / np.linalg.norm(axis)
-
-
-def velocity_at(field: InitialVelocity, point: Floats) -> Floats:
-    """Velocity of a field at a point [m/s], (3,)."""
-    return np.asarray(field.translation, float) + cross(
-        rate_of(field), point - np.asarray(field.about, float)
-    )
+    return np.asarray(field.axis, float) * (field.rotation / math.hypot(*field.axis))

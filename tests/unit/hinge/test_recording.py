@@ -50,6 +50,7 @@ class _Counted(ConstantLaw):
     """A law without symmetry, kinked and curved, that counts how often it is asked."""
 
     calls = 0
+    symmetric = False
 
     def kinks(self, sense=1):
         return (0.2, 0.5, 0.9)
@@ -61,8 +62,8 @@ class _Counted(ConstantLaw):
 
 def test_a_law_is_asked_a_few_times_for_many_rotations():
     record = record_of(_Counted(1000.0))
-    # twice for each sense, and once to see that they differ
-    assert _Counted.calls <= 7
+    # twice for each sense, and once more where the first spread of points does not hold
+    assert _Counted.calls <= 6
     for sense, envelope in ((1, record.positive), (-1, record.negative)):
         seen = np.linspace(0.0, math.pi, 5000)
         exact = 1000.0 * (1.0 + sense * 0.1 * np.cos(3.0 * seen))

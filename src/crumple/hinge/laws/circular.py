@@ -70,6 +70,7 @@ class CircularLaw:
     """
 
     name: ClassVar[str] = "circular"
+    symmetric: ClassVar[bool] = True
 
     fold: CappedMechanism
     residual: float

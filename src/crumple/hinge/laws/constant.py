@@ -47,6 +47,7 @@ class ConstantLaw:
     """
 
     name: ClassVar[str] = "constant"
+    symmetric: ClassVar[bool] = True
 
     moment: float
     source: Source = CHOSEN

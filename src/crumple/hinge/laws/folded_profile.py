@@ -140,6 +140,11 @@ class FoldedProfileLaw:
         """Smaller jamming angle of the two senses [rad]."""
         return min(self.positive.jamming_angle, self.negative.jamming_angle)
 
+    @property
+    def symmetric(self) -> bool:
+        """Whether both senses have one curve."""
+        return self.positive == self.negative
+
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Rotations where the slope jumps [rad]."""
         fold = self._fold(sense)

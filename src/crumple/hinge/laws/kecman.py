@@ -77,6 +77,7 @@ class KecmanLaw:
     """
 
     name: ClassVar[str] = "kecman"
+    symmetric: ClassVar[bool] = True
 
     mechanism: FoldMechanism
     peak: PeakMoment

@@ -71,6 +71,7 @@ class ObliqueLaw:
     """
 
     name: ClassVar[str] = "oblique"
+    symmetric: ClassVar[bool] = True
 
     angle: float
     first: KecmanLaw

@@ -143,6 +143,11 @@ class StoredLaw:
         """Nominal, lower and upper law; `InputError` if nothing is known of the scatter."""
         return Band(self, self.at(Bound.LOWER), self.at(Bound.UPPER))
 
+    @property
+    def symmetric(self) -> bool:
+        """Whether both senses have one curve."""
+        return self.curve.positive == self.curve.negative
+
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Every point of the curve [rad]."""
         return _both(self.curve)[0 if sense > 0 else 1][0]

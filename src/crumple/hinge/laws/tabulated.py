@@ -147,6 +147,11 @@ class TabulatedLaw:
         """One line for people."""
         return f"table of {len(self.rotation)} points"
 
+    @property
+    def symmetric(self) -> bool:
+        """Whether both senses have one curve."""
+        return self.negative_rotation is None
+
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Every point of the table [rad]."""
         return tuple(self._curve(sense)[0])

@@ -67,6 +67,7 @@ class WierzbickiLaw:
     """
 
     name: ClassVar[str] = "wierzbicki"
+    symmetric: ClassVar[bool] = True
 
     peak: float
     scale: float

@@ -46,6 +46,7 @@ class PlasticTorsion:
     """
 
     name: ClassVar[str] = "plastic"
+    symmetric: ClassVar[bool] = True
 
     initial_torque: float
     steady_torque: float

@@ -56,6 +56,7 @@ class SquareTubeTorsion:
     """
 
     name: ClassVar[str] = "square_tube"
+    symmetric: ClassVar[bool] = True
 
     initial_torque: float
     steady_torque: float
