@@ -220,21 +220,14 @@ def _supports(assembly: Assembly, body: dict[int, int], held: dict[str, set[str]
 
 
 def check_inertia(linkage: Linkage) -> None:
-    """Refuse bodies without mass, or that nothing resists turning about some axis; and idle connections.
+    """Refuse bodies without mass, or that nothing resists turning about some axis.
 
     Raises
     ------
     InputError
-        With every such body, and every hinge or joint both sides of which are clamped.
+        With every such body.
     """
     problems = []
-    for connection in linkage.connections:
-        if connection.first == connection.second == GROUND:
-            what = f"both sides of the {connection.kind} {connection.name} are clamped, so it cannot move"
-            todo = "take it away, or a clamp"
-            problems.append(
-                Problem(what, "", "hinges and joints between parts that can move", todo, "supports")
-            )
     for i, mass in enumerate(linkage.bodies):
         moments = np.linalg.eigvalsh(mass.inertia)
         if mass.mass > 0.0 and moments[0] > THIN * moments[-1]:

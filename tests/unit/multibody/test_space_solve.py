@@ -88,15 +88,6 @@ def test_moment_in_a_released_bar_follows_from_its_inertia():
     assert 0.0 < share < 0.01
 
 
-def test_a_hinge_between_two_clamps_is_refused():
-    nodes = {"a": (0, 0, 0), "b": (1, 0, 0), "c": (2, 0, 0)}
-    members = {"ab": member("a", "b", ("idle", 0.5)), "bc": member("b", "c", ("h", 0.5, {"axis": "y"}))}
-    clamps = {f"clamp-{node}": {"node": node, "fix": "all"} for node in "ab"}
-    whole = structure(nodes, members, supports=clamps, gravity=(0.0, 0.0, -G))
-    with pytest.raises(InputError, match="both sides of the hinge idle are clamped"):
-        solve_multibody(whole, Run(1e-3, 1e-3, MultibodySettings(kernel="spatial")))
-
-
 def test_a_section_between_rigid_nodes_is_refused():
     nodes = {"a": (0, 0, 0), "b": (1, 0, 0), "c": (2, 0, 0)}
     members = {"ab": member("a", "b", ("h", 0.5)), "bc": member("b", "c")}
