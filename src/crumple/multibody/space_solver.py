@@ -80,7 +80,11 @@ class SpaceSolver:
     def run(self, accuracy: float, poll: Poll | None, *, ends_only: bool = False) -> Solved:
         """See `Solver`."""
         model, settings = self._touching.model, self._run.settings
-        simulation = SpaceSimulation(model, accuracy, settings.minimum_time_step, settings.maximum_time_step)
+        # error control alone lets hinges that lock within a step err by twice the accuracy
+        longest = (
+            settings.maximum_time_step if ends_only else min(settings.maximum_time_step, self._run.every / 2)
+        )
+        simulation = SpaceSimulation(model, accuracy, settings.minimum_time_step, longest)
         grid = output_times(self._run, ends_only=ends_only)
         records: list[SpaceRecord] = []
         stages: list[StageSummary] = []
