@@ -122,6 +122,7 @@ static void add_obstacle(Model& m, const nb::dict& d) {
     o.length = nb::cast<double>(d["length"]);
     o.friction = nb::cast<double>(d["friction"]);
     o.gap = nb::cast<double>(d["gap"]);
+    o.damping = nb::cast<double>(d["damping"]);
     o.mass = nb::cast<double>(d["mass"]);
     o.guide = unit(d["guide"], "guide");
     o.velocity = vec3(nb::cast<In>(d["velocity"]));

@@ -86,7 +86,7 @@ void Contact::commit(const Motions& m, double last_dt) {
     std::swap(now_, before_);
     now_.clear();
     if (walls_) deepest_ = std::max({deepest_, walls_->commit(now_), edges_->commit(now_)});
-    obstacles_.commit(now_);  // each obstacle keeps its own depth
+    obstacles_.commit(m, now_);  // each obstacle keeps its own depth
     // work done against contact over the last step, by the mean of the forces at both ends
     work_ -= 0.5 * last_dt * (now_.power(m) + before_.power(m) + obstacles_.power(false) + obstacles_.power(true));
     obstacles_.book(last_dt);

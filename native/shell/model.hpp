@@ -66,6 +66,7 @@ struct Obstacle {                    // rigid
     Vec3 edge;                       // unit and across the axis: out of the solid beyond the edge
     double radius, length;           // [m]
     double friction, gap;            // gap: kept beside half the wall's thickness [m]
+    double damping;                  // of rigid sets, share of critical
     double mass;                     // 0: fixed or driven [kg]
     Vec3 guide, velocity;            // of a mass: unit vector of its way, velocity at the start [m/s]
     Curve motion[3];                 // prescribed velocity x, y, z; empty: none [m/s]

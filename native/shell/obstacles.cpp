@@ -58,6 +58,18 @@ ObstacleContact::ObstacleContact(const Sheets& sheets)
     }
 }
 
+void ObstacleContact::attach(const std::vector<RigidBody>& bodies, const std::vector<RigidState>& states) {
+    bodies_ = &bodies;
+    body_states_ = &states;
+    body_of_.assign(sheets_.mass.size(), -1);
+    body_walls_.assign(bodies.size(), 0.0);
+    for (std::size_t b = 0; b < bodies.size(); b++)
+        for (Index n : bodies[b].nodes) {
+            body_of_[n] = std::int32_t(b);
+            body_walls_[b] += sheets_.mass[n];
+        }
+}
+
 Vec3 ObstacleContact::in_frame(std::size_t o, Vec3 x) const {
     const Vec3 c = model_[o].turn_about;
     return c + transposed_times(turn_[o], x - c) - states_[o].shift;
@@ -121,14 +133,52 @@ void ObstacleContact::evaluate(const Motions& m, std::size_t i) {
         return;
     }
     const Vec3 surface = turn_[item.obstacle] * s.velocity + cross(s.rate * o.turn_axis, x - o.turn_about);
+    Touch& touch = touch_[i];
+    touch.normal = turn_[item.obstacle] * d.normal;
+    touch.slip = velocity_of(m, n) - surface;
+    touch.depth = depth;
+    if (body_of_[n] >= 0) return;
     const double mass = soft_[item.obstacle] * sheets_.mass[n];
     const Bond bond = bond_of(sheets_.model.contact, mass, sheets_.step, o.friction);
-    touch_[i].force = force_of(bond, depth, turn_[item.obstacle] * d.normal, velocity_of(m, n) - surface, m.step, stick);
-    touch_[i].moment = cross(x - o.turn_about, touch_[i].force);
-    touch_[i].depth = depth / sheets_.half[n];
+    touch.force = force_of(bond, depth, touch.normal, touch.slip, m.step, stick);
+    touch.moment = cross(x - o.turn_about, touch.force);
 }
 
-double ObstacleContact::commit(NodeForces& forces) {
+void ObstacleContact::hold_bodies(const Motions& m) {
+    std::vector<std::vector<BodyTouch>> of(bodies_->size());
+    for (std::size_t i = 0; i < items_.size(); i++) {
+        const Obstacle& o = model_[items_[i].obstacle];
+        const Index n = o.nodes[items_[i].place];
+        if (!touch_[i].active || body_of_[n] < 0) continue;
+        const std::size_t b = std::size_t(body_of_[n]);
+        const double mass = (*bodies_)[b].mass;
+        BodyTouch t{};
+        t.item = i;
+        t.arm = position_of(m, n) - (*body_states_)[b].centre;
+        t.normal = touch_[i].normal;
+        t.slip = touch_[i].slip;
+        t.depth = touch_[i].depth;
+        t.soft = o.mass > 0.0 ? o.mass / (o.mass + mass) : 1.0;
+        t.damping = o.damping;
+        t.friction = o.friction;
+        t.share = sheets_.mass[n] / body_walls_[b];
+        t.stick = stick_[items_[i].obstacle][items_[i].place];
+        of[b].push_back(t);
+    }
+    for (std::size_t b = 0; b < of.size(); b++) {
+        if (of[b].empty()) continue;
+        hold((*bodies_)[b], (*body_states_)[b], sheets_.model.contact.stiffness / (sheets_.step * sheets_.step), m.step, of[b]);
+        for (const BodyTouch& t : of[b]) {
+            const Obstacle& o = model_[items_[t.item].obstacle];
+            stick_[items_[t.item].obstacle][items_[t.item].place] = t.stick;
+            touch_[t.item].force = t.force;
+            touch_[t.item].moment = cross(position_of(m, o.nodes[items_[t.item].place]) - o.turn_about, t.force);
+        }
+    }
+}
+
+double ObstacleContact::commit(const Motions& m, NodeForces& forces) {
+    hold_bodies(m);
     for (State& s : states_) {
         s.force_before = s.force;
         s.moment_before = s.moment;
@@ -142,8 +192,9 @@ double ObstacleContact::commit(NodeForces& forces) {
         forces.add(o.nodes[items_[i].place], touch_[i].force);
         s.force = s.force - touch_[i].force;
         s.moment = s.moment - touch_[i].moment;
-        s.deepest = std::max(s.deepest, touch_[i].depth);
-        deepest = std::max(deepest, touch_[i].depth);
+        const double depth = touch_[i].depth / sheets_.half[o.nodes[items_[i].place]];
+        s.deepest = std::max(s.deepest, depth);
+        deepest = std::max(deepest, depth);
     }
     return deepest;
 }

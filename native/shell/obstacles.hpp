@@ -4,6 +4,7 @@
 // A node keeps half its wall's thickness away, or the distance it has when the obstacle appears if that is less:
 // the end of a wall that stands on a plane has no thickness towards it.  Theory: docs/theory/contact.md.
 #pragma once
+#include "body_contact.hpp"
 #include "node_forces.hpp"
 
 namespace crumple::shell {
@@ -29,6 +30,8 @@ public:
     };
 
     explicit ObstacleContact(const Sheets& sheets);
+    // Tells the rigid sets, whose touches are taken together; they outlive this.
+    void attach(const std::vector<RigidBody>& bodies, const std::vector<RigidState>& states);
 
     bool any() const { return !model_.empty(); }
     std::size_t items() const { return items_.size(); }
@@ -37,7 +40,7 @@ public:
     void move(double time, double kick, double drift);
     void evaluate(const Motions& m, std::size_t item);
     // Adds forces in fixed order; gives the deepest penetration over half the wall's thickness.
-    double commit(NodeForces& forces);
+    double commit(const Motions& m, NodeForces& forces);
     // Work on driven ones and of gravity over the last step [J], by the mean of the forces at both ends.
     void book(double last_step);
     double power(bool before) const;                     // of the structure on them, at either end of the step [W]
@@ -60,9 +63,11 @@ private:
     };
     struct Touch {
         Vec3 force, moment;          // on the node; moment about the obstacle's c
-        double depth;                // over half the wall's thickness
+        double depth;                // [m]
         bool active;
+        Vec3 normal, slip;           // out of the obstacle; velocity against its surface [m/s]
     };
+    void hold_bodies(const Motions& m);
     Vec3 in_frame(std::size_t o, Vec3 x) const;
     double acceleration(std::size_t o) const;            // of a mass along its guide [m/s2]
 
@@ -75,6 +80,10 @@ private:
     std::vector<std::vector<double>> gap_;               // [obstacle][node of its list]
     std::vector<std::vector<Vec3>> stick_;
     std::vector<Vec3> searched_at_;
+    const std::vector<RigidBody>* bodies_ = nullptr;
+    const std::vector<RigidState>* body_states_ = nullptr;
+    std::vector<std::int32_t> body_of_;                  // [node] rigid set, -1: none
+    std::vector<double> body_walls_;                     // mass of each set's nodes [kg]
     std::vector<Item> items_;
     std::vector<Touch> touch_;
     double outside_work_ = 0.0;

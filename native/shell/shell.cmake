@@ -6,7 +6,7 @@ target_sources(_kernels PRIVATE ${shell_dir}/bind.cpp ${shell_dir}/bind_model.cp
 add_library(shell_core OBJECT
   ${shell_dir}/model.cpp ${shell_dir}/lowering.cpp ${shell_dir}/thickness_rule.cpp ${shell_dir}/rigid_body.cpp
   ${shell_dir}/contact.cpp ${shell_dir}/contact_search.cpp ${shell_dir}/wall_contact.cpp ${shell_dir}/edge_contact.cpp
-  ${shell_dir}/obstacles.cpp ${shell_dir}/simulation.cpp ${shell_dir}/driven.cpp ${shell_dir}/stage.cpp
+  ${shell_dir}/obstacles.cpp ${shell_dir}/body_contact.cpp ${shell_dir}/simulation.cpp ${shell_dir}/driven.cpp ${shell_dir}/stage.cpp
   ${shell_dir}/ledger.cpp ${shell_dir}/isa.cpp)
 set(shell_libraries shell_core)
 

@@ -35,6 +35,7 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const Kernels& kernel
         step = std::min(step, first_stable_step(*model_, e) * std::sqrt(masses_.scale[e] / masses_.loose[e]));
     first_dt_ = model_->settings.safety * step;
     contact_ = std::make_unique<Contact>(*model_, masses_, first_dt_);
+    contact_->obstacles().attach(bodies_, body_states_);
     contact_->obstacles().place(motions());
     contact_->search_when_needed(motions(), alive_, true);
     // forces of contact at the start; the elements are free of stress

@@ -89,7 +89,7 @@ def _add_sets(core: Any, model: ShellModel) -> None:
             motion.rigid_set, motion.target, _DOFS[motion.dof], floats(motion.time), floats(motion.value)
         )
     for obstacle in model.obstacles:
-        core.obstacle(_obstacle(obstacle, _walls_nodes(model)))
+        core.obstacle(_obstacle(obstacle, _walls_nodes(model), model.settings.contact_damping))
     for cut in model.cuts:
         core.cut(_indices(cut.elements), _indices(cut.nodes))
 
@@ -99,13 +99,14 @@ def _walls_nodes(model: ShellModel) -> Indices:
     return _indices(np.unique(model.elements))
 
 
-def _obstacle(obstacle: RigidObstacle, walls: Indices) -> dict[str, Any]:
+def _obstacle(obstacle: RigidObstacle, walls: Indices, damping: float) -> dict[str, Any]:
     vectors = ("point", "axis", "edge", "guide", "velocity", "turn_about", "turn_axis")
     numbers = ("radius", "length", "friction", "gap", "mass", "active")
     nodes = walls if obstacle.nodes is None else np.intersect1d(walls, obstacle.nodes)
     return {
         **{name: floats(getattr(obstacle, name)) for name in vectors},
         **{name: getattr(obstacle, name) for name in numbers},
+        "damping": damping if obstacle.damping is None else obstacle.damping,
         "shape": obstacle.shape.value,
         "motion": [_history(history) for history in obstacle.motion],
         "turning": _history(obstacle.turning),

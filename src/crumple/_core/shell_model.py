@@ -169,6 +169,8 @@ class RigidObstacle:
         [m].
     friction, gap
         Coulomb coefficient; distance kept beside half the wall's thickness [m].
+    damping
+        Share of critical damping of rigid sets that touch it; None: that of contact in the settings.
     mass, guide, velocity
         Mass on a guide [kg], the guide's direction, velocity at the start [m/s]; 0 kg: fixed or driven.
     motion
@@ -189,6 +191,7 @@ class RigidObstacle:
     length: float = 0.0
     friction: float = 0.0
     gap: float = 0.0
+    damping: float | None = None
     mass: float = 0.0
     guide: tuple[float, float, float] = (0.0, 0.0, 1.0)
     velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -17,6 +18,10 @@ from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereO
 
 INSIDE = 1e-6
 """Depth of a wall in an obstacle at the start that is still rounding [m]."""
+
+
+LEAST_REBOUND = 0.01
+"""Restitution that counts as none: less would take ever stronger dampers."""
 
 
 def obstacles_of(structure: Structure, mesh: Mesh, stage: Stage, begin: float) -> Iterator[RigidObstacle]:
@@ -37,6 +42,7 @@ def obstacles_of(structure: Structure, mesh: Mesh, stage: Stage, begin: float) -
             **_shape_of(obstacle),
             point=obstacle.point,
             friction=obstacle.friction,
+            damping=rebound_damping(obstacle.restitution),
             active=stage.obstacles is None or name in stage.obstacles,
             nodes=touching(mesh, obstacle).astype(np.uint32),
             **(
@@ -88,6 +94,39 @@ def appeared_inside(structure: Structure, mesh: Mesh, state: ShellState) -> str:
                 f"walls of member {member} lie {1e3 * depth:.4g} mm deep in obstacle {name} when it appears"
             )
     return ""
+
+
+def rebound_damping(restitution: float) -> float:
+    """Share of critical damping with which a mass rebounds by a restitution from a spring that never pulls.
+
+    Parameters
+    ----------
+    restitution
+        0 to 1; less than `LEAST_REBOUND` is taken as that.
+
+    References
+    ----------
+    Schwager and Poeschel, Granular Matter 9 (2007) 465; derived anew in docs/theory/contact.md.  Verified in
+    tests/unit/shell_room/test_heavy_lumps.py.
+    """
+    wanted = max(restitution, LEAST_REBOUND)
+    low, high = 0.0, 10.0
+    for _ in range(60):
+        middle = (low + high) / 2.0
+        low, high = (middle, high) if rebound(middle) > wanted else (low, middle)
+    return (low + high) / 2.0
+
+
+def rebound(damping: float) -> float:
+    """Speed of separation over speed of approach at a share of critical damping; at 1 it is exp(-2)."""
+    z = damping
+    if abs(z - 1.0) < 1e-9:
+        return math.exp(-2.0)
+    if z < 1.0:
+        free = math.sqrt(1.0 - z * z)
+        return math.exp(-z / free * (math.pi - math.atan2(2.0 * z * free, 1.0 - 2.0 * z * z)))
+    slow = math.sqrt(z * z - 1.0)
+    return math.exp(-z / slow * math.log((z + slow) / (z - slow)))
 
 
 def too_sharp(structure: Structure, largest_side: float) -> list[str]:

@@ -59,8 +59,8 @@ class Obstacle(Spec):
     friction: FrictionCoefficient = 0.0
     """Coulomb coefficient between it and the structure."""
     restitution: Restitution = 0.0
-    """Speed of separation over speed of approach, where rigid bodies hit it; in shells it follows from the
-    walls, and this is not used."""
+    """Speed of separation over speed of approach, where rigid bodies hit it; in shells these are rigid
+    sections with their masses, while the rebound of walls follows from the walls."""
     members: tuple[Name, ...] | None = None
     """Only these members touch it; without it all."""
     mass: PositiveMass | None = None
