@@ -2,6 +2,7 @@
 
 import pickle
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from crumple.comparison import CurveFile, Signal, compare, with_frames, with_pic
 from crumple.comparison.motion import HingeMotion
 from crumple.comparison.pairing import pairs_of
 from crumple.comparison.solving import mesh_name, with_mesh
-from crumple.comparison.trust import _across_joint
+from crumple.comparison.trust import _across_joint, _folds
 from crumple.comparison.variant import (
     SHELL_LAWS,
     measured_law,
@@ -153,6 +154,35 @@ def test_a_fold_across_a_joint_is_told_from_one_without_a_hinge(station, beside)
     hinges = {hinge.name: hinge for hinge in placed_hinges(structure)}
     motion = HingeMotion("first at", "first", station, *[np.zeros(1)] * 6, how="")
     assert _across_joint(structure, motion, hinges) == beside
+
+
+def turned(name, member, station, degrees):
+    """Motion that turns evenly to an angle."""
+    rotation = np.radians(degrees) * np.linspace(0.0, 1.0, 5)
+    return HingeMotion(name, member, station, np.arange(5.0), rotation, *[np.zeros(5)] * 4, how="")
+
+
+def test_both_members_of_a_corner_share_its_rotation():
+    structure = load(EXAMPLE.parent / "06_two_bars.yaml").structure
+    hinges = {hinge.name: hinge for hinge in placed_hinges(structure)}
+    knees = {
+        "multibody": turned("knee", "second", 0.06, 10.0),
+        "shell": turned("knee", "second", 0.016, -4.0),
+    }
+    sources = {
+        name: SimpleNamespace(name=name, extra=(), hinge={"knee": knee}.get) for name, knee in knees.items()
+    }
+    sources["shell"].extra = (turned("first at 480 mm", "first", 0.48, -5.5),)
+    comparison = SimpleNamespace(
+        candidate=sources["multibody"],
+        reference=sources["shell"],
+        opened=dict.fromkeys(sources, ()),
+        hinges=(),
+    )
+    ((sentence, caution),) = _folds(comparison, structure, hinges)
+    assert "folds in member first at 480 mm (by 5.5°), at the joint beside hinge knee" in sentence
+    assert "9.5° together against 10.0° multibody" in sentence
+    assert caution
 
 
 def test_jamming_and_contact_are_said(case, multibody):
