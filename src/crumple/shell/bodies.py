@@ -1,4 +1,4 @@
-"""Rigid bodies at the nodes: end sections, lumps, and what a joint cut away from its members."""
+"""Rigid bodies: end sections and rigid parts, lumps, and what a joint cut away from its members."""
 
 from __future__ import annotations
 
@@ -7,10 +7,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from crumple.errors import InputError, Problem
 from crumple.shell.contour import Floats, Integers
 from crumple.shell.joints import Joint
 from crumple.shell.mesh import Mesh
+from crumple.shell.rigid_parts import Group, groups_of
 from crumple.structure import FREEDOMS, Structure
+
+TRANSLATIONS, ROTATIONS = set(FREEDOMS[:3]), set(FREEDOMS[3:])
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,66 +36,125 @@ class Body:
 
     Attributes
     ----------
-    node
-        Structure node that it belongs to.
+    lumps
+        Mass that is added to that of its nodes, by structure node; those nodes are part of it.
     nodes
-        Mesh nodes that move with it, the reference node last.
-    lump
-        Mass that is added to theirs.
+        Mesh nodes that move with it, reference nodes last.
+    place
+        Where the last of them is [m], (3,).
     held
         Freedoms held at zero.
-    pinned
-        Whether its node stays where it is, and it can turn about it.
+    pin
+        Where it is held at a point that it can turn about [m], (3,); None: at its centre of mass.
+    stretch
+        Whether a rigid part of a member belongs to it.
     """
 
-    node: str
+    lumps: dict[str, Lump]
     nodes: Integers
-    lump: Lump
+    place: Floats
     held: tuple[str, ...]
-    pinned: bool = False
+    pin: Floats | None
+    stretch: bool
+
+    @property
+    def lump(self) -> Lump:
+        """All of its lumps as one."""
+        parts = tuple(self.lumps.values())
+        return parts[0] if len(parts) == 1 else combined(parts, self.place)
 
 
 def bodies_of(structure: Structure, mesh: Mesh) -> tuple[Body, ...]:
-    """Rigid bodies in the order of the mesh's reference nodes."""
-    return tuple(_body(structure, mesh, mesh.joints[node], number) for node, number in mesh.reference.items())
+    """Rigid bodies.
+
+    Raises
+    ------
+    InputError
+        If a rigid part is too short, or supports hold it in a way that shells cannot follow.
+    """
+    return tuple(_body(structure, mesh, group) for group in groups_of(structure, mesh))
 
 
-def _body(structure: Structure, mesh: Mesh, joint: Joint, number: int) -> Body:
-    rings = [mesh.end_ring(end.member, end.second) for end in joint.ends]
-    lumps = [*_masses(structure, joint.node), *_cut_away(structure, joint)]
-    place = np.asarray(structure.nodes[joint.node], float)
-    driven = any(support.driven for support in structure.supports.values() if support.node == joint.node)
-    held = {
-        freedom
-        for support in structure.supports.values()
-        if support.node == joint.node
-        for freedom in support.held
+def body_numbers(bodies: Iterable[Body]) -> dict[str, int]:
+    """Number of the body that a structure node with a reference node belongs to."""
+    return {node: i for i, body in enumerate(bodies) for node in body.lumps}
+
+
+def _body(structure: Structure, mesh: Mesh, group: Group) -> Body:
+    nodes = [node for node in group.joints if node in mesh.reference]
+    lumps = {
+        node: combined(
+            [*_masses(structure, node), *_cut_away(structure, mesh.joints[node])],
+            np.asarray(structure.nodes[node], float),
+        )
+        for node in nodes
     }
-    translations, rotations = set(FREEDOMS[:3]), set(FREEDOMS[3:])
-    return Body(
-        joint.node,
-        np.append(np.unique(np.concatenate(rings)), number),
-        combined(lumps, place),
-        tuple(freedom for freedom in FREEDOMS if freedom in held),
-        translations <= held and not rotations <= held and not driven,
-    )
+    held, pinned = _hold(structure, group)
+    numbers = np.append(group.walls, [mesh.reference[node] for node in nodes]).astype(np.int64)
+    pin = None if pinned is None else np.asarray(structure.nodes[pinned], float)
+    return Body(lumps, numbers, mesh.position[numbers[-1]], held, pin, group.stretch)
+
+
+def _hold(structure: Structure, group: Group) -> tuple[tuple[str, ...], str | None]:
+    """Freedoms of a body that are held, and the node that is pinned."""
+    held: dict[str, set[str]] = {}
+    driven: dict[str, set[str]] = {}
+    for support in structure.supports.values():
+        if support.node in group.joints:
+            held.setdefault(support.node, set()).update(support.held)
+            driven.setdefault(support.node, set()).update(support.driven)
+    if not held:
+        return (), None
+    if group.stretch:
+        if any(freedoms == set(FREEDOMS) for freedoms in held.values()) and not any(driven.values()):
+            return FREEDOMS, None
+        _refuse_hold(structure, group, held, driven)
+    node = next(iter(held))
+    kept = tuple(freedom for freedom in FREEDOMS if freedom in held[node])
+    pinned = held[node] >= TRANSLATIONS and not held[node] >= ROTATIONS and not driven[node]
+    return kept, node if pinned else None
+
+
+def _refuse_hold(
+    structure: Structure, group: Group, held: dict[str, set[str]], driven: dict[str, set[str]]
+) -> None:
+    """Refuse supports that hold a rigid part elsewhere than at its centre of mass or one pin."""
+    what, came = "", ""
+    if len(held) > 1:
+        what, came = "a rigid part is held at several nodes", ", ".join(held)
+    else:
+        ((node, fixed),) = held.items()
+        moving = TRANSLATIONS & (fixed | driven[node])
+        pinned = moving <= fixed and moving == TRANSLATIONS and not driven[node]
+        if moving and not fixed >= ROTATIONS and not pinned:
+            what, came = "a rigid part is held or driven at a node in some directions alone", node
+    if what:
+        name = next(name for name, support in structure.supports.items() if support.node in held)
+        allowed = "one node: all, pin, rotations alone, or directions together with all rotations held"
+        todo = "hold it so, or let the part next to the support deform"
+        raise InputError(
+            Problem(f"{what}, which shells cannot follow", came, allowed, todo, f"supports.{name}")
+        )
 
 
 def moved(body: Body, before: Floats, now: Floats, row: Floats) -> Body:
-    """Body where its rigid set is now: the lump moves and turns with it.
+    """Body where its rigid set is now: its lumps move and turn with it.
 
     Parameters
     ----------
     body
         As it was at the start.
     before, now
-        Position of its reference node at the start and now [m], (3,).
+        Position of its last node at the start and now [m], (3,).
     row
         Of the stepper's rigid sets: centre of mass [m], velocity, angular velocity, rotation by rows, (18,).
     """
-    turn, lump = row[9:].reshape(3, 3), body.lump
-    centre = now + turn @ (lump.centre - before)
-    return replace(body, lump=Lump(lump.mass, centre, turn @ lump.inertia @ turn.T))
+    turn = row[9:].reshape(3, 3)
+    lumps = {
+        node: Lump(lump.mass, now + turn @ (lump.centre - before), turn @ lump.inertia @ turn.T)
+        for node, lump in body.lumps.items()
+    }
+    return replace(body, lumps=lumps, place=now)
 
 
 def combined(lumps: Iterable[Lump], place: Floats) -> Lump:

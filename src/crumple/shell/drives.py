@@ -8,7 +8,7 @@ import numpy as np
 
 from crumple._core.shell import NodalLoad, PrescribedVelocity
 from crumple.function import TimeFunction
-from crumple.shell.bodies import Body
+from crumple.shell.bodies import Body, body_numbers
 from crumple.shell.contour import Floats
 from crumple.shell.mesh import Mesh
 from crumple.structure import Stage, Structure
@@ -38,7 +38,7 @@ def motions_of(
     structure: Structure, bodies: tuple[Body, ...], stage: Stage, begin: float
 ) -> Iterator[PrescribedVelocity]:
     """Prescribed velocities of the rigid bodies; those that the stage does not drive stay where they are."""
-    number = {body.node: i for i, body in enumerate(bodies)}
+    number = body_numbers(bodies)
     for name, support in structure.supports.items():
         runs = stage.drive is None or name in stage.drive
         for freedom, function in support.driven.items():

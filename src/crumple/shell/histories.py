@@ -79,12 +79,16 @@ def ring_history(sampler: Sampler, record: Record, member: str, ring: int) -> Fl
 
 def cut_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
     """Force and moment in each hinge's cut, and of the structure on each support."""
-    zones = [f"cut.{zone.place.name}" for zone in sampler.lowered.zones]
-    names = [*zones, *(f"support.{name}" for name in sampler.lowered.supports)]
-    for k, name in enumerate(names):
-        for quantity, unit, column in (("force", "N", 0), ("moment", "N*m", 3)):
+    zones, supports = sampler.lowered.zones, sampler.lowered.supports
+    names = [*(f"cut.{zone.place.name}" for zone in zones), *(f"support.{name}" for name in supports)]
+    for k, (name, cut) in enumerate(zip(names, [*[None] * len(zones), *supports.values()], strict=True)):
+        force, moment, centre = np.split(record["cut"][:, k], 3, axis=1)
+        if cut is not None and cut.about is not None:
+            about = cut.about if cut.stays else cut.about + centre - centre[0]
+            moment = moment + np.cross(centre - about, force)
+        for quantity, unit, values in (("force", "N", force), ("moment", "N*m", moment)):
             for i, axis in enumerate(AXES):
-                yield Channel(f"{name}.{quantity}.{axis}", unit, record["cut"][:, k, column + i].copy())
+                yield Channel(f"{name}.{quantity}.{axis}", unit, values[:, i].copy())
 
 
 def obstacle_channels(structure: Structure, record: Record) -> Iterator[Channel]:

@@ -157,6 +157,7 @@ def _rings(
         if rotation.member == member
         for station in (rotation.start, rotation.end)
     ]
+    asked += [at for part in structure.members[member].rigid_parts(length) for at in part]
     fine = settings.fine_size or settings.element_size
     sizes = Sizes(settings.element_size, fine, settings.growth)
     return stations(ends, asked, _fine_zones(structure, member, settings, joints, ends), sizes)

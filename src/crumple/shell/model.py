@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crumple._core.shell import (
     Cut,
@@ -17,15 +18,16 @@ from crumple._core.shell import (
 )
 from crumple._core.shell import ShellSettings as CoreSettings
 from crumple.shell.bodies import Body, bodies_of
-from crumple.shell.contour import Floats, Integers, triple
+from crumple.shell.contour import Integers, triple
 from crumple.shell.drives import loads_of, motions_of
 from crumple.shell.joints import Kind
 from crumple.shell.mesh import Mesh, mesh_of
 from crumple.shell.metal import shell_material
 from crumple.shell.obstacles import obstacles_of, refuse_walls_inside
-from crumple.shell.places import HingeZone, hinge_zones
+from crumple.shell.places import HingeZone, SupportCut, hinge_zones, support_cut
 from crumple.shell.quality import MeshReport, report_of, wall_metals, wall_thickness
 from crumple.shell.refusals import damping_of
+from crumple.shell.rigid_parts import rigid_elements
 from crumple.shell.start import Start, start_of
 from crumple.structure import Outputs, ShellSettings, Stage, Structure
 
@@ -48,7 +50,7 @@ class Lowered:
     zones
         Where each hinge is measured, in the order of the model's first cuts.
     supports
-        Names of the supports that the model's further cuts belong to.
+        What the model's further cuts look at, by support.
     model
         What the stepper takes in the first stage.
     """
@@ -58,7 +60,7 @@ class Lowered:
     bodies: tuple[Body, ...]
     start: Start
     zones: tuple[HingeZone, ...]
-    supports: tuple[str, ...]
+    supports: dict[str, SupportCut]
     model: ShellModel
 
 
@@ -100,9 +102,13 @@ def lower(
     start = start_of(structure.model_copy(update=first), mesh, bodies)
     refuse_walls_inside(structure, mesh, stage)
     zones = hinge_zones(structure, mesh)
-    supports = {name: _support_cut(mesh, support.node) for name, support in structure.supports.items()}
+    rigid = rigid_elements(structure, mesh)
+    held = {
+        name: support_cut(structure, mesh, bodies, rigid, support.node)
+        for name, support in structure.supports.items()
+    }
     cuts = [_cut(zone.cut_elements, zone.cut_nodes) for zone in zones]
-    materials, sheets, sheet = _sheets(structure, mesh, settings)
+    materials, sheets, sheet = _sheets(structure, mesh, settings, rigid)
     model = ShellModel(
         position=mesh.position,
         elements=mesh.quads,
@@ -110,14 +116,14 @@ def lower(
         materials=materials,
         sheets=sheets,
         sheet=sheet,
-        fixed=_fixed(mesh),
+        fixed=_fixed(mesh, bodies),
         velocity=start.velocity,
         spin=start.spin,
-        rigid_sets=[_rigid_set(body, mesh.position[body.nodes[-1]]) for body in bodies],
-        cuts=[*cuts, *supports.values()],
+        rigid_sets=[_rigid_set(body) for body in bodies],
+        cuts=[*cuts, *(_cut(cut.elements, cut.nodes) for cut in held.values())],
         settings=_settings(structure, settings),
     )
-    lowered = Lowered(mesh, report, bodies, start, zones, tuple(supports), model)
+    lowered = Lowered(mesh, report, bodies, start, zones, held, model)
     return replace(lowered, model=model_of_stage(structure, settings, lowered, stage, 0.0))
 
 
@@ -143,25 +149,32 @@ def model_of_stage(
 
 
 def _sheets(
-    structure: Structure, mesh: Mesh, settings: ShellSettings
+    structure: Structure, mesh: Mesh, settings: ShellSettings, rigid: NDArray[np.bool_]
 ) -> tuple[list[ShellMaterial], list[Sheet], Integers]:
-    """Materials of the walls, one sheet each, and the sheet of every element."""
+    """Materials of the walls, one sheet each, rigid ones last; and the sheet of every element."""
     metals, number = wall_metals(structure, mesh)
     lobatto = settings.thickness_rule == "lobatto"
-    sheets = [Sheet(i, settings.thickness_points, lobatto) for i in range(len(metals))]
-    return [shell_material(metal) for metal in metals], sheets, number
+    materials = [shell_material(metal) for metal in metals]
+    if rigid.any():
+        materials += [replace(material, rigid=True) for material in materials]
+        number = number + len(metals) * rigid
+    sheets = [Sheet(i, settings.thickness_points, lobatto) for i in range(len(materials))]
+    return materials, sheets, number
 
 
-def _fixed(mesh: Mesh) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+def _fixed(mesh: Mesh, bodies: tuple[Body, ...]) -> NDArray[np.bool_]:
+    """Freedoms of nodes that are held: of clamped sections, but for those of a body, which is held itself."""
     fixed = np.zeros((len(mesh.position), 6), dtype=bool)
     for joint in mesh.joints.values():
         if joint.kind is Kind.CLAMPED:
             for end in joint.ends:
                 fixed[mesh.end_ring(end.member, end.second)] = True
+    for body in bodies:
+        fixed[body.nodes] = False
     return fixed
 
 
-def _rigid_set(body: Body, place: Floats) -> RigidSet:
+def _rigid_set(body: Body) -> RigidSet:
     lump = body.lump
     xx, yy, zz = np.diag(lump.inertia)
     xy, yz, zx = lump.inertia[0, 1], lump.inertia[1, 2], lump.inertia[2, 0]
@@ -171,16 +184,8 @@ def _rigid_set(body: Body, place: Floats) -> RigidSet:
         at=triple(lump.centre),
         inertia=(float(xx), float(yy), float(zz), float(xy), float(yz), float(zx)),
         fixed=body.held,
-        pin=triple(place) if body.pinned else None,
+        pin=None if body.pin is None else triple(body.pin),
     )
-
-
-def _support_cut(mesh: Mesh, node: str) -> Cut:
-    """What all members exert on the end sections at a node."""
-    ends = mesh.joints[node].ends
-    bays = [mesh.tubes[end.member].bay(mesh.tubes[end.member].bays - 1 if end.second else 0) for end in ends]
-    rings = [mesh.end_ring(end.member, end.second) for end in ends]
-    return _cut(np.concatenate(bays), np.unique(np.concatenate(rings)))
 
 
 def _cut(elements: Integers, nodes: Integers) -> Cut:

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crumple.section import half_fold_length
+from crumple.shell.bodies import Body
 from crumple.shell.contour import Floats, Integers
 from crumple.shell.mesh import Mesh
 from crumple.structure import HingePlace, Structure, hinge_places
@@ -87,3 +89,39 @@ def _zone(structure: Structure, mesh: Mesh, place: HingePlace, others: list[floa
         cut_elements=tube.bay(at),
         cut_nodes=np.asarray(tube.nodes[at]),
     )
+
+
+@dataclass(frozen=True, eq=False)
+class SupportCut:
+    """What acts on the sections at a supported node, or on the rigid part that they belong to.
+
+    Attributes
+    ----------
+    elements, nodes
+        The cut: elements, and the nodes on which they act.
+    about
+        Of a rigid part: the node [m], (3,), about which moments are told; None: about the cut's middle.
+    stays
+        Whether that place is held.
+    """
+
+    elements: Integers
+    nodes: Integers
+    about: Floats | None = None
+    stays: bool = False
+
+
+def support_cut(
+    structure: Structure, mesh: Mesh, bodies: tuple[Body, ...], rigid: NDArray[np.bool_], node: str
+) -> SupportCut:
+    """Cut of a support's node; `rigid` tells of every element whether it is in a rigid part."""
+    ends = mesh.joints[node].ends
+    nodes = np.unique(np.concatenate([mesh.end_ring(end.member, end.second) for end in ends]))
+    part = next((body for body in bodies if body.stretch and np.isin(nodes, body.nodes).any()), None)
+    if part is not None:
+        nodes = np.union1d(nodes, part.nodes[np.isin(part.nodes, mesh.quads)])
+        acting = np.flatnonzero(np.isin(mesh.quads, nodes).any(axis=1) & ~rigid)
+        stays = {"x", "y", "z"} <= set(part.held)
+        return SupportCut(acting, nodes, np.asarray(structure.nodes[node], float), stays)
+    bays = [mesh.tubes[end.member].bay(mesh.tubes[end.member].bays - 1 if end.second else 0) for end in ends]
+    return SupportCut(np.concatenate(bays), nodes)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from crumple._core.shell import ShellState
+from crumple.shell.bodies import body_numbers
 from crumple.shell.contour import Floats, Integers
 from crumple.shell.mesh import Mesh
 from crumple.shell.model import Lowered
@@ -81,7 +82,7 @@ class Sampler:
         """Displacement, velocity, angular velocity, and the rotation matrix of a node, (6, 3)."""
         mesh = self.lowered.mesh
         if name in mesh.reference:
-            which = list(mesh.reference).index(name)
+            which = body_numbers(self.lowered.bodies)[name]
             body, at = state.rigid_sets[which], mesh.reference[name]
             centre, linear, spin = body[:3], body[3:6], body[6:9]
             moved = position[at] - mesh.position[at]

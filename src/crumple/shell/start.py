@@ -48,8 +48,9 @@ def start_of(structure: Structure, mesh: Mesh, bodies: tuple[Body, ...]) -> Star
         velocity[nodes], spin[nodes] = _field(structure, "members", name, mesh.position[nodes])
     energy = float((mass * (velocity**2).sum(axis=1) + inertia * (spin**2).sum(axis=1)).sum()) / 2
     for body in bodies:
-        lump_velocity, lump_spin = _field(structure, "nodes", body.node, body.lump.centre[None])
-        energy += body.lump.energy(lump_velocity[0], lump_spin[0])
+        for node, lump in body.lumps.items():
+            lump_velocity, lump_spin = _field(structure, "nodes", node, lump.centre[None])
+            energy += lump.energy(lump_velocity[0], lump_spin[0])
         centre, v, w = _rigid_motion(structure, mesh, body, (mass, inertia), (velocity, spin))
         nodes = body.nodes
         velocity[nodes] = v + np.cross(w, mesh.position[nodes] - centre)
@@ -100,24 +101,25 @@ def _rigid_motion(
     nodes = body.nodes
     mass, inertia = (values[nodes] for values in masses)
     velocity, spin = (values[nodes] for values in motion)
-    position = mesh.position[nodes]
-    lump_velocity, lump_spin = (
-        values[0] for values in _field(structure, "nodes", body.node, body.lump.centre[None])
-    )
-    total = mass.sum() + body.lump.mass
-    centre = (mass @ position + body.lump.mass * body.lump.centre) / total
-    momentum = mass @ velocity + body.lump.mass * lump_velocity
-    arm, lump_arm = position - centre, body.lump.centre - centre
+    position, lumps = mesh.position[nodes], tuple(body.lumps.items())
+    total = mass.sum() + sum(lump.mass for _, lump in lumps)
+    moment = np.sum([mass @ position, *(lump.mass * lump.centre for _, lump in lumps)], axis=0)
+    centre = moment / total
+    arm = position - centre
+    momentum, tensor = mass @ velocity, inertia.sum() * np.eye(3) + _about(mass, arm)
     angular = np.cross(arm, mass[:, None] * velocity).sum(axis=0) + inertia @ spin
-    angular += np.cross(lump_arm, body.lump.mass * lump_velocity) + body.lump.inertia @ lump_spin
+    for node, lump in lumps:
+        ((v,), (w,)) = _field(structure, "nodes", node, lump.centre[None])
+        arm = lump.centre - centre
+        momentum = momentum + lump.mass * v
+        angular = angular + np.cross(arm, lump.mass * v) + lump.inertia @ w
+        tensor = tensor + lump.inertia + _about(np.array([lump.mass]), arm[None])
     for given in structure.impulses:
-        if given.node == body.node:
+        if given.node in body.lumps:
             impulse = np.asarray(given.impulse, float)
             momentum = momentum + impulse
             angular = angular + np.asarray(given.angular_impulse, float)
-            angular = angular + np.cross(mesh.position[body.nodes[-1]] - centre, impulse)
-    tensor = inertia.sum() * np.eye(3) + _about(mass, arm)
-    tensor += body.lump.inertia + _about(np.array([body.lump.mass]), lump_arm[None])
+            angular = angular + np.cross(mesh.position[mesh.reference[given.node]] - centre, impulse)
     return centre, momentum / total, np.linalg.solve(tensor, angular)
 
 

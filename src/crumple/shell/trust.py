@@ -8,7 +8,7 @@ import numpy as np
 
 from crumple._core.shell import Element, ShellState
 from crumple.result import StageSummary
-from crumple.shell.bodies import Body
+from crumple.shell.bodies import Body, Lump
 from crumple.shell.joints import Kind
 from crumple.shell.metal import in_words
 from crumple.shell.model import Lowered
@@ -61,6 +61,12 @@ def assumptions(structure: Structure, lowered: Lowered, settings: ShellSettings)
             found.append(f"The ends of {members} at node {node} are cut back and move as one rigid body.")
         elif joint.is_body:
             found.append(f"The section at node {node} is rigid.")
+    for name, member in structure.members.items():
+        length = structure.frame_of(name).length
+        found += [
+            f"Member {name} is rigid from {1e3 * a:.4g} to {1e3 * b:.4g} mm."
+            for a, b in member.rigid_parts(length)
+        ]
     found += [
         f"Hinge {zone.place.name} is the stretch of member {zone.place.member} from "
         f"{_station(lowered, zone.place.member, zone.first)} to "
@@ -169,22 +175,23 @@ def _mesh_warnings(structure: Structure, lowered: Lowered) -> list[str]:
             f"Obstacle {name} is round so tightly that it presses in between the nodes: use smaller elements."
         )
     for body in lowered.bodies:
-        distance = _off_centre(structure, lowered, body)
-        if body.held and distance and not body.pinned:
+        if not body.held or body.stretch or body.pin is not None:
+            continue
+        ((node, lump),) = body.lumps.items()
+        distance = _off_centre(lowered, body, lump)
+        if distance:
             found.append(
-                f"The support of node {body.node} holds the joint's centre of mass, {1e3 * distance:.3g} mm "
+                f"The support of node {node} holds the joint's centre of mass, {1e3 * distance:.3g} mm "
                 "from the node."
             )
     return found
 
 
-def _off_centre(structure: Structure, lowered: Lowered, body: Body) -> float:
+def _off_centre(lowered: Lowered, body: Body, lump: Lump) -> float:
     """Distance of a body's lump or of its sections' middle from its node [m]; 0 where it does not matter."""
-    mesh, place = lowered.mesh, np.asarray(structure.nodes[body.node], float)
-    walls = mesh.position[body.nodes[:-1]]
-    size = float(np.ptp(walls, axis=0).max())
-    lump = body.lump.centre if body.lump.mass > 0.0 else place
-    distance = max(float(np.linalg.norm(walls.mean(axis=0) - place)), float(np.linalg.norm(lump - place)))
+    walls = lowered.mesh.position[body.nodes[:-1]]
+    size, centre = float(np.ptp(walls, axis=0).max()), lump.centre if lump.mass > 0.0 else body.place
+    distance = max(float(np.linalg.norm(at - body.place)) for at in (walls.mean(axis=0), centre))
     return distance if distance > OFF_CENTRE * size else 0.0
 
 

@@ -80,7 +80,7 @@ class Watch:
             self.impulse[k] = self.impulse[k] + now - self.mark[k]
             self.mark[k] = now
         else:
-            cut = len(self.lowered.zones) + self.lowered.supports.index(str(until.of))
+            cut = len(self.lowered.zones) + list(self.lowered.supports).index(str(until.of))
             self.impulse[k] = self.impulse[k] + step * state.cut(cut)[0]
 
     def _impulse(self, until: Until, state: ShellState) -> Floats:

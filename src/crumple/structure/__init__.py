@@ -32,7 +32,7 @@ from crumple.structure.law import (
 from crumple.structure.load import ForceComponents, Load, Mass, MomentComponents, NodalImpulse
 from crumple.structure.mapping import FrozenMapping
 from crumple.structure.material import MaterialSpec
-from crumple.structure.member import AutomaticHinges, Bars, Hinge, Member
+from crumple.structure.member import AutomaticHinges, Bars, Hinge, Member, Stretch
 from crumple.structure.motion import FREEDOMS, InitialVelocity, Motion, Support
 from crumple.structure.obstacle_checks import gap, stage_problems
 from crumple.structure.obstacles import (
@@ -108,6 +108,7 @@ __all__ = [
     "SquareTubeSpec",
     "Stage",
     "Stops",
+    "Stretch",
     "Structure",
     "Support",
     "TableLaw",

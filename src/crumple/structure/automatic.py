@@ -30,6 +30,8 @@ def hinges_of(structure: Structure, member: str) -> tuple[Hinge, ...]:
         keys |= {"axis": bending_axis(structure, member)} if flat else {"axes": ("y", "z")}
     axes = (keys["axis"],) if keys["axis"] else tuple(axis for axis in keys["axes"] if axis != "x")
     stations = automatic_stations(structure, member, axes, asked.spacing)
+    parts = structure.members[member].rigid_parts(structure.frame_of(member).length)
+    stations = {name: at for name, at in stations.items() if not any(a <= at <= b for a, b in parts)}
     # names of members and nodes were checked; two of them together may be longer than a name that is given
     return tuple(Hinge.model_construct(name=name, at=station, **keys) for name, station in stations.items())
 

@@ -21,6 +21,7 @@ from crumple.structure.law import LAW_SPECS
 from crumple.structure.obstacle_checks import obstacle_problems
 from crumple.structure.outputs import Outputs
 from crumple.structure.problems import one_of, outside, shown, suggestion, unknown
+from crumple.structure.rigid_checks import rigid_problems
 from crumple.structure.shell_settings import ShellSettings
 from crumple.structure.start_checks import start_problems
 from crumple.structure.structure import Structure
@@ -246,6 +247,7 @@ _CHECKS: tuple[Callable[[Structure, Known], Iterator[Problem]], ...] = (
     _members,
     _coincident,
     place_problems,
+    rigid_problems,
     joint_problems,
     _supports,
     start_problems,

@@ -27,7 +27,7 @@ APART = 1e-6
 def place_problems(structure: Structure, known: Mapping[str, set[str]]) -> Iterator[Problem]:
     """Places, names and laws of hinges."""
     where: dict[str, list[str]] = defaultdict(list)
-    for name in _sound_members(structure):
+    for name in sound_members(structure):
         places, length = member_hinge_places(structure, name), structure.frame_of(name).length
         for place in places:
             where[place.name].append(place.where)
@@ -52,7 +52,7 @@ def inertia_problems(structure: Structure, known: Mapping[str, set[str]]) -> Ite
     """Hinges at a free end, beyond which there is nothing to turn."""
     joined = Counter(node for member in structure.members.values() for node in member.nodes)
     turning = {m.node for m in structure.masses.values() if any(m.rotary_inertia) or any(m.offset)}
-    for name in _sound_members(structure):
+    for name in sound_members(structure):
         frame = structure.frame_of(name)
         free = [
             (node, station)
@@ -67,7 +67,7 @@ def inertia_problems(structure: Structure, known: Mapping[str, set[str]]) -> Ite
                 yield Problem(what, where=f"{place.where}.at", todo=todo)
 
 
-def _sound_members(structure: Structure) -> Iterator[str]:
+def sound_members(structure: Structure) -> Iterator[str]:
     """Members whose nodes, section and materials are there, and whose hinges name no other node."""
     for name, member in structure.members.items():
         named = [hinge.at for hinge in member.given_hinges if isinstance(hinge.at, str)]

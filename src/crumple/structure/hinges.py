@@ -177,7 +177,8 @@ def placed_hinges(structure: Structure) -> tuple[PlacedHinge, ...]:
     for member, places in by_member.items():
         length = structure.frame_of(member).length
         stations = [place.station for place in places]
-        for place, share in zip(places, tributary_lengths(stations, length), strict=True):
+        parts = structure.members[member].rigid_parts(length)
+        for place, share in zip(places, tributary_lengths(stations, length, parts), strict=True):
             try:
                 placed.append(_placed(structure, place, share, length if len(places) == 1 else share))
             except InputError as error:
@@ -187,7 +188,9 @@ def placed_hinges(structure: Structure) -> tuple[PlacedHinge, ...]:
     return tuple(placed)
 
 
-def tributary_lengths(stations: list[float], length: float) -> list[float]:
+def tributary_lengths(
+    stations: list[float], length: float, rigid: tuple[tuple[float, float], ...] = ()
+) -> list[float]:
     """Length of a member [m] whose elastic bending each hinge stands for.
 
     Parameters
@@ -196,6 +199,8 @@ def tributary_lengths(stations: list[float], length: float) -> list[float]:
         Hinges' distances from the first node [m], increasing.
     length
         Of the member [m].
+    rigid
+        Stretches that do not bend [m].
 
     Notes
     -----
@@ -203,11 +208,15 @@ def tributary_lengths(stations: list[float], length: float) -> list[float]:
     the clamp of a cantilever loaded at its tip).  Of several each stands for the stretch that is nearest to
     it, which converges to the beam as they become many.
     """
+
+    def flexible(a: float, b: float) -> float:
+        return b - a - sum(max(min(b, end) - max(a, start), 0.0) for start, end in rigid)
+
     if len(stations) == 1:
-        return [length / 3.0]
+        return [flexible(0.0, length) / 3.0]
     middles = [(a + b) / 2.0 for a, b in pairwise(stations)]
     ends = [0.0, *middles, length]
-    return [b - a for a, b in pairwise(ends)]
+    return [flexible(a, b) for a, b in pairwise(ends)]
 
 
 def law_spec(structure: Structure, place: HingePlace) -> LawKeys:

@@ -14,10 +14,11 @@ from pydantic import (
     ValidationInfo,
     WithJsonSchema,
     field_validator,
+    model_validator,
 )
 
 from crumple.structure.hinge_axes import HingeAxes
-from crumple.structure.quantity import LENGTH, Angle, Direction, Length, PositiveLength
+from crumple.structure.quantity import LENGTH, Angle, Direction, Length, NonNegativeLength, PositiveLength
 from crumple.structure.spec import Name, Spec, refuse
 
 MOST_BARS = 10_000
@@ -117,6 +118,32 @@ def _number_of_bars(given: Any) -> Any:
     return {"number": given} if isinstance(given, Integral) and not isinstance(given, bool) else given
 
 
+class Stretch(Spec):
+    """Part of a member between two distances from its first node."""
+
+    start: Annotated[NonNegativeLength, Field(alias="from")] = 0.0
+    """Where it begins."""
+    end: Annotated[PositiveLength, Field(alias="to")]
+    """Where it ends."""
+
+    @model_validator(mode="after")
+    def _has_length(self) -> Stretch:
+        if self.end <= self.start:
+            refuse("the part ends before it begins", key="to", allowed=f"more than {1e3 * self.start:g} mm")
+        return self
+
+
+def _rigid_tag(given: Any) -> str:
+    return "(list)" if isinstance(given, list | tuple) else "(whole)"
+
+
+Rigid = Annotated[
+    Annotated[tuple[Stretch, ...], Tag("(list)")] | Annotated[bool, Field(strict=True), Tag("(whole)")],
+    Discriminator(_rigid_tag),
+]
+"""Whether a member is rigid, or which parts of it are."""
+
+
 class Member(Spec):
     """Straight bar of one section and one material between two nodes.
 
@@ -138,6 +165,20 @@ class Member(Spec):
     """Equal rigid bars with hinges between them; a plain number stands for `{number: ...}`."""
     hinges: GivenOrAutomatic = ()
     """Further hinges, one by one; or `auto`: candidates wherever a fold can form."""
+    rigid: Rigid = False
+    """`true`: it does not deform, in either solver, and has no hinges; or the parts of it that do not."""
+
+    def rigid_parts(self, length: float) -> tuple[tuple[float, float], ...]:
+        """Stretches that do not deform [m], of a member of a length [m]; those that overlap as one."""
+        if isinstance(self.rigid, bool):
+            return ((0.0, length),) if self.rigid else ()
+        merged: list[tuple[float, float]] = []
+        for a, b in sorted((part.start, part.end) for part in self.rigid):
+            if merged and a <= merged[-1][1]:
+                merged[-1] = (merged[-1][0], max(b, merged[-1][1]))
+            else:
+                merged.append((a, b))
+        return tuple(merged)
 
     @property
     def given_hinges(self) -> tuple[Hinge, ...]:

@@ -177,6 +177,7 @@ _WORDS: dict[str, tuple[str, str]] = {
     "mapping_type": ("a group of named entries is needed here", "names with values"),
     "tuple_type": ("a list is needed here", "a list in brackets"),
     "list_type": ("a list is needed here", "a list in brackets"),
+    "bool_type": ("true or false is needed here", "true or false"),
     "string_type": ("a text is needed here", "a text"),
     "string_too_long": ("the text is too long", "at most {max_length} characters"),
     "string_too_short": ("the text is too short", "at least {min_length} characters"),
