@@ -114,14 +114,16 @@ class FoldMechanism:
         """Derivatives of `energy_terms` [m] by the rotation [rad], which must not be zero."""
         a, b, h = self.width, self.depth, self.half_length
         rotation = np.asarray(rotation, np.float64)
-        s, c = np.sin(rotation / 2.0), np.cos(rotation / 2.0)
-        corners = self.corners(rotation)
-        x, y, z, tilt = corners["x_E"], corners["y_B"], corners["z_A"], corners["tilt"]
-        drop = np.sqrt((h + x) * b * s)
-        tilt_rate = b * c / (2.0 * drop)
+        half = rotation / 2.0
+        s, c = np.sin(half), np.cos(half)
+        # the corners, and the tilt by its sine and cosine times h
+        reach = b * s
+        x = h - reach
+        drop = np.sqrt(reach * (h + x))
+        tilt, tilt_rate = np.arctan2(drop, x), (b / 2.0) * c / drop
         drop_rate = x * tilt_rate
-        y_rate = -b * s / 2.0 - drop_rate
-        z_rate = c * (h / 2.0 - x + drop_rate) - s * drop / 2.0
+        y, y_rate = b * c - drop, reach / -2.0 - drop_rate
+        z, z_rate = drop * c - s * x, c * (h / 2.0 - x + drop_rate) - s * drop / 2.0
         out, out_rate = c * h - s * y, -(s * h + c * y) / 2.0 - s * y_rate
         at_web_end_rate = (z_rate * out - z * out_rate) / (out**2 + z**2)
         # the lower plate's y and z are the legs of a triangle whose third side is b - z
@@ -132,8 +134,8 @@ class FoldMechanism:
         sine_rate = (c * z_rate - s * z / 2.0) * length + c * z * length_rate
         cosine_rate = h * (c * y_rate - s * y / 2.0) - side * (c * side / 2.0 - 2.0 * s * z_rate)
         at_diagonal_rate = (sine_rate * cosine - sine * cosine_rate) / (sine**2 + cosine**2)
-        radius = self.rolling_radius(rotation) / h
-        rolled_rate = (z_rate + z / (70.0 * radius)) / radius
+        radius = self.rolling_radius(rotation)
+        rolled_rate = (z_rate * h + z * (h * h / 70.0) / radius) / radius
         return {
             "W1": 2.0 * a * (tilt_rate - 0.5),
             "W2": 2.0 * a * tilt_rate,

@@ -15,7 +15,7 @@ from crumple.errors import CrumpleError
 from crumple.hinge.law import Floats, HingeLaw
 from crumple.hinge.record import Envelope
 
-DENSE = 65
+DENSE = np.linspace(0.0, 1.0, 65)
 """Points per smooth piece on which the error is measured, beside the middle of every chord."""
 SPARE = 1.1
 """Chords over the number that the spread asks for, so that the first try mostly holds."""
@@ -51,7 +51,7 @@ def sampled_envelope(
         If the law's capacity is not smooth between its kinks.
     """
     ends = np.array([0.0, *sorted({k for k in law.kinks(sense) if 0.0 < k < rotation_max}), rotation_max])
-    dense = ends[:-1, None] + np.diff(ends)[:, None] * np.linspace(0.0, 1.0, DENSE)
+    dense = ends[:-1, None] + (ends[1:] - ends[:-1])[:, None] * DENSE
     exact = law.moment_capacity(dense.ravel(), sense).reshape(dense.shape)
     grown = _spread(exact, error)
     counts = np.maximum(1, np.floor(SPARE * grown[:, -1])).astype(np.int64)
@@ -81,9 +81,11 @@ def sampled_envelope(
 
 
 def _spread(exact: Floats, error: float) -> Floats:
-    """Number of chords from the start of each piece, (pieces, DENSE); a pure choice of places."""
+    """Number of chords from the start of each piece, (pieces, points); a pure choice of places."""
     bend = np.abs(exact[:, 2:] - 2.0 * exact[:, 1:-1] + exact[:, :-2]) / exact[:, 1:-1]
     # chords over one interval; at the ends of a piece as beside them
-    chords = np.sqrt(np.concatenate([bend[:, :1], bend, bend[:, -1:]], axis=1) / (8.0 * error)) + 1e-3 / DENSE
+    chords = (
+        np.sqrt(np.concatenate([bend[:, :1], bend, bend[:, -1:]], axis=1) / (8.0 * error)) + 1e-3 / DENSE.size
+    )
     middle = (chords[:, 1:] + chords[:, :-1]) / 2.0
     return np.concatenate([np.zeros((len(exact), 1)), np.cumsum(middle, axis=1)], axis=1)
