@@ -11,11 +11,12 @@ yielding.
 
 The speed jumps at the border of the thrown part, where a mesh spreads it over an element: momentum is exact,
 but energy is missing, of first order in the element's size, in both codes.  So meshes of the same energy
-are compared: 32 x 64 shells and the fine mesh of bricks, 1697 and 1699 J of 1769 J.
+are compared: 32 x 64 shells and the fine mesh of bricks, 1697 and 1699 J of 1769 J.  A finer pair, too slow
+for a test, is in docs/theory/shell_panel.md.
 
-Tolerance 2 %, 3 % of the largest deflection at any time and place: so much is open within either theory.
-Points through the wall and thickness update move shells by up to 2.2 %, half the step bricks by 0.04 %.
-The time of the largest deflection, where the middle moves by 0.3 % in 40 us, is known to 4 %.
+Tolerance 2 % of the largest deflection, the sum of what is open: four elements through the wall in place of
+two move the coarse bricks by 1.6 % (half the step: 0.04 %), ten points in place of five the shells by 0.5 %.
+The middle moves by 0.3 % in 40 us about its largest deflection, so the time of it is known to 4 %.
 """
 
 import json
@@ -31,8 +32,8 @@ from crumple._core.shell import Element
 KEPT = json.loads((Path(__file__).parent / "panel_reference.json").read_text(encoding="utf-8"))["meshes"]
 MESHES = (8, 16, 32)
 """Elements around; twice as many along."""
-PAIRS = {32: "fine"}
-"""Elements around, and the mesh of bricks with the same energy."""
+FINE = KEPT["fine"]
+OPEN = 0.02
 elements = pytest.mark.parametrize("element", list(Element), ids=lambda e: e.value)
 
 
@@ -47,27 +48,6 @@ def permanent(time: np.ndarray, deflection: np.ndarray) -> float:
     return float(deflection[time > 0.6e-3 - 1e-9].mean())
 
 
-def agree(around: int, element: Element, record_figure) -> None:
-    """Energy of the start, largest and permanent deflection, the whole history."""
-    ours, theirs = panel(around, element), KEPT[PAIRS[around]]
-    name = f"{element.value}, {around} x {2 * around}"
-    record_figure(
-        f"energy of the start, {name}", ours["kinetic"][0], theirs["energy"], 3e-3, "J", relative=True
-    )
-    top, largest = int(ours["deflection"].argmax()), 1e3 * theirs["largest"]
-    highest = 1e3 * ours["deflection"][top]
-    record_figure(f"largest deflection, {name}", highest, largest, 0.02, "mm", relative=True)
-    at = 1e6 * theirs["time_of_largest"]
-    record_figure(f"time of it, {name}", 1e6 * ours["time"][top], at, 0.04, "us", relative=True)
-    history = np.array(theirs["deflection"])
-    times = theirs["every"] * np.arange(len(history))
-    if times[-1] > 0.9e-3:
-        rest = [1e3 * permanent(ours["time"], ours["deflection"]), 1e3 * permanent(times, history)]
-        record_figure(f"permanent deflection, {name}", *rest, 0.02, "mm", relative=True)
-    apart = abs(np.interp(times, ours["time"], ours["deflection"]) - history).max() / theirs["largest"]
-    record_figure(f"history, largest difference over largest deflection, {name}", apart, 0.0, 0.03)
-
-
 @elements
 def test_mesh_converges(element):
     """Energy of the start and largest deflection grow, by less than half as much with every finer mesh."""
@@ -80,19 +60,33 @@ def test_mesh_converges(element):
 
 @elements
 def test_deflection(element, record_figure):
-    agree(32, element, record_figure)
+    """Energy of the start, largest and permanent deflection, the whole history."""
+    ours, name = panel(32, element), element.value
+    start = ours["kinetic"][0]
+    record_figure(f"energy of the start, {name}", start, FINE["energy"], 3e-3, "J", relative=True)
+    top = int(ours["deflection"].argmax())
+    largest = 1e3 * ours["deflection"][top]
+    record_figure(f"largest deflection, {name}", largest, 1e3 * FINE["largest"], OPEN, "mm", relative=True)
+    at = 1e6 * ours["time"][top]
+    record_figure(f"time of it, {name}", at, 1e6 * FINE["time_of_largest"], 0.04, "us", relative=True)
+    theirs = np.array(FINE["deflection"])
+    times = FINE["every"] * np.arange(len(theirs))
+    rest = [1e3 * permanent(ours["time"], ours["deflection"]), 1e3 * permanent(times, theirs)]
+    record_figure(f"permanent deflection, {name}", *rest, OPEN, "mm", relative=True)
+    apart = abs(np.interp(times, ours["time"], ours["deflection"]) - theirs).max() / FINE["largest"]
+    record_figure(f"history, largest difference over largest deflection, {name}", apart, 0.0, OPEN)
 
 
 @elements
 def test_shape(element, record_figure):
     """Lowering of the crown and of the middle arc at 0.4 ms, just after the turn."""
-    ours, theirs = panel(32, element), KEPT["fine"]
+    ours = panel(32, element)
     now = int(np.searchsorted(ours["time"], 0.4e-3 - 1e-9))
     for line, extent in (("crown", LENGTH / 2), ("arc", HALF_ANGLE)):
         own = ours[line][now]
         at = np.linspace(0.0, extent, len(own))
-        apart = abs(np.interp(theirs[f"{line}_at"], at, own) - theirs[line]).max() / theirs["largest"]
-        record_figure(f"{line} at 0.4 ms, largest difference, {element.value}", apart, 0.0, 0.03)
+        apart = abs(np.interp(FINE[f"{line}_at"], at, own) - FINE[line]).max() / FINE["largest"]
+        record_figure(f"{line} at 0.4 ms, largest difference, {element.value}", apart, 0.0, OPEN)
 
 
 @elements

@@ -36,10 +36,13 @@ KEPT = Path(__file__).parents[2] / "verification" / "panel_reference.json"
 UNIFORM = np.linspace(0.0, 1.0, 9)
 # finer where the panel bends towards its end; loaded up to 13/16
 FINE = np.array([0.0, 0.2, 0.4, 0.55, 0.675, 37 / 48, 41 / 48, 43 / 48, 0.9375, 0.96875, 1.0])
+FINEST = np.array([0.0, 0.2, 0.4, 0.55, 0.65, 0.73, 0.78, 191 / 240, 199 / 240, 0.86, 0.9, 0.94, 0.97, 1.0])
 MESHES = {
     "coarse": (UNIFORM, 7, 2, (2e-6, 1e-3)),
     "coarse, half the step": (UNIFORM, 7, 2, (1e-6, 0.5e-3)),
+    "coarse, four through the wall": (UNIFORM, 7, 4, (2e-6, 0.5e-3)),
     "fine": (FINE, 15, 2, (2e-6, 1e-3)),
+    "finest": (FINEST, 25, 2, (2e-6, 0.5e-3)),
 }
 """Lines along the half length, elements around and through the wall, largest step and end [s]."""
 # corners, then middles of sides, of CalculiX's brick, in half elements
