@@ -49,7 +49,7 @@ inline Closest closest_on_quad(Vec3 p, const Vec3 (&x)[4]) {
         const int j = (i + 1) % 4;
         const TrianglePoint t = closest_on_triangle(p, x[i], x[j], centre);
         const Vec3 q = t.a * x[i] + t.b * x[j] + t.c * centre;
-        const double d = norm(p - q);
+        const double d = dot(p - q, p - q);
         if (d >= best.distance) continue;
         best.point = q;
         best.distance = d;
@@ -58,6 +58,7 @@ inline Closest closest_on_quad(Vec3 p, const Vec3 (&x)[4]) {
         best.weight[i] += t.a;
         best.weight[j] += t.b;
     }
+    best.distance = std::sqrt(best.distance);
     return best;
 }
 

@@ -10,6 +10,8 @@ namespace {
 constexpr std::size_t check_every = 10;
 // ... and a search is due when a node has moved by this share of the margin; two nodes approach at most twice as fast.
 constexpr double moved_share = 0.35;
+// Items that are handed out at once: a few microseconds of work.
+constexpr std::size_t items_at_once = 16;
 
 }  // namespace
 
@@ -24,12 +26,13 @@ Sheets::Sheets(const Model& m, const Masses& masses, double dt) : model(m), mass
 }
 
 void NodeForces::save(std::vector<double>& out) const {
-    out.push_back(double(touched_.size()));
-    for (Index n : touched_) out.insert(out.end(), {double(n), force_[4 * n], force_[4 * n + 1], force_[4 * n + 2]});
+    out.push_back(double(touched()));
+    for (const std::vector<Index>& chunk : touched_)
+        for (Index n : chunk) out.insert(out.end(), {double(n), force_[4 * n], force_[4 * n + 1], force_[4 * n + 2]});
 }
 
 void NodeForces::restore(const double*& in) {
-    clear();
+    clear({0, chunks()});
     std::size_t count = std::size_t(*in++);
     for (; count > 0; count--, in += 4) add(Index(in[0]), read3(in + 1));
 }
@@ -42,54 +45,89 @@ Contact::Contact(const Model& model, const Masses& masses, double step) : sheets
     if (!any()) return;
     now_ = NodeForces(model.nodes());
     before_ = NodeForces(model.nodes());
+    power_.assign(now_.chunks(), 0.0);
+    searched_at_.assign(3 * model.nodes(), 0.0);
     // not beyond the neighbourhood, else every node would list the rest of its own wall
     const double thickest = *std::max_element(model.thickness.begin(), model.thickness.end());
     skin_ = (WallContact::neighbourhood - 1.0) * (walls_ ? walls_->reach() : thickest);
 }
 
-bool Contact::moved_far(const Motions& m) const {
-    if (searched_at_.empty()) return true;
+bool Contact::moved_far(const Motions& m, Range nodes) const {
     const double limit = moved_share * skin_;
-    for (std::size_t n = 0; n < sheets_.model.nodes(); n++) {
+    for (std::size_t n = nodes.first; n < nodes.last; n++) {
         const Vec3 d = position_of(m, n) - read3(&searched_at_[3 * n]);
         if (!(dot(d, d) < limit * limit)) return true;
     }
-    return !(obstacles_.moved() < limit);
+    return false;
 }
 
-void Contact::search_when_needed(const Motions& m, const std::vector<std::uint8_t>& alive, bool force) {
+void Contact::list_work() { found_.resize((items() + items_at_once - 1) / items_at_once); }
+
+void Contact::search(const Motions& m, const std::vector<std::uint8_t>& alive, const Member& member) {
     if (!any()) return;
-    if (!force && (++checks_ % check_every != 0 || !moved_far(m))) return;
-    searches_++;
-    searched_at_.resize(3 * sheets_.model.nodes());
-    for (std::size_t n = 0; n < sheets_.model.nodes(); n++) write3(&searched_at_[3 * n], position_of(m, n));
+    const Range nodes = member.share(sheets_.model.nodes()), elements = member.share(sheets_.model.elements());
+    for (std::size_t n = nodes.first; n < nodes.last; n++) write3(&searched_at_[3 * n], position_of(m, n));
     if (walls_) {
-        walls_->search(m, alive, skin_);
-        edges_->search(m, alive, skin_);
+        edges_->turn(m, elements);
+        member.meet([&] { walls_->start_search(m, skin_, member.count); });
+        walls_->search(m, alive, elements, member);
+        edges_->find_creases(alive, member);
+        member.meet([&] {
+            walls_->end_search();
+            edges_->start_search(m, skin_, member.count);
+        });
+        edges_->search(m, member);
     }
-    obstacles_.search(m, skin_);
+    member.meet([&] {
+        if (walls_) edges_->end_search(m);
+        obstacles_.search(m, skin_);
+        list_work();
+        searches_++;
+        due_ = false;
+    });
 }
 
-void Contact::evaluate(const Motions& m, std::size_t first, std::size_t last) {
-    const std::size_t walls = wall_items(), edges = walls + edge_items();
-    for (std::size_t i = first; i < last; i++) {
-        if (i < walls)
-            walls_->evaluate(m, i);
-        else if (i < edges)
-            edges_->evaluate(m, i - walls);
-        else
-            obstacles_.evaluate(m, i - edges);
+void Contact::evaluate(const Motions& m, const Member& member) {
+    const std::size_t walls = wall_items(), edges = walls + edge_items(), all = edges + obstacles_.items();
+    for (std::size_t k; (k = next_.fetch_add(1, std::memory_order_relaxed)) < found_.size();) {
+        FoundForces& found = found_[k];
+        found.clear(sheets_.model.nodes(), member.count);
+        for (std::size_t i = items_at_once * k; i < std::min(all, items_at_once * (k + 1)); i++) {
+            if (i < walls)
+                walls_->evaluate(m, i, found);
+            else if (i < edges)
+                edges_->evaluate(m, i - walls, found);
+            else
+                obstacles_.evaluate(m, i - edges);
+        }
     }
 }
 
-void Contact::commit(const Motions& m, double last_dt) {
+void Contact::turn_over(const Motions& m) {
     std::swap(now_, before_);
-    now_.clear();
-    if (walls_) deepest_ = std::max({deepest_, walls_->commit(now_), edges_->commit(now_)});
     obstacles_.commit(m, now_);  // each obstacle keeps its own depth
+    next_.store(0, std::memory_order_relaxed);
+}
+
+void Contact::sum(const Motions& m, const Member& member) {
+    const Range chunks = member.share(now_.chunks());
+    for (const FoundForces& found : found_)
+        for (const FoundForces::Found& f : found.of(member)) now_.add(f.node, f.force);
+    for (std::size_t c = chunks.first; c < chunks.last; c++) power_[c] = now_.power(m, c) + before_.power(m, c);
+    before_.clear(chunks);
+    const bool look = (checks_ + 1) % check_every == 0;
+    if (look && moved_far(m, member.share(sheets_.model.nodes()))) moved_.store(true, std::memory_order_relaxed);
+}
+
+void Contact::commit(double last_dt) {
+    for (const FoundForces& found : found_) deepest_ = std::max(deepest_, found.deepest);
+    double power = obstacles_.power(false) + obstacles_.power(true);
+    for (double p : power_) power += p;
     // work done against contact over the last step, by the mean of the forces at both ends
-    work_ -= 0.5 * last_dt * (now_.power(m) + before_.power(m) + obstacles_.power(false) + obstacles_.power(true));
+    work_ -= 0.5 * last_dt * power;
     obstacles_.book(last_dt);
+    due_ = ++checks_ % check_every == 0 && (moved_ || !(obstacles_.moved() < moved_share * skin_));
+    moved_ = false;
 }
 
 std::vector<double> Contact::save() const {
@@ -118,6 +156,7 @@ void Contact::restore(const std::vector<double>& saved) {
         edges_->restore(in);
     }
     obstacles_.restore(in);
+    list_work();
 }
 
 }  // namespace crumple::shell

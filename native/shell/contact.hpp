@@ -1,6 +1,7 @@
 // Contact of walls with walls, edges with edges, and nodes with obstacles: penalty forces on nodes.
 // Theory: docs/theory/contact.md.
 #pragma once
+#include <atomic>
 #include <memory>
 
 #include "edge_contact.hpp"
@@ -13,13 +14,21 @@ public:
     Contact(const Model& model, const Masses& masses, double step);
 
     bool any() const { return walls_ || obstacles_.any(); }
-    // Work items that threads may share.
-    std::size_t items() const { return wall_items() + edge_items() + obstacles_.items(); }
-    void evaluate(const Motions& m, std::size_t first, std::size_t last);
-    // Sums the records into forces, in fixed order; accumulates the work done on contact over the last step [J].
-    void commit(const Motions& m, double last_dt);
-    // Searches anew where nodes have moved far; `alive` tells which elements still exist.
-    void search_when_needed(const Motions& m, const std::vector<std::uint8_t>& alive, bool force);
+
+    // A step, in this order; every member of the team calls what takes a member, one alone calls the rest.
+    // Finds the touches at new positions; who is ready first takes more of them.
+    void evaluate(const Motions& m, const Member& member);
+    // Makes room for new forces and puts those of obstacles there.
+    void turn_over(const Motions& m);
+    // Sums the forces on the member's share of the nodes, in fixed order.
+    void sum(const Motions& m, const Member& member);
+    // Accumulates the work done on contact over the last step [J], and decides whether to search.
+    void commit(double last_dt);
+    // Nodes have moved so far that others may touch: `search` is to be called.
+    bool search_due() const { return due_; }
+    // Lists anew what may touch; `alive` tells which elements still exist.
+    void search(const Motions& m, const std::vector<std::uint8_t>& alive, const Member& member);
+
     ObstacleContact& obstacles() { return obstacles_; }
     const ObstacleContact& obstacles() const { return obstacles_; }
 
@@ -36,17 +45,24 @@ public:
 private:
     std::size_t wall_items() const { return walls_ ? walls_->items() : 0; }
     std::size_t edge_items() const { return edges_ ? edges_->items() : 0; }
-    bool moved_far(const Motions& m) const;
+    std::size_t items() const { return wall_items() + edge_items() + obstacles_.items(); }
+    bool moved_far(const Motions& m, Range nodes) const;
+    void list_work();
 
     Sheets sheets_;
     std::unique_ptr<WallContact> walls_;         // null without self-contact
     std::unique_ptr<EdgeContact> edges_;
     ObstacleContact obstacles_;
+    std::vector<FoundForces> found_;             // [chunk of items]
+    std::atomic<std::size_t> next_{0};           // chunk of items to be handed out
     NodeForces now_, before_;
+    std::vector<double> power_;                  // of the forces at both ends of the step, [chunk of nodes] [W]
     double skin_ = 0.0;                          // margin of the search [m]
     std::vector<double> searched_at_;            // positions of the last search
     double work_ = 0.0, deepest_ = 0.0;
     std::size_t searches_ = 0, checks_ = 0;
+    std::atomic<bool> moved_{false};
+    bool due_ = false;
 };
 
 }  // namespace crumple::shell

@@ -1,5 +1,6 @@
 // Which points lie in which boxes: a bucket search.
 #pragma once
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,9 @@ namespace crumple::shell {
 
 struct Box {
     double low[3], high[3];
+    bool contains(Vec3 x) const {
+        return x.x >= low[0] && x.x <= high[0] && x.y >= low[1] && x.y <= high[1] && x.z >= low[2] && x.z <= high[2];
+    }
 };
 
 // Box around corners of `nodes`, grown to all sides.
@@ -28,9 +32,39 @@ template <std::size_t corners> Box box_around(const double* position, int stride
     return b;
 }
 
-// Pairs (point, box) with the point inside; points in order, boxes in the order of their numbers.
-using PairList = std::vector<std::pair<Index, Index>>;
-PairList points_in_boxes(const double* points, int stride, std::size_t count, const std::vector<Box>& boxes,
-                         const std::vector<std::uint8_t>& alive);
+// Points sorted into the cells of a grid; many threads may ask one grid at once.
+class PointGrid {
+public:
+    PointGrid() = default;
+    // Cells of side `cell` [m], larger where there would be too many of them.
+    PointGrid(const double* points, int stride, std::size_t count, double cell);
+
+    // Calls visit(point) for the points in the box, in the order of the cells.
+    template <class Visit> void each_in(const Box& box, Visit visit) const {
+        long from[3], to[3];
+        for (int i = 0; i < 3; i++) {
+            from[i] = along(i, box.low[i]);
+            to[i] = along(i, box.high[i]);
+        }
+        for (long x = from[0]; x <= to[0]; x++)
+            for (long y = from[1]; y <= to[1]; y++) {
+                // cells along z follow one another, and so do their points
+                const long row = (x * count_[1] + y) * count_[2];
+                for (Index k = first_[std::size_t(row + from[2])]; k < first_[std::size_t(row + to[2]) + 1]; k++)
+                    if (box.contains(points_[k])) visit(number_[k]);
+            }
+    }
+
+private:
+    long along(int axis, double x) const {
+        return long(std::clamp((x - origin_[axis]) * inverse_, 0.0, double(count_[axis] - 1)));
+    }
+
+    double origin_[3] = {0.0, 0.0, 0.0}, inverse_ = 0.0;
+    long count_[3] = {1, 1, 1};
+    std::vector<Index> first_{0, 0};             // [cell]; one more entry
+    std::vector<Index> number_;                  // points by cell, within each in order
+    std::vector<Vec3> points_;                   // where those are
+};
 
 }  // namespace crumple::shell

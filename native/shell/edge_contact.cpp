@@ -44,7 +44,11 @@ double segment_distance(Vec3 a0, Vec3 a1, Vec3 b0, Vec3 b1) {
 
 }  // namespace
 
-EdgeContact::EdgeContact(const Sheets& sheets, const WallContact& walls) : sheets_(sheets), walls_(walls) { list_edges(); }
+EdgeContact::EdgeContact(const Sheets& sheets, const WallContact& walls)
+    : sheets_(sheets), walls_(walls), normal_(sheets.model.elements()) {
+    list_edges();
+    out_.assign(edges_.size(), 0);
+}
 
 void EdgeContact::list_edges() {
     const Model& model = sheets_.model;
@@ -65,21 +69,30 @@ void EdgeContact::list_edges() {
     }
 }
 
-bool EdgeContact::stands_out(const Motions& m, const std::vector<std::uint8_t>& alive, const Edge& edge) const {
+void EdgeContact::turn(const Motions& m, Range elements) {
+    for (std::size_t e = elements.first; e < elements.last; e++) {
+        Vec3 x[4];
+        sheets_.corners(m.position, position_record, e, x);
+        normal_[e] = cross(x[2] - x[0], x[3] - x[1]);
+    }
+}
+
+bool EdgeContact::stands_out(const std::vector<std::uint8_t>& alive, const Edge& edge) const {
     Vec3 normal[2];
     int count = 0;
     for (std::size_t k = 0; k < edge.elements.size(); k++) {
         if (!alive[edge.elements[k]]) continue;
-        if (count < 2) {
-            Vec3 x[4];
-            sheets_.corners(m.position, position_record, edge.elements[k], x);
-            // two elements that look the same way run along their edge in opposite directions
-            normal[count] = (count == 0 ? double(edge.sense[k]) : -double(edge.sense[k])) * cross(x[2] - x[0], x[3] - x[1]);
-        }
+        // two elements that look the same way run along their edge in opposite directions
+        if (count < 2) normal[count] = (count == 0 ? double(edge.sense[k]) : -double(edge.sense[k])) * normal_[edge.elements[k]];
         count++;
     }
     if (count != 2) return count > 0;
     return dot(normal[0], normal[1]) < crease * std::sqrt(dot(normal[0], normal[0]) * dot(normal[1], normal[1]));
+}
+
+void EdgeContact::find_creases(const std::vector<std::uint8_t>& alive, const Member& member) {
+    const Range edges = member.share(edges_.size());
+    for (std::size_t i = edges.first; i < edges.last; i++) out_[i] = stands_out(alive, edges_[i]);
 }
 
 // Edges of one node, and those within twice the gap at the start that hang together: a crumpled corner may bring
@@ -98,31 +111,42 @@ bool EdgeContact::same_sheet(const Edge& a, const Edge& b) const {
     return apart < WallContact::neighbourhood * (a.half + b.half) && (near(a, b) || near(b, a));
 }
 
-void EdgeContact::search(const Motions& m, const std::vector<std::uint8_t>& alive, double skin) {
-    std::vector<Index> out;
+void EdgeContact::start_search(const Motions& m, double skin, int members) {
+    listed_.clear();
     for (Index i = 0; i < edges_.size(); i++)
-        if (stands_out(m, alive, edges_[i])) out.push_back(i);
-    // middles of edges in the boxes of others, grown by what the halves of both can reach
-    double longest = 0.0;
+        if (out_[i]) listed_.push_back(i);
+    longest_ = 0.0;
     std::vector<double> middle;
-    for (Index i : out) {
+    for (Index i : listed_) {
         const Vec3 a = position_of(m, edges_[i].node[0]), b = position_of(m, edges_[i].node[1]), c = 0.5 * (a + b);
-        longest = std::max(longest, norm(b - a));
+        longest_ = std::max(longest_, norm(b - a));
         middle.insert(middle.end(), {c.x, c.y, c.z});
     }
-    std::vector<Box> boxes;
-    const double far = walls_.reach() + skin;
-    for (Index i : out) boxes.push_back(box_around<2>(m.position, position_record, edges_[i].node, far + 0.5 * longest));
-    std::vector<Pair> pairs;
-    for (auto [p, q] : points_in_boxes(middle.data(), 3, out.size(), boxes, std::vector<std::uint8_t>(out.size(), 1))) {
-        if (p >= q) continue;
-        const Index i = out[p], j = out[q];
-        const Edge &a = edges_[i], &b = edges_[j];
-        const Vec3 a0 = position_of(m, a.node[0]), a1 = position_of(m, a.node[1]);
+    far_ = walls_.reach() + skin;
+    middles_ = PointGrid(middle.data(), 3, listed_.size(), far_ + 0.5 * longest_);
+    near_.resize(std::size_t(members));
+}
+
+// Middles of edges in the boxes of others, grown by what the halves of both can reach.
+void EdgeContact::search(const Motions& m, const Member& member) {
+    std::vector<Pair>& near = near_[std::size_t(member.index)];
+    near.clear();
+    const Range share = member.share(listed_.size());
+    for (std::size_t q = share.first; q < share.last; q++) {
+        const Edge& b = edges_[listed_[q]];
         const Vec3 b0 = position_of(m, b.node[0]), b1 = position_of(m, b.node[1]);
-        if (segment_distance(a0, a1, b0, b1) > far || same_sheet(a, b)) continue;
-        pairs.push_back({i, j, a.half + b.half, {}});
+        middles_.each_in(box_around<2>(m.position, position_record, b.node, far_ + 0.5 * longest_), [&](Index p) {
+            if (p >= q) return;
+            const Edge& a = edges_[listed_[p]];
+            if (segment_distance(position_of(m, a.node[0]), position_of(m, a.node[1]), b0, b1) > far_ || same_sheet(a, b)) return;
+            near.push_back({listed_[p], listed_[q], a.half + b.half, {}});
+        });
     }
+}
+
+void EdgeContact::end_search(const Motions& m) {
+    std::vector<Pair> pairs;
+    for (const std::vector<Pair>& near : near_) pairs.insert(pairs.end(), near.begin(), near.end());
     auto before = [](const Pair& a, const Pair& b) { return a.first != b.first ? a.first < b.first : a.second < b.second; };
     std::sort(pairs.begin(), pairs.end(), before);
     for (Pair& p : pairs) {
@@ -137,14 +161,11 @@ void EdgeContact::search(const Motions& m, const std::vector<std::uint8_t>& aliv
         if (c.inside) p.gap = std::min(p.gap, norm(c.apart));
     }
     pairs_ = std::move(pairs);
-    touch_.assign(pairs_.size(), Touch{});
 }
 
-void EdgeContact::evaluate(const Motions& m, std::size_t i) {
+void EdgeContact::evaluate(const Motions& m, std::size_t i, FoundForces& found) {
     Pair& p = pairs_[i];
     const Edge &a = edges_[p.first], &b = edges_[p.second];
-    Touch& touch = touch_[i];
-    touch.active = false;
     const Vec3 a0 = position_of(m, a.node[0]), b0 = position_of(m, b.node[0]);
     const Crossing c = crossing(a0, position_of(m, a.node[1]), b0, position_of(m, b.node[1]));
     const double distance = norm(c.apart);
@@ -152,33 +173,20 @@ void EdgeContact::evaluate(const Motions& m, std::size_t i) {
         p.stick = {};
         return;
     }
-    const double w[4] = {1.0 - c.s, c.s, 1.0 - c.t, c.t};
+    // weights of the nodes: the force goes to the first edge, its opposite to the second
+    const double w[4] = {1.0 - c.s, c.s, c.t - 1.0, -c.t};
+    const Index nodes[4] = {a.node[0], a.node[1], b.node[0], b.node[1]};
     double compliance = 0.0;
     Vec3 slip;
     for (std::size_t k = 0; k < 4; k++) {
-        const Index n = k < 2 ? a.node[k] : b.node[k - 2];
-        compliance += w[k] * w[k] / sheets_.mass[n];
-        slip = slip + (k < 2 ? w[k] : -w[k]) * velocity_of(m, n);
+        compliance += w[k] * w[k] / sheets_.mass[nodes[k]];
+        slip = slip + w[k] * velocity_of(m, nodes[k]);
     }
     const ContactSettings& s = sheets_.model.contact;
     const Bond bond = bond_of(s, 1.0 / compliance, sheets_.step, s.friction);
-    touch = {force_of(bond, p.gap - distance, (1.0 / distance) * c.apart, slip, m.step, p.stick), c.s, c.t,
-             (p.gap - distance) / (a.half + b.half), true};
-}
-
-double EdgeContact::commit(NodeForces& forces) const {
-    double deepest = 0.0;
-    for (std::size_t i = 0; i < touch_.size(); i++) {
-        const Touch& t = touch_[i];
-        if (!t.active) continue;
-        const Edge &a = edges_[pairs_[i].first], &b = edges_[pairs_[i].second];
-        deepest = std::max(deepest, t.depth);
-        forces.add(a.node[0], (1.0 - t.s) * t.force);
-        forces.add(a.node[1], t.s * t.force);
-        forces.add(b.node[0], (t.t - 1.0) * t.force);
-        forces.add(b.node[1], (-t.t) * t.force);
-    }
-    return deepest;
+    const Vec3 force = force_of(bond, p.gap - distance, (1.0 / distance) * c.apart, slip, m.step, p.stick);
+    found.deepest = std::max(found.deepest, (p.gap - distance) / (a.half + b.half));
+    for (std::size_t k = 0; k < 4; k++) found.add(nodes[k], w[k] * force);
 }
 
 void EdgeContact::save(std::vector<double>& out) const {
@@ -192,7 +200,6 @@ void EdgeContact::restore(const double*& in) {
         p = {Index(in[0]), Index(in[1]), in[2], read3(in + 3)};
         in += 6;
     }
-    touch_.assign(pairs_.size(), Touch{});
 }
 
 }  // namespace crumple::shell

@@ -13,9 +13,13 @@ public:
     EdgeContact(const Sheets& sheets, const WallContact& walls);
 
     std::size_t items() const { return pairs_.size(); }
-    void evaluate(const Motions& m, std::size_t item);
-    double commit(NodeForces& forces) const;
-    void search(const Motions& m, const std::vector<std::uint8_t>& alive, double skin);
+    void evaluate(const Motions& m, std::size_t item, FoundForces& found);
+    // Parts of a search: each member with its share of the elements, then of the edges; one alone; each; one alone.
+    void turn(const Motions& m, Range elements);
+    void find_creases(const std::vector<std::uint8_t>& alive, const Member& member);
+    void start_search(const Motions& m, double skin, int members);
+    void search(const Motions& m, const Member& member);
+    void end_search(const Motions& m);
 
     void save(std::vector<double>& out) const;
     void restore(const double*& in);
@@ -32,21 +36,21 @@ private:
         double gap;                  // distance kept: that of the walls, or what it was when the pair was found
         Vec3 stick;
     };
-    struct Touch {
-        Vec3 force;                  // on the first edge
-        double s, t;                 // places along the edges
-        double depth;                // penetration over gap
-        bool active;
-    };
     void list_edges();
-    bool stands_out(const Motions& m, const std::vector<std::uint8_t>& alive, const Edge& e) const;
+    bool stands_out(const std::vector<std::uint8_t>& alive, const Edge& e) const;
     bool same_sheet(const Edge& a, const Edge& b) const;
 
     const Sheets& sheets_;
     const WallContact& walls_;
     std::vector<Edge> edges_;
     std::vector<Pair> pairs_;        // in order of their edges
-    std::vector<Touch> touch_;
+    // of a search
+    std::vector<Vec3> normal_;       // [element] not of unit length
+    std::vector<std::uint8_t> out_;  // [edge] whether it stands out
+    std::vector<Index> listed_;      // edges that do
+    PointGrid middles_;              // of those
+    double far_ = 0.0, longest_ = 0.0;
+    std::vector<std::vector<Pair>> near_;        // [member]
 };
 
 }  // namespace crumple::shell

@@ -1,8 +1,8 @@
-// Contact forces on nodes, summed by one thread in a fixed order, and what contact knows of the sheets.
+// Contact forces on nodes, summed in a fixed order, and what contact knows of the sheets.
 #pragma once
-#include "aligned.hpp"
 #include "lowering.hpp"
 #include "penalty.hpp"
+#include "team.hpp"
 
 namespace crumple::shell {
 
@@ -19,36 +19,71 @@ struct Sheets {
     }
 };
 
+// Forces that contact finds on nodes, kept apart for each member of the team that may own the node.
+class FoundForces {
+public:
+    // Forgets all; nodes are shared among `members` in chunks, see share_of.
+    void clear(std::size_t nodes, int members) {
+        chunks_ = (nodes + node_chunk - 1) / node_chunk;
+        for (std::vector<Found>& f : found_) f.clear();
+        found_.resize(std::size_t(members));
+        deepest = 0.0;
+    }
+    void add(Index n, Vec3 force) {
+        // the member whose share holds the node's chunk
+        const std::size_t owner = ((n / node_chunk + 1) * found_.size() - 1) / chunks_;
+        found_[owner].push_back({n, force});
+    }
+    struct Found {
+        Index node;
+        Vec3 force;
+    };
+    const std::vector<Found>& of(const Member& owner) const { return found_[std::size_t(owner.index)]; }
+
+    double deepest = 0.0;            // penetration over the gap
+
+private:
+    std::vector<std::vector<Found>> found_;      // [member]
+    std::size_t chunks_ = 0;
+};
+
 class NodeForces {
 public:
-    explicit NodeForces(std::size_t nodes = 0) : force_(4 * nodes, 0.0) {}
+    explicit NodeForces(std::size_t nodes = 0) : force_(4 * nodes, 0.0), touched_((nodes + node_chunk - 1) / node_chunk) {}
 
-    void clear() {
-        for (Index n : touched_)
-            for (std::size_t i = 0; i < 4; i++) force_[4 * n + i] = 0.0;
-        touched_.clear();
+    std::size_t chunks() const { return touched_.size(); }
+    void clear(Range chunks) {
+        for (std::size_t c = chunks.first; c < chunks.last; c++) {
+            for (Index n : touched_[c]) std::fill_n(&force_[4 * n], 4, 0.0);
+            touched_[c].clear();
+        }
     }
+    // To be called by the member that owns the node's chunk.
     void add(Index n, Vec3 f) {
         add3(&force_[4 * n], f);
         if (force_[4 * n + 3] == 0.0) {
             force_[4 * n + 3] = 1.0;     // the unused fourth number marks a touched node
-            touched_.push_back(n);
+            touched_[n / std::size_t(node_chunk)].push_back(n);
         }
     }
-    // Power on the nodes [W].
-    double power(const Motions& m) const {
+    // Power on the nodes of a chunk [W].
+    double power(const Motions& m, std::size_t chunk) const {
         double sum = 0.0;
-        for (Index n : touched_) sum += dot(read3(&force_[4 * n]), velocity_of(m, n));
+        for (Index n : touched_[chunk]) sum += dot(read3(&force_[4 * n]), velocity_of(m, n));
         return sum;
     }
     const double* data() const { return force_.data(); }
-    std::size_t touched() const { return touched_.size(); }
+    std::size_t touched() const {
+        std::size_t count = 0;
+        for (const std::vector<Index>& chunk : touched_) count += chunk.size();
+        return count;
+    }
     void save(std::vector<double>& out) const;
     void restore(const double*& in);
 
 private:
-    aligned_vector<double> force_;   // [node][4]
-    std::vector<Index> touched_;
+    aligned_vector<double> force_;               // [node][4]
+    std::vector<std::vector<Index>> touched_;    // [chunk of nodes]
 };
 
 }  // namespace crumple::shell

@@ -37,10 +37,11 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const Kernels& kernel
     contact_ = std::make_unique<Contact>(*model_, masses_, first_dt_);
     contact_->obstacles().attach(bodies_, body_states_);
     contact_->obstacles().place(motions());
-    contact_->search_when_needed(motions(), alive_, true);
+    contact_->search(motions(), alive_, {});
     // forces of contact at the start; the elements are free of stress
-    contact_->evaluate(motions(), 0, contact_->items());
-    if (contact_->any()) contact_->commit(motions(), 0.0);
+    contact_->evaluate(motions(), {});
+    contact_->turn_over(motions());
+    contact_->sum(motions(), {});
     first_kinetic_ = kinetic();      // before there is a step, of the velocities as they are
     dt_ = first_dt_;
     for (Driven& d : driven_) std::copy_n(kick_driven(d).outside, 6, d.outside);
@@ -165,11 +166,7 @@ void Simulation::end_step(const std::vector<ElementReport>& reports) {
     time_ += dt_;
     steps_++;
     if (end_ != End::running) return;
-    if (can_fail_ && contact_->any()) update_alive();
-    if (contact_->any()) {
-        contact_->commit(motions(), last_dt_);
-        contact_->search_when_needed(motions(), alive_, false);
-    }
+    contact_->turn_over(motions());
     // a shape that relaxes lengthens the step slowly; with every element gone the step stays
     const double stable = frequency > 0.0 ? model_->settings.safety * 2.0 / std::sqrt(frequency) : dt_;
     dt_ = std::min(stable, 1.02 * dt_);
@@ -218,6 +215,17 @@ void Simulation::update_alive() {
     for (std::size_t e = 0; e < alive_.size(); e++) alive_[e] = slot(e, alive) > 0.5;
 }
 
+// sums of the contact forces, and the search when it is due; a run that has failed keeps the forces of the step before
+void Simulation::end_contact(const Member& member) {
+    if (!contact_->any() || end_ != End::running) return;
+    contact_->sum(motions(), member);
+    member.meet([&] {
+        contact_->commit(last_dt_);
+        if (contact_->search_due() && can_fail_) update_alive();
+    });
+    if (contact_->search_due()) contact_->search(motions(), alive_, member);
+}
+
 End Simulation::advance(double until, double seconds, std::int64_t steps, int threads) {
     if (end_ != End::running) return end_;
     const auto start = std::chrono::steady_clock::now();
@@ -226,7 +234,6 @@ End Simulation::advance(double until, double seconds, std::int64_t steps, int th
     const int members = int(std::min<std::size_t>(useful, std::size_t(std::max(threads, 1))));
     std::vector<ElementReport> reports;
     reports.resize(std::size_t(members));
-    Barrier barrier(members);
     bool go = true;
     auto decide = [&] {
         go = end_ == End::running && time_ < until && steps_ < last_step;
@@ -234,25 +241,25 @@ End Simulation::advance(double until, double seconds, std::int64_t steps, int th
             go = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < seconds;
     };
     decide();
-    run_team(members, [&](int member) {
+    run_team(members, [&](const Member& member) {
         aligned_vector<double> corner = chunk_corners();
         while (go) {
             // nodes: forces of the last step move them
-            move_nodes(share_of(model_->nodes(), member, members, node_chunk));
-            if (member == 0) {
+            move_nodes(member.share(model_->nodes(), node_chunk));
+            if (member.index == 0) {
                 move_driven();
                 move_bodies();
                 contact_->obstacles().move(time_, kick(), dt_);
             }
-            barrier.wait([] {});
-            // elements: the new shape gives new forces
-            reports[std::size_t(member)] = move_elements(share_of(blocks_.chunks.count(), member, members), dt_, corner.data());
-            const Range touches = share_of(contact_->items(), member, members);
-            contact_->evaluate(motions(), touches.first, touches.last);
-            barrier.wait([&] {
+            member.meet([] {});
+            // elements and contact: the new shape gives new forces
+            reports[std::size_t(member.index)] = move_elements(member.share(blocks_.chunks.count()), dt_, corner.data());
+            contact_->evaluate(motions(), member);
+            member.meet([&] {
                 end_step(reports);
                 decide();
             });
+            end_contact(member);
         }
     });
     return end_ != End::running ? end_ : time_ >= until ? End::reached : End::running;

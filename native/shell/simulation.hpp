@@ -90,6 +90,7 @@ private:
     void move_bodies();
     void begin_step();
     void end_step(const std::vector<ElementReport>& reports);
+    void end_contact(const Member& member);
     void note_failure(const ElementReport& report);
     void update_alive();
     Wrench internal_force(Index node) const;     // of elements and contact, as it acts on the node

@@ -10,7 +10,7 @@ void Simulation::go_on_from(const Checkpoint& saved) {
     own.drives = save().drives;      // those of this stage
     restore(own);
     contact_->obstacles().place(motions());
-    contact_->search_when_needed(motions(), alive_, true);
+    contact_->search(motions(), alive_, {});
     for (Driven& d : driven_) std::copy_n(kick_driven(d).outside, 6, d.outside);
     for (std::size_t i = 0; i < bodies_.size(); i++) {
         RigidState state = body_states_[i];

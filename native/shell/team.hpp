@@ -43,18 +43,34 @@ private:
 struct Range {
     std::size_t first, last;
 };
-// Share of one member of [0, n), in whole chunks.
+// Share of one member of [0, n), in whole chunks: shares follow one another.
 inline Range share_of(std::size_t n, int member, int members, std::size_t chunk = 1) {
     const std::size_t chunks = (n + chunk - 1) / chunk, m = std::size_t(member), all = std::size_t(members);
     const std::size_t first = chunks * m / all * chunk, last = chunks * (m + 1) / all * chunk;
     return {first < n ? first : n, last < n ? last : n};
 }
 
-// Runs work(member) on all members; the caller is member 0.
+// One member's part in the work of its team; made by default, the only one.
+struct Member {
+    int index = 0, count = 1;
+    Barrier* barrier = nullptr;
+
+    Range share(std::size_t n, std::size_t chunk = 1) const { return share_of(n, index, count, chunk); }
+    // Waits for the others; the last to arrive runs `serial` before all go on.
+    template <class Serial> void meet(Serial serial) const {
+        if (barrier)
+            barrier->wait(serial);
+        else
+            serial();
+    }
+};
+
+// Runs work(member) on so many members; the caller is the first.
 template <class Work> void run_team(int members, Work work) {
+    Barrier barrier(members);
     std::vector<std::thread> others;
-    for (int i = 1; i < members; i++) others.emplace_back([&work, i] { work(i); });
-    work(0);
+    for (int i = 1; i < members; i++) others.emplace_back([&, i] { work(Member{i, members, &barrier}); });
+    work(Member{0, members, &barrier});
     for (std::thread& t : others) t.join();
 }
 

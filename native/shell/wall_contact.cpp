@@ -33,12 +33,33 @@ std::vector<Index> connected(const std::vector<Index>& quads, Index node, const 
     return found;
 }
 
-std::vector<Box> boxes_around(const Sheets& s, const double* position, int stride, double grow) {
-    std::vector<Box> boxes;
-    boxes.reserve(s.model.elements());
-    for (std::size_t e = 0; e < s.model.elements(); e++)
-        boxes.push_back(box_around<4>(position, stride, &s.model.quads[4 * e], grow));
-    return boxes;
+// Middle of an element and the square of its largest distance from a corner.
+struct Ball {
+    Vec3 centre;
+    double square;
+    // Whether a point so far from the centre, squared, is nearer to the ball than `gap`; without a root: asked most often.
+    bool within(double away, double gap) const {
+        const double d = away - square - gap * gap;
+        return d < 0.0 || d * d < 4.0 * square * gap * gap;
+    }
+};
+
+inline Ball ball_around(const Vec3 (&x)[4]) {
+    Ball b{0.25 * ((x[0] + x[1]) + (x[2] + x[3])), 0.0};
+    for (const Vec3& corner : x) b.square = std::max(b.square, dot(corner - b.centre, corner - b.centre));
+    return b;
+}
+
+// In the order of nodes, else as they came.
+template <class Near> std::vector<Near> by_node(const std::vector<std::vector<Near>>& lists, std::size_t nodes) {
+    std::vector<std::size_t> next(nodes + 1, 0);
+    for (const std::vector<Near>& list : lists)
+        for (const Near& a : list) next[a.node + 1]++;
+    for (std::size_t n = 0; n < nodes; n++) next[n + 1] += next[n];
+    std::vector<Near> out(next.back());
+    for (const std::vector<Near>& list : lists)
+        for (const Near& a : list) out[next[a.node]++] = a;
+    return out;
 }
 
 }  // namespace
@@ -46,6 +67,8 @@ std::vector<Box> boxes_around(const Sheets& s, const double* position, int strid
 WallContact::WallContact(const Sheets& sheets) : sheets_(sheets), stick_(2 * sheets.model.nodes()) {
     for (double t : sheets.model.thickness) reach_ = std::max(reach_, t);
     if (sheets.model.contact.gap > 0.0) reach_ = sheets.model.contact.gap;
+    for (std::size_t e = 0; e < sheets.model.elements(); e++)
+        span_ += std::sqrt(area_of(sheets.model, e)) / double(sheets.model.elements());
     list_neighbours();
 }
 
@@ -57,20 +80,27 @@ double WallContact::gap(Index n, Index e) const {
 // The same piece of sheet, and what overlaps at the start (walls joined on purpose), never touch.
 void WallContact::list_neighbours() {
     const Model& model = sheets_.model;
-    const std::vector<std::uint8_t> alive(model.elements(), 1);
     const double* x0 = model.position.data();
+    const double far = neighbourhood * reach_;
+    const PointGrid grid(x0, 3, model.nodes(), 0.5 * span_ + far);
+    std::vector<std::vector<Near>> found(1);
+    for (Index e = 0; e < model.elements(); e++) {
+        Vec3 x[4];
+        sheets_.corners(x0, 3, e, x);
+        grid.each_in(box_around<4>(x0, 3, &model.quads[4 * e], far), [&](Index n) {
+            const double distance = closest_on_quad(read3(x0 + 3 * n), x).distance;
+            // the third number tells here whether they overlap
+            if (distance < neighbourhood * gap(n, e)) found[0].push_back({n, e, std::int8_t(distance < (1.0 - 1e-6) * gap(n, e))});
+        });
+    }
+    const std::vector<Near> pairs = by_node(found, model.nodes());
     neighbour_first_.assign(model.nodes() + 1, 0);
-    const PairList pairs = points_in_boxes(x0, 3, model.nodes(), boxes_around(sheets_, x0, 3, neighbourhood * reach_), alive);
-    std::size_t k = 0;
+    auto pair = pairs.begin();
     for (Index n = 0; n < model.nodes(); n++) {
         std::vector<Index> near, overlapping;
-        for (; k < pairs.size() && pairs[k].first == n; k++) {
-            const Index e = pairs[k].second;
-            Vec3 x[4];
-            sheets_.corners(x0, 3, e, x);
-            const double distance = closest_on_quad(read3(x0 + 3 * n), x).distance;
-            if (distance < neighbourhood * gap(n, e)) near.push_back(e);
-            if (distance < (1.0 - 1e-6) * gap(n, e)) overlapping.push_back(e);
+        for (; pair != pairs.end() && pair->node == n; ++pair) {
+            near.push_back(pair->element);
+            if (pair->side) overlapping.push_back(pair->element);
         }
         std::vector<Index> apart = connected(model.quads, n, near);
         apart.insert(apart.end(), overlapping.begin(), overlapping.end());
@@ -87,39 +117,55 @@ bool WallContact::neighbour(Index n, Index e) const {
     return false;
 }
 
-void WallContact::search(const Motions& m, const std::vector<std::uint8_t>& alive, double skin) {
-    std::vector<Index> listed;
-    std::vector<std::size_t> first{0};
-    std::vector<Candidate> candidates;
-    std::size_t old = 0;
-    const double far = reach_ + skin;
-    const auto boxes = boxes_around(sheets_, m.position, position_record, far);
-    for (auto [n, e] : points_in_boxes(m.position, position_record, sheets_.model.nodes(), boxes, alive)) {
-        if (!(sheets_.half[n] > 0.0) || neighbour(n, e)) continue;
+void WallContact::start_search(const Motions& m, double skin, int members) {
+    far_ = reach_ + skin;
+    grid_ = PointGrid(m.position, position_record, sheets_.model.nodes(), 0.5 * span_ + far_);
+    near_.resize(std::size_t(members));
+}
+
+void WallContact::search(const Motions& m, const std::vector<std::uint8_t>& alive, Range elements, const Member& member) {
+    std::vector<Near>& near = near_[std::size_t(member.index)];
+    near.clear();
+    for (Index e = Index(elements.first); e < elements.last; e++) {
+        if (!alive[e]) continue;
         Vec3 x[4];
         sheets_.corners(m.position, position_record, e, x);
-        if (closest_on_quad(position_of(m, n), x).distance > far) continue;
-        std::int8_t side = 0;
-        // a pair known already keeps its side, even where the node has been pressed through
-        while (old < listed_.size() && listed_[old] < n) old++;
-        if (old < listed_.size() && listed_[old] == n)
-            for (std::size_t k = candidate_first_[old]; k < candidate_first_[old + 1]; k++)
-                if (candidates_[k].element == e) side = candidates_[k].side;
-        if (listed.empty() || listed.back() != n) {
-            listed.push_back(n);
-            first.push_back(candidates.size());
+        const Ball ball = ball_around(x);
+        grid_.each_in(box_around<4>(m.position, position_record, &sheets_.model.quads[4 * e], far_), [&](Index n) {
+            const Vec3 p = position_of(m, n), away = p - ball.centre;
+            if (!ball.within(dot(away, away), far_)) return;
+            if (!(sheets_.half[n] > 0.0) || neighbour(n, e) || closest_on_quad(p, x).distance > far_) return;
+            near.push_back({n, e, side_so_far(n, e)});
+        });
+    }
+}
+
+// A pair known already keeps its side, even where the node has been pressed through.
+std::int8_t WallContact::side_so_far(Index n, Index e) const {
+    const auto at = std::lower_bound(listed_.begin(), listed_.end(), n);
+    if (at == listed_.end() || *at != n) return 0;
+    const std::size_t i = std::size_t(at - listed_.begin());
+    for (std::size_t k = candidate_first_[i]; k < candidate_first_[i + 1]; k++)
+        if (candidates_[k].element == e) return candidates_[k].side;
+    return 0;
+}
+
+void WallContact::end_search() {
+    const std::vector<Index> before = std::move(listed_);
+    listed_.clear();
+    candidate_first_.assign(1, 0);
+    candidates_.clear();
+    for (const Near& a : by_node(near_, sheets_.model.nodes())) {
+        if (listed_.empty() || listed_.back() != a.node) {
+            listed_.push_back(a.node);
+            candidate_first_.push_back(candidates_.size());
         }
-        candidates.push_back({e, side});
-        first.back() = candidates.size();
+        candidates_.push_back({a.element, a.side});
+        candidate_first_.back() = candidates_.size();
     }
     // a node that has left every wall behind has nothing that sticks
-    std::vector<Vec3> stick(stick_.size());
-    for (Index n : listed) std::copy_n(&stick_[2 * n], 2, &stick[2 * n]);
-    stick_ = std::move(stick);
-    listed_ = std::move(listed);
-    candidate_first_ = std::move(first);
-    candidates_ = std::move(candidates);
-    touch_.assign(2 * listed_.size(), Touch{});
+    for (Index n : before)
+        if (!std::binary_search(listed_.begin(), listed_.end(), n)) stick_[2 * n] = stick_[2 * n + 1] = {};
 }
 
 // Whether the node is nearer to the element than the gap, and how.  The side on which it is held is the one from
@@ -130,12 +176,11 @@ bool WallContact::hit(const Motions& m, Index n, Candidate& c, Hit& found) const
     Vec3 x[4];
     sheets_.corners(m.position, position_record, c.element, x);
     // reject by the slab and the ball around the element
-    const Vec3 centre = 0.25 * ((x[0] + x[1]) + (x[2] + x[3])), away = p - centre, across = cross(x[2] - x[0], x[3] - x[1]);
-    double ball = 0.0;
-    for (const Vec3& corner : x) ball = std::max(ball, dot(corner - centre, corner - centre));
-    const double far = std::sqrt(ball) + g;
-    const double size = norm(across), high = std::abs(dot(away, across)), warp = std::abs(dot(x[0] - centre, across));
-    const bool near = high < g * size + warp && dot(away, away) < far * far;
+    const Ball ball = ball_around(x);
+    const Vec3 away = p - ball.centre, across = cross(x[2] - x[0], x[3] - x[1]);
+    // height over the slab that the warped element fills, times the length of `across`
+    const double high = std::abs(dot(away, across)) - std::abs(dot(x[0] - ball.centre, across));
+    const bool near = (high < 0.0 || high * high < g * g * dot(across, across)) && ball.within(dot(away, away), g);
     const Closest q = near ? closest_on_quad(p, x) : Closest{};
     if (!near || q.distance >= g) {
         c.side = 0;
@@ -144,32 +189,32 @@ bool WallContact::hit(const Motions& m, Index n, Candidate& c, Hit& found) const
     const Vec3 d = p - q.point;
     if (!q.inside) c.side = 0;
     else if (c.side == 0) c.side = dot(d, across) >= 0.0 ? 1 : -1;
-    const Vec3 normal = (double(c.side) / size) * across;
+    const Vec3 normal = (double(c.side) / norm(across)) * across;
     const bool through = dot(d, normal) < 0.0, on_it = q.distance < 1e-9 * g;
     found = {q, through || (on_it && q.inside) ? normal : (1.0 / std::max(q.distance, 1e-9 * g)) * d, g,
              g - (through ? -q.distance : q.distance), c.element};
     return true;
 }
 
-WallContact::Touch WallContact::touch(const Motions& m, Index n, const Hit& hit, Vec3& stick) const {
-    Touch touch{};
-    touch.element = hit.element;
-    touch.depth = hit.depth / hit.gap;
-    touch.active = true;
+// The force goes to the node, its opposite to the corners by weight.
+void WallContact::touch(const Motions& m, Index n, const Hit& hit, Vec3& stick, FoundForces& found) const {
+    const Index* corners = &sheets_.model.quads[4 * hit.element];
     double compliance = 1.0 / sheets_.mass[n];
     Vec3 slip = velocity_of(m, n);
     for (std::size_t c = 0; c < 4; c++) {
-        const Index corner = sheets_.model.quads[4 * hit.element + c];
-        const double w = touch.weight[c] = hit.at.weight[c];
-        compliance += w * w / sheets_.mass[corner];
-        slip = slip - w * velocity_of(m, corner);
+        const double w = hit.at.weight[c];
+        compliance += w * w / sheets_.mass[corners[c]];
+        slip = slip - w * velocity_of(m, corners[c]);
     }
     const ContactSettings& s = sheets_.model.contact;
-    touch.force = force_of(bond_of(s, 1.0 / compliance, sheets_.step, s.friction), hit.depth, hit.direction, slip, m.step, stick);
-    return touch;
+    const Vec3 force = force_of(bond_of(s, 1.0 / compliance, sheets_.step, s.friction), hit.depth, hit.direction, slip, m.step, stick);
+    found.deepest = std::max(found.deepest, hit.depth / hit.gap);
+    found.add(n, force);
+    for (std::size_t c = 0; c < 4; c++)
+        if (hit.at.weight[c] != 0.0) found.add(corners[c], (-hit.at.weight[c]) * force);
 }
 
-void WallContact::evaluate(const Motions& m, std::size_t i) {
+void WallContact::evaluate(const Motions& m, std::size_t i, FoundForces& found) {
     const Index n = listed_[i];
     Hit hits[most_hits];
     std::size_t count = 0;
@@ -183,23 +228,11 @@ void WallContact::evaluate(const Motions& m, std::size_t i) {
     const Hit* chosen[2] = {first, second};
     for (std::size_t k = 0; k < 2; k++) {
         Vec3& stick = stick_[2 * n + k];
-        if (!chosen[k]) stick = {};
-        touch_[2 * i + k] = chosen[k] ? touch(m, n, *chosen[k], stick) : Touch{};
+        if (chosen[k])
+            touch(m, n, *chosen[k], stick, found);
+        else
+            stick = {};
     }
-}
-
-double WallContact::commit(NodeForces& forces) const {
-    double deepest = 0.0;
-    for (std::size_t i = 0; i < touch_.size(); i++) {
-        const Touch& t = touch_[i];
-        if (!t.active) continue;
-        deepest = std::max(deepest, t.depth);
-        // node first, then the corners that carry it
-        forces.add(listed_[i / 2], t.force);
-        for (std::size_t c = 0; c < 4; c++)
-            if (t.weight[c] != 0.0) forces.add(sheets_.model.quads[4 * t.element + c], (-t.weight[c]) * t.force);
-    }
-    return deepest;
 }
 
 // [counts, lists, sticking forces of the listed nodes]
@@ -234,7 +267,6 @@ void WallContact::restore(const double*& in) {
         c.element = Index(*in++);
         c.side = std::int8_t(*in++);
     }
-    touch_.assign(2 * listed_.size(), Touch{});
 }
 
 }  // namespace crumple::shell

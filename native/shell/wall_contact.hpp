@@ -21,10 +21,11 @@ public:
 
     double reach() const { return reach_; }      // largest gap [m]
     std::size_t items() const { return listed_.size(); }
-    void evaluate(const Motions& m, std::size_t item);
-    // Adds forces in fixed order; gives the deepest penetration over the gap.
-    double commit(NodeForces& forces) const;
-    void search(const Motions& m, const std::vector<std::uint8_t>& alive, double skin);
+    void evaluate(const Motions& m, std::size_t item, FoundForces& found);
+    // Three parts of a search: one member alone, each with its share of the elements, one alone.
+    void start_search(const Motions& m, double skin, int members);
+    void search(const Motions& m, const std::vector<std::uint8_t>& alive, Range elements, const Member& member);
+    void end_search();
     // Whether an element belongs to the node's own piece of sheet, or overlapped with it at the start.
     bool neighbour(Index node, Index element) const;
 
@@ -42,26 +43,27 @@ private:
         double gap, depth;
         Index element;
     };
-    struct Touch {                   // force on the node; its opposite goes to the corners by weight
-        Vec3 force;
-        double weight[4];
-        double depth;                // penetration over gap
-        Index element;
-        bool active;
+    struct Near {
+        Index node, element;
+        std::int8_t side;
     };
     void list_neighbours();
     double gap(Index node, Index element) const;
+    std::int8_t side_so_far(Index node, Index element) const;
     bool hit(const Motions& m, Index node, Candidate& c, Hit& found) const;
-    Touch touch(const Motions& m, Index node, const Hit& hit, Vec3& stick) const;
+    void touch(const Motions& m, Index node, const Hit& hit, Vec3& stick, FoundForces& found) const;
 
     const Sheets& sheets_;
-    double reach_ = 0.0;
+    double reach_ = 0.0, span_ = 0.0;            // span: mean size of elements at the start [m]
     std::vector<Index> neighbour_first_, neighbours_;
     std::vector<Index> listed_;                  // nodes with candidates
     std::vector<std::size_t> candidate_first_{0};
     std::vector<Candidate> candidates_;
-    std::vector<Touch> touch_;                   // two for each listed node
-    std::vector<Vec3> stick_;                    // two for each node
+    std::vector<Vec3> stick_;                    // two for each node; zero unless listed
+    // of a search
+    PointGrid grid_;
+    double far_ = 0.0;
+    std::vector<std::vector<Near>> near_;        // [member]
 };
 
 }  // namespace crumple::shell

@@ -56,3 +56,8 @@ def distorted_patch() -> tuple[np.ndarray, np.ndarray]:
     x = [(0, 0), (0.24, 0), (0.24, 0.12), (0, 0.12), (0.04, 0.02), (0.18, 0.03), (0.16, 0.08), (0.08, 0.08)]
     quads = [(0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7), (4, 5, 6, 7)]
     return np.array([(*p, 0.0) for p in x]), np.array(quads)
+
+
+def bits(state):
+    """The whole state, to be compared to the last bit."""
+    return {name: values.tobytes() for name, values in state.checkpoint().items()}

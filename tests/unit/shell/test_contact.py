@@ -1,10 +1,12 @@
 """Contact of walls: plate on plate, small elements in thick walls, folding, momentum, energy, edges."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from sheets import ELASTIC, STEEL, grid, model
+from sheets import ELASTIC, STEEL, bits, grid, model
 
-from crumple._core.shell import ShellState
+from crumple._core.shell import RigidObstacle, Shape, ShellState
 
 T = 2e-3
 
@@ -55,8 +57,6 @@ def test_plate_comes_to_rest_on_plate():
     m, below = two_plates(0.0021, 0.0, damping=4000.0, gravity=(0.0, 0.0, -300.0))
     fixed = np.zeros((len(m.position), 6), dtype=bool)
     fixed[:below] = True
-    from dataclasses import replace
-
     state = ShellState(replace(m, fixed=fixed))
     state.advance(8e-3)
     lying = state.position[below:, 2]
@@ -115,8 +115,6 @@ def test_node_on_the_border_of_an_element_is_held():
     )
     far = x.copy()
     far[25:, 0] += 0.005
-    from dataclasses import replace
-
     state = ShellState(replace(m, position=far))
     state.advance(3e-3)
     # its lower corner stands 1.2 mm above the plate's mid-surface: 1.6 mm from the rim is one thickness
@@ -125,13 +123,21 @@ def test_node_on_the_border_of_an_element_is_held():
     assert abs(state.energies["residual"]) < 1e-3 * state.energies["kinetic"]
 
 
-def test_only_one_answer_with_threads():
-    m, _ = two_plates(0.003, 30.0, n=40)
-    states = [ShellState(m) for _ in range(2)]
-    for state, threads in zip(states, (1, 2), strict=True):
-        state.advance(1.0, steps=300, threads=threads)
-    assert states[0].deepest_penetration > 0
-    assert np.array_equal(states[0].position, states[1].position)
+def test_any_number_of_threads_gives_the_same_bits():
+    """Touches, sliding friction and new searches, shared among as many members as there are threads."""
+    m, _ = two_plates(0.003, 30.0, n=40, slide=30.0, contact_friction=0.2)
+    plane = RigidObstacle(Shape.PLANE, (0.0, 0.0, -0.0012), (0.0, 0.0, 1.0), friction=0.1)
+    m = replace(m, obstacles=[plane])
+    states = [ShellState(m) for _ in range(3)]
+    for state, threads in zip(states, (1, 2, 5), strict=True):
+        state.advance(1.0, steps=400, threads=threads)
+    first = states[0]
+    assert first.deepest_penetration > 0
+    assert first.contact_searches > 2
+    for state in states[1:]:
+        assert bits(state) == bits(first)
+        assert state.energies == first.energies
+        assert state.deepest_penetration == first.deepest_penetration
 
 
 def crossing_strips(height, **settings):

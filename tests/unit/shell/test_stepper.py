@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from sheets import ELASTIC, STEEL, grid, model
+from sheets import ELASTIC, STEEL, bits, grid, model
 
 from crumple._core.shell import (
     Cut,
@@ -46,10 +46,6 @@ def two_sheets():
     whole = cantilever()
     sheet_of = (np.arange(len(whole.elements)) % 3 == 0).astype(int)
     return dataclasses.replace(whole, sheets=[Sheet(points=5), Sheet(points=3)], sheet=sheet_of)
-
-
-def bits(state):
-    return {name: values.tobytes() for name, values in state.checkpoint().items()}
 
 
 def test_any_number_of_threads_gives_the_same_bits():
