@@ -162,6 +162,7 @@ void add_contact(Model& model, const nb::dict& d) {
         require_body(model, obstacle.body, true);
         obstacle.solid = make_solid(o);
         obstacle.solid.point = obstacle.solid.point - centre(model, obstacle.body);
+        if (obstacle.body >= 0) model.bodies[static_cast<size_t>(obstacle.body)].obstacle = true;
         obstacle.law = {nb::cast<double>(o["friction"]), nb::cast<double>(o["restitution"])};
         if (o["capsules"].is_none()) {
             for (int c = 0; c < capsules; c++) {
@@ -178,6 +179,11 @@ void add_contact(Model& model, const nb::dict& d) {
         for (const int c : {pair.at(0), pair.at(1)}) require(c >= 0 && c < capsules, "a pair names an unknown capsule");
         require(pair[0] != pair[1], "a capsule does not touch itself");
         contact.pairs.push_back({pair[0], pair[1]});
+    }
+    for (const Joint& joint : model.joints) {
+        if (!joint.driven || joint.body[1] < 0) continue;
+        Body& body = model.bodies[static_cast<size_t>(joint.body[1])];
+        body.stand_in = body.obstacle;
     }
     const auto between = nb::cast<std::pair<double, double>>(d["contact"]);
     contact.between = {between.first, between.second};

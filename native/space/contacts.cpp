@@ -270,8 +270,8 @@ bool Contacts::settle(const double* impulse, const double* rate0, const double* 
     return change <= settled_change * largest;
 }
 
-void Contacts::commit(double h, const Row* rows, const double* impulse, const double* rate0, const double* rate,
-                      ContactState& state) const {
+void Contacts::commit(double h, bool from_rest, const Row* rows, const double* impulse, const double* rate0,
+                      const double* rate, ContactState& state) const {
     state.held.clear();
     state.force.assign(model_.obstacles.size(), Vec3{});
     state.impulse.resize(model_.obstacles.size());
@@ -285,6 +285,11 @@ void Contacts::commit(double h, const Row* rows, const double* impulse, const do
         state.held.push_back({c.key, -p[0] / h});
         push(i, h, rows + 3 * i, p, state);
         if (c.gap <= closed_gap_) continue;
+        if (from_rest) {
+            // what is driven does not tell the motion without the impulse: halve
+            state.closing = h / 2;
+            continue;
+        }
         // the motion without the contact's impulse, its rate linear in time, up to half of what counts as closed
         const double free = w1[0] + p[0] * c.inverse_mass, fastest = std::min(w0[0], free), way = c.gap - closed_gap_ / 2;
         if (-fastest <= rest_rate(c)) continue;

@@ -81,8 +81,9 @@ public:
     // Takes what a pass has found: impulses, rates at start and end (3 each).  False if another pass must follow: friction
     // worked against other normal impulses, or an impact gained energy and must bounce less.
     bool settle(const double* impulse, const double* rate0, const double* rate);
-    // after the last pass: energies, forces on obstacles, and when open contacts closed; rows as in the step
-    void commit(double h, const Row* rows, const double* impulse, const double* rate0, const double* rate,
+    // after the last pass: energies, forces on obstacles, and when open contacts closed (`from_rest`: in some step that
+    // starts at rest); rows as in the step
+    void commit(double h, bool from_rest, const Row* rows, const double* impulse, const double* rate0, const double* rate,
                 ContactState& state) const;
     // force on the obstacle of a contact, from an impulse (3) of a step of length h
     void push(size_t i, double h, const Row* rows, const double* impulse, ContactState& state) const;

@@ -25,7 +25,9 @@ Energies energies(const Model& model, const State& s) {
         const Body& b = model.bodies[i];
         const Twist& v = s.velocity[i];
         const Vec3 w = turned(conjugate(s.pose[i].q), v.w);
-        e.kinetic += (b.mass * dot(v.v, v.v) + dot(w, b.inertia * w)) / 2;
+        const double kinetic = (b.mass * dot(v.v, v.v) + dot(w, b.inertia * w)) / 2;
+        e.kinetic += kinetic;
+        if (b.obstacle) e.obstacle_kinetic += kinetic;
     }
     size_t first = 0;
     for (size_t j = 0; j < model.hinges.size(); j++) {
@@ -45,13 +47,30 @@ Energies energies(const Model& model, const State& s) {
     e.contact = s.contact.dissipated;
     e.friction = s.contact.friction;
     e.external_work = s.external_work;
+    e.obstacle_work = s.obstacle_work;
+    e.slowed = s.slowed;
     return e;
 }
 
 void Stepper::commit(State& s, double h) {
     for (size_t i = 0; i < end_.size(); i++) end_[i] = moved(s.pose[i], (h / 2) * (s.velocity[i] + velocity_[i]));
     commit_contacts(s, h);
-    // work of drives and dampers, from the impulses and mean rates of the step
+    work_on_links(s, h);
+    mend_end(s, h);
+    turn_hinges(s);
+    work_of_loads(s, h);
+    show_forces(s, h);
+    for (size_t i = 0; i < end_.size(); i++) {
+        s.acceleration[i] = (1 / h) * (velocity_[i] - s.velocity[i]);
+        s.velocity[i] = stage_.quasi_static ? Twist{} : velocity_[i];
+    }
+    s.pose = end_;
+    s.t += h;
+    see_contacts(s, h);
+}
+
+// work of drives and dampers, from the impulses and mean rates of the step
+void Stepper::work_on_links(State& s, double h) {
     for (size_t c = 0; c < connections_.size(); c++) {
         const size_t index = at(connections_[c].index), first = at(start(c));
         if (is(c, Kind::contact)) continue;
@@ -60,13 +79,17 @@ void Stepper::commit(State& s, double h) {
             const double mean = (rate0_[first] + w_[first]) / 2, weight = spring_weight_[index];
             s.spring_damped += h * spring.damping * ((1 - weight) * rate0_[first] + weight * w_[first]) * mean;
         } else if (model_.joints[index].driven) {
+            double work = 0;
             for (int i = 0; i < model_.joints[index].held; i++) {
                 const size_t k = first + at(i);
-                s.external_work -= impulse_[k] * (rate0_[k] + target_[k]) / 2;
+                work -= impulse_[k] * (rate0_[k] + target_[k]) / 2;
             }
+            s.work_on(drives_obstacle(index), work - stand_in_energy(index));
         }
     }
-    mend_end(s, h);
+}
+
+void Stepper::turn_hinges(State& s) {
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         const Joint& joint = model_.joints[at(model_.hinge_joint[j])];
         const size_t k = at(component_[j]);
@@ -79,23 +102,32 @@ void Stepper::commit(State& s, double h) {
             s.rate[k + at(i)] = w_[row + at(i)];
         }
     }
-    // gravity and loads act over the true way of their points
-    for (size_t i = 0; i < end_.size(); i++) s.external_work += model_.bodies[i].mass * dot(model_.gravity, end_[i].x - s.pose[i].x);
+}
+
+// Gravity and loads act over the true way of their points; and what of their work only inertia took up.
+void Stepper::work_of_loads(State& s, double h) {
+    double on_structure = 0;
+    for (size_t i = 0; i < end_.size(); i++) {
+        const double work = model_.bodies[i].mass * dot(model_.gravity, end_[i].x - s.pose[i].x);
+        s.work_on(model_.bodies[i].obstacle, work);
+        if (!model_.bodies[i].obstacle) on_structure += work;
+    }
     for (const Load& load : model_.loads) {
         int hint = 0;
         const size_t i = at(load.body);
         const Vec3 way = end_[i].at(load.arm) - s.pose[i].at(load.arm);
         const Vec3 turn = (h / 2) * (s.velocity[i].w + velocity_[i].w);
-        s.external_work += load.value.at(s.t + h / 2 - s.stage_start, hint) * (dot(load.force, way) + dot(load.moment, turn));
+        const double work = load.value.at(s.t + h / 2 - s.stage_start, hint) * (dot(load.force, way) + dot(load.moment, turn));
+        s.work_on(false, work);
+        on_structure += work;
     }
-    show_forces(s, h);
+    if (!stage_.quasi_static) return;
+    double slowed = 0;
     for (size_t i = 0; i < end_.size(); i++) {
-        s.acceleration[i] = (1 / h) * (velocity_[i] - s.velocity[i]);
-        s.velocity[i] = stage_.quasi_static ? Twist{} : velocity_[i];
+        if (!model_.bodies[i].obstacle) slowed += inertial_energy(i);
+        if (!model_.bodies[i].stand_in) s.slowed += inertial_energy(i);
     }
-    s.pose = end_;
-    s.t += h;
-    see_contacts(s, h);
+    s.unresisted = on_structure > 0 ? slowed / on_structure : 0;
 }
 
 // Positions and velocities back to the held rows at the end of the step, the nearest in kinetic energy with the laws'
@@ -170,9 +202,26 @@ void Stepper::mend_rates(State& s, double h) {
         for (int i = 0; i < links[c].held; i++) {
             const size_t k = at(start(c) + i);
             impulse_[k] += x_[k];
-            if (driven) s.external_work -= x_[k] * (target_[k] + work_[k] / 2);
+            if (driven) s.work_on(drives_obstacle(at(connections_[c].index)), -x_[k] * (target_[k] + work_[k] / 2));
         }
     }
+}
+
+bool Stepper::drives_obstacle(size_t joint) const {
+    const int body = model_.joints[joint].body[1];
+    return body >= 0 && model_.bodies[at(body)].obstacle;
+}
+
+// Energy of a body at the end of a quasi-static step, with what is left of its inertia.
+double Stepper::inertial_energy(size_t body) const {
+    const Body& b = model_.bodies[body];
+    const Vec3 w = velocity_[body].w;
+    return residual_inertia * (b.mass * dot(velocity_[body].v, velocity_[body].v) + dot(w, inertia_[body] * w)) / 2;
+}
+
+// Work that a drive spends in a quasi-static step on the inertia that stands in for an obstacle: no energy of anything.
+double Stepper::stand_in_energy(size_t joint) const {
+    return stage_.quasi_static && drives_obstacle(joint) ? inertial_energy(at(model_.joints[joint].body[1])) : 0;
 }
 
 // forces of the joints on their second bodies, mean over the step

@@ -81,6 +81,8 @@ inline Vec3 rotation_vector(const Quat& q) {
     return sign * factor * q.v;
 }
 
+inline double angle_between(const Quat& a, const Quat& b) { return norm(rotation_vector(conjugate(a) * b)); }
+
 // of a matrix with orthonormal, right-handed columns (Shepperd's choice of the largest component)
 inline Quat quaternion(const Mat3& m) {
     const double a = m.r[0].x, b = m.r[1].y, c = m.r[2].z;

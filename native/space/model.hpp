@@ -16,6 +16,8 @@ struct Body {
     double mass = 1;
     Mat3 inertia, inverse;  // about the centre, in the body's frame (the world's at the start)
     Vec3 centre;            // at the start
+    bool obstacle = false;  // no part of the structure: its energy counts when it is given on
+    bool stand_in = false;  // of a driven obstacle: its inertia is nobody's
 };
 
 // Force and moment on a body, directions fixed in the world, times a factor of time.
@@ -76,12 +78,25 @@ struct State {
     std::vector<Twist> joint_force;             // moment and force on the second body, in the joint's frame, last step
     ContactState contact;
     double external_work = 0, spring_damped = 0;
+    double slowed = 0;                          // kinetic energy that quasi-static stages took away
+    double obstacle_work = 0;                   // part of the external work: that on obstacles
+    double unresisted = 0;                      // after a quasi-static step: share of the work of loads and gravity that only
+                                                // inertia took up, near 1 where nothing holds what they move
+    void work_on(bool obstacle, double work) {
+        external_work += work;
+        if (obstacle) obstacle_work += work;
+    }
 };
 
 struct Energies {
     double kinetic = 0, elastic = 0, dissipated = 0, damped = 0, stop = 0, spring = 0, contact = 0, friction = 0, external_work = 0;
+    double slowed = 0;  // taken out of the motion by quasi-static stages
+    double obstacle_kinetic = 0, obstacle_work = 0;  // parts of obstacles in the kinetic energy and the external work
+    double structure_kinetic() const { return kinetic - obstacle_kinetic; }
+    // what obstacles have given on, but for a constant
+    double given() const { return obstacle_work - obstacle_kinetic; }
     double balance() const {
-        return kinetic + elastic + dissipated + damped + stop + spring + contact + friction - external_work;
+        return kinetic + elastic + dissipated + damped + stop + spring + contact + friction + slowed - external_work;
     }
 };
 

@@ -73,7 +73,7 @@ bool Stepper::newton() {
     const int limit = newton_limit + newton_limit_per_hinge * static_cast<int>(frozen_.size());
     energy_ = 0;
     for (size_t i = 0; i < free_.size(); i++) {
-        energy_ += (model_.bodies[i].mass * dot(free_[i].v, free_[i].v) + dot(free_[i].w, inertia_[i] * free_[i].w)) / 2;
+        energy_ += inertia() * (model_.bodies[i].mass * dot(free_[i].v, free_[i].v) + dot(free_[i].w, inertia_[i] * free_[i].w)) / 2;
     }
     const std::vector<Twist> velocity = velocity_;
     const std::vector<double> w = w_;
@@ -298,7 +298,7 @@ double Stepper::search(double slope_end) {
     double curvature = 0, linear_end = 0;
     for (size_t i = 0; i < velocity_.size(); i++) {
         const Twist d = next_[i] - velocity_[i];
-        curvature += model_.bodies[i].mass * dot(d.v, d.v) + dot(d.w, inertia_[i] * d.w);
+        curvature += inertia() * (model_.bodies[i].mass * dot(d.v, d.v) + dot(d.w, inertia_[i] * d.w));
     }
     for (size_t c = 0; c < links.size(); c++) {
         const int first = start(c) + links[c].held;

@@ -46,20 +46,21 @@ void Simulation::store(Record& r) {
         add(r.joint_force, f.v);
         add(r.joint_force, f.w);
     }
-    // mean since it was last stored: an impact's impulse counts as it should
+    // mean since it was last stored: an impact's impulse counts as it should; without impacts that of the last step
     stored_impulse_.resize(model_.contact.obstacles.size());
     state_.contact.impulse.resize(stored_impulse_.size());
     state_.contact.force.resize(stored_impulse_.size());
     for (size_t o = 0; o < stored_impulse_.size(); o++) {
         const Vec3 gained = state_.contact.impulse[o] - stored_impulse_[o];
         const double time = state_.t - stored_time_;
-        add(r.obstacle_force, stored_time_ >= 0 && time > 0 ? (1 / time) * gained : state_.contact.force[o]);
+        const bool mean = !stepper_.stage().quasi_static && stored_time_ >= 0 && time > 0;
+        add(r.obstacle_force, mean ? (1 / time) * gained : state_.contact.force[o]);
         stored_impulse_[o] = state_.contact.impulse[o];
     }
     stored_time_ = state_.t;
     const Energies e = energies(model_, state_);
     r.energy.insert(r.energy.end(), {e.kinetic, e.elastic, e.dissipated, e.damped, e.stop, e.spring, e.contact, e.friction,
-                                     e.external_work});
+                                     e.external_work, e.slowed});
 }
 
 Record Simulation::present() {

@@ -18,12 +18,12 @@ double step_tolerance(double accuracy) { return step_share * accuracy * std::min
 constexpr double negligible_turn = 1e-9;
 // Share of the energy of a given motion that rounding leaves where the joints take it all.
 constexpr double negligible_share = 1e-9;
+// Share of all kinetic energy, that of heavy obstacles included, below which energies are rounding.
+constexpr double rounding_share = 1e-10;
 // Rate at which locked hinges may creep, over the accuracy [rad/s]: in 0.1 s 1e-3 of the accuracy, in rad.
 constexpr double creep_share = 1e-2, widest_creep = 1e-5;
 constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
 constexpr long poll_interval = 20'000;  // solves times rows between calls of `poll`: some 10 ms
-// A condition that ends a stage is met to this share of its value.
-constexpr double met = 1e-4;
 // Energy of an approach that is not worth an impact, as a share of accuracy times the largest energy.
 constexpr double negligible_impact = 1e-3;
 // Gap [model lengths, the first times accuracy] below which a contact counts as closed: more than a smallest step goes.
@@ -31,18 +31,18 @@ constexpr double closed_gap = 1e-3, least_closed_gap = 1e-8;
 // Steps are not shortened below this many smallest ones to end where a contact closes.
 constexpr double shortest_landing = 4;
 
+// of the structure's velocities, or of the difference of all bodies' between two states
 double kinetic_norm(const Model& model, const State& a, const State* b) {
     double e = 0;
     for (size_t i = 0; i < model.bodies.size(); i++) {
         const Body& body = model.bodies[i];
+        if (!b && body.obstacle) continue;
         const Twist v = b ? a.velocity[i] - b->velocity[i] : a.velocity[i];
         const Vec3 w = turned(conjugate(a.pose[i].q), v.w);
         e += body.mass * dot(v.v, v.v) + dot(w, body.inertia * w);
     }
     return std::sqrt(e);
 }
-
-double angle_between(const Quat& a, const Quat& b) { return norm(rotation_vector(conjugate(a) * b)); }
 
 }  // namespace
 
@@ -85,75 +85,10 @@ void Simulation::set_critical_damping(bool all) {
     }
 }
 
-double Simulation::set_motion(const Twist* velocity, const Twist* impulse) {
-    State free = state_;
-    for (size_t i = 0; i < model_.bodies.size(); i++) {
-        const Body& body = model_.bodies[i];
-        const Quat& q = state_.pose[i].q;
-        const Vec3 spin = turned(q, body.inverse * turned(conjugate(q), impulse[i].w));
-        free.velocity[i] = free.velocity[i] + velocity[i] + Twist{spin, (1 / body.mass) * impulse[i].v};
-    }
-    const double given = energies(model_, free).kinetic;
-    given_energy_ = std::max(given_energy_, given);
-    stepper_.add_motion(state_, velocity, impulse);
-    return given - energies(model_, state_).kinetic;
-}
-
-void Simulation::begin_stage(bool quasi_static, const std::vector<bool>& drives, const std::vector<bool>& obstacles,
-                             std::vector<Condition> until) {
-    Stage& stage = stepper_.stage();
-    std::vector<DriveStage> next(model_.drives.size());
-    for (size_t k = 0; k < next.size(); k++) {
-        next[k] = {drives[k], stepper_.displacement(model_.drives[k], k, state_, state_.t)};
-    }
-    stage = {quasi_static, next};
-    state_.stage_start = state_.t;
-    stepper_.set_obstacles(obstacles, state_);
-    state_.contact.force.assign(obstacles.size(), Vec3{});
-    if (quasi_static) std::fill(state_.velocity.begin(), state_.velocity.end(), Twist{});
-    h_ = 0;
-    until_ = std::move(until);
-    for (Condition& c : until_) {
-        if (c.quantity == Quantity::distance) {
-            for (int k = 0; k < 2; k++) c.arm[k] = c.arm[k] - model_.pose(first_.pose, c.body[k]).x;
-        }
-        c.start = 0;
-        if (c.quantity != Quantity::force && c.quantity != Quantity::drive_force) c.start = quantity(c, state_);
-    }
-}
-
-double Simulation::quantity(const Condition& c, const State& s) const {
-    double q = 0;
-    if (c.quantity == Quantity::force && !s.contact.force.empty()) q = norm(s.contact.force[static_cast<size_t>(c.index)]);
-    if (c.quantity == Quantity::work) q = s.external_work;
-    if (c.quantity == Quantity::drive_force) q = norm(s.joint_force[static_cast<size_t>(c.index)].v);
-    if (c.quantity == Quantity::displacement) q = stepper_.relative(s, c.index, c.freedom);
-    if (c.quantity == Quantity::distance) {
-        q = norm(model_.pose(s.pose, c.body[1]).at(c.arm[1]) - model_.pose(s.pose, c.body[0]).at(c.arm[0]));
-    }
-    return q - c.start;
-}
-
-// Share of the step after which the first condition is met; above 1 for none.
-double Simulation::share_of_step(const State& before, const State& after, int* which) const {
-    double least = 2;
-    for (size_t k = 0; k < until_.size(); k++) {
-        const Condition& c = until_[k];
-        const double sign = c.value < 0 ? -1 : 1, b = sign * quantity(c, after), a = sign * quantity(c, before);
-        const double wanted = std::fabs(c.value);
-        if (b < wanted * (1 - met)) continue;
-        const double share = b > wanted * (1 + met) && b > a ? std::max((wanted - a) / (b - a), 0.0) : 1;
-        if (share < least) {
-            least = share;
-            *which = static_cast<int>(k);
-        }
-    }
-    return least;
-}
-
-double Simulation::worst_place(const State& a, const State& b) const {
+double Simulation::worst_place(const State& a, const State& b, bool obstacles) const {
     double worst = 0;
     for (size_t i = 0; i < a.pose.size(); i++) {
+        if (!obstacles && model_.bodies[i].obstacle) continue;
         worst = std::max({worst, norm(a.pose[i].x - b.pose[i].x) / model_.length, angle_between(a.pose[i].q, b.pose[i].q)});
     }
     size_t k = 0;
@@ -168,7 +103,7 @@ double Simulation::worst_place(const State& a, const State& b) const {
 }
 
 double Simulation::error(const State& coarse, const State& fine) const {
-    double worst = worst_place(coarse, fine);
+    double worst = worst_place(coarse, fine, true);
     for (size_t j = 0; j < fine.hinge.size(); j++) {
         for (int k = 0; k < size(model_.hinges[j]); k++) {
             worst = std::max(worst, fine.hinge[j].component[k].overrun - state_.hinge[j].component[k].overrun);
@@ -180,8 +115,9 @@ double Simulation::error(const State& coarse, const State& fine) const {
     e /= step_tolerance_;
     if (stepper_.stage().quasi_static) return e;
     // a step that leaves more energy unbalanced than the accuracy allows has missed something
-    const double reference = std::max(start_energy_ + start_work_ + work_max_, negligible_energy_ + lift_ * scale_);
-    return reference > 0 ? std::max(e, std::fabs(energies(model_, fine).balance() - balance_) / reference / settings_.accuracy) : e;
+    const Energies after = energies(model_, fine);
+    const double reference = std::max(given(after), negligible_energy_ + lift_ * scale_ + rounding_share * after.kinetic);
+    return reference > 0 ? std::max(e, std::fabs(after.balance() - balance_) / reference / settings_.accuracy) : e;
 }
 
 // one step and two halves; the halves know from the whole how the velocities change
@@ -224,6 +160,7 @@ bool Simulation::failed(double e, bool smallest, Record& record) const {
     if (std::isfinite(e) || !smallest) return false;
     record.outcome = Outcome::step_collapsed;
     record.reason = "the equations of a step did not converge at the smallest step";
+    if (!model_.drives.empty()) record.reason += "; where what is driven meets what cannot give way they have no solution";
     return true;
 }
 
@@ -265,7 +202,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
         }
         int which = -1;
         const double share = share_of_step(state_, fine_, &which);
-        if (share < 1 && !smallest) {
+        if (share < 1 && !smallest && !jumps(which)) {
             h_ = std::max(share * h, settings_.minimum_step);
             landing_ = 0;
             continue;
@@ -276,7 +213,9 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
         h_ = (last || landing_ > 0) && e <= 1 ? std::max(h_, next) : next;
         landing_ = 0;
         record.steps++;
+        overshot_ = NAN;
         watch(record);
+        if (unheld(record)) return false;
         if (share <= 1) {
             record.ended_by = which;
             return false;
@@ -287,7 +226,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
 }
 
 void Simulation::watch(Record& record) {
-    scale_ = std::max(scale_, worst_place(state_, first_));
+    scale_ = std::max(scale_, worst_place(state_, first_, false));
     speed_ = std::max(speed_, kinetic_norm(model_, state_, nullptr));
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         for (int k = 0; k < size(model_.hinges[j]); k++) {
@@ -297,14 +236,22 @@ void Simulation::watch(Record& record) {
         }
     }
     const Energies e = energies(model_, state_);
-    largest_energy_ = std::max(largest_energy_, e.kinetic);
+    largest_energy_ = std::max(largest_energy_, e.structure_kinetic());
     stepper_.contacts().set_limits(std::max(closed_gap * settings_.accuracy, least_closed_gap) * model_.length,
                                    negligible_impact * settings_.accuracy * largest_energy_);
-    work_max_ = std::max(work_max_, std::fabs(e.external_work - start_work_));
-    const double reference = std::max(start_energy_ + start_work_ + work_max_, negligible_energy_);
+    work_max_ = std::max(work_max_, std::fabs(e.external_work - e.obstacle_work));
+    given_max_ = std::max(given_max_, std::fabs(e.given() - start_.given()));
+    const double reference = std::max(given(e), negligible_energy_ + rounding_share * e.kinetic);
     balance_ = e.balance();
-    residual_max_ = std::max(residual_max_, std::fabs(balance_ - start_energy_));
+    residual_max_ = std::max(residual_max_, std::fabs(balance_ - start_.balance()));
     if (reference > 0) record.residual = residual_max_ / reference;
+}
+
+// Energy that the structure was given until now: its own at the start, the largest work on it, and the largest that
+// obstacles have given on.  What a heavy obstacle keeps to itself is none of it.
+double Simulation::given(const Energies& e) const {
+    return start_.balance() - start_.obstacle_kinetic + std::max(work_max_, std::fabs(e.external_work - e.obstacle_work)) +
+           std::max(given_max_, std::fabs(e.given() - start_.given()));
 }
 
 // Before the first step a rigid hinge has no moment and no hinge a sense in which it turns; what it will carry at once
@@ -346,11 +293,11 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     double mass = 0;
     for (const Body& body : model_.bodies) mass += body.mass;
     negligible_speed_ = std::sqrt(mass) * settings_.scale_floor * model_.length / std::max(duration, settings_.minimum_step);
-    start_energy_ = balance_ = e.balance();
-    start_work_ = e.external_work;
-    work_max_ = residual_max_ = 0;
+    if (!started_) start_ = e;
+    started_ = true;
+    balance_ = e.balance();
     if (h_ <= 0) h_ = std::clamp(duration / 100, settings_.minimum_step, settings_.maximum_step);
-    largest_energy_ = std::max(largest_energy_, e.kinetic);
+    largest_energy_ = std::max(largest_energy_, e.structure_kinetic());
     stepper_.contacts().set_limits(std::max(closed_gap * settings_.accuracy, least_closed_gap) * model_.length,
                                    negligible_impact * settings_.accuracy * largest_energy_);
     stepper_.look_for_impact(state_);

@@ -9,7 +9,7 @@
 
 namespace crumple::space {
 
-enum class Outcome { complete, step_collapsed, not_finite, cancelled, refused };
+enum class Outcome { complete, step_collapsed, not_finite, cancelled, refused, unheld };
 
 struct Settings {
     double accuracy = 1e-3;      // allowed error of the motion, relative to the largest rotation
@@ -36,11 +36,11 @@ struct Record {
     Outcome outcome = Outcome::complete;
     std::string reason;
     int ended_by = -1;
-    double residual = 0;         // largest |balance - start| over (start + largest external work)
+    double residual = 0;         // largest |balance - start| over the energy that the structure was given
     long steps = 0, rejected = 0, forced = 0, solves = 0;
 };
 
-constexpr int energy_columns = 9, summary_columns = 7;
+constexpr int energy_columns = 10, summary_columns = 7;
 
 class Simulation {
 public:
@@ -51,7 +51,8 @@ public:
     const Model& model() const { return model_; }
     Stepper& stepper() { return stepper_; }
     State& state() { return state_; }
-    // adds velocities and impulses at the centres of mass; returns the energy lost in fitting them to the joints
+    // Adds velocities and impulses at the centres of mass; returns the energy lost in fitting them to the joints.  After
+    // the start what they add is work.
     double set_motion(const Twist* velocity, const Twist* impulse);
     void begin_stage(bool quasi_static, const std::vector<bool>& drives, const std::vector<bool>& obstacles,
                      std::vector<Condition> until);
@@ -76,11 +77,14 @@ private:
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
     bool solve(double h);
     bool failed(double e, bool smallest, Record& record) const;
+    bool unheld(Record& record);
+    bool jumps(int which);
     bool strike(Record& record);
     double error(const State& coarse, const State& fine) const;
-    double worst_place(const State& a, const State& b) const;
+    double worst_place(const State& a, const State& b, bool obstacles) const;
     double quantity(const Condition& condition, const State& state) const;
     double share_of_step(const State& before, const State& after, int* which) const;
+    double given(const Energies& e) const;
     void show_first_moments();
     void store(Record& record);
     void watch(Record& record);
@@ -94,13 +98,19 @@ private:
     std::vector<Condition> until_;
     std::vector<double> peak_;        // per component: largest rotation and moment
     double step_tolerance_;           // of the error measure
-    double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, start_work_ = 0, work_max_ = 0, residual_max_ = 0;
-    double lift_ = 0,  // of all weights by the model's length [J]
-           balance_ = 0, given_energy_ = 0, negligible_energy_ = 0;
+    double h_ = 0, scale_ = 0, speed_ = 0;
+    bool started_ = false;
+    Energies start_;                  // at the start of the first run
+    double work_max_ = 0,             // largest external work on the structure, either sign
+           given_max_ = 0,            // largest energy that obstacles gave on, either sign
+           residual_max_ = 0, balance_ = 0, given_energy_ = 0, negligible_energy_ = 0;
+    double lift_ = 0;                 // of all weights by the model's length [J]
     double negligible_speed_ = 0;     // kinetic norm that moves bodies by less than what counts as large in the run
     double closing_ = 0;              // within the step just solved, when an open contact closed; 0 if none did
     double landing_ = 0;              // step that ends where a contact closes; 0 if none is ahead
-    double largest_energy_ = 0;
+    double largest_energy_ = 0;       // kinetic, of the structure
+    double overshot_ = 0;             // by the condition that last shortened a step; NaN for none
+    int unresisted_steps_ = 0;        // quasi-static ones in a row
     std::vector<Vec3> stored_impulse_;  // on every obstacle when last stored, and when that was
     double stored_time_ = -1;
     long poll_at_ = 0;                // work at which `poll` is asked next

@@ -7,8 +7,6 @@ namespace crumple::space {
 
 namespace {
 
-// Inertia that a quasi-static step keeps, relative to the true one.  Its momentum is lost at every step.
-constexpr double residual_inertia = 1e-6;
 // Passes over what a step freezes: the second takes it at the middle of the motion that the first found, which makes the
 // step second order.  More follow only until friction agrees with the contacts' normal impulses.
 constexpr int passes = 2, most_passes = 20;
@@ -190,7 +188,7 @@ void Stepper::rates(const std::vector<Row>& rows, const Twist* v, double* out) c
 }
 
 void Stepper::set_mobilities(const std::vector<Pose>& poses) {
-    const double scale = stage_.quasi_static ? residual_inertia : 1;
+    const double scale = inertia();
     for (size_t i = 0; i < model_.bodies.size(); i++) {
         const Body& body = model_.bodies[i];
         Mat3 inverse = world(poses[i].q, body.inverse);
@@ -295,7 +293,7 @@ void Stepper::freeze(const State& s, double h) {
         const size_t index = at(connections_[c].index), first = at(start(c));
         if (is(c, Kind::contact)) {
             // stiff against the true inertia
-            contacts_.freeze(index, (stage_.quasi_static ? residual_inertia : 1) * mobility(c, rows_[first]));
+            contacts_.freeze(index, inertia() * mobility(c, rows_[first]));
             continue;
         }
         if (is(c, Kind::spring)) {

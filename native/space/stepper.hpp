@@ -16,6 +16,9 @@
 
 namespace crumple::space {
 
+// Inertia that a quasi-static step keeps, relative to the true one.  Its momentum is lost at every step.
+constexpr double residual_inertia = 1e-6;
+
 struct Stage {
     bool quasi_static = false;
     std::vector<DriveStage> drives;
@@ -68,6 +71,8 @@ private:
         int index = 0;  // of its kind
     };
     void link_all();
+    // share of the true inertia that acts in this stage
+    double inertia() const { return stage_.quasi_static ? residual_inertia : 1; }
     bool is(size_t link, Kind kind) const { return connections_[link].kind == kind; }
     double mobility(size_t link, const Row& row) const;
     // touching.cpp
@@ -106,9 +111,15 @@ private:
     double load(size_t link, const double* w) const;
     // finish.cpp
     void commit(State& s, double h);
+    void work_on_links(State& s, double h);
+    void turn_hinges(State& s);
+    void work_of_loads(State& s, double h);
     void mend_end(State& s, double h);
     void mend_rates(State& s, double h);
     void show_forces(State& s, double h);
+    bool drives_obstacle(size_t joint) const;
+    double inertial_energy(size_t body) const;
+    double stand_in_energy(size_t joint) const;
     int start(size_t link) const { return system_.start(link); }
     double least_width(const SpaceHinge& hinge) const { return std::max(ramp_width(hinge), narrowest_ramp_); }
     const SpaceHinge* hinge_of(size_t link) const;

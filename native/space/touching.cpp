@@ -30,7 +30,7 @@ bool Stepper::settle(double h) {
 
 void Stepper::commit_contacts(State& s, double h) {
     const size_t first = contact_rows();
-    contacts_.commit(h, rows_.data() + first, impulse_.data() + first, rate0_.data() + first, w_.data() + first, s.contact);
+    contacts_.commit(h, stage_.quasi_static, rows_.data() + first, impulse_.data() + first, rate0_.data() + first, w_.data() + first, s.contact);
 }
 
 // Mending rates, with contacts as stiff as they were, pushes obstacles a little: x_ along the roots of their tangents.
@@ -56,7 +56,6 @@ double Stepper::overlap(size_t link) const {
 // Whether the state after a step of length h, whose rows have just been located, runs into something closed.
 void Stepper::see_contacts(State& s, double h) {
     s.contact.impact = false;
-    if (stage_.quasi_static) s.contact.closing = 0;
     if (contacts_.overlooked(s.pose)) s.contact.closing = h / 2;
     if (stage_.quasi_static || contacts_.size() == 0) return;
     rates(rows_, s.velocity.data(), x_.data());

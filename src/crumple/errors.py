@@ -75,6 +75,7 @@ class Status(Enum):
     NOT_FINITE = "stopped: a state became infinite or not a number"
     OVERLAPPING = "stopped: an obstacle appeared inside the structure"
     INVERTED = "stopped: an element turned inside out"
+    UNHELD = "stopped: nothing holds the structure in a quasi-static stage"
     CANCELLED = "cancelled by the caller"
     REFUSED = "refused: the input cannot be solved"
 

@@ -88,7 +88,8 @@ class SpaceRecord:
     obstacle_force
         Resultant of contact on every obstacle in world axes, (n, obstacles, 3).
     energy
-        (n, 9): kinetic, elastic, dissipated, damped, stop, spring, contact, friction, external work [J].
+        (n, 10): kinetic, elastic, dissipated, damped, stop, spring, contact, friction, external work, and
+        what quasi-static stages took out of the motion [J].
     summary
         Per hinge: largest rotation (length of the rotation vector), largest moment, time of first flow
         (NaN: none), time of rest, 1 if still turning, dissipated energy, time of fracture (NaN: whole),

@@ -39,6 +39,7 @@ class Outcome(IntEnum):
     NOT_FINITE = 2
     CANCELLED = 3
     REFUSED = 4
+    UNHELD = 5
 
 
 @dataclass(frozen=True)

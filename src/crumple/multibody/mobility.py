@@ -134,8 +134,18 @@ def free_parts(linkage: Linkage) -> tuple[str, ...]:
     names = [name for name, pieces in linkage.pieces.items() if any(p.body in moving for p in pieces)]
     return (
         f"The supports and joints leave {ways} to move without any hinge turning "
-        f"({_named('member', 'members', names)}).",
+        f"({named_members(tuple(names))}).",
     )
+
+
+def floating_members(linkage: Linkage) -> tuple[str, ...]:
+    """Members that nothing connects with the ground, in the structure's order."""
+    held, growing = {GROUND}, True
+    while growing:
+        pairs = [{connection.first, connection.second} for connection in linkage.connections]
+        reached = held.union(*(pair for pair in pairs if pair & held))
+        growing, held = reached != held, reached
+    return tuple(name for name, pieces in linkage.pieces.items() if not {p.body for p in pieces} & held)
 
 
 def _tree(linkage: Linkage, locked: bool) -> _Tree:
@@ -216,6 +226,11 @@ def _null_space(system: Floats) -> tuple[Floats, int]:
     rank = int(np.sum(sizes > NOTHING * max(float(sizes.max(initial=0.0)), 1.0)))
     null: Floats = vectors[rank:]
     return null, len(system) - rank
+
+
+def named_members(names: tuple[str, ...]) -> str:
+    """Members of a sentence."""
+    return _named("member", "members", list(names))
 
 
 def _named(one: str, several: str, names: list[str]) -> str:

@@ -26,6 +26,7 @@ STATUS = {
     Outcome.NOT_FINITE: Status.NOT_FINITE,
     Outcome.CANCELLED: Status.CANCELLED,
     Outcome.REFUSED: Status.REFUSED,
+    Outcome.UNHELD: Status.UNHELD,
 }
 
 

@@ -94,7 +94,8 @@ def space_quantities(model: SpaceLowered, finals: SpaceFinals, outputs: Outputs)
         }
         found[f"hinge.{hinge.name}.rotation_max"] = finals.summary[:, k, 0]
         found[f"hinge.{hinge.name}.moment_max"] = finals.summary[:, k, 1]
-    energy = energy_in_space(record, touched=bool(model.model.capsules))
+    slowed = any(stage.quasi_static for stage in model.case.stages)
+    energy = energy_in_space(record, touched=bool(model.model.capsules), slowed=slowed)
     found |= {f"energy.{name}": values for name, values in energy.items()}
     poses = FinalPoses(model.linkage, record, finals.start)
     for channel in node_channels(model.structure, poses, outputs.nodes):

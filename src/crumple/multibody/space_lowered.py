@@ -14,7 +14,7 @@ from crumple.multibody.obstacle_bodies import Touching, with_obstacles
 from crumple.multibody.rigid import Floats
 from crumple.multibody.run import Run
 from crumple.multibody.space_model import space_model, support_drives
-from crumple.multibody.stages import lowered_until, stages_of
+from crumple.multibody.stages import lowered_until, refuse_floating, stages_of
 from crumple.multibody.start import start_in_space
 from crumple.structure import Stage, Structure
 
@@ -78,6 +78,7 @@ def lowered_in_space(structure: Structure, run: Run) -> SpaceLowered:
         raise InputError("nothing can move: every part is held and no member has a hinge")
     check_inertia(linkage)
     stages = stages_of(structure, run)
+    refuse_floating(structure, linkage, stages)
     longest = max(stage.duration for stage in stages)
     owners = tuple(name for name, _ in support_drives(structure, linkage, longest))
     touching = with_obstacles(structure, linkage, space_model(structure, linkage, longest), owners, longest)

@@ -13,6 +13,7 @@ from crumple._core.space import SpaceRecord, SpaceSimulation
 from crumple._core.tree import Outcome
 from crumple.multibody.forces import check_sections, force_channels, section_force_channels
 from crumple.multibody.linkage import Linkage, check_inertia, link
+from crumple.multibody.mobility import free_parts
 from crumple.multibody.obstacle_bodies import with_obstacles
 from crumple.multibody.poses import SpacePoses
 from crumple.multibody.rigid import Floats
@@ -20,7 +21,7 @@ from crumple.multibody.run import Run, output_times
 from crumple.multibody.solved import HingeHistory, Poll, Solved
 from crumple.multibody.space_lowered import added_motion, kernel_stage
 from crumple.multibody.space_model import space_model, support_drives
-from crumple.multibody.stages import lowered_until, stages_of, told
+from crumple.multibody.stages import lowered_until, refuse_floating, stages_of, told
 from crumple.result import Channel, StageSummary
 from crumple.structure import PlacedHinge, Stage, Structure
 
@@ -58,6 +59,7 @@ class SpaceSolver:
         check_inertia(self.linkage)
         check_sections(structure, self.linkage, run.outputs)
         self._stages = stages_of(structure, run)
+        refuse_floating(structure, self.linkage, self._stages)
         longest = max(stage.duration for stage in self._stages)
         plain = space_model(structure, self.linkage, longest)
         owners = tuple(name for name, _ in support_drives(structure, self.linkage, longest))
@@ -106,6 +108,8 @@ class SpaceSolver:
         if self._stages[0].kind == "quasi-static":
             # nothing pushes yet; the kernel shows the jump of a drive that starts with a rate
             record.joint_force[0] = 0.0
+        if record.outcome is Outcome.UNHELD:
+            record = replace(record, reason=" ".join([f"{record.reason}.", *free_parts(self.linkage)]))
         return self._solved(record, stages, (given, lost, seconds))
 
     def _begin(self, simulation: SpaceSimulation, stage: Stage, *, first: bool) -> tuple[float, float]:
@@ -141,7 +145,11 @@ class SpaceSolver:
             struck=any(stage.impulses for stage in self._stages),
             poses=poses,
             hinges=tuple(self._hinge_histories(record)),
-            energy=energy_in_space(record, touched=bool(self._touching.model.capsules)),
+            energy=energy_in_space(
+                record,
+                touched=bool(self._touching.model.capsules),
+                slowed=any(stage.kind == "quasi-static" for stage in self._stages),
+            ),
             stepping_seconds=seconds,
             further=(
                 *force_channels(self._structure, poses, local),
@@ -213,8 +221,8 @@ def _columns(parts: dict[str, tuple[str, Floats]], free: tuple[int, ...]) -> dic
     return columns
 
 
-def energy_in_space(record: SpaceRecord, *, touched: bool) -> dict[str, Floats]:
-    """The ledger, (n,) each [J]; `touched`: with contact and friction."""
+def energy_in_space(record: SpaceRecord, *, touched: bool, slowed: bool) -> dict[str, Floats]:
+    """The ledger, (n,) each [J]; `touched`: with contact and friction; `slowed`: with damping."""
     dissipated = record.hinge_energy[:, :, 0].sum(axis=1)
     energy = {
         "kinetic": record.energy[:, 0],
@@ -223,6 +231,8 @@ def energy_in_space(record: SpaceRecord, *, touched: bool) -> dict[str, Floats]:
     }
     if touched:
         energy |= {"contact": record.energy[:, 6], "friction": record.energy[:, 7]}
+    if slowed:
+        energy["damping"] = record.energy[:, 9]
     return energy | {"external_work": record.energy[:, 8]}
 
 

@@ -8,7 +8,9 @@ import numpy as np
 
 from crumple._core.space import SpaceRecord, SpaceUntil
 from crumple._core.space import Until as Quantity
+from crumple.errors import InputError, Problem
 from crumple.multibody.linkage import Linkage
+from crumple.multibody.mobility import floating_members, named_members
 from crumple.multibody.obstacle_bodies import Touching
 from crumple.multibody.run import Run
 from crumple.structure import FREEDOMS, Stage, Structure, Until
@@ -29,6 +31,29 @@ def stages_of(structure: Structure, run: Run) -> tuple[Stage, ...]:
         }
         return (first.model_copy(update=added), *stages[1:])
     return stages
+
+
+def refuse_floating(structure: Structure, linkage: Linkage, stages: tuple[Stage, ...]) -> None:
+    """Refuse quasi-static stages in which a part floats and has nothing to rest against while it is pushed.
+
+    Without inertia a floating part needs two things that press on it: two obstacles, or an obstacle and a
+    load, its weight or another member.
+    """
+    floating = floating_members(linkage)
+    if not floating:
+        return
+    pressing = bool(structure.loads or any(structure.gravity)) + (structure.member_contact is not None)
+    problems = []
+    for i, stage in enumerate(stages):
+        there = structure.obstacles if stage.obstacles is None else stage.obstacles
+        if stage.kind == "quasi-static" and len(there) + pressing < 2:
+            what = f"nothing holds {named_members(floating)} in a quasi-static stage"
+            todo = "hold a node, let it rest against an obstacle, or make the stage dynamic"
+            problems.append(
+                Problem(what, stage.name, "parts that are held", todo, f"analysis.stages[{i}].kind")
+            )
+    if problems:
+        raise InputError(problems)
 
 
 def lowered_until(structure: Structure, linkage: Linkage, touching: Touching, stage: Stage) -> Conditions:

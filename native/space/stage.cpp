@@ -1,0 +1,118 @@
+// Stages: how they begin, and what ends them before their time.
+#include <algorithm>
+#include <cmath>
+
+#include "space/simulation.hpp"
+
+namespace crumple::space {
+
+namespace {
+
+// Share of the work of loads that goes into inertia in a quasi-static step in which nothing resists them, and how many such
+// steps in a row end a run.
+constexpr double unresisted_share = 0.5;
+constexpr int most_unresisted = 10;
+// A condition that ends a stage is met to this share of its value.
+constexpr double met = 1e-4;
+
+}  // namespace
+
+double Simulation::set_motion(const Twist* velocity, const Twist* impulse) {
+    if (stepper_.stage().quasi_static) return 0;
+    const Energies before = energies(model_, state_);
+    State free = state_;
+    for (size_t i = 0; i < model_.bodies.size(); i++) {
+        const Body& body = model_.bodies[i];
+        const Quat& q = state_.pose[i].q;
+        const Vec3 spin = turned(q, body.inverse * turned(conjugate(q), impulse[i].w));
+        free.velocity[i] = free.velocity[i] + velocity[i] + Twist{spin, (1 / body.mass) * impulse[i].v};
+    }
+    const Energies given = energies(model_, free);
+    given_energy_ = std::max(given_energy_, given.structure_kinetic());
+    stepper_.add_motion(state_, velocity, impulse);
+    const Energies after = energies(model_, state_);
+    if (started_) {
+        state_.work_on(false, after.structure_kinetic() - before.structure_kinetic());
+        state_.work_on(true, after.obstacle_kinetic - before.obstacle_kinetic);
+    }
+    return given.kinetic - after.kinetic;
+}
+
+void Simulation::begin_stage(bool quasi_static, const std::vector<bool>& drives, const std::vector<bool>& obstacles,
+                             std::vector<Condition> until) {
+    Stage& stage = stepper_.stage();
+    std::vector<DriveStage> next(model_.drives.size());
+    for (size_t k = 0; k < next.size(); k++) {
+        next[k] = {drives[k], stepper_.displacement(model_.drives[k], k, state_, state_.t)};
+    }
+    stage = {quasi_static, next};
+    state_.stage_start = state_.t;
+    stepper_.set_obstacles(obstacles, state_);
+    state_.contact.force.assign(obstacles.size(), Vec3{});
+    if (quasi_static) {
+        if (started_) state_.slowed += energies(model_, state_).kinetic;
+        std::fill(state_.velocity.begin(), state_.velocity.end(), Twist{});
+    }
+    h_ = 0;
+    overshot_ = NAN;
+    unresisted_steps_ = 0;
+    until_ = std::move(until);
+    for (Condition& c : until_) {
+        if (c.quantity == Quantity::distance) {
+            for (int k = 0; k < 2; k++) c.arm[k] = c.arm[k] - model_.pose(first_.pose, c.body[k]).x;
+        }
+        c.start = 0;
+        if (c.quantity != Quantity::force && c.quantity != Quantity::drive_force) c.start = quantity(c, state_);
+    }
+}
+
+double Simulation::quantity(const Condition& c, const State& s) const {
+    double q = 0;
+    if (c.quantity == Quantity::force && !s.contact.force.empty()) q = norm(s.contact.force[static_cast<size_t>(c.index)]);
+    if (c.quantity == Quantity::work) q = s.external_work;
+    if (c.quantity == Quantity::drive_force) q = norm(s.joint_force[static_cast<size_t>(c.index)].v);
+    if (c.quantity == Quantity::displacement) q = stepper_.relative(s, c.index, c.freedom);
+    if (c.quantity == Quantity::distance) {
+        q = norm(model_.pose(s.pose, c.body[1]).at(c.arm[1]) - model_.pose(s.pose, c.body[0]).at(c.arm[0]));
+    }
+    return q - c.start;
+}
+
+// Share of the step after which the first condition is met; above 1 for none.
+double Simulation::share_of_step(const State& before, const State& after, int* which) const {
+    double least = 2;
+    for (size_t k = 0; k < until_.size(); k++) {
+        const Condition& c = until_[k];
+        const double sign = c.value < 0 ? -1 : 1, b = sign * quantity(c, after), a = sign * quantity(c, before);
+        const double wanted = std::fabs(c.value);
+        if (b < wanted * (1 - met)) continue;
+        const double share = b > wanted * (1 + met) && b > a ? std::max((wanted - a) / (b - a), 0.0) : 1;
+        if (share < least) {
+            least = share;
+            *which = static_cast<int>(k);
+        }
+    }
+    return least;
+}
+
+// Whether what passes a threshold has not come nearer to it although the step was shortened: the force on what is rigid until
+// it yields jumps.
+bool Simulation::jumps(int which) {
+    const Condition& c = until_[static_cast<size_t>(which)];
+    const double reached = std::fabs(quantity(c, fine_)), before = overshot_;
+    overshot_ = reached;
+    return before - reached < 0.1 * (before - std::fabs(c.value));
+}
+
+// Whether in a quasi-static stage nothing but inertia resists what loads and gravity do, step after step: there is no
+// equilibrium near.
+bool Simulation::unheld(Record& record) {
+    const bool resisted = !stepper_.stage().quasi_static || state_.unresisted < unresisted_share;
+    unresisted_steps_ = resisted ? 0 : unresisted_steps_ + 1;
+    if (unresisted_steps_ < most_unresisted) return false;
+    record.outcome = Outcome::unheld;
+    record.reason = "loads or gravity move it in a quasi-static stage, and nothing but inertia resists";
+    return true;
+}
+
+}  // namespace crumple::space
