@@ -1,12 +1,14 @@
-"""Members as quadrilaterals along their mid-lines, joined at the nodes."""
+"""Members as quadrilaterals along their mid-lines, triangles where they get coarser, joined at the nodes."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crumple.errors import InputError, Problem
+from crumple.shell.bays import Bays, bays_of, coarse_rings, left_out, without_points
 from crumple.shell.contour import Contour, Floats, Integers, contour_of
 from crumple.shell.imperfection import offsets
 from crumple.shell.joints import SHEARED_LENGTH, Joint, Kind, joints_of
@@ -31,26 +33,29 @@ class Tube:
     stations
         Of the rings along the member [m], (rings,); a mitre's slant is not counted.
     nodes
-        Node of each ring and contour point, (rings, points).
+        Node of each ring and contour point, (rings, points); a coarse ring has every node twice.
+    bays
+        Elements, bay after bay, in points of this array.
     first_element
-        Number of its first element; ring i, side j has element ``first_element + i * sides + j``.
+        Number of its first element.
     """
 
     frame: Frame
     contour: Contour
     stations: Floats
     nodes: Integers
+    bays: Bays
     first_element: int
 
     @property
-    def sides(self) -> int:
-        """Elements from one ring to the next."""
-        return len(self.contour.sides)
+    def last_ring(self) -> int:
+        """Number of the last ring, and of rows of elements along the member."""
+        return len(self.stations) - 1
 
     @property
-    def bays(self) -> int:
-        """Rows of elements along the member."""
-        return len(self.stations) - 1
+    def thickness(self) -> Floats:
+        """Of its elements [m]."""
+        return np.asarray(self.contour.thickness[self.bays.side])
 
     def ring_at(self, station: float) -> int:
         """Ring nearest to a station [m]."""
@@ -58,11 +63,11 @@ class Tube:
 
     def bay(self, ring: int) -> Integers:
         """Elements between a ring and the next, (sides,)."""
-        return self.first_element + ring * self.sides + np.arange(self.sides)
+        return self.elements_between(ring, ring + 1)
 
     def elements_between(self, first: int, last: int) -> Integers:
         """Elements between two rings."""
-        return self.first_element + np.arange(first * self.sides, last * self.sides)
+        return self.first_element + np.arange(self.bays.start[first], self.bays.start[last])
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +79,7 @@ class Mesh:
     position
         Nodes [m], (n, 3): those of walls, then one reference node per rigid body at its structure node.
     quads
-        Corners, (m, 4), counter-clockwise seen from outside.
+        Corners, (m, 4), counter-clockwise seen from outside; a triangle repeats its third.
     tubes
         By member.
     joints
@@ -94,6 +99,11 @@ class Mesh:
         """Number of nodes in walls."""
         return len(self.position) - len(self.reference)
 
+    @property
+    def triangles(self) -> NDArray[np.bool_]:
+        """Whether an element is a triangle, (m,)."""
+        return np.asarray(self.quads[:, 2] == self.quads[:, 3])
+
     def end_ring(self, member: str, second: bool) -> Integers:
         """Nodes of a member's last ring at its first or second node, (points,)."""
         return np.asarray(self.tubes[member].nodes[-1 if second else 0])
@@ -101,8 +111,10 @@ class Mesh:
     def place_of(self, element: int) -> str:
         """Where an element lies, in words."""
         for name, tube in self.tubes.items():
-            ring, side = divmod(element - tube.first_element, tube.sides)
-            if 0 <= ring < tube.bays:
+            own = element - tube.first_element
+            if 0 <= own < tube.bays.start[-1]:
+                ring = int(np.searchsorted(tube.bays.start, own, side="right")) - 1
+                side = int(tube.bays.side[own])
                 middle = (tube.stations[ring] + tube.stations[ring + 1]) / 2
                 return f"member {name}, {1e3 * middle:.4g} mm from its first node, side {side} of the section"
         return "no member"
@@ -134,7 +146,8 @@ def mesh_of(structure: Structure, settings: ShellSettings, outputs: Outputs | No
     }
     _check_number(contours, rings)
     refuse_waves(settings, contours, rings)
-    return _joined(structure, contours, joints, rings, settings.imperfection)
+    coarse = {name: _coarse(settings, at) for name, at in rings.items()}
+    return _joined(structure, contours, joints, rings, coarse, imperfection=settings.imperfection)
 
 
 def _rings(
@@ -161,6 +174,13 @@ def _rings(
     fine = settings.fine_size or settings.element_size
     sizes = Sizes(settings.element_size, fine, settings.growth)
     return stations(ends, asked, _fine_zones(structure, member, settings, joints, ends), sizes)
+
+
+def _coarse(settings: ShellSettings, at: Floats) -> NDArray[np.bool_]:
+    """Rings at which the section is divided half as finely."""
+    if settings.coarse_sections == "off" or settings.fine_size is None:
+        return np.zeros(len(at), dtype=bool)
+    return coarse_rings(at, settings.fine_size)
 
 
 def _fine_zones(
@@ -202,6 +222,8 @@ def _joined(
     contours: dict[str, Contour],
     joints: dict[str, Joint],
     rings: dict[str, Floats],
+    coarse: dict[str, NDArray[np.bool_]],
+    *,
     imperfection: float,
 ) -> Mesh:
     """Nodes numbered member by member; a mitre's second end takes the nodes of its first."""
@@ -219,12 +241,14 @@ def _joined(
             shared = _shared(structure, joints, tubes, name, second)
             if shared is not None:
                 numbers[-1 if second else 0] = shared
-        new = numbers < 0
+        new = (numbers < 0) & ~left_out(contours[name], coarse[name])
         numbers[new] = count + np.arange(int(new.sum()))
         count += int(new.sum())
         positions.append(points[new])
-        tubes[name] = Tube(frame, contours[name], rings[name], numbers, elements)
-        quads.append(_quads(numbers, contours[name].sides))
+        numbers = without_points(numbers, contours[name], coarse[name])
+        bays = bays_of(contours[name], coarse[name])
+        tubes[name] = Tube(frame, contours[name], rings[name], numbers, bays, elements)
+        quads.append(numbers.reshape(-1)[bays.corners])
         elements += len(quads[-1])
     bodies = [node for node, joint in joints.items() if joint.is_body]
     reference = {node: count + i for i, node in enumerate(bodies)}
@@ -265,10 +289,3 @@ def _shared(
     # match gives the first end's point of each of the second's
     order = joint.match if mine == 1 else np.argsort(joint.match)
     return np.asarray(ring[order])
-
-
-def _quads(numbers: Integers, sides: Integers) -> Integers:
-    """Corners of a member's elements, normals to the right of the sides, (m, 4)."""
-    here, beside = numbers[:, sides[:, 0]], numbers[:, sides[:, 1]]
-    corners = np.stack([here[:-1], beside[:-1], beside[1:], here[1:]], axis=2)
-    return np.asarray(corners.reshape(-1, 4))

@@ -123,5 +123,7 @@ def support_cut(
         acting = np.flatnonzero(np.isin(mesh.quads, nodes).any(axis=1) & ~rigid)
         stays = {"x", "y", "z"} <= set(part.held)
         return SupportCut(acting, nodes, np.asarray(structure.nodes[node], float), stays)
-    bays = [mesh.tubes[end.member].bay(mesh.tubes[end.member].bays - 1 if end.second else 0) for end in ends]
+    bays = [
+        mesh.tubes[end.member].bay(mesh.tubes[end.member].last_ring - 1 if end.second else 0) for end in ends
+    ]
     return SupportCut(np.concatenate(bays), nodes)

@@ -24,12 +24,12 @@ class MeshReport:
 
     Attributes
     ----------
-    elements, nodes
-        Numbers, reference nodes of rigid bodies not counted.
+    elements, nodes, triangles
+        Numbers; reference nodes of rigid bodies are not counted, triangles are elements too.
     smallest_side, largest_side
         [m].
     worst_aspect
-        Largest ratio of mean opposite sides of one element.
+        Largest ratio of mean opposite sides of one element, of a triangle's longest and shortest side.
     worst_warp
         Largest angle [rad] of a corner out of its element's plane.
     mass
@@ -45,12 +45,14 @@ class MeshReport:
     worst_aspect: float
     worst_warp: float
     mass: float
+    triangles: int = 0
     time_step: float = 0.0
 
     def __str__(self) -> str:
         step = f", time step {1e6 * self.time_step:.3g} us" if self.time_step else ""
+        three = f" ({self.triangles} of them triangles)" if self.triangles else ""
         return (
-            f"{self.elements} elements, {self.nodes} nodes, sides {1e3 * self.smallest_side:.3g} to "
+            f"{self.elements} elements{three}, {self.nodes} nodes, sides {1e3 * self.smallest_side:.3g} to "
             f"{1e3 * self.largest_side:.3g} mm, aspect at most {self.worst_aspect:.3g}, "
             f"warp at most {np.degrees(self.worst_warp):.2g} deg{step}"
         )
@@ -66,7 +68,7 @@ def areas(mesh: Mesh) -> Floats:
 
 def wall_thickness(mesh: Mesh) -> Floats:
     """Thickness of every element [m], (m,)."""
-    return np.concatenate([np.tile(tube.contour.thickness, tube.bays) for tube in mesh.tubes.values()])
+    return np.concatenate([tube.thickness for tube in mesh.tubes.values()])
 
 
 def wall_metals(structure: Structure, mesh: Mesh) -> tuple[tuple[Material, ...], Integers]:
@@ -74,7 +76,7 @@ def wall_metals(structure: Structure, mesh: Mesh) -> tuple[tuple[Material, ...],
     sides = {name: tube.contour.metals_of(structure.material_of(name)) for name, tube in mesh.tubes.items()}
     metals = tuple(dict.fromkeys(metal for member in sides.values() for metal in member))
     number = [
-        np.tile([metals.index(metal) for metal in sides[name]], tube.bays)
+        np.array([metals.index(metal) for metal in sides[name]])[tube.bays.side]
         for name, tube in mesh.tubes.items()
     ]
     return metals, np.concatenate(number)
@@ -96,8 +98,12 @@ def report_of(structure: Structure, mesh: Mesh) -> MeshReport:
     """
     corner = mesh.position[mesh.quads]
     side = np.linalg.norm(np.roll(corner, -1, axis=1) - corner, axis=2)
+    three = mesh.triangles
+    # a triangle's side between its third corner and that again is none
+    side[three, 2] = side[three, 1]
     _check(mesh, corner, side)
     pair = np.stack([side[:, 0] + side[:, 2], side[:, 1] + side[:, 3]])
+    pair[0, three], pair[1, three] = side[three].max(axis=1), side[three].min(axis=1)
     mass = areas(mesh) * wall_thickness(mesh) * wall_density(structure, mesh)
     return MeshReport(
         elements=len(mesh.quads),
@@ -107,6 +113,7 @@ def report_of(structure: Structure, mesh: Mesh) -> MeshReport:
         worst_aspect=float((pair.max(axis=0) / pair.min(axis=0)).max()),
         worst_warp=float(_warp(corner).max()),
         mass=float(mass.sum()),
+        triangles=int(three.sum()),
     )
 
 
@@ -124,6 +131,8 @@ def _check(mesh: Mesh, corner: Floats, side: Floats) -> None:
     before = corner - np.roll(corner, 1, axis=1)
     after = np.roll(corner, -1, axis=1) - corner
     turning = np.einsum("mij,mj->mi", np.cross(before, after), normal).min(axis=1)
+    # three corners cannot cross
+    turning[mesh.triangles] = 1.0
     flat = np.linalg.norm(normal, axis=1) / 2 < LEAST_AREA * side.max(axis=1) ** 2
     faults = (
         ("an element has no area", flat),

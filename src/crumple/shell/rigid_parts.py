@@ -44,7 +44,9 @@ def groups_of(structure: Structure, mesh: Mesh) -> tuple[Group, ...]:
     for name, tube in mesh.tubes.items():
         for first, last in rigid_rings(structure, mesh, name):
             ends = [
-                structure.members[name].nodes[i] for i, at in ((0, 0), (1, tube.bays)) if first <= at <= last
+                structure.members[name].nodes[i]
+                for i, at in ((0, 0), (1, tube.last_ring))
+                if first <= at <= last
             ]
             groups = _joined(groups, Group(np.unique(tube.nodes[first : last + 1]), tuple(ends), True))
     return tuple(groups)

@@ -38,9 +38,7 @@ def states_of(mesh: Mesh, record: Record) -> States | None:
     quads, member, station, contour, count = [], [], [], [], 0
     for which, tube in enumerate(mesh.tubes.values()):
         rings, around = tube.nodes.shape
-        numbers = count + np.arange(rings * around).reshape(rings, around)
-        here, beside = (numbers[:, tube.contour.sides[:, i]] for i in (0, 1))
-        quads.append(np.stack([here[:-1], beside[:-1], beside[1:], here[1:]], axis=2).reshape(-1, 4))
+        quads.append(count + tube.bays.corners)
         member.append(np.full(rings * around, which))
         station.append(np.repeat(tube.stations, around))
         contour.append(np.tile(np.arange(around), rings))

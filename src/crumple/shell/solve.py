@@ -116,6 +116,7 @@ def _settings(
     return {
         **given,
         "elements": report.elements,
+        "triangles": report.triangles,
         "nodes": report.nodes,
         "smallest_side": report.smallest_side,
         "worst_aspect": report.worst_aspect,

@@ -61,11 +61,13 @@ def start_of(structure: Structure, mesh: Mesh, bodies: tuple[Body, ...]) -> Star
 def nodal_masses(structure: Structure, mesh: Mesh) -> tuple[Floats, Floats]:
     """Masses [kg] and isotropic rotary inertias [kg m^2] of the nodes, (n,) each, as the stepper lumps."""
     area, thickness = areas(mesh), wall_thickness(mesh)
-    share = area * thickness * wall_density(structure, mesh) / 4
-    gyration = (thickness**2 + area) / 12
+    three = mesh.triangles
+    share = np.where(three[:, None], [1 / 3, 1 / 3, 1 / 3, 0.0], 1 / 4)
+    share = share * (area * thickness * wall_density(structure, mesh))[:, None]
+    gyration = (thickness**2 + np.where(three, 2.0, 1.0) * area) / 12
     mass, inertia = np.zeros(len(mesh.position)), np.zeros(len(mesh.position))
-    np.add.at(mass, mesh.quads, share[:, None])
-    np.add.at(inertia, mesh.quads, (share * gyration)[:, None])
+    np.add.at(mass, mesh.quads, share)
+    np.add.at(inertia, mesh.quads, share * gyration[:, None])
     return mass, inertia
 
 

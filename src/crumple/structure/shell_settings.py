@@ -51,6 +51,9 @@ class ShellSettings(Spec):
     """How far the fine mesh reaches to both sides of such a place; without it twice the largest side."""
     growth: Growth = 1.15
     """Largest ratio of the lengths of neighbouring elements between fine and coarse."""
+    coarse_sections: Switch = "off"
+    """Divide sections half as finely where the elements are longer than twice the fine size: fewer elements,
+    with triangles where both meet."""
     fine_at: tuple[FinePlace, ...] = ()
     """Further places with a fine mesh."""
     imperfection: NonNegativeLength = 0.0

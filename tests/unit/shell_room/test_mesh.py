@@ -32,11 +32,11 @@ def test_five_millimetres_on_the_tube_of_example_01():
 def test_normals_point_outwards():
     mesh = mesh_of(tee(), COARSE)
     for tube in mesh.tubes.values():
-        quads = mesh.quads[tube.elements_between(0, tube.bays)]
+        quads = mesh.quads[tube.elements_between(0, tube.last_ring)]
         middle = mesh.position[quads].mean(axis=1)
         arm = middle - tube.frame.origin
         arm = arm - (arm @ tube.frame.x)[:, None] * tube.frame.x
-        own = normals(mesh)[tube.elements_between(0, tube.bays)]
+        own = normals(mesh)[tube.elements_between(0, tube.last_ring)]
         assert (np.einsum("ij,ij->i", own, arm) > 0).all()
 
 
@@ -153,7 +153,7 @@ def test_place_of_an_element_in_words():
     tube = mesh.tubes["tube"]
     middle = tube.stations[3:5].mean() * 1e3
     expected = f"member tube, {middle:.4g} mm from its first node, side 2 of the section"
-    assert mesh.place_of(3 * tube.sides + 2) == expected
+    assert mesh.place_of(3 * len(tube.contour.sides) + 2) == expected
 
 
 def test_areas_of_a_tube_sum_to_its_surface():

@@ -48,7 +48,7 @@ def test_a_rigid_member_is_one_body_with_the_joint_that_it_reaches():
     tube = lowered.mesh.tubes["hard"]
     assert set(tube.nodes.reshape(-1)) <= set(body.nodes)
     state = ShellState(lowered.model)
-    elements = tube.elements_between(0, tube.bays)
+    elements = tube.elements_between(0, tube.last_ring)
     sheets = np.asarray(lowered.model.sheet)
     assert {lowered.model.materials[lowered.model.sheets[i].material].rigid for i in sheets[elements]} == {
         True
