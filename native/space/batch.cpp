@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "multibody/team.hpp"
 
@@ -91,17 +92,78 @@ void put(std::vector<double>& all, size_t row, const std::vector<double>& values
     std::copy(values.begin(), values.end(), all.begin() + static_cast<std::ptrdiff_t>(row * values.size()));
 }
 
-void solve_row(const Variations& v, size_t row, const Settings& settings, const std::function<bool(double)>& go_on, Finals& out) {
-    const Case& of = *v.cases[v.case_of ? static_cast<size_t>(v.case_of[row]) : 0];
-    Model model = varied(v, of, row);
-    const size_t count = of.stages.size() * model.bodies.size();
-    bool all_finite = true;
-    const std::vector<Twist> velocity = twists(v.velocity, row, count, all_finite);
-    const std::vector<Twist> impulse = twists(v.impulse, row, count, all_finite);
-    out.outcome[row] = static_cast<int>(Outcome::refused);
-    if (!all_finite || !sensible(model)) return;
-    Simulation simulation(std::move(model), settings);
-    run_stages(simulation, of, velocity, impulse, go_on, row, out);
+// A run through the stages of its case, stored in a row.
+class Tour {
+public:
+    Tour(const Variations& v, size_t row, const Settings& settings, Finals& out)
+        : of_(*v.cases[v.case_of ? static_cast<size_t>(v.case_of[row]) : 0]), row_(row), out_(out) {
+        out_.outcome[row] = static_cast<int>(Outcome::refused);
+        Model model = varied(v, of_, row);
+        const size_t count = of_.stages.size() * model.bodies.size();
+        bool all_finite = true;
+        velocity_ = twists(v.velocity, row, count, all_finite);
+        impulse_ = twists(v.impulse, row, count, all_finite);
+        if (all_finite && sensible(model)) simulation_.emplace(std::move(model), settings);
+    }
+    // the steps of every stage are kept in `journeys`, where given
+    void run(const std::function<bool(double)>& go_on, std::vector<Journey>* journeys) {
+        Outcome outcome = Outcome::complete;
+        for (size_t k = 0; simulation_ && k < of_.stages.size() && outcome == Outcome::complete; k++) {
+            begin(k);
+            if (journeys) simulation_->keep(&journeys->emplace_back());
+            const Record record = simulation_->run({simulation_->state().t + of_.stages[k].duration}, go_on);
+            simulation_->keep(nullptr);
+            outcome = record.outcome;
+            out_.residual[row_] = std::max(out_.residual[row_], record.residual);
+            out_.steps[row_] += record.steps;
+        }
+        store(outcome);
+    }
+    void follow(const std::vector<Journey>& journeys) {
+        bool solved = true;
+        for (size_t k = 0; simulation_ && k < journeys.size() && solved; k++) {
+            begin(k);
+            solved = simulation_->follow(journeys[k]);
+            out_.steps[row_] += static_cast<int64_t>(journeys[k].size());
+        }
+        store(solved ? Outcome::complete : Outcome::step_collapsed);
+    }
+
+private:
+    void begin(size_t k) {
+        const CaseStage& stage = of_.stages[k];
+        const size_t first = k * of_.model.bodies.size();
+        simulation_->begin_stage(stage.quasi_static, stage.drives, stage.obstacles, stage.until);
+        out_.lost[row_] += simulation_->set_motion(velocity_.data() + first, impulse_.data() + first);
+    }
+    void store(Outcome outcome);
+
+    const Case& of_;
+    size_t row_;
+    Finals& out_;
+    std::vector<Twist> velocity_, impulse_;
+    std::optional<Simulation> simulation_;
+};
+
+void Tour::store(Outcome outcome) {
+    if (!simulation_) return;
+    const Record last = simulation_->present();
+    out_.time[row_] = last.time.back();
+    std::vector<double> start;
+    for (const Body& body : simulation_->model().bodies) start.insert(start.end(), {body.centre.x, body.centre.y, body.centre.z});
+    put(out_.start, row_, start);
+    put(out_.centre, row_, last.centre);
+    put(out_.rotation, row_, last.rotation);
+    put(out_.velocity, row_, last.velocity);
+    put(out_.hinge_rotation, row_, last.hinge_rotation);
+    put(out_.hinge_rate, row_, last.hinge_rate);
+    put(out_.hinge_plastic, row_, last.hinge_plastic);
+    put(out_.hinge_moment, row_, last.hinge_moment);
+    put(out_.hinge_capacity, row_, last.hinge_capacity);
+    put(out_.hinge_energy, row_, last.hinge_energy);
+    put(out_.summary, row_, simulation_->summary());
+    put(out_.energy, row_, last.energy);
+    out_.outcome[row_] = static_cast<int>(outcome);
 }
 
 }  // namespace
@@ -138,43 +200,21 @@ Finals sized(const Case& of, size_t n) {
     return out;
 }
 
-void run_stages(Simulation& simulation, const Case& of, const std::vector<Twist>& velocity, const std::vector<Twist>& impulse,
-                const std::function<bool(double)>& go_on, size_t row, Finals& out) {
-    Outcome outcome = Outcome::complete;
-    const size_t bodies = of.model.bodies.size();
-    for (size_t k = 0; k < of.stages.size() && outcome == Outcome::complete; k++) {
-        const CaseStage& stage = of.stages[k];
-        simulation.begin_stage(stage.quasi_static, stage.drives, stage.obstacles, stage.until);
-        out.lost[row] += simulation.set_motion(velocity.data() + k * bodies, impulse.data() + k * bodies);
-        const Record record = simulation.run({simulation.state().t + stage.duration}, go_on);
-        outcome = record.outcome;
-        out.residual[row] = std::max(out.residual[row], record.residual);
-        out.steps[row] += record.steps;
-    }
-    const Record last = simulation.present();
-    out.time[row] = last.time.back();
-    std::vector<double> start;
-    for (const Body& body : simulation.model().bodies) start.insert(start.end(), {body.centre.x, body.centre.y, body.centre.z});
-    put(out.start, row, start);
-    put(out.centre, row, last.centre);
-    put(out.rotation, row, last.rotation);
-    put(out.velocity, row, last.velocity);
-    put(out.hinge_rotation, row, last.hinge_rotation);
-    put(out.hinge_rate, row, last.hinge_rate);
-    put(out.hinge_plastic, row, last.hinge_plastic);
-    put(out.hinge_moment, row, last.hinge_moment);
-    put(out.hinge_capacity, row, last.hinge_capacity);
-    put(out.hinge_energy, row, last.hinge_energy);
-    put(out.summary, row, simulation.summary());
-    put(out.energy, row, last.energy);
-    out.outcome[row] = static_cast<int>(outcome);
-}
-
 Finals solve_many(const Variations& v, const Settings& settings, int threads, const std::function<bool(double)>& poll) {
     Finals out = sized(*v.cases.front(), v.count);
-    auto solve = [&](size_t row, const std::function<bool(double)>& go_on) { solve_row(v, row, settings, go_on, out); };
+    auto solve = [&](size_t row, const std::function<bool(double)>& go_on) { Tour(v, row, settings, out).run(go_on, nullptr); };
     // a variant takes a millisecond or more, so threads take them one by one
     multibody::share_out(v.count, 1, threads, solve, poll);
+    return out;
+}
+
+Finals solve_led(const Variations& v, const Settings& settings, int threads, const std::function<bool(double)>& poll) {
+    Finals out = sized(*v.cases.front(), v.count);
+    std::vector<Journey> journeys;
+    auto lead = [&](size_t row, const std::function<bool(double)>& go_on) { Tour(v, row, settings, out).run(go_on, &journeys); };
+    multibody::share_out(std::min<size_t>(v.count, 1), 1, 1, lead, poll);
+    auto follow = [&](size_t row, const std::function<bool(double)>&) { Tour(v, row + 1, settings, out).follow(journeys); };
+    if (v.count > 1) multibody::share_out(v.count - 1, 1, threads, follow, poll);
     return out;
 }
 

@@ -55,10 +55,11 @@ struct Finals {
 bool alike(const Case& a, const Case& b);
 // rows of zeros, not begun
 Finals sized(const Case& of, size_t count);
-// runs a simulation through the stages of its case, motion (stages, bodies) added, and stores where it ends in a row
-void run_stages(Simulation& simulation, const Case& of, const std::vector<Twist>& velocity, const std::vector<Twist>& impulse,
-                const std::function<bool(double)>& go_on, size_t row, Finals& out);
 // `poll` gets the share done, now and then, on the calling thread, and returns false to cancel.
 Finals solve_many(const Variations& variations, const Settings& settings, int threads, const std::function<bool(double)>& poll);
+
+// The first variant, a leader, and the others, which take its steps (journey.hpp), each on its own.  A follower whose
+// equations cannot be solved has the outcome `step_collapsed`.
+Finals solve_led(const Variations& variations, const Settings& settings, int threads, const std::function<bool(double)>& poll);
 
 }  // namespace crumple::space

@@ -65,7 +65,8 @@ nb::dict to_dict(const Finals& f, const Case& of, size_t n) {
 
 nb::dict solve(const std::vector<const Case*>& cases, const Integers& case_of, const Rows& velocity, const Rows& impulse,
                const Rows& capacity_scale, const Rows& load_scale, const Rows& bodies, const Rows& gravity, double accuracy,
-               double minimum_step, double maximum_step, int threads, nb::object poll) {
+               double minimum_step, double maximum_step, int threads, nb::object poll,
+               bool led) {
     require(!cases.empty(), "at least one model is needed");
     const Case& first = *cases.front();
     require(!first.stages.empty(), "a case needs a stage");
@@ -100,7 +101,7 @@ nb::dict solve(const std::vector<const Case*>& cases, const Integers& case_of, c
     Finals finals;
     {
         nb::gil_scoped_release released;
-        finals = solve_many(v, settings, threads, ask);
+        finals = led ? solve_led(v, settings, threads, ask) : solve_many(v, settings, threads, ask);
     }
     return to_dict(finals, first, v.count);
 }
@@ -114,7 +115,7 @@ void bind_batch(nb::module_& m) {
     m.def("solve_many", &solve, nb::arg("cases"), nb::arg("case_of"), nb::arg("velocity").none(), nb::arg("impulse").none(),
           nb::arg("capacity_scale").none(), nb::arg("load_scale").none(), nb::arg("bodies").none(), nb::arg("gravity").none(),
           nb::arg("accuracy"), nb::arg("minimum_step"), nb::arg("maximum_step"), nb::arg("threads"), nb::arg("poll").none(),
-          "Solve every variant as one run would, on several threads.");
+          nb::arg("led"), "Solve every variant as one run would; or, led, the first so and the others in its steps.");
 }
 
 }  // namespace crumple::space

@@ -68,19 +68,23 @@ void Simulation::set_damping() {
             }
         }
     }
-    set_critical_damping(true);
+    set_critical_damping(std::vector<bool>(critical_.size(), true));
 }
 
 // A stop without a damper of its own gets the critical one, c = 2 sqrt(k m), m the inertia felt just before the
 // stop is touched (at the start, should that come without notice).
-void Simulation::set_critical_damping(bool all) {
-    for (const Critical& c : critical_) {
-        const SpaceHinge& hinge = model_.hinges[c.hinge];
-        const double sign = c.stop == &hinge.components[static_cast<size_t>(c.component)].law.stop[0] ? 1 : -1;
-        const size_t k = static_cast<size_t>(stepper_.first_component(c.hinge) + c.component);
-        const double gap = sign * state_.turned[k] - c.stop->rotation;
-        const bool soon = gap <= 0 && gap + 2 * h_ * std::fabs(state_.rate[k]) > 0;
-        if (!all && !soon) continue;
+bool Simulation::touched_soon(const Critical& c) const {
+    const SpaceHinge& hinge = model_.hinges[c.hinge];
+    const double sign = c.stop == &hinge.components[static_cast<size_t>(c.component)].law.stop[0] ? 1 : -1;
+    const size_t k = static_cast<size_t>(stepper_.first_component(c.hinge) + c.component);
+    const double gap = sign * state_.turned[k] - c.stop->rotation;
+    return gap <= 0 && gap + 2 * h_ * std::fabs(state_.rate[k]) > 0;
+}
+
+void Simulation::set_critical_damping(const std::vector<bool>& which) {
+    for (size_t i = 0; i < critical_.size(); i++) {
+        const Critical& c = critical_[i];
+        if (!which[i]) continue;
         c.stop->damping = 2 * std::sqrt(c.stop->stiffness * stepper_.effective_inertia(state_, c.hinge, c.component));
     }
 }
@@ -123,6 +127,8 @@ double Simulation::error(const State& coarse, const State& fine) const {
 // one step and two halves; the halves know from the whole how the velocities change
 bool Simulation::solve(double h) {
     coarse_ = state_;
+    passes_.clear();
+    stepper_.keep(journey_ ? &passes_ : nullptr);
     if (!stepper_.step(coarse_, h, nullptr)) return false;
     const std::vector<Twist>& end = stepper_.end_velocity();
     guess_.resize(end.size());
@@ -220,7 +226,10 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
             record.ended_by = which;
             return false;
         }
-        set_critical_damping(false);
+        std::vector<bool> soon;
+        for (const Critical& c : critical_) soon.push_back(touched_soon(c));
+        set_critical_damping(soon);
+        if (journey_) journey_->push_back({h, state_.t, passes_, soon});
     }
     return true;
 }
@@ -271,10 +280,9 @@ void Simulation::show_first_moments() {
     state_.contact.force = probe.contact.force;
 }
 
-Record Simulation::run(const std::vector<double>& times, const std::function<bool(double)>& poll) {
-    Record record;
-    const long solves = stepper_.solves();
-    const double duration = times.back() - state_.t;
+// what counts as large, and as rounding, in a run to the given time
+void Simulation::prepare(double end) {
+    const double duration = end - state_.t;
     // the rotation that the strongest hinge would need for all energy: what counts as large before anything has turned
     double strongest = 0;
     for (size_t j = 0; j < model_.hinges.size(); j++) {
@@ -302,6 +310,12 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
                                    negligible_impact * settings_.accuracy * largest_energy_);
     stepper_.look_for_impact(state_);
     show_first_moments();
+}
+
+Record Simulation::run(const std::vector<double>& times, const std::function<bool(double)>& poll) {
+    Record record;
+    const long solves = stepper_.solves();
+    prepare(times.back());
     for (const double t : times) {
         const bool reached = t <= state_.t || advance(t, record, poll);
         if (reached || record.ended_by >= 0) store(record);

@@ -62,6 +62,10 @@ public:
     Record run(const std::vector<double>& times, const std::function<bool(double)>& poll);
     // the present state alone
     Record present();
+    // the steps to come are kept; null for no longer
+    void keep(Journey* journey) { journey_ = journey; }
+    // takes the steps that another run of this model or of one near by has kept; false if one cannot be solved
+    bool follow(const Journey& journey);
     // per hinge, and per component
     std::vector<double> summary() const;
     std::vector<double> peaks() const;
@@ -73,7 +77,9 @@ private:
         multibody::Stop* stop;
     };
     void set_damping();
-    void set_critical_damping(bool all);
+    void prepare(double end);
+    bool touched_soon(const Critical& stop) const;
+    void set_critical_damping(const std::vector<bool>& which);
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
     bool solve(double h);
     bool failed(double e, bool smallest, Record& record) const;
@@ -113,6 +119,8 @@ private:
     int unresisted_steps_ = 0;        // quasi-static ones in a row
     std::vector<Vec3> stored_impulse_;  // on every obstacle when last stored, and when that was
     double stored_time_ = -1;
+    Journey* journey_ = nullptr;
+    std::vector<Pass> passes_;        // of the step last solved, where they are kept
     long poll_at_ = 0;                // work at which `poll` is asked next
 };
 

@@ -358,9 +358,11 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
         // capacities, rate factors and stops
         freeze(s, h);
         // end velocities
-        if (!newton()) return false;
+        if (!(followed_ ? follow_pass() : newton())) return false;
         settled = settle(h);
         settled = !turned_back() && settled;
+        if (kept_) keep_pass(settled);
+        if (followed_) settled = (*followed_)[next_pass_++].settled;
         guess_ = velocity_;
     }
     commit(s, h);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "space/journey.hpp"
 #include "space/model.hpp"
 #include "space/system.hpp"
 
@@ -58,6 +59,9 @@ public:
     // narrow ramp leaves too few digits to the moments that equilibrium does not determine.
     void set_narrowest_ramp(double width) { narrowest_ramp_ = width; }
     long solves() const { return solves_; }
+    // what the passes of the steps to come find is kept, or taken from another run's; null for neither
+    void keep(std::vector<Pass>* passes) { kept_ = passes; }
+    void follow(const std::vector<Pass>* passes) { followed_ = passes, next_pass_ = 0; }
 
 private:
     // A law's tangent P = offset + root root^T w at the rates where it was last asked.
@@ -95,6 +99,9 @@ private:
     void rates(const std::vector<Row>& rows, const Twist* v, double* out) const;
     void freeze(const State& s, double h);
     bool turned_back() const;
+    // follow.cpp
+    void keep_pass(bool settled);
+    bool follow_pass();
     // newton.cpp
     bool newton();
     bool descend(int limit, bool bold);
@@ -152,6 +159,9 @@ private:
     double narrowest_ramp_ = 0;
     double energy_ = 0;                      // kinetic energy of the free motion [J]
     long solves_ = 0;
+    std::vector<Pass>* kept_ = nullptr;
+    const std::vector<Pass>* followed_ = nullptr;
+    size_t next_pass_ = 0;                   // of those followed
 };
 
 }  // namespace crumple::space

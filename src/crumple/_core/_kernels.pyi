@@ -105,6 +105,7 @@ class _Space:
         maximum_step: float,
         threads: int,
         poll: Callable[[float], bool] | None,
+        led: bool,
     ) -> dict[str, Any]: ...
 
     HingeElement: Any

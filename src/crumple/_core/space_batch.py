@@ -116,11 +116,16 @@ def solve_many(
     threads: int = 1,
     *,
     poll: Callable[[float], bool] | None = None,
+    led: bool = False,
 ) -> SpaceFinals:
     """Solve every variant through its stages, with the very bits of a `SpaceSimulation` of it alone.
 
     ``poll(share)`` is asked now and then with the share done and returns False to cancel; variants that were
     not begun then have the outcome CANCELLED.
+
+    `led`: the first variant alone is solved so.  The others take its steps, and in place of every solution of
+    Newton's method the first Newton step from the leader's: half the difference of two of them that lie close
+    above and below the leader is the derivative of the run, see docs/theory/sensitivities.md.
     """
     out: dict[str, Any] = _kernels.space.solve_many(
         [kernel_case(case) for case in variants.cases],
@@ -136,8 +141,9 @@ def solve_many(
         maximum_step,
         threads,
         poll,
+        led,
     )
-    return finals_of(out)
+    return SpaceFinals(**out | {name: np.array(out[name], dtype=np.int64) for name in ("outcome", "steps")})
 
 
 def kernel_case(case: SpaceCase) -> _kernels._Space.Case:
@@ -153,11 +159,6 @@ def kernel_case(case: SpaceCase) -> _kernels._Space.Case:
             [as_until(condition) for condition in stage.until],
         )
     return kernel
-
-
-def finals_of(out: dict[str, Any]) -> SpaceFinals:
-    """Finals from the kernel's dictionary."""
-    return SpaceFinals(**out | {name: np.array(out[name], dtype=np.int64) for name in ("outcome", "steps")})
 
 
 def _rows(given: Floats | None) -> Floats | None:

@@ -16,8 +16,13 @@ FACTORS = ("initial_velocity", "impulses", "loads", "gravity")
 
 def quick(name: str) -> bool:
     """Whether a parameter only scales arrays of the kernel."""
+    return is_factor(name) or _is_mass(name)
+
+
+def is_factor(name: str) -> bool:
+    """Whether a parameter multiplies what the structure has."""
     head, *rest = name.split(".")
-    return (not rest and head in FACTORS) or head == "hinges" or _is_mass(name)
+    return (not rest and head in FACTORS) or head == "hinges"
 
 
 def masses_of(values: Mapping[str, Floats]) -> dict[str, Floats]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -11,13 +12,14 @@ from crumple._core.batch import TreeFinals
 from crumple._core.tangent import TreeDirection, TreeTangent, solve_tangent
 from crumple.errors import InputError, Problem, Status
 from crumple.hinge import HingeLaw
-from crumple.multibody.choice import refuse_spatial
+from crumple.multibody.choice import why_spatial
 from crumple.multibody.factors import checked_names, scaled
 from crumple.multibody.finals import final_quantities
 from crumple.multibody.lowered import Lowered, lowered
 from crumple.multibody.rigid import Floats
 from crumple.multibody.run import Cancel, Run, outcome_status
-from crumple.structure import Structure, changed, value_at
+from crumple.multibody.space_sensitivity import space_sensitivities
+from crumple.structure import Structure, changed, placed_hinges, value_at
 
 RELATIVE_STEP = 1e-4
 """By this share of its value a parameter is moved either way to see how the model's arrays follow it.  They
@@ -74,19 +76,24 @@ def sensitivities(
     Raises
     ------
     InputError
-        If the structure cannot be solved, a parameter does not exist, or it cannot be moved either way.
+        If the structure cannot be solved, a parameter does not exist, or it cannot be moved either way; in
+        space also if there is contact, or a stage is quasi-static or ends on a condition.
 
     Notes
     -----
     The derivatives are those of the chain of steps that was taken.  They hold on one side alone where the
-    answer has a kink: a hinge that just does not open, a stop that is just touched.
+    answer has a kink: a hinge that just does not open, a stop that is just touched.  In space a derivative is
+    NaN where a run close by cannot be solved in the same steps.
 
     References
     ----------
     Derivation and limits in docs/theory/sensitivities.md.
-    Verified in tests/verification/test_sensitivities.py.
+    Verified in tests/verification/test_sensitivities.py and test_space_sensitivities.py.
     """
-    refuse_spatial(structure, run)
+    if why_spatial(structure, placed_hinges(structure), run) is not None:
+        given = parameters if isinstance(parameters, Mapping) else dict.fromkeys(parameters)
+        threads = os.cpu_count() or 1
+        return Sensitivities(*space_sensitivities(structure, run, given, threads, _poll(cancel)))
     base = lowered(structure, run.duration)
     names = list(parameters)
     checked_names(structure, [name for name, _ in base.hinges], names)

@@ -38,8 +38,10 @@ class SpaceBatch:
         model_of: NDArray[np.int64],
         threads: int,
         poll: Poll | None,
+        *,
+        led: bool = False,
     ) -> SpaceFinals:
-        """See `Batch`."""
+        """See `Batch`; `led` as of the kernel's `solve_many`."""
         settings = self._run.settings
         return solve_many(
             self._variants(values, models, model_of),
@@ -48,6 +50,7 @@ class SpaceBatch:
             settings.maximum_time_step,
             threads,
             poll=poll,
+            led=led,
         )
 
     def quantities(self, model: SpaceLowered, finals: SpaceFinals) -> dict[str, Floats]:

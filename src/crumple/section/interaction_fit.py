@@ -146,7 +146,9 @@ def nonnegative_least_squares(matrix: Floats, right: Floats, most: int) -> Float
     small = 1e-10 * float(np.abs(goal).max())
     for _ in range(3 * most):
         gain = np.where(free, -np.inf, goal - product @ x)
-        enter = int(gain.argmax())
+        # the first of those that are alike but for rounding, as mirrored columns are: the choice must not
+        # jump with the last digit of the matrix
+        enter = int(np.argmax(gain >= gain.max() - small))
         if gain[enter] <= small or free.sum() >= most:
             break
         free[enter] = True

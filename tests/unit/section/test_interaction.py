@@ -158,6 +158,17 @@ def test_fit_uses_no_more_rows_than_asked():
     assert fit.mean_error <= fit.error
 
 
+@pytest.mark.parametrize("change", [1e-3, 1e-5, -1e-5, 1e-6, -1e-6])
+def test_the_fit_of_a_mirrored_section_does_not_jump_with_rounding(change):
+    """Strength scales the surface alone: the rows, which are shares, stay."""
+    section = RectangularTube(50 * MM, 25 * MM, 2.65 * MM)
+    rows = [
+        fitted_interaction(plastic_interaction(section, Material("", 210e9, 0.3, 7850.0, strength))).rows
+        for strength in (488e6, 488e6 * (1.0 + change))
+    ]
+    np.testing.assert_allclose(rows[0], rows[1], atol=1e-9)
+
+
 def test_nonnegative_least_squares_finds_the_constrained_minimum():
     generator = np.random.default_rng(0)
     matrix, right = generator.normal(size=(40, 8)), generator.normal(size=40)

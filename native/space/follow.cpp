@@ -1,0 +1,54 @@
+// A run that takes another's steps; see journey.hpp.
+#include <cmath>
+
+#include "space/simulation.hpp"
+
+namespace crumple::space {
+
+void Stepper::keep_pass(bool settled) {
+    Pass pass{w_, {}, settled};
+    for (const FrozenSpaceHinge& f : frozen_) pass.lead.push_back(f.lead);
+    for (size_t c = 0; c < connections_.size(); c++) {
+        const size_t first = static_cast<size_t>(start(c) + system_.links()[c].held);
+        if (hinge_of(c)) seen_rate(c, &w_[first], &pass.rates[first]);
+    }
+    kept_->push_back(pass);
+}
+
+bool Stepper::follow_pass() {
+    const Pass& leader = (*followed_)[next_pass_];
+    w_ = leader.rates;
+    for (size_t c = 0; c < connections_.size(); c++) {
+        if (!hinge_of(c)) continue;
+        const size_t hinge = static_cast<size_t>(hinge_index(c));
+        FrozenSpaceHinge& f = frozen_[hinge];
+        // a hinge that rests weighs its rates otherwise than one that slides, and does not rest or slide by itself here
+        if (f.lead == 0 || leader.lead[hinge] == 0) f.lead = leader.lead[hinge];
+        double* w = &w_[static_cast<size_t>(start(c) + system_.links()[c].held)];
+        for (int k = 0; k < size(*hinge_of(c)); k++) w[k] = (w[k] - f.lead * f.w0[k]) / (1 - f.lead);
+    }
+    solve_once();
+    velocity_.swap(next_);
+    w_.swap(w_next_);
+    double sum = 0;
+    for (const Twist& v : velocity_) sum += dot(v.w, v.w) + dot(v.v, v.v);
+    return std::isfinite(sum);
+}
+
+bool Simulation::follow(const Journey& journey) {
+    Record record;
+    if (!journey.empty()) prepare(journey.back().end);
+    for (const Stride& stride : journey) {
+        stepper_.follow(&stride.passes);
+        const bool solved = solve(stride.length);
+        stepper_.follow(nullptr);
+        if (!solved) return false;
+        std::swap(state_, fine_);
+        state_.t = stride.end;
+        watch(record);
+        set_critical_damping(stride.soon);
+    }
+    return true;
+}
+
+}  // namespace crumple::space

@@ -1,0 +1,183 @@
+"""Derivatives of where a run in space ends: runs close above and below it that take its steps.
+
+Every parameter gives two variants, moved either way by a small step, which follow the run of the structure
+itself (`solve_many` with a leader).  Half their difference over the step is the derivative.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from crumple._core.space_model import SpaceModel
+from crumple._core.tree import Outcome
+from crumple.errors import InputError, Problem, Status
+from crumple.multibody.factors import checked_names, is_factor
+from crumple.multibody.finals import part_of
+from crumple.multibody.rigid import Floats
+from crumple.multibody.run import Run, outcome_status
+from crumple.multibody.solved import Poll
+from crumple.multibody.space_batch import SpaceBatch
+from crumple.multibody.space_lowered import SpaceLowered
+from crumple.structure import Structure, changed, value_at
+
+RELATIVE_STEP = 1e-5
+"""By this share of its value a parameter is moved either way.  Ten times more, and hinges of followers pass
+kinks that the leader does not; a hundred times less, and rounding shows."""
+SMOOTH = 1e3
+"""Largest change of a coefficient of a surface over the relative step; beyond it the fit is another one."""
+SHORTER, MOST_TRIES = 0.3, 5
+"""A step in which the number of samples of a law changes is made shorter, and how often."""
+
+Found = tuple[dict[str, float], dict[str, dict[str, float]], Status, str]
+
+
+@dataclass
+class _Rows:
+    """Variants by row: the structure itself, then each parameter above and below its value."""
+
+    models: list[SpaceLowered]
+    model_of: list[int] = field(default_factory=lambda: [0])
+    moved: list[tuple[str, float]] = field(default_factory=list)
+    """Of every row but the first: a factor and its value, or no name."""
+    widths: list[float] = field(default_factory=list)
+
+    def add(self, model: int, name: str = "", value: float = 1.0) -> None:
+        """One more row."""
+        self.model_of.append(model)
+        self.moved.append((name, value))
+
+
+def space_sensitivities(
+    structure: Structure, run: Run, steps: Mapping[str, float | None], threads: int, poll: Poll | None
+) -> Found:
+    """Final quantities, their derivatives by quantity and parameter, status and reason.
+
+    Parameters
+    ----------
+    structure, run
+        What is solved.
+    steps
+        Parameters, each with the step [SI] by which it is moved, or None for a share of its value.
+    threads, poll
+        As in `solve_variants`.
+
+    Raises
+    ------
+    InputError
+        If a parameter does not exist or cannot be moved, or the run has contact, stages that end on
+        conditions, or quasi-static ones.
+    """
+    _refuse_events(structure, run)
+    batch = SpaceBatch(run)
+    base = batch.lower(structure)
+    checked_names(structure, batch.hinges(base), list(steps))
+    rows = _Rows([base])
+    for name, step in steps.items():
+        _move(batch, base, rows, name, step)
+    count = len(rows.model_of)
+    finals = batch.solve(_values(rows), rows.models, np.array(rows.model_of), threads, poll, led=True)
+    ends = []
+    for row in range(count):
+        model = rows.models[rows.model_of[row]]
+        of_row = batch.quantities(model, part_of(finals, np.array([row])))
+        ends.append({key: float(column[0]) for key, column in of_row.items()})
+        if finals.outcome[row] != Outcome.COMPLETE and row > 0:
+            ends[-1] = dict.fromkeys(ends[-1], np.nan)
+    quantities = {key: value for key, value in ends[0].items() if key != "energy_residual"}
+    derivatives = {
+        key: {
+            name: (ends[1 + 2 * k][key] - ends[2 + 2 * k][key]) / rows.widths[k]
+            for k, name in enumerate(steps)
+        }
+        for key in quantities
+    }
+    bound = run.settings.energy_residual_bound
+    outcome = Outcome(int(finals.outcome[0]))
+    status, reason = outcome_status(outcome, "", float(finals.residual[0]), bound)
+    return quantities, derivatives, status, reason
+
+
+def _refuse_events(structure: Structure, run: Run) -> None:
+    """Refuse what ties the steps of a run to when something happens."""
+    why = None
+    if structure.obstacles or structure.member_contact is not None:
+        why = "contact: the time of an impact moves with the parameter, and velocities jump there"
+    elif any(stage.until for stage in run.stages):
+        why = "stages that end on a condition: their end moves with the parameter"
+    elif any(stage.kind == "quasi-static" for stage in run.stages):
+        why = "quasi-static stages: a millionth of the inertia leaves too few digits to derivatives"
+    if why is not None:
+        todo = "take differences of `solve_variants`"
+        raise InputError(Problem("sensitivities follow a run at fixed times", why, "runs without", todo))
+
+
+def _move(batch: SpaceBatch, base: SpaceLowered, rows: _Rows, name: str, step: float | None) -> None:
+    """Two rows for a parameter."""
+    if is_factor(name):
+        step = RELATIVE_STEP if step is None else step
+        for end in (1.0 + step, 1.0 - step):
+            rows.add(0, name, end)
+        rows.widths.append(2.0 * step)
+        return
+    value = value_at(base.structure, name)
+    step = _step(base, name, value, step)
+    for _ in range(MOST_TRIES):
+        ends = [batch.lower(changed(base.structure, {name: end})) for end in (value + step, value - step)]
+        if any(end.topology != base.topology for end in ends):
+            raise InputError(
+                Problem("moving this parameter joins other parts", name, "", "leave it out", name)
+            )
+        if all(_alike(base.model, end.model) for end in ends):
+            break
+        step *= SHORTER
+    else:
+        what, todo = (
+            "a law is sampled or a surface fitted otherwise however little this parameter moves",
+            "give another step",
+        )
+        raise InputError(Problem(what, name, "", todo, name))
+    for model in ends:
+        rows.add(len(rows.models))
+        rows.models.append(model)
+    rows.widths.append(2.0 * step)
+
+
+def _step(base: SpaceLowered, name: str, value: float, step: float | None) -> float:
+    if step is None:
+        step = RELATIVE_STEP * (base.model.length if name.startswith("nodes.") else abs(value))
+    if not step > 0.0:
+        what, todo = "no step follows from a parameter that is zero", "give its step: {path: step}"
+        raise InputError(Problem(what, f"{name} = {value:g}", "a step > 0", todo, name))
+    return step
+
+
+def _alike(base: SpaceModel, moved: SpaceModel) -> bool:
+    """Whether curves have as many samples and surfaces are fitted alike, so that they move smoothly."""
+    if _sizes(base) != _sizes(moved):
+        return False
+    pairs = zip(base.hinges, moved.hinges, strict=True)
+    return all(
+        np.abs(a.surface.rows - b.surface.rows).max(initial=0.0) < SMOOTH * RELATIVE_STEP for a, b in pairs
+    )
+
+
+def _sizes(model: SpaceModel) -> tuple[object, ...]:
+    curves = [
+        (part.positive[0].size, part.negative[0].size) for hinge in model.hinges for part in hinge.components
+    ]
+    surfaces = [np.shape(hinge.surface.rows) for hinge in model.hinges]
+    times = [load.times.size for load in model.loads] + [drive.times.size for drive in model.drives]
+    return (*curves, *surfaces, *times)
+
+
+def _values(rows: _Rows) -> dict[str, Floats]:
+    """Factors row by row: 1 but in the rows that move them."""
+    values: dict[str, Floats] = {}
+    for row, (name, value) in enumerate(rows.moved, start=1):
+        if not name:
+            continue
+        values.setdefault(name, np.ones(len(rows.model_of)))[row] = value
+    return values

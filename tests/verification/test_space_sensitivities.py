@@ -1,0 +1,408 @@
+"""Derivatives of runs in space against closed forms and central differences.
+
+A wheel of inertia I that a hinge of moment M stops from w0 turns by I w0^2/(2 M) in I w0/M; all derivatives
+follow. The step in which it comes to rest is taken as a whole, so that its slopes err by the share of this
+step in the motion, not by its square as the values do.
+
+For the rest there is no closed form: there the derivatives must be those of the discrete motion itself, that
+is of central differences of plain runs with the very same steps (a loose accuracy and a longest step fix
+them), each solved by Newton's method from scratch: the cube frame M4; an arm whose two hinges bend about
+both axes and twist, in every form, softening and coupling, with stops, and until it breaks; a four-bar with
+three redundant constraints; loads and drives; two stages. Through the structure, laws, surfaces and geometry
+follow the parameters: there a table of variants with parameters moved by 0.1 % gives the differences.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.verification.chains import (
+    ACCUMULATED,
+    ELASTIC_PLASTIC,
+    PEAK,
+    REGULARISED,
+    ROTATION,
+    SET_VALUED,
+    softening_law,
+)
+from tests.verification.space_models import RX, RY, RZ, about, bar, component, m4_parts, with_mass
+from tests.verification.structures import STEEL, TUBE
+
+from crumple._core.space import SpaceSimulation
+from crumple._core.space_batch import SpaceCase, SpaceStage, SpaceVariants, solve_many
+from crumple._core.space_model import (
+    GROUND,
+    Coupling,
+    SpaceBody,
+    SpaceDrive,
+    SpaceHinge,
+    SpaceJoint,
+    SpaceLoad,
+    SpaceModel,
+    SpaceSurface,
+    revolute,
+    spherical,
+)
+from crumple._core.tree import Outcome
+from crumple.errors import InputError, Status
+from crumple.multibody import Run, sensitivities, solve_variants
+from crumple.structure import MultibodySettings, Outputs, Stage, Structure, value_at
+
+LOOSE = 1e3
+"""Accuracy that no step fails, so the longest step fixes all of them."""
+LONGEST = 2e-4
+FEW_DIGITS = ("velocity", "hinge_moment")
+"""Moments of locked hinges that equilibrium does not determine, and rates of elastic ones."""
+NEAR = 1e-5
+"""By this share parameters are moved, for followers as for differences."""
+FIELDS = (
+    "centre",
+    "rotation",
+    "velocity",
+    "hinge_rotation",
+    "hinge_plastic",
+    "hinge_moment",
+    "hinge_energy",
+    "energy",
+)
+
+
+def runs(models, velocities, end, *, led, accuracy=LOOSE, longest=LONGEST, stages=None):
+    """Finals of models with velocities (bodies, 6) at the start."""
+    stages = stages or (SpaceStage(end),)
+    motion = np.zeros((len(models), len(stages), *np.shape(velocities[0])))
+    motion[:, 0] = velocities
+    variants = SpaceVariants(
+        [SpaceCase(model, stages) for model in models], np.arange(len(models)), velocity=motion
+    )
+    finals = solve_many(variants, accuracy, maximum_step=longest, led=led)
+    assert set(finals.outcome) == {Outcome.COMPLETE}
+    return finals
+
+
+def flat(finals, row):
+    return np.concatenate([np.ravel(getattr(finals, name)[row]) for name in FIELDS])
+
+
+def check(move, velocity, *, end=0.02, stages=None, name=None, record_figure=None):
+    """The slope along `move` (a model for a small number) agrees with differences of runs by themselves."""
+    models = [move(0.0), move(NEAR), move(-NEAR)]
+    led = runs(models, [velocity] * 3, end, led=True, stages=stages)
+    plain = runs(models, [velocity] * 3, end, led=False, stages=stages)
+    np.testing.assert_array_equal(flat(led, 0), flat(plain, 0))
+    assert (plain.steps == plain.steps[0]).all()
+    parts = np.cumsum([np.ravel(getattr(led, field)[0]).size for field in FIELDS])[:-1]
+    scale = np.concatenate(
+        [np.full(part.size, max(np.abs(part).max(), 1e-12)) for part in np.split(flat(led, 0), parts)]
+    )
+    slope, difference = (((flat(f, 1) - flat(f, 2)) / (2 * NEAR)) / scale for f in (led, plain))
+    assert np.abs(slope[: parts[0]]).max() > 1e-3
+    error = np.split(np.abs(slope - difference), parts)
+    error = {field: float(part.max()) for field, part in zip(FIELDS, error, strict=True)}
+    # the differences divide Newton's tolerance, 1e-9 of the moments, by 1e-5
+    record_figure(f"{name}: slope of places against differences", error["centre"], 0.0, 1e-6)
+    assert all(error[field] < 2e-5 for field in FIELDS if field not in FEW_DIGITS), error
+    assert all(error[field] < 1e-3 for field in FEW_DIGITS), error
+
+
+def test_wheel(record_figure):
+    inertia, moment, rate = 2.0, 500.0, 10.0
+
+    def model(m=moment, j=inertia):
+        wheel = SpaceBody(1.0, np.diag([j, j, j]), np.zeros(3))
+        hinge = SpaceHinge(0, (component(RX, m),))
+        return SpaceModel((wheel,), (revolute(GROUND, 0, np.zeros(3), (0, 0, 1)),), (hinge,))
+
+    def turning(w=rate):
+        return np.array([[0.0, 0.0, w, 0.0, 0.0, 0.0]])
+
+    e = NEAR
+    ends = [
+        (model(), turning()),
+        *((model(moment * (1 + d)), turning()) for d in (e, -e)),
+        *((model(j=inertia * (1 + d)), turning()) for d in (e, -e)),
+        *((model(), turning(rate + d)) for d in (e, -e)),
+    ]
+    widths = (2 * e * moment, 2 * e * inertia, 2 * e)
+    for accuracy, tolerance in ((1e-3, 1e-2), (1e-5, 2e-4)):
+        led = runs(
+            [m for m, _ in ends], [v for _, v in ends], 0.1, led=True, accuracy=accuracy, longest=np.inf
+        )
+
+        def slope(values, k):
+            return (values[1 + 2 * k] - values[2 + 2 * k]) / widths[k]
+
+        rotation, energy, rest = led.hinge_rotation[:, 0], led.hinge_energy[:, 0, 0], led.summary[:, 0, 3]
+        figures = {
+            "d rotation/d moment": (slope(rotation, 0), -inertia * rate**2 / (2 * moment**2), tolerance),
+            "d rotation/d inertia": (slope(rotation, 1), rate**2 / (2 * moment), tolerance),
+            "d rotation/d rate": (slope(rotation, 2), inertia * rate / moment, tolerance),
+            "d duration/d moment": (slope(rest, 0), -inertia * rate / moment**2, 1e-4),
+            "d duration/d inertia": (slope(rest, 1), rate / moment, 1e-4),
+            "d duration/d rate": (slope(rest, 2), inertia / moment, 1e-4),
+            "d energy/d inertia": (slope(energy, 1), rate**2 / 2, 1e-6),
+        }
+        for name, (value, expected, allowed) in figures.items():
+            record_figure(f"{name} at accuracy {accuracy:g}", value, expected, allowed, relative=True)
+        assert abs(slope(energy, 0)) < 1e-6
+
+
+def scaled(hinge, factor):
+    """Hinge with all its curves times a factor."""
+    parts = tuple(
+        replace(
+            part,
+            positive=(part.positive[0], factor * part.positive[1]),
+            negative=(part.negative[0], factor * part.negative[1]),
+        )
+        for part in hinge.components
+    )
+    return replace(hinge, components=parts)
+
+
+def moved_hinge(model, k, factor):
+    hinges = list(model.hinges)
+    hinges[k] = scaled(hinges[k], factor)
+    return replace(model, hinges=tuple(hinges))
+
+
+@pytest.mark.parametrize("what", ["capacity", "mass"])
+def test_cube_frame(what, record_figure):
+    """M4: twelve ball hinges and four loops."""
+    model, velocity = m4_parts(error=1e-4)
+
+    def move(e):
+        if what == "capacity":
+            return moved_hinge(model, 2, 1 + e)
+        heavier = with_mass(model.bodies[5], (0.5, 0.5, 0.5), 5.0 * e)
+        return replace(model, bodies=(*model.bodies[:5], heavier, *model.bodies[6:]))
+
+    check(move, velocity, name=f"M4 by {what}", record_figure=record_figure)
+
+
+def arm(form=SET_VALUED, softening=PEAK, coupling=Coupling.ELLIPSOID, stop=(), fracture=np.inf, **options):
+    """Two bars in space with a mass; both hinges twist and bend about two axes with other capacities."""
+    law = softening_law(0.3, 1e-4)
+    bodies = (bar((0, 0, 0), (0.5, 0, 0)), with_mass(bar((0.5, 0, 0), (0.7, 0.4, 0.1)), (0.7, 0.4, 0.1), 3.0))
+    joints = (spherical(GROUND, 0, np.zeros(3)), spherical(0, 1, np.array([0.5, 0.0, 0.0])))
+
+    def hinge(joint):
+        parts = tuple(
+            component(freedom, (law[0], factor * law[1]), stop, **options)
+            for freedom, factor in ((RX, 0.7), (RY, 1.0), (RZ, 1.3))
+        )
+        rows = (
+            np.array([[0.0, 1.0, 0.3], [0.0, 0.3, 1.0], [0.0, 1.0, -0.3]])
+            if coupling is Coupling.SECTION
+            else np.zeros((0, 0))
+        )
+        if coupling is Coupling.SECTION:
+            rows = rows / (np.abs(rows) ** 4).sum(axis=0).clip(1e-30) ** 0.25
+        surface = SpaceSurface(coupling, rows, 4.0, 2.0, 0 if coupling is Coupling.SECTION else -1)
+        return SpaceHinge(joint, parts, surface, form, softening, fracture)
+
+    return SpaceModel(bodies, joints, (hinge(0), hinge(1)), gravity=(0.0, 0.0, -9.81), length=0.9)
+
+
+THROWN = (3.0, -9.0, 6.0)
+
+
+def thrown(model):
+    """All turn about the root, the outer bar also about the knee."""
+    turns = np.array([about((0, 0, 0), THROWN, body) for body in model.bodies])
+    turns[1] += about((0.5, 0, 0), (-4.0, 8.0, 12.0), model.bodies[1])
+    return turns
+
+
+ARMS = {
+    "peak": {},
+    "rotation": {"softening": ROTATION},
+    "accumulated with damper": {"softening": ACCUMULATED, "viscous_damping": 3.0},
+    "rate factor": {"rate_reference": 20.0, "rate_exponent": 4.0},
+    "no coupling": {"coupling": Coupling.NONE},
+    "ball": {"coupling": Coupling.BALL},
+    "section": {"coupling": Coupling.SECTION},
+    "elastic-plastic": {"form": ELASTIC_PLASTIC, "elastic_stiffness": 2e4},
+    "elastic-plastic without coupling": {
+        "form": ELASTIC_PLASTIC,
+        "elastic_stiffness": 2e4,
+        "coupling": Coupling.NONE,
+    },
+    "regularised": {"form": REGULARISED, "rate": 0.5},
+    "stop": {"stop": (0.02, 2e4, 1.5, 40.0, 0.01)},
+    "critical stop": {"stop": (0.02, 2e4, 1.0, np.nan, 0.01)},
+    "fracture": {"fracture": 0.08},
+}
+
+
+@pytest.mark.parametrize("kind", ARMS)
+@pytest.mark.parametrize("what", ["capacity", "body", "place"])
+def test_arm(kind, what, record_figure):
+    model = arm(**ARMS[kind])
+
+    def move(e):
+        if what == "capacity":
+            return moved_hinge(model, 0, 1 + e)
+        if what == "body":
+            last = model.bodies[1]
+            heavier = replace(last, mass=last.mass * (1 + e), inertia=last.inertia * (1 + 2 * e))
+            return replace(model, bodies=(model.bodies[0], heavier))
+        joint = replace(model.joints[1], position=model.joints[1].position + np.array([0.1, 0.2, -0.1]) * e)
+        return replace(model, joints=(model.joints[0], joint))
+
+    check(move, thrown(model), name=f"arm, {kind}, by {what}", record_figure=record_figure)
+
+
+def four_bar(joint=revolute):
+    """Planar four-bar in space, hinges at all four corners: three constraints are held twice."""
+    corners = [np.array(c, float) for c in ((0, 0, 0), (0, 0, 0.4), (0.6, 0, 0.5), (0.6, 0, 0))]
+    bodies = tuple(bar(corners[i], corners[i + 1]) for i in range(3))
+    joints = tuple(joint(i - 1, i if i < 3 else GROUND, corners[i], (0, 1, 0)) for i in range(4))
+    law = softening_law(0.05, 1e-4)
+    hinges = tuple(SpaceHinge(i, (component(RX, law),)) for i in range(4))
+    return SpaceModel(bodies, joints, hinges, gravity=(0.0, 0.0, -9.81), length=0.6)
+
+
+def test_loop_with_redundant_joints(record_figure):
+    model = four_bar()
+    assert SpaceSimulation(model).freedoms == (1, 3)
+
+    def move(e):
+        return replace(moved_hinge(model, 1, 1 + e), gravity=(0.0, 0.0, -9.81 * (1 - 3 * e)))
+
+    velocity = np.array(
+        [about((0, 0, 0), (0, 8.0, 0), model.bodies[0]), [0, 0, 0, 3.2, 0, 0], [0, 6.4, 0, 1.6, 0, 0]]
+    )
+    check(move, velocity, name="four-bar with three redundant constraints", record_figure=record_figure)
+
+
+def test_load_and_drive(record_figure):
+    """The arm pushed at its end while its root is carried along."""
+    model = arm()
+    held = SpaceJoint(GROUND, 0, np.zeros(3), np.eye(3), (True, True, True, False, False, False))
+    times = np.array([0.0, 0.02])
+
+    def move(e):
+        values = np.array([100.0, 3000.0]) * (1 + e)
+        force, moment = np.array([0.0, 1.0, 1.0]), np.array([0.0, 0.0, 10.0 * e])
+        push = SpaceLoad(1, np.array([0.7, 0.4, 0.1 + e]), force, moment, times, values)
+        carried = SpaceDrive(0, 1, times, np.array([0.0, 4.0 * (1 + e)]))
+        return replace(model, joints=(held, model.joints[1]), loads=(push,), drives=(carried,))
+
+    check(move, np.zeros((2, 6)), name="load and drive", record_figure=record_figure)
+
+
+def test_two_stages(record_figure):
+    """Thrown, then left to itself: what the first stage did counts in the second."""
+    model = arm(softening=ROTATION)
+    stages = (SpaceStage(0.008), SpaceStage(0.006))
+    check(
+        lambda e: moved_hinge(model, 1, 1 + e),
+        thrown(model),
+        stages=stages,
+        name="two stages",
+        record_figure=record_figure,
+    )
+
+
+TURN = {"rotation": 8.0, "about": (0.0, 0.0, 0.0), "axis": (0.0, -1.0, 0.6)}
+FINE = Run(0.03, 0.03, MultibodySettings(accuracy=1e-6), Outputs(nodes=("tip",)))
+QUANTITIES = (
+    "hinge.root.rotation",
+    "hinge.root.energy",
+    "node.tip.displacement.x",
+    "node.tip.displacement.z",
+    "energy.dissipated",
+)
+
+
+def angle(coupling="ellipsoid", form="set-valued", **parts):
+    """Two tubes at an angle, hinges that bend about both axes and twist."""
+    tube = {"section": "tube", "material": "steel"}
+    law = {"type": "kecman", "form": form}
+
+    def hinge(name):
+        return {"name": name, "at": name, "law": law, "axes": ("x", "y", "z"), "coupling": coupling}
+
+    return Structure(
+        materials={"steel": STEEL},
+        sections={"tube": TUBE},
+        nodes={"root": (0.0, 0.0, 0.0), "knee": (0.6, 0.0, 0.0), "tip": (0.8, 0.5, 0.1)},
+        members={
+            "near": {**tube, "nodes": ("root", "knee"), "hinges": [hinge("root")]},
+            "far": {**tube, "nodes": ("knee", "tip"), "hinges": [hinge("knee")]},
+        },
+        supports={"clamp": {"node": "root", "fix": "all"}},
+        masses={"payload": {"node": "tip", "mass": 6.0}},
+        gravity=(0.0, 0.0, -9.81),
+        initial_velocity=[TURN],
+        loads=[{"node": "tip", "force": {"z": {"step": {"x0": 0.0, "h0": 0.0, "x1": 0.01, "h1": 300.0}}}}],
+        **parts,
+    )
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "materials.steel.yield_stress",
+        "materials.steel.density",
+        "sections.tube.thickness",
+        "sections.tube.depth",
+        "masses.payload.mass",
+        "nodes.tip.1",
+        "hinges.root.capacity",
+        "initial_velocity",
+        "loads",
+    ],
+)
+def test_structure_against_variants(name, record_figure):
+    bent = angle()
+    factor = name.split(".")[0] in ("hinges", "initial_velocity", "loads")
+    value = 1.0 if factor else value_at(bent, name)
+    e = 1e-3
+    table = solve_variants(bent, FINE, {name: [value * (1 + e), value * (1 - e), value]})
+    found = sensitivities(bent, FINE, [name])
+    assert found.status is Status.COMPLETE
+    for quantity in QUANTITIES:
+        assert found.quantities[quantity] == pytest.approx(table[quantity][2], rel=1e-9)
+        difference = (table[quantity][0] - table[quantity][1]) / (2 * e)
+        slope = found[quantity][name] * value
+        scale = max(abs(found.quantities[quantity]), abs(difference))
+        record_figure(f"{quantity} by {name}", slope, difference, 2e-3 * scale)
+
+
+@pytest.mark.parametrize(("coupling", "form"), [("section", "set-valued"), ("ellipsoid", "elastic-plastic")])
+def test_section_and_elastic_hinges_against_variants(coupling, form, record_figure):
+    """Tip of the angle by yield stress and thickness, several parameters in one call."""
+    bent = angle(coupling, form)
+    names = ["materials.steel.yield_stress", "sections.tube.thickness"]
+    found = sensitivities(bent, FINE, names)
+    for name in names:
+        value, e = value_at(bent, name), 1e-4
+        table = solve_variants(bent, FINE, {name: [value * (1 + e), value * (1 - e)]})
+        for quantity in ("node.tip.displacement.z", "energy.dissipated"):
+            difference = (table[quantity][0] - table[quantity][1]) / (2 * e)
+            slope = found[quantity][name] * value
+            scale = max(abs(found.quantities[quantity]), abs(difference))
+            record_figure(f"{coupling}, {form}: {quantity} by {name}", slope, difference, 1e-2 * scale)
+
+
+def test_what_moves_with_events_is_refused():
+    ground = {"type": "plane", "point": (0.0, 0.0, -1.0), "normal": (0.0, 0.0, 1.0)}
+    with pytest.raises(InputError, match="time of an impact"):
+        sensitivities(angle(obstacles={"ground": ground}), FINE, ["masses.payload.mass"])
+    ends = (Stage(name="a", duration=0.03, until=[{"distance": 0.1, "between": ("root", "tip")}]),)
+    with pytest.raises(InputError, match="end on a condition"):
+        sensitivities(angle(), replace(FINE, stages=ends), ["masses.payload.mass"])
+    slow = (Stage(name="a", kind="quasi-static", duration=0.03),)
+    with pytest.raises(InputError, match="quasi-static"):
+        sensitivities(angle(), replace(FINE, stages=slow), ["masses.payload.mass"])
+    with pytest.raises(InputError, match="leads nowhere"):
+        sensitivities(angle(), FINE, ["masses.payload.weight"])
+    with pytest.raises(InputError, match="no step follows"):
+        sensitivities(angle(), FINE, ["masses.payload.offset.2"])
+
+
+def test_a_parameter_of_value_zero_takes_its_step():
+    found = sensitivities(angle(), FINE, {"masses.payload.offset.2": 1e-5})
+    assert abs(found["node.tip.displacement.y"]["masses.payload.offset.2"]) > 1e-4
