@@ -56,7 +56,7 @@ def halving_of(contour: Contour) -> Halving:
         same = contour.thickness[a] == contour.thickness[b] and (
             not contour.metals or contour.metals[a] == contour.metals[b]
         )
-        inner[p] = abs(turn) < FLAT and along[a] @ along[b] > 0.0 and same
+        inner[p] = p not in contour.welds and abs(turn) < FLAT and along[a] @ along[b] > 0.0 and same
     pairs = [pair for side in np.flatnonzero(~inner[first]) for pair in _pairs(int(side), second, out, inner)]
     paired = np.array(pairs, dtype=np.int64).reshape(-1, 2)
     return Halving(paired, np.setdiff1d(np.arange(len(first)), paired))

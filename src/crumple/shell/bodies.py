@@ -10,8 +10,9 @@ import numpy as np
 from crumple.errors import InputError, Problem
 from crumple.shell.contour import Floats, Integers
 from crumple.shell.joints import Joint
-from crumple.shell.mesh import Mesh
+from crumple.shell.mesh import Mesh, clamped_nodes
 from crumple.shell.rigid_parts import Group, groups_of
+from crumple.shell.welds import spot_welds
 from crumple.structure import FREEDOMS, Structure
 
 TRANSLATIONS, ROTATIONS = set(FREEDOMS[:3]), set(FREEDOMS[3:])
@@ -64,15 +65,20 @@ class Body:
         return parts[0] if len(parts) == 1 else combined(parts, self.place)
 
 
-def bodies_of(structure: Structure, mesh: Mesh) -> tuple[Body, ...]:
-    """Rigid bodies.
+def bodies_of(structure: Structure, mesh: Mesh, weld_pitch: float | None = None) -> tuple[Body, ...]:
+    """Rigid bodies: those of sections and rigid parts, then spot welds, one each.
 
     Raises
     ------
     InputError
         If a rigid part is too short, or supports hold it in a way that shells cannot follow.
     """
-    return tuple(_body(structure, mesh, group) for group in groups_of(structure, mesh))
+    bodies = [_body(structure, mesh, group) for group in groups_of(structure, mesh)]
+    spots = spot_welds(mesh, weld_pitch)
+    taken = np.zeros(len(mesh.position), dtype=bool)
+    taken[[*clamped_nodes(mesh), *(node for body in bodies for node in body.nodes)]] = True
+    free = spots[~taken[spots].any(axis=1)]
+    return (*bodies, *(Body({}, spot, mesh.position[spot[-1]], (), None, False) for spot in free))
 
 
 def body_numbers(bodies: Iterable[Body]) -> dict[str, int]:

@@ -32,14 +32,9 @@ def contour_of(section: Section, size: float) -> Contour:
     Parameters
     ----------
     section
-        A tube, or walls without spot welds.
+        A tube, or walls.
     size
         Wished length of a side [m].
-
-    Raises
-    ------
-    InputError
-        If the section has spot welds.
     """
     if isinstance(section, WalledSection):
         return walled_contour(section, size)

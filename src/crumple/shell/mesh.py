@@ -120,6 +120,17 @@ class Mesh:
         return "no member"
 
 
+def clamped_nodes(mesh: Mesh) -> Integers:
+    """Nodes of the sections at clamps."""
+    rings = [
+        mesh.end_ring(end.member, end.second)
+        for joint in mesh.joints.values()
+        if joint.kind is Kind.CLAMPED
+        for end in joint.ends
+    ]
+    return np.unique(np.concatenate([np.zeros(0, dtype=np.int64), *rings]))
+
+
 def mesh_of(structure: Structure, settings: ShellSettings, outputs: Outputs | None = None) -> Mesh:
     """Mesh a structure.
 

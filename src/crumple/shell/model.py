@@ -20,8 +20,7 @@ from crumple._core.shell import ShellSettings as CoreSettings
 from crumple.shell.bodies import Body, bodies_of
 from crumple.shell.contour import Integers, triple
 from crumple.shell.drives import loads_of, motions_of
-from crumple.shell.joints import Kind
-from crumple.shell.mesh import Mesh, mesh_of
+from crumple.shell.mesh import Mesh, clamped_nodes, mesh_of
 from crumple.shell.metal import shell_material
 from crumple.shell.obstacles import obstacles_of, refuse_walls_inside
 from crumple.shell.places import HingeZone, SupportCut, hinge_zones, support_cut
@@ -94,7 +93,7 @@ def lower(
     stage = stage or Stage(name="run", duration=duration)
     mesh = mesh_of(structure, settings, outputs)
     report = report_of(structure, mesh)
-    bodies = bodies_of(structure, mesh)
+    bodies = bodies_of(structure, mesh, settings.weld_pitch)
     first = {
         "initial_velocity": structure.initial_velocity + stage.initial_velocity,
         "impulses": structure.impulses + stage.impulses,
@@ -165,10 +164,7 @@ def _sheets(
 def _fixed(mesh: Mesh, bodies: tuple[Body, ...]) -> NDArray[np.bool_]:
     """Freedoms of nodes that are held: of clamped sections, but for those of a body, which is held itself."""
     fixed = np.zeros((len(mesh.position), 6), dtype=bool)
-    for joint in mesh.joints.values():
-        if joint.kind is Kind.CLAMPED:
-            for end in joint.ends:
-                fixed[mesh.end_ring(end.member, end.second)] = True
+    fixed[clamped_nodes(mesh)] = True
     for body in bodies:
         fixed[body.nodes] = False
     return fixed

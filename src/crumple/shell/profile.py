@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,12 +33,15 @@ class Contour:
         Of every side [m], (k,).
     metals
         Of every side, None where it is the member's; empty: all are.
+    welds
+        Pairs of points that lines of spot welds tie, (w, 2).
     """
 
     points: Floats
     sides: Integers
     thickness: Floats
     metals: tuple[Material | None, ...] = ()
+    welds: Integers = field(default_factory=lambda: np.zeros((0, 2), dtype=np.int64))
 
     def metals_of(self, member: Material) -> tuple[Material, ...]:
         """Metal of every side of a member of a metal, (k,)."""

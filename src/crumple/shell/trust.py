@@ -61,6 +61,9 @@ def assumptions(structure: Structure, lowered: Lowered, settings: ShellSettings)
             found.append(f"The ends of {members} at node {node} are cut back and move as one rigid body.")
         elif joint.is_body:
             found.append(f"The section at node {node} is rigid.")
+    spots = sum(not body.lumps and not body.stretch for body in lowered.bodies)
+    if spots:
+        found.append(f"{spots} spot welds tie pairs of nodes rigidly and do not fail.")
     for name, member in structure.members.items():
         length = structure.frame_of(name).length
         found += [

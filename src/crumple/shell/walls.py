@@ -9,7 +9,6 @@ from itertools import pairwise
 
 import numpy as np
 
-from crumple.errors import InputError, Problem
 from crumple.material import Material
 from crumple.section.bends import Piece
 from crumple.section.skeleton import Skeleton
@@ -26,16 +25,10 @@ def walled_contour(section: WalledSection, size: float) -> Contour:
     Parameters
     ----------
     section
-        Walls without spot welds.
+        Walls and lines of spot welds.
     size
         Wished length of a side [m].
-
-    Raises
-    ------
-    InputError
-        If the section has spot welds.
     """
-    _check(section)
     skeleton = section.skeleton
     node = list(skeleton.nodes)
     same = list(range(len(node)))
@@ -63,23 +56,24 @@ def walled_contour(section: WalledSection, size: float) -> Contour:
         sides += list(pairwise(chain))
         thickness += [piece.thickness] * number
         metals += [section.walls[piece.wall].material] * number
+    welds = [
+        [index[_root(same, int(end))] for end in ends]
+        for piece, ends in zip(skeleton.pieces, skeleton.ends, strict=True)
+        if piece.wall < 0
+    ]
     about = np.array(points) - complex(*section.properties.centroid)
     middle = np.column_stack([about.real, about.imag])
-    return Contour(middle, np.array(sides), np.array(thickness), tuple(metals))
-
-
-def _check(section: WalledSection) -> None:
-    if section.welds:
-        what, todo = "the shell solver cannot mesh spot welds so far", "let the walls share points instead"
-        came = f"{len(section.welds)} lines of welds"
-        raise InputError(Problem(what, came, "walls that meet", todo, "sections"))
+    tied = np.array(welds, dtype=np.int64).reshape(-1, 2)
+    return Contour(middle, np.array(sides), np.array(thickness), tuple(metals), tied)
 
 
 def _edges(skeleton: Skeleton) -> list[tuple[Piece, int, int]]:
-    """Pieces with the numbers of their ends, the short arcs of one bend as one."""
+    """Pieces with the numbers of their ends, the short arcs of one bend as one; welds are none."""
     degree = np.bincount(skeleton.ends.reshape(-1))
     edges: list[tuple[Piece, int, int]] = []
     for piece, (first, second) in zip(skeleton.pieces, skeleton.ends.tolist(), strict=True):
+        if piece.wall < 0:
+            continue
         if edges and edges[-1][2] == first and degree[first] == 2 and _goes_on(edges[-1][0], piece):
             before, start, _ = edges[-1]
             edges[-1] = (replace(before, end=piece.end), start, second)

@@ -56,6 +56,8 @@ class ShellSettings(Spec):
     with triangles where both meet."""
     fine_at: tuple[FinePlace, ...] = ()
     """Further places with a fine mesh."""
+    weld_pitch: PositiveLength | None = None
+    """Distance of the spots along lines of spot welds; without it every node of a line is tied."""
     imperfection: NonNegativeLength = 0.0
     """Largest distance by which nodes of walls lie beside their place, each by another one: without any, a
     perfect mesh under axial load folds as no real tube does."""

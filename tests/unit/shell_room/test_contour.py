@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from crumple.errors import InputError
 from crumple.section import CircularTube, RectangularTube, Wall, WallSection, Weld, outline_section
 from crumple.shell.contour import contour_of
 
@@ -87,9 +86,13 @@ def test_bends_of_a_channel(radius, sides):
     assert contour.area == pytest.approx(channel.area, rel=0.02)
 
 
-def test_spot_welds_are_refused():
+def test_lines_of_spot_welds_tie_points_of_both_sheets():
     flat = Wall(((-0.03, 0.0), (0.03, 0.0)), 2e-3)
     other = Wall(((-0.03, 2e-3), (0.03, 2e-3)), 2e-3)
     welded = WallSection((flat, other), (Weld((-0.02, 0.0), (-0.02, 2e-3)), Weld((0.02, 0.0), (0.02, 2e-3))))
-    with pytest.raises(InputError, match="cannot mesh spot welds"):
-        contour_of(welded, 5e-3)
+    contour = contour_of(welded, 5e-3)
+    assert contour.points[contour.welds][..., 0] == pytest.approx(np.array([[-0.02, -0.02], [0.02, 0.02]]))
+    assert np.ptp(contour.points[contour.welds][..., 1], axis=1) == pytest.approx(2e-3)
+    assert contour.area == pytest.approx(2 * 60e-3 * 2e-3, rel=1e-9)
+    # a weld is no wall
+    assert len(contour.sides) == 2 * (2 + 8 + 2)
