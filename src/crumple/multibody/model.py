@@ -22,7 +22,7 @@ from crumple.hinge import Envelope, Form, HingeRecord, SofteningVariable, Stop
 from crumple.multibody.mechanism import GROUND, Mechanism
 from crumple.multibody.rigid import Floats
 from crumple.multibody.sampling import sampled, sampled_motion
-from crumple.multibody.start import Start, motion_of, moving_parts
+from crumple.multibody.start import Start, motion_of, moving_parts, refuse_speeding
 from crumple.structure import Structure
 
 FORMS = {Form.SET_VALUED: 0, Form.ELASTIC_PLASTIC: 1, Form.REGULARISED: 2}
@@ -114,6 +114,7 @@ def start_of(structure: Structure, mechanism: Mechanism) -> Start:
             *linear,
         )
     inertia = np.array([[plane.normal @ b.inertia @ plane.normal, b.mass, b.mass] for b in mechanism.bodies])
+    refuse_speeding((momentum / inertia.reshape(n, 3))[:, 1:], impulse[:, 1:], inertia.reshape(n, 3)[:, 1])
     parts = np.array([mechanism.parts_of(body) for body in range(n)])
     velocity = momentum / (parts[:, None] * inertia.reshape(n, 3))
     impulse /= parts[:, None]

@@ -77,7 +77,7 @@ def with_obstacles(
     """
     if not structure.obstacles and structure.member_contact is None:
         return Touching(model, {}, owners, np.zeros((0, 3)))
-    capsules, member = _capsules(structure, linkage)
+    capsules, member = member_capsules(structure, linkage)
     bodies, joints, drives, names = list(model.bodies), list(model.joints), list(model.drives), list(owners)
     light = LIGHT * sum(body.mass for body in bodies)
     obstacles, velocity, joint = [], [], {}
@@ -101,7 +101,7 @@ def with_obstacles(
     pairs = SpaceContact()
     if contact is not None:
         pairs = SpaceContact(
-            tuple(_pairs(structure, capsules, member)), contact.friction, contact.restitution
+            tuple(touching_pairs(structure, capsules, member)), contact.friction, contact.restitution
         )
     touching_model = replace(
         model,
@@ -176,7 +176,7 @@ def _travel(obstacle: Obstacle, duration: float) -> tuple[Floats, Floats]:
     return union, np.stack([np.interp(union, times, rates) for times, rates in parts], axis=1)
 
 
-def _capsules(structure: Structure, linkage: Linkage) -> tuple[list[SpaceCapsule], list[str]]:
+def member_capsules(structure: Structure, linkage: Linkage) -> tuple[list[SpaceCapsule], list[str]]:
     """Capsules of all pieces that move, and the member of each."""
     ends = Counter(node for member in structure.members.values() for node in member.nodes)
     capsules, owner = [], []
@@ -212,7 +212,7 @@ def _rows(outline: Floats) -> tuple[Floats, float]:
     return np.array([centre - apart, centre + apart]), radius
 
 
-def _pairs(
+def touching_pairs(
     structure: Structure, capsules: list[SpaceCapsule], member: list[str]
 ) -> Iterator[tuple[int, int]]:
     """Capsules of members that share no node, on different bodies."""

@@ -9,11 +9,15 @@ from typing import Protocol
 
 import numpy as np
 
+from crumple.errors import InputError, Problem
 from crumple.multibody.assembly import Piece
 from crumple.multibody.linkage import GROUND, Linkage
 from crumple.multibody.rigid import Floats, RigidMass, lump_mass, piece_mass
 from crumple.structure import InitialVelocity, NodalImpulse, Structure
 from crumple.structure.geometry import cross
+
+FASTEST = 1e5
+"""Speed [m/s] that an impulse may give a part before joints slow it."""
 
 
 class Parts(Protocol):
@@ -78,7 +82,20 @@ def start_in_space(
         np.concatenate([np.linalg.solve(body.inertia, about), along / body.mass])
         for body, about, along in zip(linkage.bodies, spin, momentum, strict=True)
     ]
-    return Start(np.array(twists).reshape(n, 6), impulse, energy)
+    velocity = np.array(twists).reshape(n, 6)
+    masses = np.array([body.mass for body in linkage.bodies])
+    refuse_speeding(velocity[:, 3:], impulse[:, 3:], masses)
+    return Start(velocity, impulse, energy)
+
+
+def refuse_speeding(velocity: Floats, impulse: Floats, mass: Floats) -> None:
+    """Refuse impulses that throw a part so fast that its motion would never be followed to the end."""
+    speed = np.linalg.norm(velocity + impulse / mass[:, None], axis=1)
+    if speed.size and float(speed.max()) > FASTEST:
+        part = float(mass[speed.argmax()])
+        what = f"the impulses throw a part of {part:.3g} kg at {float(speed.max()):.3g} m/s"
+        todo = "take smaller impulses, or more mass where they act"
+        raise InputError(Problem(what, "", f"at most {FASTEST:g} m/s", todo, "impulses"))
 
 
 def moving_parts(

@@ -9,6 +9,7 @@ import numpy as np
 from crumple.hinge import Form, Freedom, SofteningVariable, tributary_stiffness
 from crumple.multibody.linkage import link
 from crumple.multibody.mobility import free_parts
+from crumple.multibody.overlap import overlap_warnings
 from crumple.multibody.solved import Solved, Solver
 from crumple.result import HingeSummary
 from crumple.structure import PlacedHinge, Structure
@@ -80,6 +81,7 @@ def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solv
         for text in _of_hinge(structure, hinge, hinges[hinge.name]):
             by_text.setdefault(text, []).append(hinge.name)
     found += [f"{_named(names)}: {text}" for text, names in by_text.items()]
+    found += overlap_warnings(structure, tuple(placed))
     found += _inaccurate(hinges, largest)
     found += [
         f"Material {name}: {spec.statement}" for name, spec in structure.materials.items() if spec.statement

@@ -45,6 +45,14 @@ def automatic_of(structure: Structure, member: str) -> AutomaticHinges | None:
     return None if own else structure.hinges
 
 
+def where_automatic(structure: Structure, member: str) -> str | None:
+    """Path of what `automatic_of` finds for a member; None where its hinges are given one by one."""
+    if automatic_of(structure, member) is None:
+        return None
+    own = isinstance(structure.members[member].hinges, AutomaticHinges)
+    return f"members.{member}.hinges" if own else "hinges"
+
+
 def any_automatic(structure: Structure) -> bool:
     """Whether hinges of any member find their places by themselves."""
     return any(automatic_of(structure, member) is not None for member in structure.members)

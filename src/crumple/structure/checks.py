@@ -18,6 +18,7 @@ from crumple.structure.hinge_axes import AxisLaws, HingeAxes
 from crumple.structure.hinge_checks import inertia_problems, place_problems
 from crumple.structure.joint_checks import bare_node_problems, joint_problems
 from crumple.structure.law import LAW_SPECS
+from crumple.structure.member import AutomaticHinges
 from crumple.structure.obstacle_checks import obstacle_problems
 from crumple.structure.outputs import Outputs
 from crumple.structure.problems import one_of, outside, shown, suggestion, unknown
@@ -133,6 +134,8 @@ def shell_problems(
 def _names(structure: Structure, known: Known) -> Iterator[Problem]:
     """Names that members refer to."""
     laws = {*known["hinge_laws"], *LAW_SPECS}
+    if structure.hinges is not None:
+        yield from _unknown_laws(structure.hinges, laws, "hinges")
     for name, member in structure.members.items():
         where = f"members.{name}"
         for i, node in enumerate(member.nodes):
@@ -140,6 +143,8 @@ def _names(structure: Structure, known: Known) -> Iterator[Problem]:
         yield from unknown("section", member.section, known["sections"], f"{where}.section")
         yield from unknown("material", member.material, known["materials"], f"{where}.material")
         yield from _unknown_laws(member.bars, laws, f"{where}.bars")
+        if isinstance(member.hinges, AutomaticHinges):
+            yield from _unknown_laws(member.hinges, laws, f"{where}.hinges")
         for i, hinge in enumerate(member.given_hinges):
             yield from _unknown_laws(hinge, laws, f"{where}.hinges[{i}]")
             if isinstance(hinge.at, str) and hinge.at not in member.nodes:

@@ -27,15 +27,18 @@ APART = 1e-6
 def place_problems(structure: Structure, known: Mapping[str, set[str]]) -> Iterator[Problem]:
     """Places, names and laws of hinges."""
     where: dict[str, list[str]] = defaultdict(list)
+    told: list[Problem] = []
     for name in sound_members(structure):
         places, length = member_hinge_places(structure, name), structure.frame_of(name).length
         for place in places:
             where[place.name].append(place.where)
             if not -APART * length <= place.station <= length * (1.0 + APART):
                 yield outside(f"{place.where}.at", place.station, length)
-        # one message for the many hinges between equal bars
+        # one message for the many hinges between equal bars, and for those of a wish for many members
         for place in {(place.where, place.axis): place for place in places}.values():
-            yield from _law_problems(structure, place)
+            found = [problem for problem in _law_problems(structure, place) if problem not in told]
+            told += found
+            yield from found
         for first, second in pairwise(places):
             if second.station - first.station < APART * length:
                 what = (

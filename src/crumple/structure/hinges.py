@@ -19,7 +19,7 @@ from crumple.errors import InputError, Problem
 from crumple.hinge import Form, HingeLaw, HingeRecord, SofteningVariable, SpatialHingeRecord, Stop
 from crumple.material import Material
 from crumple.section import Axis, Section, half_fold_length
-from crumple.structure.automatic import hinges_of
+from crumple.structure.automatic import hinges_of, where_automatic
 from crumple.structure.bending import bending_axis
 from crumple.structure.geometry import Floats
 from crumple.structure.hinge_axes import HingeAxes
@@ -124,9 +124,10 @@ def member_hinge_places(structure: Structure, member: str) -> list[HingePlace]:
         _place(f"{member}-{i}", member, length * i / bars.number, bars, f"{where}.bars", axis)
         for i in range(1, bars.number)
     ]
+    automatic = where_automatic(structure, member)
     for i, given in enumerate(hinges_of(structure, member)):
         station = hinge_station(structure, member, given)
-        places.append(_place(given.name, member, station, given, f"{where}.hinges[{i}]", axis))
+        places.append(_place(given.name, member, station, given, automatic or f"{where}.hinges[{i}]", axis))
     return sorted(places, key=lambda place: place.station)
 
 

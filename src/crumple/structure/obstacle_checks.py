@@ -108,6 +108,7 @@ def stage_problems(
         problems += _thrown(stage, structure, where) if i == 0 else ()
         for j, name in enumerate(stage.drive or ()):
             problems += unknown("obstacle or support", name, moving, f"{where}.drive[{j}]")
+            problems += _driven(name, structure, f"{where}.drive[{j}]")
         for j, name in enumerate(stage.obstacles or ()):
             problems += unknown("obstacle", name, obstacles, f"{where}.obstacles[{j}]")
         for j, until in enumerate(stage.until):
@@ -125,6 +126,8 @@ def stage_problems(
             for k, member in enumerate(field.members or ()):
                 place = f"{where}.initial_velocity[{j}].members[{k}]"
                 problems += unknown("member", member, names("members"), place)
+        whole = moving == {*structure.supports, *structure.obstacles}
+        problems += _pushing(stage, structure, where) if i == 0 and whole and not problems else ()
     return problems
 
 
@@ -136,6 +139,34 @@ def _thrown(stage: Stage, structure: Structure, where: str) -> Iterator[Problem]
             what = f"the obstacle '{name}' has a velocity that a quasi-static stage cannot carry"
             todo = "make the stage dynamic, or drive the obstacle: take its mass away"
             yield Problem(what, name, "a driven obstacle, or a mass at rest", todo, f"{where}.kind")
+
+
+def _driven(name: str, structure: Structure, where: str) -> Iterator[Problem]:
+    """What a stage drives although it has no prescribed motion."""
+    support, obstacle = structure.supports.get(name), structure.obstacles.get(name)
+    kind, part = ("support", support) if support is not None else ("obstacle", obstacle)
+    if part is None or part.driven:
+        return
+    if obstacle is not None and obstacle.mass is not None:
+        what, todo = f"the obstacle '{name}' has a mass and is not driven", "take its mass away, or this name"
+    else:
+        what, todo = f"the {kind} '{name}' is not driven", "add 'motion' to it, or take this name away"
+    yield Problem(what, name, "an obstacle or a support with a prescribed motion", todo, where)
+
+
+def _pushing(stage: Stage, structure: Structure, where: str) -> Iterator[Problem]:
+    """A first quasi-static stage in which nothing pushes; later ones may let elastic parts spring back."""
+    if stage.kind == "dynamic" or structure.loads or any(structure.gravity):
+        return
+    parts = {**structure.supports, **structure.obstacles}
+    if not any(part.driven for name, part in parts.items() if stage.drive is None or name in stage.drive):
+        key = "kind" if stage.drive is None else "drive"
+        came = stage.kind if stage.drive is None else f"[{', '.join(stage.drive)}]"
+        what, todo = (
+            "nothing pushes in this quasi-static stage",
+            "drive an obstacle or a support, or add a load",
+        )
+        yield Problem(what, came, "a prescribed motion, a load or gravity", todo, f"{where}.{key}")
 
 
 def _until_problems(until: Until, stage: Stage, structure: Structure, where: str) -> Iterator[Problem]:

@@ -74,7 +74,8 @@ class Stage(Spec):
     until: tuple[Until, ...] = ()
     """Conditions; the first that is met ends it."""
     drive: tuple[Name, ...] | None = None
-    """Obstacles and supports whose prescribed motion runs; the others stay where they are. Without it all."""
+    """Obstacles and supports whose prescribed motion runs; the others stay where they are. Without it
+    all run, with an empty list none."""
     obstacles: tuple[Name, ...] | None = None
     """Obstacles that are there; without it all."""
     initial_velocity: tuple[InitialVelocity, ...] = ()

@@ -56,3 +56,11 @@ def test_what_loads_move_freely_ends_with_a_status(parts, says):
     assert "nothing but inertia resists" in result.reason
     assert says in result.reason
     assert np.isfinite(result["energy.external_work"]).all()
+
+
+def test_impulses_beyond_every_crash_are_refused():
+    clamp = {"supports": {"clamp": {"node": "root", "fix": "pin"}}}
+    blow = {"impulses": [{"node": "tip", "impulse": (0.0, 0.0, 1e7)}]}
+    with pytest.raises(InputError, match="the impulses throw a part") as refused:
+        solve_multibody(bar(**clamp, **blow), Run(0.01, 0.01))
+    assert refused.value.problems[0].where == "impulses"

@@ -92,3 +92,21 @@ def test_names_of_stations_increase_along_the_member():
 def test_what_is_not_a_way_of_placing_them_is_refused(hinges):
     with pytest.raises(InputError):
         frame(hinges)
+
+
+MISTAKES = {
+    "unknown law": ({"law": "nix"}, "no hinge law 'nix'"),
+    "law that does not fit": (
+        {"law": {"type": "table", "rotation": (0.0, 1.0), "moment": (1.0, -1.0)}},
+        "capacities must be positive",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_a_mistake_for_all_members_is_told_once(name):
+    wish, says = MISTAKES[name]
+    with pytest.raises(InputError, match=says) as refused:
+        frame(hinges=wish)
+    (problem,) = refused.value.problems
+    assert problem.where == "hinges.law"

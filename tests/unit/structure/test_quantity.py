@@ -66,3 +66,11 @@ def test_numbers_of_numpy_are_numbers(kind):
         accepted(quantity.Length, kind(2), context=FILE)
     with pytest.raises(ValidationError):
         accepted(quantity.Length, np.bool_(True))
+
+
+@pytest.mark.parametrize("value", ["1.1 km/s", "-1.1 km/s", 1e6])
+def test_velocities_beyond_every_crash_are_refused(value):
+    with pytest.raises(ValidationError) as refusal:
+        accepted(quantity.Velocity, value)
+    assert "1000 m/s" in refusal.value.errors()[0]["ctx"]["allowed"]
+    assert accepted(quantity.Velocity, "-1 km/s") == -1000.0

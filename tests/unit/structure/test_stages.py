@@ -92,9 +92,43 @@ def test_sound_stages_have_no_problem(keys):
 
 def test_thrown_mass_needs_inertia(keys):
     ram = {**RAM, "mass": 5.0}
-    structure = Structure(**keys, obstacles={"ram": ram, "wall": WALL})
+    press = {**RAM, "point": (0, 0, 0.5)}
+    structure = Structure(**keys, obstacles={"ram": ram, "wall": WALL, "press": press})
     push = Stage(name="push", kind="quasi-static", duration=1.0)
     (problem,) = stage_problems((push,), structure)
     assert "'ram' has a velocity" in problem.what
     assert stage_problems((push.model_copy(update={"obstacles": ("wall",)}),), structure) == []
     assert stage_problems((push.model_copy(update={"kind": "dynamic"}),), structure) == []
+
+
+HEAVY = {**RAM, "point": (0, 0, 0.5), "mass": 5.0}
+IDLE = {
+    "fixed": ("dynamic", ("wall",), "drive[0]", "the obstacle 'wall' is not driven"),
+    "held": ("dynamic", ("clamp",), "drive[0]", "the support 'clamp' is not driven"),
+    "with a mass": ("dynamic", ("heavy",), "drive[0]", "'heavy' has a mass and is not driven"),
+    "empty": ("quasi-static", (), "drive", "nothing pushes"),
+}
+
+
+@pytest.mark.parametrize("name", IDLE)
+def test_drives_that_do_nothing_are_refused(name, keys):
+    kind, drive, where, says = IDLE[name]
+    obstacles = {"ram": RAM, "wall": WALL, "heavy": HEAVY}
+    structure = Structure(**keys, obstacles=obstacles)
+    there = ("ram", "wall")
+    stage = Stage(name="push", kind=kind, duration=1.0, drive=drive, obstacles=there)
+    (problem,) = stage_problems((stage,), structure)
+    assert problem.where == f"analysis.stages[0].{where}"
+    assert says in problem.what
+    # rams that rest in an impact, and an elastic structure that springs back
+    resting = stage.model_copy(update={"kind": "dynamic", "drive": ()})
+    later = stage.model_copy(update={"name": "back", "kind": "quasi-static", "drive": ()})
+    assert stage_problems((resting, later), structure) == []
+
+
+def test_first_push_needs_something_that_pushes(keys):
+    push = Stage(name="push", kind="quasi-static", duration=1.0)
+    (problem,) = stage_problems((push,), Structure(**keys, obstacles={"wall": WALL}))
+    assert "nothing pushes" in problem.what
+    load = {"node": "tip", "force": {"z": "1 kN"}}
+    assert stage_problems((push,), Structure(**keys, loads=[load])) == []

@@ -1,0 +1,75 @@
+"""Members that overlap at the start and may touch: told, since the kernel takes overlap as it stands."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from crumple.multibody.linkage import link
+from crumple.multibody.obstacle_bodies import member_capsules, touching_pairs
+from crumple.multibody.rigid import Floats
+from crumple.structure import PlacedHinge, Structure
+
+JOINED = 0.1
+"""Share of the radii within which centre lines meet: as in native/space/contacts.cpp."""
+LEAST = 1e-6
+"""Overlap [m] that is rounding of the input."""
+
+
+def overlap_warnings(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> tuple[str, ...]:
+    """A sentence for members that overlap, and one for those that cross and so never touch."""
+    if structure.member_contact is None:
+        return ()
+    deepest: dict[tuple[str, str], float] = {}
+    crossing: set[tuple[str, str]] = set()
+    capsules, owner = member_capsules(structure, link(structure, hinges))
+    for i, j in touching_pairs(structure, capsules, owner):
+        first, second = capsules[i], capsules[j]
+        radii = first.radius + second.radius
+        apart = segment_distance((first.first, first.second), (second.first, second.second))
+        names = (owner[i], owner[j])
+        if apart < JOINED * radii:
+            crossing.add(names)
+        elif radii - apart > LEAST:
+            deepest[names] = max(deepest.get(names, 0.0), radii - apart)
+    found = []
+    if crossing:
+        found.append(
+            f"{_pairs(sorted(crossing))} cross at the start although they share no node: "
+            "they never touch each other."
+        )
+    told = {names: depth for names, depth in deepest.items() if names not in crossing}
+    if told:
+        found.append(
+            f"{_pairs(sorted(told))} overlap at the start by up to {1e3 * max(told.values()):.3g} mm: "
+            "contact takes that as no gap; move them apart, or join them at a node."
+        )
+    return tuple(found)
+
+
+def segment_distance(first: tuple[Floats, Floats], second: tuple[Floats, Floats]) -> float:
+    """Least distance of two segments [m]: inside both, or from an end of one to the other."""
+    a, b = (np.asarray(end[1], float) - end[0] for end in (first, second))
+    between = np.asarray(second[0], float) - first[0]
+    normal = np.cross(a, b)
+    square = float(normal @ normal)
+    if square > 0.0:
+        s = float(np.cross(between, b) @ normal) / square
+        t = float(np.cross(between, a) @ normal) / square
+        if 0.0 <= s <= 1.0 and 0.0 <= t <= 1.0:
+            return abs(float(between @ normal)) / float(np.sqrt(square))
+    ends = [(point, second) for point in first] + [(point, first) for point in second]
+    return min(_from_point(point, segment) for point, segment in ends)
+
+
+def _from_point(point: Floats, segment: tuple[Floats, Floats]) -> float:
+    start, along = np.asarray(segment[0], float), np.asarray(segment[1], float) - segment[0]
+    square = float(along @ along)
+    share = min(max(float((point - start) @ along) / square, 0.0), 1.0) if square > 0.0 else 0.0
+    return float(np.linalg.norm(point - start - share * along))
+
+
+def _pairs(names: list[tuple[str, str]]) -> str:
+    most = 4
+    shown = [f"{first} and {second}" for first, second in names[:most]]
+    rest = [f"{len(names) - most} more pairs"] if len(names) > most else []
+    return f"Members {', '.join([*shown, *rest])}"

@@ -1,0 +1,56 @@
+"""Members that overlap at the start where members touch: told by name."""
+
+import numpy as np
+import pytest
+from tests.verification.structures import STEEL
+
+from crumple.multibody import Run, solve_multibody
+from crumple.multibody.overlap import segment_distance
+from crumple.structure import Structure
+
+SQUARE = {"type": "square_tube", "side": 0.05, "thickness": 0.003}
+
+
+def two_bars(height, contact=True):
+    """One bar above another at right angles, their centre lines `height` apart [m]."""
+    nodes = {"a": (0, 0, 0), "b": (1, 0, 0), "c": (0.5, -0.5, height), "d": (0.5, 0.5, height)}
+    bar = {"section": "tube", "material": "steel"}
+    return Structure(
+        materials={"steel": STEEL},
+        sections={"tube": SQUARE},
+        nodes=nodes,
+        members={"low": {"nodes": ("a", "b"), **bar}, "high": {"nodes": ("c", "d"), **bar}},
+        member_contact={} if contact else None,
+    )
+
+
+@pytest.mark.parametrize(
+    ("height", "says"),
+    [
+        (0.06, None),
+        (0.04, "Members low and high overlap at the start by up to 10 mm"),
+        (0.002, "Members low and high cross at the start"),
+    ],
+)
+def test_overlap_is_told(height, says):
+    result = solve_multibody(two_bars(height), Run(0.001, 0.001))
+    told = [text for text in result.warnings if "at the start" in text]
+    assert len(told) == (says is not None)
+    assert says is None or told[0].startswith(says)
+
+
+def test_without_contact_nothing_overlaps():
+    result = solve_multibody(two_bars(0.04, contact=False), Run(0.001, 0.001))
+    assert not [text for text in result.warnings if "at the start" in text]
+
+
+def test_distance_of_segments_is_the_least_of_many_places():
+    random = np.random.default_rng(7)
+    share = np.linspace(0.0, 1.0, 201)[:, None]
+    for _ in range(50):
+        ends = random.normal(size=(4, 3)) * random.choice([0.3, 1.0])
+        places = [a + share * (b - a) for a, b in (ends[:2], ends[2:])]
+        least = np.linalg.norm(places[0][:, None] - places[1][None], axis=2).min()
+        found = segment_distance((ends[0], ends[1]), (ends[2], ends[3]))
+        assert found <= least + 1e-12
+        assert found == pytest.approx(least, abs=0.02)
