@@ -81,6 +81,14 @@ bool Simulation::touched_soon(const Critical& c) const {
     return gap <= 0 && gap + 2 * h_ * std::fabs(state_.rate[k]) > 0;
 }
 
+// After an accepted step of length h: dampers of stops that may be touched in the next one, and what followers need.
+void Simulation::end_stride(double h) {
+    std::vector<bool> soon;
+    for (const Critical& c : critical_) soon.push_back(touched_soon(c));
+    set_critical_damping(soon);
+    if (journey_) journey_->push_back({h, state_.t, passes_, soon});
+}
+
 void Simulation::set_critical_damping(const std::vector<bool>& which) {
     for (size_t i = 0; i < critical_.size(); i++) {
         const Critical& c = critical_[i];
@@ -226,10 +234,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
             record.ended_by = which;
             return false;
         }
-        std::vector<bool> soon;
-        for (const Critical& c : critical_) soon.push_back(touched_soon(c));
-        set_critical_damping(soon);
-        if (journey_) journey_->push_back({h, state_.t, passes_, soon});
+        end_stride(h);
     }
     return true;
 }

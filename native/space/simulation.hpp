@@ -78,6 +78,7 @@ private:
     };
     void set_damping();
     void prepare(double end);
+    void end_stride(double h);
     bool touched_soon(const Critical& stop) const;
     void set_critical_damping(const std::vector<bool>& which);
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
