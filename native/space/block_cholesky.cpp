@@ -11,34 +11,56 @@ namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
+// Rows of a node, at most: six of a joint.
+constexpr int most_block = 6;
+
 // Sizes known to the compiler for the commonest block, six rows.
 template <int N>
 struct Fixed {
     operator int() const { return N; }
 };
 
-// target (n x m) -= a (n x k) b (m x k)^T
+// Rows of the later node are contiguous in a block, so that the innermost loops run over them without sums.
+// target (m x n) -= b (k x m)^T a (k x n)
 template <class N, class M, class K>
 inline void subtract_product(double* target, const double* a, const double* b, N n, M m, K k) {
-    for (int i = 0; i < n; i++) {
-        for (int j = 0; j < m; j++) {
-            double s = 0;
-            for (int l = 0; l < k; l++) s += a[i * k + l] * b[j * k + l];
-            target[i * m + j] -= s;
+    for (int j = 0; j < m; j++) {
+        double row[most_block];
+        for (int i = 0; i < n; i++) row[i] = target[j * n + i];
+        for (int l = 0; l < k; l++) {
+            for (int i = 0; i < n; i++) row[i] -= b[l * m + j] * a[l * n + i];
         }
+        for (int i = 0; i < n; i++) target[j * n + i] = row[i];
     }
 }
 
-// b (n x k) := b L^-T, L lower triangular (k x k) with reciprocal diagonal
+// b (k x n) := L^-1 b, L lower triangular (k x k) with reciprocal diagonal
 template <class N, class K>
 inline void solve_rows(double* b, const double* lower, const double* reciprocal, N n, K k) {
-    for (int i = 0; i < n; i++) {
-        double* row = b + i * k;
-        for (int j = 0; j < k; j++) {
-            double s = row[j];
-            for (int l = 0; l < j; l++) s -= row[l] * lower[j * k + l];
-            row[j] = s * reciprocal[j];
+    for (int j = 0; j < k; j++) {
+        double* row = b + j * n;
+        for (int l = 0; l < j; l++) {
+            for (int i = 0; i < n; i++) row[i] -= lower[j * k + l] * b[l * n + i];
         }
+        for (int i = 0; i < n; i++) row[i] *= reciprocal[j];
+    }
+}
+
+// other (n) -= b (k x n)^T own (k)
+template <class N, class K>
+inline void carry_forward(double* other, const double* b, const double* own, N n, K k) {
+    for (int l = 0; l < k; l++) {
+        for (int i = 0; i < n; i++) other[i] -= b[l * n + i] * own[l];
+    }
+}
+
+// own (k) -= b (k x n) other (n)
+template <class N, class K>
+inline void carry_back(double* own, const double* b, const double* other, N n, K k) {
+    for (int l = 0; l < k; l++) {
+        double s = 0;
+        for (int i = 0; i < n; i++) s += b[l * n + i] * other[i];
+        own[l] -= s;
     }
 }
 
@@ -212,10 +234,10 @@ void BlockCholesky::solve(double* x) const {
             const int rows = size_[at(below_[p].node)];
             double* other = x + start_[at(below_[p].node)];
             const double* b = &values_[below_[p].block];
-            for (int i = 0; i < rows; i++) {
-                double s = 0;
-                for (int l = 0; l < n; l++) s += b[i * n + l] * own[l];
-                other[i] -= s;
+            if (n == 6 && rows == 6) {
+                carry_forward(other, b, own, Fixed<6>(), Fixed<6>());
+            } else {
+                carry_forward(other, b, own, rows, n);
             }
         }
     }
@@ -226,8 +248,10 @@ void BlockCholesky::solve(double* x) const {
         for (size_t p = first_[k]; p < first_[k + 1]; p++) {
             const int rows = size_[at(below_[p].node)];
             const double *other = x + start_[at(below_[p].node)], *b = &values_[below_[p].block];
-            for (int i = 0; i < rows; i++) {
-                for (int l = 0; l < n; l++) own[l] -= b[i * n + l] * other[i];
+            if (n == 6 && rows == 6) {
+                carry_back(own, b, other, Fixed<6>(), Fixed<6>());
+            } else {
+                carry_back(own, b, other, rows, n);
             }
         }
         for (int j = n - 1; j >= 0; j--) {

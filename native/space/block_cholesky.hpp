@@ -15,7 +15,7 @@ class BlockCholesky {
 public:
     // `size`: rows of every node; `cliques`: sets of nodes that are coupled with one another (all around one body)
     void analyse(const std::vector<int>& size, const std::vector<std::vector<int>>& cliques);
-    // where the block of two coupled nodes starts: row-major, rows of the node that is eliminated later
+    // where the block of two coupled nodes starts: rows of the one that is eliminated later run fastest
     size_t block(int a, int b) const;
     bool later(int a, int b) const { return place_[static_cast<size_t>(a)] > place_[static_cast<size_t>(b)]; }
     double* values() { return values_.data(); }
@@ -35,7 +35,7 @@ private:
         size_t block;
     };
     struct Update {
-        size_t target, a, b;  // target -= a b^T
+        size_t target, a, b;  // target -= b^T a
         int rows_a, rows_b;
     };
     void eliminate(const std::vector<int>& size, std::vector<std::vector<int>>& near);

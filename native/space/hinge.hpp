@@ -91,6 +91,10 @@ void law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, do
 double load_factor(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w);
 // power D(w) that a coupled hinge takes at rates w where it flows
 double power_at_capacity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w);
+// Of a ball or an ellipsoid that slides, rigid and set-valued: the rates at which to linearise next, with the direction of the
+// impulse that the tangent gave and the power of the rates w (in and out) on it.  False where that is no forward motion
+bool round(const SpaceHinge& hinge);
+bool follow_impulse(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* impulse, double* w);
 // scale [N m s or N s] against which an error of a component's impulse counts, at rates w
 double impulse_scale(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, int k);
 // d impulse_i / d ln C_j at fixed rates and ramp (n x n, row i): for implicit differentiation of a converged step

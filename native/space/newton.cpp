@@ -9,15 +9,16 @@ namespace crumple::space {
 
 namespace {
 
-// Whole Newton steps before the guaranteed path is taken; they fail only by cycling, which is rare.
-constexpr int bold_limit = 16;
+// Whole Newton steps before the guaranteed path is taken; they fail only by cycling.
+constexpr int bold_limit = 32;
 // Newton steps per width of the ramps before the step is given up and shortened: a fixed number, and some per hinge,
 // since in the worst case (an impulse on the end of a long chain) hinges lock and let go one at a time.
 constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
 // Widening: from the largest rate down by this factor a time.
 constexpr double narrowing = 1e-1;
-// Relative accuracy of a law's impulse; piecewise linear laws reach rounding, curved ones converge to this.
-constexpr double impulse_tolerance = 1e-9;
+// Relative accuracy of a law's impulse; piecewise linear laws reach rounding, curved ones converge to this.  At widened ramps
+// it only has to show which hinges slide.
+constexpr double impulse_tolerance = 1e-9, widened_tolerance = 1e-1;
 // Energy that a Newton step could still move, relative to the kinetic energy: below it is rounding.
 constexpr double energy_rounding = 1e-14;
 // Energy [J] that is no motion at all: what friction leaves of a speed dies away below the smallest number.
@@ -71,6 +72,7 @@ void Stepper::scale_rate(size_t link, double factor, double* w) const {
 // next, with line search.
 bool Stepper::newton() {
     const int limit = newton_limit + newton_limit_per_hinge * static_cast<int>(frozen_.size());
+    tolerance_ = impulse_tolerance;
     energy_ = 0;
     for (size_t i = 0; i < free_.size(); i++) {
         energy_ += inertia() * (model_.bodies[i].mass * dot(free_[i].v, free_[i].v) + dot(free_[i].w, inertia_[i] * free_[i].w)) / 2;
@@ -91,6 +93,7 @@ bool Stepper::newton() {
     if (!std::isfinite(width)) return false;
     for (bool narrowest = false; !narrowest; width *= narrowing) {
         widen(width, narrowest);
+        tolerance_ = narrowest ? impulse_tolerance : widened_tolerance;
         if (!descend(limit, false)) return false;
     }
     return true;
@@ -237,7 +240,7 @@ bool Stepper::balanced(double& slope) {
             double scale = std::fabs(p[k]);
             if (hinge_of(c)) scale += impulse_scale(*hinge_of(c), frozen_[at(hinge_index(c))], &w_next_[at(first)], k);
             if (is(c, Kind::contact)) scale += struck;
-            if (!(std::fabs(left) <= impulse_tolerance * scale)) all = false;
+            if (!(std::fabs(left) <= tolerance_ * scale)) all = false;
             const double step = left * (w_next_[at(first + k)] - w_[at(first + k)]);
             slope += step;
             moved += std::fabs(step);
@@ -251,6 +254,18 @@ void Stepper::stop_reversing(size_t link) {
     const double *w = &w_[at(start(link))], width = contacts_.frozen(at(connections_[link].index)).width;
     double* next = &w_next_[at(start(link))];
     if (std::hypot(w[1], w[2]) > width && w[1] * next[1] + w[2] * next[2] < 0) next[1] = next[2] = 0;
+}
+
+// Whether a sliding hinge would turn back; if it slides on its next rates follow its impulse.
+bool Stepper::reverses(size_t link) {
+    const size_t first = at(start(link) + system_.links()[link].held);
+    const SpaceHinge* hinge = hinge_of(link);
+    if (hinge && round(*hinge)) return !follow_impulse(*hinge, frozen_[at(hinge_index(link))], &impulse_[first], &w_next_[first]);
+    double along = 0, before[most_components], after[most_components];
+    seen_rate(link, &w_[first], before);
+    seen_rate(link, &w_next_[first], after);
+    for (int k = 0; k < system_.links()[link].laws; k++) along += before[k] * after[k];
+    return along < 0;
 }
 
 // Takes the whole Newton step, except that a hinge which would reverse is first put to rest, and that of
@@ -267,13 +282,10 @@ void Stepper::take_whole_step() {
             stop_reversing(c);
             continue;
         }
-        const bool locked = load(c, &w_[at(first)]) < 1;
-        double along = 0, before[most_components], after[most_components];
-        seen_rate(c, &w_[at(first)], before);
-        seen_rate(c, &w_next_[at(first)], after);
-        for (int k = 0; k < n; k++) along += before[k] * after[k];
-        if (!locked && along < 0) scale_rate(c, 0, &w_next_[at(first)]);
-        if (!locked) continue;
+        if (load(c, &w_[at(first)]) >= 1) {
+            if (reverses(c)) scale_rate(c, 0, &w_next_[at(first)]);
+            continue;
+        }
         const double over = load(c, &w_next_[at(first)]);
         if (over <= 1) continue;
         overload_[c] = over;

@@ -183,6 +183,30 @@ double power_at_capacity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, con
     return point_of(hinge, t, nullptr).value;
 }
 
+bool round(const SpaceHinge& hinge) {
+    const bool smooth = hinge.surface.coupling == Coupling::ball || hinge.surface.coupling == Coupling::ellipsoid;
+    return smooth && coupled(hinge) && hinge.components[0].law.form == Form::set_valued;
+}
+
+// Newton's method on x = y/|y|, the point of the sphere that rates y load, knows directions only as well as |y|: started
+// from rates too small it holds them and can but double |y| a time.  On y = s x, |x| = 1, with x and s as unknowns it takes
+// the direction from the impulse, as on any smooth problem; both have the same solutions and tangents.
+bool follow_impulse(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* impulse, double* w) {
+    if (falls_open(hinge, f)) return true;
+    const int n = size(hinge);
+    const Trial t = trial_of(hinge, f, w);
+    double x[most], square = 0, along = 0;
+    for (int k = 0; k < n; k++) {
+        const multibody::Hinge& one = hinge.components[static_cast<size_t>(k)].law;
+        x[k] = (impulse[k] - multibody::beside_response(one, f.component[k], w[k]).impulse) / (f.h * t.scale[k]);
+        square += x[k] * x[k];
+        along += x[k] * t.y[k];
+    }
+    if (!(along > t.m[0] * std::sqrt(square))) return false;
+    for (int k = 0; k < n; k++) w[k] = (along * x[k] / square / t.scale[k] - f.lead * f.w0[k]) / (1 - f.lead);
+    return true;
+}
+
 double load_factor(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w) {
     if (falls_open(hinge, f)) return std::numeric_limits<double>::infinity();
     const int n = size(hinge);

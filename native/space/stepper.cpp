@@ -88,6 +88,7 @@ void Stepper::link_all() {
     rows_.resize(n);
     for (auto* v : {&error_, &rate0_, &bias_, &target_, &w_, &w_next_, &impulse_, &x_, &work_}) v->assign(n, 0.0);
     overload_.assign(links.size(), 0.0);
+    solved_ = false;
 }
 
 State Stepper::start() {
@@ -314,21 +315,39 @@ void Stepper::freeze(const State& s, double h) {
         frozen_[at(hinge)] = space::freeze(model_.hinges[at(hinge)], s.hinge[at(hinge)], h, &s.turned[k], &rate0_[first + held],
                                            &w_[first + held]);
         space::widen(model_.hinges[at(hinge)], frozen_[at(hinge)], least_width(model_.hinges[at(hinge)]));
+        // once is enough: a hinge that turned back in one pass and on in the next would go on so
+        if (turned_back_[at(hinge)]) frozen_[at(hinge)].lead = 0;
     }
 }
 
 // Whether a coupled hinge came to rest or turned back in a step that took it for sliding on: it weighs its rates otherwise
 // then, see `FrozenSpaceHinge::lead`.
-bool Stepper::turned_back() const {
+bool Stepper::turned_back() {
+    bool any = false;
     for (size_t c = 0; c < connections_.size(); c++) {
         if (!hinge_of(c)) continue;
         const FrozenSpaceHinge& f = frozen_[at(hinge_index(c))];
         if (f.lead == 0) continue;
         double along = 0;
         for (int k = 0; k < size(*hinge_of(c)); k++) along += f.w0[k] * w_[at(start(c) + system_.links()[c].held + k)];
-        if (along <= 0) return true;
+        if (along > 0) continue;
+        turned_back_[at(hinge_index(c))] = true;
+        any = true;
     }
-    return false;
+    return any;
+}
+
+// Rates at the end as guessed.  Those of hinges that the last pass found locked are their shares of the capacity, far below
+// what a guess is good for: they are kept.
+void Stepper::predict_rates() {
+    w_.swap(w_next_);
+    rates(rows_, guess_.data(), w_.data());
+    for (size_t k = 0; k < w_.size(); k++) w_[k] += bias_[k];
+    for (size_t c = 0; solved_ && c < connections_.size(); c++) {
+        const size_t first = at(start(c) + system_.links()[c].held);
+        if (!hinge_of(c) || load(c, &w_next_[first]) >= 1) continue;
+        std::copy_n(&w_next_[first], system_.links()[c].laws, &w_[first]);
+    }
 }
 
 bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
@@ -343,6 +362,9 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
     // true rates at the start
     locate_all(s, s.pose, s.t, rows_, error_.data());
     rates(rows_, s.velocity.data(), rate0_.data());
+    turned_back_.assign(frozen_.size(), false);
+    // a guess comes from a step that has just been solved
+    solved_ = solved_ && guess;
     bool settled = true;
     for (int pass = guess ? 1 : 0; pass < passes || (!settled && pass < most_passes); pass++) {
         // positions, free-flight velocities and loads at the predicted middle
@@ -353,12 +375,12 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
         // directions there, and the rates they must have
         locate_all(s, middle_, s.t + h / 2, rows_, error_.data());
         aim(s, h);
-        rates(rows_, guess_.data(), w_.data());
-        for (size_t k = 0; k < w_.size(); k++) w_[k] += bias_[k];
+        predict_rates();
         // capacities, rate factors and stops
         freeze(s, h);
         // end velocities
-        if (!(followed_ ? follow_pass() : newton())) return false;
+        solved_ = followed_ ? follow_pass() : newton();
+        if (!solved_) return false;
         settled = settle(h);
         settled = !turned_back() && settled;
         if (kept_) keep_pass(settled);

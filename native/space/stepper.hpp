@@ -98,7 +98,8 @@ private:
     void mend_middle(const State& s, double t);
     void rates(const std::vector<Row>& rows, const Twist* v, double* out) const;
     void freeze(const State& s, double h);
-    bool turned_back() const;
+    bool turned_back();
+    void predict_rates();
     // follow.cpp
     void keep_pass(bool settled);
     bool follow_pass();
@@ -112,6 +113,7 @@ private:
     void seen_rate(size_t link, const double* w, double* seen) const;
     void scale_rate(size_t link, double factor, double* w) const;
     void stop_reversing(size_t link);
+    bool reverses(size_t link);
     double search(double slope_end);
     void widen(double width, bool& narrowest);
     void respond(size_t link, const double* w, double* impulse, double* tangent) const;
@@ -140,6 +142,7 @@ private:
     std::vector<size_t> hinge_link_;         // link of every hinge
     std::vector<int> component_;             // first component of every hinge in State::rotation
     std::vector<FrozenSpaceHinge> frozen_;   // per hinge
+    std::vector<char> turned_back_;          // per hinge: in a pass over the present step
     std::vector<double> spring_force_, spring_tangent_;  // impulse at zero rate, and its slope
     std::vector<double> spring_weight_;      // of the end rate in the damper's
     std::vector<Tangent> tangent_;           // per link
@@ -157,6 +160,8 @@ private:
     std::vector<int> redundant_rows_;
     double speed_ = 0;                       // scale of rates
     double narrowest_ramp_ = 0;
+    bool solved_ = false;                    // w_ holds the solution of the last pass
+    double tolerance_ = 0;                   // of impulses, as of the ramps' present width
     double energy_ = 0;                      // kinetic energy of the free motion [J]
     long solves_ = 0;
     std::vector<Pass>* kept_ = nullptr;

@@ -19,14 +19,15 @@ struct Fixed {
     operator int() const { return N; }
 };
 
+// block (n x m) += sign p (n x 6) q (6 x most_rows, the first m)
 template <class N, class M>
 inline void add_products(double* block, const double* p, const double* q, double sign, N n, M m) {
     for (int i = 0; i < n; i++) {
-        for (int j = 0; j < m; j++) {
-            double s = 0;
-            for (int k = 0; k < 6; k++) s += p[6 * i + k] * q[6 * j + k];
-            block[i * m + j] += sign * s;
+        double row[most_rows] = {};
+        for (int k = 0; k < 6; k++) {
+            for (int j = 0; j < m; j++) row[j] += p[6 * i + k] * q[most_rows * k + j];
         }
+        for (int j = 0; j < m; j++) block[i * m + j] += sign * row[j];
     }
 }
 
@@ -53,7 +54,7 @@ void System::analyse(size_t bodies, const std::vector<Link>& links) {
                 if (a != b && !matrix_.later(a, b)) continue;
                 const int side_a = links[at(a)].body[0] == static_cast<int>(body) ? 0 : 1;
                 const int side_b = links[at(b)].body[0] == static_cast<int>(body) ? 0 : 1;
-                pairs_.push_back({2 * a + side_a, 2 * b + side_b, size[at(a)], size[at(b)], matrix_.block(a, b), side_a != side_b});
+                pairs_.push_back({2 * b + side_b, 2 * a + side_a, size[at(b)], size[at(a)], matrix_.block(a, b), side_a != side_b});
             }
         }
     }
@@ -77,9 +78,11 @@ void System::assemble() {
             for (int i = 0; i < link.rows(); i++) {
                 const Vec3 t = row[i].t, m = side == 0 ? row[i].ma : row[i].mb;
                 const Vec3 u = body.inverse_mass * t, w = body.inverse_inertia * m;
-                double *p = s.p + 6 * i, *q = s.q + 6 * i;
-                p[0] = t.x, p[1] = t.y, p[2] = t.z, p[3] = m.x, p[4] = m.y, p[5] = m.z;
-                q[0] = u.x, q[1] = u.y, q[2] = u.z, q[3] = w.x, q[4] = w.y, q[5] = w.z;
+                const double own[6] = {t.x, t.y, t.z, m.x, m.y, m.z}, pushed[6] = {u.x, u.y, u.z, w.x, w.y, w.z};
+                for (int k = 0; k < 6; k++) {
+                    s.p[6 * i + k] = own[k];
+                    s.q[most_rows * k + i] = pushed[k];
+                }
             }
         }
     }

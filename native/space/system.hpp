@@ -48,12 +48,12 @@ private:
         double inverse_mass = 1;
         Mat3 inverse_inertia;
     };
-    // a link's rows at one of its bodies: as they are, and times the inverse mass; six numbers a row
+    // a link's rows at one of its bodies: as they are, six numbers a row, and times the inverse mass, number by number
     struct Side {
         double p[6 * most_rows], q[6 * most_rows];
     };
     struct Pair {
-        int a, b;       // sides: 2 link + (0 or 1)
+        int a, b;       // sides: 2 link + (0 or 1), b's link eliminated later
         int rows_a, rows_b;
         size_t block;
         bool negative;
