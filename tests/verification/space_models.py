@@ -139,6 +139,33 @@ def m4_parts(form=0, rate=0.05, error=1e-6, turn=None):
     return model, np.array(velocity)
 
 
+def tower(storeys, accuracy=1e-3, *, error=1e-6, velocity=(10.0, 0.0, 0.0), sway=(0.0, 0.0, 0.0)):
+    """Portals of 0.5 m on top of each other, three bodies and one loop each, all joints ball hinges as in M4.
+
+    Beams start with `velocity` plus the `sway` times sin(12 z), columns turn with their ends.
+    """
+    velocity, sway = np.asarray(velocity, float), np.asarray(sway, float)
+    left, right, up = np.zeros(3), np.array([0.5, 0.0, 0.0]), np.array([0.0, 0.0, 0.5])
+
+    def speed(storey):
+        return velocity + sway * math.sin(6.0 * storey) if storey else np.zeros(3)
+
+    bodies, joints, motion = [], [], []
+    for k in range(storeys):
+        below = 3 * k - 1 if k else GROUND
+        for side, corner in enumerate((left, right)):
+            foot, head = corner + k * up, corner + (k + 1) * up
+            bodies.append(bar(foot, head))
+            turning = np.cross(up, speed(k + 1) - speed(k)) / (up @ up)
+            motion.append(np.concatenate([turning, (speed(k) + speed(k + 1)) / 2]))
+            joints += [spherical(below, 3 * k + side, foot), spherical(3 * k + side, 3 * k + 2, head)]
+        bodies.append(bar(left + (k + 1) * up, right + (k + 1) * up, payload=5.0))
+        motion.append(np.concatenate([np.zeros(3), speed(k + 1)]))
+    hinges = tuple(ball_hinge(k, 0.25, error=error) for k in range(len(joints)))
+    model = SpaceModel(tuple(bodies), tuple(joints), hinges, length=0.5)
+    return started(model, np.array(motion), accuracy)
+
+
 def pendulum(accuracy=1e-6, joint=revolute):
     """Slender rod of 1.5 m on its end, from horizontal rest: swings like a point mass on 1 m."""
     body = bar((0, 0, 0), (1.5, 0, 0), mass=2.0, about_axis=0.01)

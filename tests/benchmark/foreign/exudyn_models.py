@@ -1,8 +1,8 @@
-"""Models M1 to M3 in Exudyn, the fastest open multibody code found, for ratios within one run.
+"""Models M1 to M4 in Exudyn, the fastest open multibody code found, for ratios within one run.
 
 Exudyn is put into build/benchmark by pip.  It has no set-valued law: it solves the regularised one,
 with user functions that it evaluates in its own C++.  M1 and M2 are kinematic trees in its fewest
-coordinates; M3 is three rigid bodies in the plane with revolute joints.
+coordinates; M3 is three rigid bodies in the plane with revolute joints, M4 eight in space with spherical ones.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from tests.verification import space_models
 from tests.verification.chains import MASS_PER_LENGTH, PAYLOAD, bar
 
 PACKAGE = "exudyn==1.13.*"
@@ -157,6 +158,60 @@ def portal(exu: Any) -> tuple[Any, list[int]]:
     return system, nodes
 
 
+def cube(exu: Any) -> tuple[Any, list[int]]:
+    """Model M4 and its nodes."""
+    items = importlib.import_module("exudyn.utilities")
+    symbolic = importlib.import_module("exudyn.advancedUtilities").CreateSymbolicUserFunction
+    model, motion = space_models.m4_parts()
+    system = exu.SystemContainer().AddSystem()
+    ground = system.AddObject(items.ObjectGround())
+    nodes, bodies = [], []
+    for body, (*omega, vx, vy, vz) in zip(model.bodies, motion, strict=True):
+        turn = items.AngularVelocity2EulerParameters_t(omega, [1, 0, 0, 0])
+        nodes.append(
+            system.AddNode(
+                items.NodeRigidBodyEP(
+                    referenceCoordinates=[*body.centre, 1, 0, 0, 0], initialVelocities=[vx, vy, vz, *turn]
+                )
+            )
+        )
+        inertia = items.RigidBodyInertia(mass=body.mass, inertiaTensor=np.array(body.inertia)).GetInertia6D()
+        bodies.append(
+            system.AddObject(items.ObjectRigidBody(mass=body.mass, inertia=inertia, nodeNumber=nodes[-1]))
+        )
+    moment = ball_moment_function(exu)
+    for joint in model.joints:
+        ends = []
+        for number in (joint.first, joint.second):
+            point = joint.position - (model.bodies[number].centre if number >= 0 else 0.0)
+            body = bodies[number] if number >= 0 else ground
+            ends.append(system.AddMarker(items.MarkerBodyRigid(bodyNumber=body, localPosition=list(point))))
+        system.AddObject(items.SphericalJoint(markerNumbers=ends))
+        spring = items.RigidBodySpringDamper(
+            markerNumbers=ends, stiffness=np.eye(6), damping=np.eye(6), useIntrinsicFormulation=True
+        )
+        hinge = system.AddObject(spring)
+        function = symbolic(system, moment, "springForceTorqueUserFunction", hinge)
+        system.SetObjectParameter(hinge, "springForceTorqueUserFunction", function)
+    system.Assemble()
+    return system, nodes
+
+
+def ball_moment_function(exu: Any) -> Callable[..., Any]:
+    """The law of M4's ball hinges, which stay below their stops."""
+    s = exu.symbolic
+
+    def law(turned: Any, rate: Any) -> Any:
+        capacity = 250 * (0.576 + 0.5 / s.sqrt(s.max(s.sqrt(turned * turned), 0.05)))
+        speed = s.sqrt(rate * rate)
+        ramp = s.sin(1.5707963267948966 * s.min(speed / 0.05, 1.0))
+        share = capacity * ramp / s.max(speed, 1e-12)
+        return s.Vector([0, 0, 0, share * rate[0], share * rate[1], share * rate[2]])
+
+    # the package counts the arguments
+    return lambda system, t, item, u, turned, v, rate, k, d, axes0, axes1, offset: law(turned, rate)
+
+
 def moment_function(exu: Any) -> Callable[..., Any]:
     """The law in Exudyn's symbols: k is the scale, d the half-width of the ramp."""
     s = exu.symbolic
@@ -172,13 +227,13 @@ def moment_function(exu: Any) -> Callable[..., Any]:
     return lambda system, time, item, u, v, k, d, offset: law(u, v, k, d)
 
 
-def foreign_settings(exu: Any, steps: int) -> Any:
-    """Silent; a damped integrator and full Newton, without which M2(10) does not converge."""
+def foreign_settings(exu: Any, steps: int, modified: bool) -> Any:
+    """Silent; a damped integrator and full Newton, without which M2(10) does not converge (M4 is faster)."""
     settings = exu.SimulationSettings()
     integration = settings.timeIntegration
     integration.numberOfSteps, integration.endTime = steps, 0.1
     integration.verboseMode = integration.verboseModeFile = 0
-    integration.newton.useModifiedNewton = False
+    integration.newton.useModifiedNewton = modified
     integration.generalizedAlpha.spectralRadius = 0.5
     settings.solution.file.write = False
     settings.show.statistics = settings.show.computationTime = False
@@ -186,7 +241,15 @@ def foreign_settings(exu: Any, steps: int) -> Any:
 
 
 def rotation_of(name: str, exu: Any, system: Any, nodes: list[int]) -> float:
-    """Sum of the hinges' rotations at the end."""
+    """Sum of the hinges' rotations at the end, of M4 their angles."""
+    if name == "M4":
+        turns = [
+            np.reshape(system.GetNodeOutput(node, exu.OutputVariableType.RotationMatrix), (3, 3)) for node in nodes
+        ]
+        turns.append(np.eye(3))  # the ground is number -1
+        joints = space_models.m4_parts()[0].joints
+        traces = [np.trace(turns[joint.first].T @ turns[joint.second]) for joint in joints]
+        return float(sum(math.acos(min(1.0, (trace - 1.0) / 2.0)) for trace in traces))
     coordinates = [
         np.atleast_1d(system.GetNodeOutput(node, exu.OutputVariableType.Coordinates)) for node in nodes
     ]
@@ -201,17 +264,20 @@ def best_time(exu: Any, name: str, figure: float, accuracy: float) -> tuple[floa
     """Shortest time [s] of the solvers that come within the accuracy, how, and the error."""
     kinds = exu.DynamicSolverType
     tries = [(kinds.GeneralizedAlpha, steps) for steps in (50, 100, 200, 400)]
+    if name == "M4":
+        tries = [(kinds.GeneralizedAlpha, steps) for steps in (400, 800, 1600)]
     tries += [(kinds.ExplicitMidpoint, 100), (kinds.DOPRI5, 20)] if name == "M1" else []
     builders: dict[str, Callable[[], tuple[Any, list[int]]]] = {
         "M1": lambda: chain(exu, 0),
         "M2(10)": lambda: chain(exu, 10),
         "M3": lambda: portal(exu),
+        "M4": lambda: cube(exu),
     }
     found = []
     for kind, steps in tries:
-        for _ in range(2 if name == "M2(10)" else 20):
+        for _ in range(2 if name in ("M2(10)", "M4") else 20):
             system, nodes = builders[name]()
-            settings = foreign_settings(exu, steps)
+            settings = foreign_settings(exu, steps, modified=name == "M4")
             begin = time.perf_counter()
             try:
                 with contextlib.redirect_stdout(io.StringIO()):
