@@ -337,12 +337,9 @@ bool Stepper::turned_back() {
     return any;
 }
 
-// Rates at the end as guessed.  Those of hinges that the last pass found locked are their shares of the capacity, far below
-// what a guess is good for: they are kept.
-void Stepper::predict_rates() {
-    w_.swap(w_next_);
-    rates(rows_, guess_.data(), w_.data());
-    for (size_t k = 0; k < w_.size(); k++) w_[k] += bias_[k];
+// Newton's method starts from the guess, but hinges that the last pass found locked start so: their rates are their shares of
+// the capacity, far below what a guess is good for.  The frozen laws know only the guess.
+void Stepper::keep_locked() {
     for (size_t c = 0; solved_ && c < connections_.size(); c++) {
         const size_t first = at(start(c) + system_.links()[c].held);
         if (!hinge_of(c) || load(c, &w_next_[first]) >= 1) continue;
@@ -375,10 +372,13 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
         // directions there, and the rates they must have
         locate_all(s, middle_, s.t + h / 2, rows_, error_.data());
         aim(s, h);
-        predict_rates();
+        w_.swap(w_next_);
+        rates(rows_, guess_.data(), w_.data());
+        for (size_t k = 0; k < w_.size(); k++) w_[k] += bias_[k];
         // capacities, rate factors and stops
         freeze(s, h);
         // end velocities
+        keep_locked();
         solved_ = followed_ ? follow_pass() : newton();
         if (!solved_) return false;
         settled = settle(h);

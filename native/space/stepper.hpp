@@ -99,7 +99,7 @@ private:
     void rates(const std::vector<Row>& rows, const Twist* v, double* out) const;
     void freeze(const State& s, double h);
     bool turned_back();
-    void predict_rates();
+    void keep_locked();
     // follow.cpp
     void keep_pass(bool settled);
     bool follow_pass();
