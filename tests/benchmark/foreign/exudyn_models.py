@@ -2,7 +2,8 @@
 
 Exudyn is put into build/benchmark by pip.  It has no set-valued law: it solves the regularised one,
 with user functions that it evaluates in its own C++.  M1 and M2 are kinematic trees in its fewest
-coordinates; M3 is three rigid bodies in the plane with revolute joints, M4 eight in space with spherical ones.
+coordinates; M3 is three rigid bodies in the plane with revolute joints, M4 eight in space with
+spherical ones.
 """
 
 from __future__ import annotations
@@ -244,7 +245,8 @@ def rotation_of(name: str, exu: Any, system: Any, nodes: list[int]) -> float:
     """Sum of the hinges' rotations at the end, of M4 their angles."""
     if name == "M4":
         turns = [
-            np.reshape(system.GetNodeOutput(node, exu.OutputVariableType.RotationMatrix), (3, 3)) for node in nodes
+            np.reshape(system.GetNodeOutput(node, exu.OutputVariableType.RotationMatrix), (3, 3))
+            for node in nodes
         ]
         turns.append(np.eye(3))  # the ground is number -1
         joints = space_models.m4_parts()[0].joints
