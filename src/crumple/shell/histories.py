@@ -172,4 +172,6 @@ def _rest(time: Floats, energy: Floats) -> float | None:
 
 
 def _slope(values: Floats, time: Floats) -> Floats:
-    return np.asarray(np.gradient(values, time, axis=0)) if time.size > 1 else 0.0 * values
+    """Slope against time (n,); outputs nearer together than a time step were noted at one time."""
+    at, first, again = np.unique(time, return_index=True, return_inverse=True)
+    return np.asarray(np.gradient(values[first], at, axis=0))[again] if at.size > 1 else 0.0 * values

@@ -9,7 +9,7 @@ import numpy as np
 from crumple.shell.bodies import Body
 from crumple.shell.contour import Floats
 from crumple.shell.mesh import Mesh
-from crumple.shell.quality import areas, wall_density, wall_thickness
+from crumple.shell.quality import areas, wall_density, wall_metals, wall_thickness
 from crumple.structure import InitialVelocity, Structure
 
 
@@ -64,11 +64,19 @@ def nodal_masses(structure: Structure, mesh: Mesh) -> tuple[Floats, Floats]:
     three = mesh.triangles
     share = np.where(three[:, None], [1 / 3, 1 / 3, 1 / 3, 0.0], 1 / 4)
     share = share * (area * thickness * wall_density(structure, mesh))[:, None]
-    gyration = (thickness**2 + np.where(three, 2.0, 1.0) * area) / 12
+    gyration = (thickness**2 + np.where(three, 2.0, 1.0) * _rotary_factor(structure, mesh) * area) / 12
     mass, inertia = np.zeros(len(mesh.position)), np.zeros(len(mesh.position))
     np.add.at(mass, mesh.quads, share)
     np.add.at(inertia, mesh.quads, share * gyration[:, None])
     return mass, inertia
+
+
+def _rotary_factor(structure: Structure, mesh: Mesh) -> Floats:
+    """Factor on the area in the rotary inertia of elements, (m,): docs/theory/explicit_stepper.md."""
+    metals, number = wall_metals(structure, mesh)
+    ratio = np.array([metal.poissons_ratio for metal in metals])
+    shear, plane = 5 / 6 / (2 * (1 + ratio)), 1 / (1 - ratio**2)
+    return np.asarray((3 * shear / (plane - shear))[number])
 
 
 def _field(structure: Structure, kind: str, name: str, points: Floats) -> tuple[Floats, Floats]:

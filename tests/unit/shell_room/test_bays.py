@@ -124,13 +124,15 @@ def test_mesh_is_closed_and_keeps_its_mass(fine_at):
 def test_nodes_of_triangles_have_the_mass_that_the_stepper_gives_them():
     """Kinetic energy of one moving node at a time."""
     lowered = lower(cantilever(), COARSER)
-    mass, _ = nodal_masses(cantilever(), lowered.mesh)
+    mass, inertia = nodal_masses(cantilever(), lowered.mesh)
     three = lowered.mesh.quads[lowered.mesh.triangles]
     for node in (*three[0, :3], *three[-1, :3]):
         velocity = np.zeros_like(lowered.model.position)
         velocity[node, 1] = 2.0
         state = ShellState(replace(lowered.model, velocity=velocity))
         assert state.energies["kinetic"] == pytest.approx(2.0 * mass[node], rel=1e-12)
+        state = ShellState(replace(lowered.model, spin=velocity))
+        assert state.energies["kinetic"] == pytest.approx(2.0 * inertia[node], rel=1e-12)
 
 
 def test_elements_are_found_by_bay_and_by_place():
