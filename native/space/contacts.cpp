@@ -237,9 +237,11 @@ double Contacts::rest_rate(const Active& c) const {
     return std::max(least_approach, std::sqrt(2 * c.inverse_mass * negligible_energy_));
 }
 
-double Contacts::allowed(size_t i, double h, double start_rate) const {
+double Contacts::allowed(size_t i, double h, double start_rate, double unbounded) const {
     const Active& c = active_[i];
-    return allowed_rate(restitution_share_ * law(c).restitution, c.gap, start_rate, h, closed_gap_, rest_rate(c));
+    const double restitution = law(c).restitution;
+    if (unbounded < 0 && restitution > 0 && c.gap <= closed_gap_ && start_rate >= -rest_rate(c)) return unbounded;
+    return allowed_rate(restitution_share_ * restitution, c.gap, start_rate, h, closed_gap_, rest_rate(c));
 }
 
 void Contacts::freeze(size_t i, double inverse_mass) {

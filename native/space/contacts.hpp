@@ -73,8 +73,9 @@ public:
     const int* bodies(size_t i) const { return active_[i].body; }
     // three rows and the gap at other poses
     void locate(size_t i, const std::vector<Pose>& pose, Row* rows, double* gap) const;
-    // rate, along the normal, that a step of length h allows from the rates at its start
-    double allowed(size_t i, double h, double start_rate) const;
+    // Rate, along the normal, that a step of length h allows from the rates at its start.  `unbounded`: in an impact, a rate
+    // that nothing reaches, for contacts that bounce but are not run into: what they get is the next impact.  0 for none.
+    double allowed(size_t i, double h, double start_rate, double unbounded) const;
     void freeze(size_t i, double inverse_mass);
     FrozenContact& frozen(size_t i) { return active_[i].frozen; }
     const FrozenContact& frozen(size_t i) const { return active_[i].frozen; }

@@ -178,17 +178,19 @@ bool Simulation::failed(double e, bool smallest, Record& record) const {
     return true;
 }
 
+// Asks `poll` now and then.
+bool Simulation::cancelled(Record& record, const std::function<bool(double)>& poll) {
+    const long done = stepper_.solves() * std::max(1, stepper_.rows());
+    if (done <= poll_at_ || !poll) return false;
+    poll_at_ = done + poll_interval;
+    if (poll(state_.t)) return false;
+    record.outcome = Outcome::cancelled;
+    return true;
+}
+
 bool Simulation::advance(double target, Record& record, const std::function<bool(double)>& poll) {
-    const long rows = std::max(1, stepper_.rows());
     while (state_.t < target) {
-        const long done = stepper_.solves() * rows;
-        if (done > poll_at_ && poll) {
-            poll_at_ = done + poll_interval;
-            if (!poll(state_.t)) {
-                record.outcome = Outcome::cancelled;
-                return false;
-            }
-        }
+        if (cancelled(record, poll)) return false;
         if (state_.contact.impact) {
             if (!strike(record)) return false;
             continue;

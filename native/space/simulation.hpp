@@ -81,6 +81,7 @@ private:
     void end_stride(double h);
     bool touched_soon(const Critical& stop) const;
     void set_critical_damping(const std::vector<bool>& which);
+    bool cancelled(Record& record, const std::function<bool(double)>& poll);
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
     bool solve(double h);
     bool failed(double e, bool smallest, Record& record) const;

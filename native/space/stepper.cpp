@@ -11,6 +11,9 @@ namespace {
 // step second order.  More follow only until friction agrees with the contacts' normal impulses.
 constexpr int passes = 2, most_passes = 20;
 
+// Rates over the speed that no impact reaches; more costs digits.
+constexpr double unreached = 1e3;
+
 size_t at(int i) { return static_cast<size_t>(i); }
 
 // Weight of the end rate that makes a damper's step over z = h c/m decay by e^-z.
@@ -356,6 +359,8 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
     double gain = h * norm(model_.gravity);
     for (size_t i = 0; i < guess_.size(); i++) gain = std::max(gain, norm(guess_[i].v - s.velocity[i].v));
     if (contacts_.gather(s.pose, s.velocity, h, gain, s.contact)) link_all();
+    unbounded_ = s.contact.impact ? -unreached * speed_ : 0;
+    allowed_.assign(contacts_.size(), 0.0);
     // true rates at the start
     locate_all(s, s.pose, s.t, rows_, error_.data());
     rates(rows_, s.velocity.data(), rate0_.data());
@@ -381,7 +386,7 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
         keep_locked();
         solved_ = followed_ ? follow_pass() : newton();
         if (!solved_) return false;
-        settled = settle(h);
+        settled = settle();
         settled = !turned_back() && settled;
         if (kept_) keep_pass(settled);
         if (followed_) settled = (*followed_)[next_pass_++].settled;

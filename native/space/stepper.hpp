@@ -82,7 +82,7 @@ private:
     // touching.cpp
     size_t contact_rows() const { return static_cast<size_t>(start(connections_.size() - contacts_.size())); }
     void allow_closing(double h);
-    bool settle(double h);
+    bool settle();
     void commit_contacts(State& s, double h);
     void push_obstacles(State& s, double h);
     double overlap(size_t link) const;
@@ -162,6 +162,8 @@ private:
     double narrowest_ramp_ = 0;
     bool solved_ = false;                    // w_ holds the solution of the last pass
     double tolerance_ = 0;                   // of impulses, as of the ramps' present width
+    double unbounded_ = 0;                   // rate of approach that nothing reaches in an impact, 0 in other steps
+    std::vector<double> allowed_;            // normal rate per contact, in this pass
     double energy_ = 0;                      // kinetic energy of the free motion [J]
     long solves_ = 0;
     std::vector<Pass>* kept_ = nullptr;

@@ -17,14 +17,17 @@ size_t at(int i) { return static_cast<size_t>(i); }
 // Normal rates count from those that are allowed.
 void Stepper::allow_closing(double h) {
     const size_t first = contact_rows();
-    for (size_t i = 0; i < contacts_.size(); i++) bias_[first + 3 * i] -= contacts_.allowed(i, h, rate0_[first + 3 * i]);
+    for (size_t i = 0; i < contacts_.size(); i++) {
+        allowed_[i] = contacts_.allowed(i, h, rate0_[first + 3 * i], unbounded_);
+        bias_[first + 3 * i] -= allowed_[i];
+    }
 }
 
 // After a pass: true rates again, and whether friction has used the impulses that the pass found.
-bool Stepper::settle(double h) {
+bool Stepper::settle() {
     if (contacts_.size() == 0) return true;
     const size_t first = contact_rows();
-    for (size_t i = 0; i < contacts_.size(); i++) w_[first + 3 * i] += contacts_.allowed(i, h, rate0_[first + 3 * i]);
+    for (size_t i = 0; i < contacts_.size(); i++) w_[first + 3 * i] += allowed_[i];
     return contacts_.settle(&impulse_[first], &rate0_[first], &w_[first]);
 }
 

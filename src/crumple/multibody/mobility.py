@@ -116,7 +116,7 @@ def notes(linkage: Linkage) -> tuple[str, ...]:
         found.append(
             f"{free.redundant} of the constraints hold what others hold already (in the loops through "
             f"{_listed([names[i] for i in free.loops])}): the motion is unique, the forces across it "
-            "are not, and the smallest are given."
+            "are not, and some of those possible are given."
         )
     return tuple(found)
 

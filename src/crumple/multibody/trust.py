@@ -22,6 +22,8 @@ ERROR_SHARE = 0.01
 """Estimated error of a rotation over the largest rotation above which an engineer must know."""
 SMALL_ERROR = 1e-5
 """Estimated error [rad] that matters to nobody, however small the rotations are."""
+SLOW_SHARE = 0.05
+"""Energy taken out of the motion over that in the structure above which a stage is not quasi-static."""
 OFF_AXIS = 0.5
 """Angle [deg] between a hinge's axis and the plane's normal above which the bending across it counts."""
 MOST_NAMES = 6
@@ -102,9 +104,22 @@ def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solv
             f"({stored / total:.0%} of the energy): rotations lack the elastic part and the plastic ones are "
             "too large; use form elastic-plastic."
         )
+    found += _slowed(solved)
     if solved.forced:
         found.append(f"{solved.forced} steps were taken at the smallest step without meeting the accuracy.")
     return tuple(found)
+
+
+def _slowed(solved: Solved) -> list[str]:
+    """Motion that quasi-static stages found, or that snaps set free, where it is much of the energy."""
+    taken = float(solved.energy.get("damping", np.zeros(1))[-1])
+    stored = float(solved.energy["dissipated"][-1] + solved.energy["elastic"][-1])
+    if taken <= SLOW_SHARE * stored:
+        return []
+    return [
+        f"Quasi-static stages took {taken:.3g} J out of the motion, beside {stored:.3g} J in the structure: "
+        "it moved when they began, or snapped on the way; dynamics may carry it elsewhere."
+    ]
 
 
 def _bends_both_ways(hinge: PlacedHinge) -> bool:

@@ -64,3 +64,19 @@ def test_impulses_beyond_every_crash_are_refused():
     with pytest.raises(InputError, match="the impulses throw a part") as refused:
         solve_multibody(bar(**clamp, **blow), Run(0.01, 0.01))
     assert refused.value.problems[0].where == "impulses"
+
+
+def test_motion_that_a_quasi_static_stage_takes_away_is_told():
+    hinge = {"name": "fold", "at": 0.1, "law": {"type": "constant", "moment": 100.0}, "axis": "y"}
+    member = {"nodes": ("root", "tip"), "section": "tube", "material": "steel", "hinges": (hinge,)}
+    structure = bar(supports={"clamp": {"node": "root", "fix": "all"}}, loads=[LOAD])
+    whole = Structure.model_validate({**structure.model_dump(exclude_unset=True), "members": {"bar": member}})
+    thrown = {"rotation": 5.0, "axis": (0.0, 1.0, 0.0), "about": (0.1, 0.0, 0.0)}
+    throw = Stage(name="throw", duration=0.001, initial_velocity=(thrown,))
+    hold = Stage(name="hold", kind="quasi-static", duration=0.01)
+    result = solve_multibody(whole, Run(0.011, 0.001, stages=(throw, hold)))
+    assert result.status.ok, result.reason
+    moving = result["energy.kinetic"][1]
+    assert result["energy.damping"][-1] == pytest.approx(moving, rel=1e-3)
+    assert any("out of the motion" in text for text in result.warnings)
+    assert result.energy_residual < 1e-3

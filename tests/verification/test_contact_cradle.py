@@ -1,0 +1,77 @@
+"""Newton's cradle: balls in a row that touch at rest, struck by one more.
+
+With e = 1 the last ball of equal ones goes on with the whole speed.  With less, pairs strike one after
+another; those behind catch up and strike again until nothing approaches: three balls are followed pair by
+pair here.  With e = 0 all go on together at v/n.
+"""
+
+import numpy as np
+import pytest
+from tests.verification.contact_models import MAX_RESIDUAL, ball_shape, simulation, sphere
+
+from crumple._core.space_model import SpaceContact
+
+RADIUS, MASS, SPEED, GAP = 0.1, 2.0, 3.0, 0.05
+
+
+def cradle(number, restitution, masses=None, accuracy=1e-3):
+    """Velocities along the row after the impact [m/s], and the record; the first ball flies at the others."""
+    places = [(-GAP if k == 0 else 0.0) + 2 * RADIUS * k for k in range(number)]
+    masses = masses or [MASS] * number
+    bodies = [sphere((x, 0, 0), RADIUS, mass) for x, mass in zip(places, masses, strict=True)]
+    capsules = [ball_shape(k, (x, 0, 0), RADIUS) for k, x in enumerate(places)]
+    pairs = tuple((i, j) for i in range(number) for j in range(i + 1, number))
+    contact = SpaceContact(pairs, 0.0, restitution)
+    run = simulation(bodies, capsules, contact=contact, gravity=(0.0, 0.0, 0.0), accuracy=accuracy)
+    velocity = np.zeros((number, 6))
+    velocity[0, 3] = SPEED
+    run.set_motion(velocity, np.zeros_like(velocity))
+    record = run.run(np.array([2 * GAP / SPEED]))
+    assert record.residual < MAX_RESIDUAL
+    return record.velocity[-1, :, 3], record
+
+
+def pair_by_pair(restitution):
+    """Velocities of three equal balls after impacts of pairs by turns."""
+    v = np.array([SPEED, 0.0, 0.0])
+    first = 0
+    while v[first] - v[first + 1] > 1e-9 * SPEED:
+        mean, half = v[first : first + 2].mean(), restitution * (v[first] - v[first + 1]) / 2
+        v[first : first + 2] = mean - half, mean + half
+        first = 1 - first
+    return v
+
+
+@pytest.mark.parametrize("number", [2, 3, 5])
+def test_elastic_balls_pass_all_motion_on(number, record_figure):
+    found, record = cradle(number, 1.0)
+    expected = [0.0] * (number - 1) + [SPEED]
+    worst = float(np.abs(found - expected).max())
+    record_figure(f"velocities of {number} balls, e = 1, worst error", worst, 0.0, 1e-6, "m/s")
+    assert record.steps < 60
+
+
+@pytest.mark.parametrize("restitution", [0.9, 0.8, 0.3])
+def test_three_balls_strike_pair_by_pair(restitution, record_figure):
+    """The last, weak approaches count as rest: 1e-3 of the accuracy in energy."""
+    found, record = cradle(3, restitution, accuracy=1e-6)
+    worst = float(np.abs(found - pair_by_pair(restitution)).max())
+    record_figure(f"velocities of 3 balls, e = {restitution}, worst error", worst, 0.0, 1e-4 * SPEED, "m/s")
+    assert record.steps < 200
+
+
+def test_balls_that_do_not_bounce_go_on_together(record_figure):
+    found, _ = cradle(4, 0.0)
+    worst = float(np.abs(found - SPEED / 4).max())
+    record_figure("velocities of 4 balls, e = 0, worst error", worst, 0.0, 1e-6, "m/s")
+    assert worst < 1e-6
+
+
+def test_unequal_balls_keep_momentum_and_energy(record_figure):
+    """A heavy last ball sends motion back through the row."""
+    masses = [2.0, 2.0, 2.0, 8.0]
+    found, _ = cradle(4, 1.0, masses)
+    record_figure("momentum", float(np.dot(masses, found)), 2.0 * SPEED, 1e-6, "N*s")
+    record_figure("energy", float(np.dot(masses, found**2)) / 2, SPEED**2, 1e-6, "J")
+    expected = [(2 - 8) / (2 + 8) * SPEED, 0.0, 0.0, 4 / 10 * SPEED]
+    assert found == pytest.approx(expected, abs=1e-6)
