@@ -99,7 +99,8 @@ void Stepper::turn_hinges(State& s) {
         for (int i = 0; i < joint.laws; i++) {
             s.rotation[k + at(i)] = error_[row + at(i)];
             s.turned[k + at(i)] = joint.laws == 1 ? error_[row + at(i)] : s.turned[k + at(i)] + turn[i];
-            s.rate[k + at(i)] = w_[row + at(i)];
+            // a quasi-static step begins from rest, so its end rate is twice the mean, which is the true one
+            s.rate[k + at(i)] = (stage_.quasi_static ? 0.5 : 1) * w_[row + at(i)];
         }
     }
 }

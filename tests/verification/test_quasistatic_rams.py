@@ -127,6 +127,13 @@ def test_candidates_at_every_end_find_the_weakest_mechanism(record_figure):
     assert max(result.hinges[f"bc{i}"].rotation_max for i in (0, 1)) < 1e-5
 
 
+def test_rates_are_those_of_the_rotations():
+    result = pushed(portal(), every=2e-3)
+    rate, turned = result["hinge.ab0.rotation_rate"], result["hinge.ab0.rotation"]
+    np.testing.assert_allclose(rate[10:-1], np.gradient(turned, result.time)[10:-1], rtol=1e-3)
+    assert np.abs(rate[10:]).min() > 0.1
+
+
 def test_push_then_impact_keeps_one_ledger(record_figure):
     """What a later stage adds to the motion is work at that instant; what a push takes from it is told."""
     thrown = {"initial_velocity": ({"translation": (3.0, 0.0, 0.0)},)}

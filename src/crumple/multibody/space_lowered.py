@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from crumple._core.space_batch import SpaceCase, SpaceStage
 from crumple._core.space_model import SpaceModel
-from crumple.errors import InputError
+from crumple.errors import InputError, Problem
 from crumple.multibody.linkage import Linkage, check_inertia, link
 from crumple.multibody.obstacle_bodies import Touching, with_obstacles
 from crumple.multibody.rigid import Floats
 from crumple.multibody.run import Run
 from crumple.multibody.space_model import space_model, support_drives
 from crumple.multibody.stages import lowered_until, refuse_floating, stages_of
-from crumple.multibody.start import start_in_space
+from crumple.multibody.start import Placed, start_in_space
 from crumple.structure import Stage, Structure
 
 
@@ -79,6 +80,7 @@ def lowered_in_space(structure: Structure, run: Run) -> SpaceLowered:
     check_inertia(linkage)
     stages = stages_of(structure, run)
     refuse_floating(structure, linkage, stages)
+    _refuse_later_motion(stages)
     longest = max(stage.duration for stage in stages)
     owners = tuple(name for name, _ in support_drives(structure, linkage, longest))
     touching = with_obstacles(structure, linkage, space_model(structure, linkage, longest), owners, longest)
@@ -93,6 +95,20 @@ def lowered_in_space(structure: Structure, run: Run) -> SpaceLowered:
         np.stack([velocity for velocity, _ in motions]),
         np.stack([impulse for _, impulse in motions]),
     )
+
+
+def _refuse_later_motion(stages: Sequence[Stage]) -> None:
+    """Refuse motion of a later stage that depends on where the bodies have come to by then."""
+    for i, stage in enumerate(stages[1:], 1):
+        partly = any(
+            f.rotation or f.nodes is not None or f.members is not None for f in stage.initial_velocity
+        )
+        if partly or stage.impulses:
+            key = f"analysis.stages[{i}].{'initial_velocity' if partly else 'impulses'}"
+            what = "variants and sensitivities take what a later stage adds from the start positions"
+            allowed = "a translation of the whole structure"
+            todo = "add the motion in the first stage, or solve the variants one by one"
+            raise InputError(Problem(what, stage.name, allowed, todo, key))
 
 
 def kernel_stage(structure: Structure, linkage: Linkage, touching: Touching, stage: Stage) -> SpaceStage:
@@ -114,13 +130,19 @@ def kernel_stage(structure: Structure, linkage: Linkage, touching: Touching, sta
 
 
 def added_motion(
-    structure: Structure, linkage: Linkage, touching: Touching, stage: Stage, *, first: bool
+    structure: Structure,
+    linkage: Linkage,
+    touching: Touching,
+    stage: Stage,
+    now: Placed | None = None,
+    *,
+    first: bool,
 ) -> tuple[Floats, Floats, float]:
     """Velocities and impulses, (bodies, 6) each, that a stage adds as it begins, and their energy [J].
 
-    Thrown obstacles are thrown in the `first` stage.
+    Bodies are where they are `now`.  Thrown obstacles are thrown in the `first` stage.
     """
-    start = start_in_space(structure, linkage, stage.initial_velocity, stage.impulses)
+    start = start_in_space(structure, linkage, stage.initial_velocity, stage.impulses, now)
     further = np.zeros((len(touching.velocity), 6))
     energy = start.given_energy
     if first:

@@ -22,6 +22,7 @@ from crumple.multibody.solved import HingeHistory, Poll, Solved
 from crumple.multibody.space_lowered import added_motion, kernel_stage
 from crumple.multibody.space_model import space_model, support_drives
 from crumple.multibody.stages import lowered_until, refuse_floating, stages_of, told
+from crumple.multibody.start import Placed
 from crumple.result import Channel, StageSummary
 from crumple.structure import PlacedHinge, Stage, Structure
 
@@ -93,7 +94,7 @@ class SpaceSolver:
         given = lost = seconds = 0.0
         for stage in self._stages:
             begin = simulation.time
-            described, gone = self._begin(simulation, stage, first=not records)
+            described, gone = self._begin(simulation, stage, records[-1] if records else None)
             given, lost = given + described, lost + gone
             times = _stage_times(grid, begin, begin + stage.duration)
             clock = time.perf_counter()
@@ -112,7 +113,9 @@ class SpaceSolver:
             record = replace(record, reason=" ".join([f"{record.reason}.", *free_parts(self.linkage)]))
         return self._solved(record, stages, (given, lost, seconds))
 
-    def _begin(self, simulation: SpaceSimulation, stage: Stage, *, first: bool) -> tuple[float, float]:
+    def _begin(
+        self, simulation: SpaceSimulation, stage: Stage, before: SpaceRecord | None
+    ) -> tuple[float, float]:
         """Start a stage; energy of the motion that is added, and what of it the joints took [J]."""
         parts = (self._structure, self.linkage, self._touching, stage)
         lowered = kernel_stage(*parts)
@@ -122,7 +125,8 @@ class SpaceSolver:
             obstacles=lowered.obstacles,
             until=lowered.until,
         )
-        velocity, impulse, energy = added_motion(*parts, first=first)
+        now = None if before is None else Placed(before.centre[-1], before.rotation[-1])
+        velocity, impulse, energy = added_motion(*parts, now, first=before is None)
         return energy, simulation.set_motion(velocity, impulse)
 
     def _solved(

@@ -15,6 +15,7 @@ from crumple.multibody.linkage import GROUND, Linkage
 from crumple.multibody.rigid import Floats, RigidMass, lump_mass, piece_mass
 from crumple.structure import InitialVelocity, NodalImpulse, Structure
 from crumple.structure.geometry import cross
+from crumple.structure.rotation import turned
 
 FASTEST = 1e5
 """Speed [m/s] that an impulse may give a part before joints slow it."""
@@ -52,35 +53,67 @@ class Start:
     given_energy: float
 
 
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """Where bodies in space are.
+
+    Attributes
+    ----------
+    centre
+        Centres of mass [m], (bodies, 3).
+    quaternion
+        Rotations since the start, (bodies, 4); None: none.
+    """
+
+    centre: Floats
+    quaternion: Floats | None
+
+    def turned(self, body: int, vector: Floats) -> Floats:
+        """What a vector, (3,), or the rows of a matrix have become that go with a body."""
+        return vector if self.quaternion is None else turned(self.quaternion[body], vector)
+
+    def tensor(self, body: int, tensor: Floats) -> Floats:
+        """What a symmetric tensor, (3, 3), has become that goes with a body."""
+        return tensor if self.quaternion is None else self.turned(body, self.turned(body, tensor).T)
+
+
 def start_in_space(
     structure: Structure,
     linkage: Linkage,
     fields: Sequence[InitialVelocity],
     impulses: Sequence[NodalImpulse],
+    now: Placed | None = None,
 ) -> Start:
-    """Velocities and impulses of bodies in space, gathered as momentum of every body."""
+    """Velocities and impulses of bodies in space, gathered as momentum of every body.
+
+    `now` is where the bodies have come to; None: where they start.
+    """
     n = len(linkage.bodies)
+    place = now or Placed(np.array([body.centre for body in linkage.bodies]).reshape(n, 3), None)
     spin, momentum, impulse = np.zeros((n, 3)), np.zeros((n, 3)), np.zeros((n, 6))
     energy = 0.0
     for part, body, acting in moving_parts(structure, linkage, fields):
         if part.mass == 0.0:
             continue
-        velocity, rate = motion_of(acting, part.centre)
-        energy += float(part.mass * velocity @ velocity + rate @ part.inertia @ rate) / 2
+        centre, inertia = part.centre, part.inertia
         if body != GROUND:
-            arm = part.centre - linkage.bodies[body].centre
+            arm = place.turned(body, part.centre - linkage.bodies[body].centre)
+            centre, inertia = place.centre[body] + arm, place.tensor(body, part.inertia)
+        velocity, rate = motion_of(acting, centre)
+        energy += float(part.mass * velocity @ velocity + rate @ inertia @ rate) / 2
+        if body != GROUND:
             momentum[body] += part.mass * velocity
-            spin[body] += part.inertia @ rate + cross(arm, part.mass * velocity)
+            spin[body] += inertia @ rate + cross(arm, part.mass * velocity)
     for given in impulses:
         body = linkage.node_body[given.node]
         if body != GROUND:
-            arm = np.asarray(structure.nodes[given.node], float) - linkage.bodies[body].centre
+            arm = place.turned(body, np.asarray(structure.nodes[given.node]) - linkage.bodies[body].centre)
             linear = np.asarray(given.impulse, float)
             impulse[body, :3] += np.asarray(given.angular_impulse, float) + cross(arm, linear)
             impulse[body, 3:] += linear
     twists = [
-        np.concatenate([np.linalg.solve(body.inertia, about), along / body.mass])
-        for body, about, along in zip(linkage.bodies, spin, momentum, strict=True)
+        np.concatenate([np.linalg.solve(place.tensor(i, body.inertia), spin[i]), momentum[i] / body.mass])
+        for i, body in enumerate(linkage.bodies)
     ]
     velocity = np.array(twists).reshape(n, 6)
     masses = np.array([body.mass for body in linkage.bodies])

@@ -79,9 +79,9 @@ class Stage(Spec):
     obstacles: tuple[Name, ...] | None = None
     """Obstacles that are there; without it all."""
     initial_velocity: tuple[InitialVelocity, ...] = ()
-    """Velocity fields that are added at its start."""
+    """Velocity fields that are added at its start, to the structure as it lies then."""
     impulses: tuple[NodalImpulse, ...] = ()
-    """Impulses at its start."""
+    """Impulses at its start, on nodes as they lie then."""
 
     @model_validator(mode="after")
     def _moves(self) -> Stage:
