@@ -13,7 +13,7 @@ from crumple.structure.automatic import hinges_of
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges import hinge_places, law_spec
 from crumple.structure.law import LawKeys, LawReference
-from crumple.structure.member import Bars
+from crumple.structure.member import Bars, Hinge
 
 ELASTIC = "elastic-plastic"
 ELASTIC_HINGES, ELASTIC_MEMBERS, SHELL_LAWS = "elastic hinges", "elastic members", "laws of the shells"
@@ -49,7 +49,7 @@ def with_elastic_members(structure: Structure) -> Structure | None:
     """
     elastic = with_elastic_hinges(structure) or structure
     members = {
-        name: member.model_copy(update={"bars": _cut(structure, name)}) if member.bars.number == 1 else member
+        name: _cut(structure, name, member) if member.bars.number == 1 else member
         for name, member in elastic.members.items()
     }
     if members == dict(elastic.members):
@@ -57,11 +57,23 @@ def with_elastic_members(structure: Structure) -> Structure | None:
     return elastic.model_copy(update={"members": members})
 
 
-def _cut(structure: Structure, member: str) -> Bars:
-    number = _bars(structure, member)
-    return Bars(
-        number=number, law=yielding_law(structure, member, structure.frame_of(member).length / number)
+def _cut(structure: Structure, name: str, member: Member) -> Member:
+    """A member of one bar cut into several; where parts of it are rigid, between those alone."""
+    number, length = _bars(structure, name), structure.frame_of(name).length
+    parts = member.rigid_parts(length)
+    if parts == ((0.0, length),):
+        return member
+    law = yielding_law(structure, name, length / number)
+    if not parts:
+        return member.model_copy(update={"bars": Bars(number=number, law=law)})
+    cuts = {i: i * length / number for i in range(1, number)}
+    between = tuple(
+        Hinge(name=f"{name}-{i}", at=cut, law=law)
+        for i, cut in cuts.items()
+        if not any(start <= cut <= end for start, end in parts)
     )
+    given = member.given_hinges or hinges_of(structure, name)
+    return member.model_copy(update={"hinges": (*given, *between)})
 
 
 def yielding_law(structure: Structure, member: str, length: float) -> TableLaw:

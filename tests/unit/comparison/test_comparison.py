@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from tests.unit.comparison.folded_tube import EXAMPLE, analysis, angle_over_time, folded_result
+from tests.verification.structures import STEEL, TUBE
 
 from crumple.analysis import load, solve
 from crumple.comparison import CurveFile, Signal, compare, with_frames, with_pictures
@@ -24,6 +25,7 @@ from crumple.comparison.variant import (
 )
 from crumple.errors import InputError, Status
 from crumple.section import bending_moment
+from crumple.structure import Structure
 from crumple.structure.hinges import hinge_places, law_spec, placed_hinges
 
 TIMES = np.linspace(0.0, 0.1, 101)
@@ -258,3 +260,26 @@ def test_a_law_read_off_a_fold_gives_its_moment_back(found, case):
 def test_stored_pictures_are_those_asked_for(multibody):
     kept = with_pictures(multibody, (0.0, 0.05, 0.1))
     assert kept.states.times == pytest.approx([0.0, 0.05, 0.1])
+
+
+def test_elastic_members_leave_rigid_ones_and_parts_alone():
+    parts = {"section": "tube", "material": "steel"}
+    stub = ({"from": 0.3, "to": 0.45}, {"from": 0.45, "to": 0.6})
+    structure = Structure(
+        materials={"steel": STEEL},
+        sections={"tube": TUBE},
+        nodes={"root": (0, 0, 0), "mid": (0.6, 0, 0), "tip": (1, 0, 0)},
+        members={
+            "near": {**parts, "nodes": ("root", "mid"), "rigid": stub, "hinges": "auto"},
+            "far": {**parts, "nodes": ("mid", "tip"), "rigid": True},
+        },
+        supports={"clamp": {"node": "root", "fix": "all"}},
+    )
+    cut = with_elastic_members(structure)
+    assert cut.members["far"] == structure.members["far"]
+    stations = {hinge.name: hinge.station for hinge in placed_hinges(cut)}
+    own = {hinge.name for hinge in placed_hinges(structure)}
+    assert own
+    assert own <= set(stations)
+    cuts = {name: at for name, at in stations.items() if name not in own}
+    assert cuts == pytest.approx({"near-1": 0.075, "near-2": 0.15, "near-3": 0.225})
