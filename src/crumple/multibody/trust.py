@@ -22,6 +22,8 @@ ERROR_SHARE = 0.01
 """Estimated error of a rotation over the largest rotation above which an engineer must know."""
 SMALL_ERROR = 1e-5
 """Estimated error [rad] that matters to nobody, however small the rotations are."""
+STRUCK_SHARE = 0.5
+"""Energy lost in impacts over all that was put in above which rigid bodies, not hinges, gave the answer."""
 SLOW_SHARE = 0.05
 """Energy taken out of the motion over that in the structure above which a stage is not quasi-static."""
 OFF_AXIS = 0.5
@@ -104,10 +106,21 @@ def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solv
             f"({stored / total:.0%} of the energy): rotations lack the elastic part and the plastic ones are "
             "too large; use form elastic-plastic."
         )
-    found += _slowed(solved)
+    found += [*_struck(solved, total), *_slowed(solved)]
     if solved.forced:
         found.append(f"{solved.forced} steps were taken at the smallest step without meeting the accuracy.")
     return tuple(found)
+
+
+def _struck(solved: Solved, total: float) -> list[str]:
+    """Energy [J] that impacts took, where it is most of all that was put in."""
+    vanished = float(solved.energy.get("contact", np.zeros(1))[-1])
+    if vanished <= STRUCK_SHARE * total:
+        return []
+    return [
+        f"{vanished:.4g} J of the {total:.4g} J put in vanish in impacts between rigid bodies, which keep no "
+        "elastic energy and do not fold where they are hit; shells show where it goes."
+    ]
 
 
 def _slowed(solved: Solved) -> list[str]:

@@ -95,3 +95,25 @@ def test_a_grade_is_typical_and_no_design_value() -> None:
     result = solve_multibody(Structure(**keys), Run(duration=0.01, every=1e-3))
     (warning,) = about(result, "typical")
     assert warning.startswith("Material steel: S355: typical, not design values")
+
+
+@pytest.mark.parametrize(("restitution", "said"), [(0.0, True), (0.9, False)])
+def test_energy_that_rigid_impacts_took_is_named(restitution: float, said: bool) -> None:
+    """A bar that falls flat: no hinge takes anything, and 1 - e^2 of its energy is gone."""
+    structure = Structure(
+        materials={"steel": STEEL},
+        sections={"tube": TUBE},
+        nodes={"a": (0, 0, 0), "b": (1, 0, 0)},
+        members={"bar": {"nodes": ("a", "b"), "section": "tube", "material": "steel"}},
+        initial_velocity=[{"translation": (0.0, 0.0, -5.0)}],
+        obstacles={
+            "ground": {
+                "type": "plane",
+                "point": (0, 0, -0.1),
+                "normal": (0, 0, 1),
+                "restitution": restitution,
+            }
+        },
+    )
+    result = solve_multibody(structure, Run(0.03, 1e-3))
+    assert any("vanish in impacts" in warning for warning in result.warnings) == said
