@@ -41,7 +41,7 @@ verify: $(VENV)/installed-test $(SANITIZED)/installed
 	mkdir -p out
 	$(BIN)/python -m pytest --figures out/figures.json
 	$(BIN)/python tools/verification_table.py out/figures.json docs/verification.md
-	tools/sanitized.sh $(SANITIZED)/bin/python -m pytest tests/verification $(wildcard tests/unit/multibody) -m "not slow"
+	tools/sanitized.sh $(SANITIZED)/bin/python -m pytest tests/verification $(wildcard tests/unit/multibody tests/unit/space tests/unit/shell) -m "not slow"
 
 bench: $(VENV)/installed-test
 	@set -e; for script in tests/benchmark/*.py; do echo "== $$script"; $(BIN)/python $$script; done
