@@ -106,11 +106,11 @@ def test_cancel_leaves_the_rest_undone(variants):
 
     def poll(share):
         shares.append(share)
-        return False
+        return share == 0.0
 
     many = TreeVariants(variants.models, np.zeros(20_000, np.int64), np.tile(variants.velocity, (500, 1, 1)))
     finals = solve_many(many, END, poll=poll)
-    assert len(shares) == 1
+    assert 0.0 < max(shares) < 1.0
     assert finals.outcome[-1] == Outcome.CANCELLED
     assert (finals.outcome == Outcome.COMPLETE).any()
 

@@ -182,7 +182,7 @@ def test_cancel_leaves_the_rest_undone(variants):
 
     def poll(share):
         shares.append(share)
-        return False
+        return share == 0.0
 
     many = replace(
         variants,
@@ -193,7 +193,7 @@ def test_cancel_leaves_the_rest_undone(variants):
         },
     )
     finals = solve_many(many, poll=poll)
-    assert len(shares) == 1
+    assert 0.0 < max(shares) < 1.0
     assert finals.outcome[-1] == Outcome.CANCELLED
 
 
