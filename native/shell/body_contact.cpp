@@ -7,8 +7,7 @@ namespace crumple::shell {
 
 namespace {
 
-// Weight of all touches over the set's mass: a set that lies on its whole rim then falls short of the stiffness
-// asked for by a tenth.  Much more would leave single nodes with forces that change with every step.
+// Weight of all touches over the set's mass: a set then falls short of the stiffness asked for by a tenth.  Much more would leave single nodes with forces that change with every step.
 constexpr double firmness = 10.0;
 // Share of critical of the springs of friction: what sticks gives nothing back.
 constexpr double stick_damping = 1.0;

@@ -19,7 +19,7 @@ struct BodyTouch {
     double depth;                    // [m]
     double soft;                     // factor for the sake of an obstacle's light mass
     double damping, friction;        // share of critical; Coulomb coefficient
-    double share;                    // of the set's wall mass
+    double share;                    // of the wall mass of all that touch of the set
     Vec3 stick;                      // acceleration that friction holds; in and out [m/s2]
     Vec3 force;                      // out, on the node [N]
 };

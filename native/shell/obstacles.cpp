@@ -62,12 +62,8 @@ void ObstacleContact::attach(const std::vector<RigidBody>& bodies, const std::ve
     bodies_ = &bodies;
     body_states_ = &states;
     body_of_.assign(sheets_.mass.size(), -1);
-    body_walls_.assign(bodies.size(), 0.0);
     for (std::size_t b = 0; b < bodies.size(); b++)
-        for (Index n : bodies[b].nodes) {
-            body_of_[n] = std::int32_t(b);
-            body_walls_[b] += sheets_.mass[n];
-        }
+        for (Index n : bodies[b].nodes) body_of_[n] = std::int32_t(b);
 }
 
 Vec3 ObstacleContact::in_frame(std::size_t o, Vec3 x) const {
@@ -146,6 +142,11 @@ void ObstacleContact::evaluate(const Motions& m, std::size_t i) {
 
 void ObstacleContact::hold_bodies(const Motions& m) {
     std::vector<std::vector<BodyTouch>> of(bodies_->size());
+    std::vector<double> touching(bodies_->size(), 0.0);  // wall mass of each set's nodes that touch
+    for (std::size_t i = 0; i < items_.size(); i++) {
+        const Index n = model_[items_[i].obstacle].nodes[items_[i].place];
+        if (touch_[i].active && body_of_[n] >= 0) touching[std::size_t(body_of_[n])] += sheets_.mass[n];
+    }
     for (std::size_t i = 0; i < items_.size(); i++) {
         const Obstacle& o = model_[items_[i].obstacle];
         const Index n = o.nodes[items_[i].place];
@@ -161,7 +162,7 @@ void ObstacleContact::hold_bodies(const Motions& m) {
         t.soft = o.mass > 0.0 ? o.mass / (o.mass + mass) : 1.0;
         t.damping = o.damping;
         t.friction = o.friction;
-        t.share = sheets_.mass[n] / body_walls_[b];
+        t.share = sheets_.mass[n] / touching[b];
         t.stick = stick_[items_[i].obstacle][items_[i].place];
         of[b].push_back(t);
     }

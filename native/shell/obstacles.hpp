@@ -83,7 +83,6 @@ private:
     const std::vector<RigidBody>* bodies_ = nullptr;
     const std::vector<RigidState>* body_states_ = nullptr;
     std::vector<std::int32_t> body_of_;                  // [node] rigid set, -1: none
-    std::vector<double> body_walls_;                     // mass of each set's nodes [kg]
     std::vector<Item> items_;
     std::vector<Touch> touch_;
     double outside_work_ = 0.0;
