@@ -101,6 +101,16 @@ class ShellSettings(Spec):
         return self
 
     @model_validator(mode="after")
+    def _coarse_needs_fine(self) -> ShellSettings:
+        if self.coarse_sections == "on" and self.fine_size is None:
+            refuse(
+                "coarse sections lie away from fine ones, and there are none",
+                key="coarse_sections",
+                todo="add 'fine_size', or leave it off",
+            )
+        return self
+
+    @model_validator(mode="after")
     def _fine_is_finer(self) -> ShellSettings:
         if self.fine_size is not None and self.fine_size > self.element_size:
             refuse(

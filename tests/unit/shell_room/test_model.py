@@ -237,3 +237,5 @@ def test_walls_of_other_metals_keep_theirs():
 def test_fine_size_above_the_element_size_is_refused():
     with pytest.raises(InputError, match="fine size is larger"):
         ShellSettings(element_size=5e-3, fine_size=8e-3)
+    with pytest.raises(InputError, match="coarse sections lie away from fine ones"):
+        ShellSettings(coarse_sections="on")
