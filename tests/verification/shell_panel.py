@@ -8,6 +8,8 @@ degrees and 10.205 in, as sheet explosive gives it.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from crumple._core.shell import Element, ShellMaterial, ShellModel, ShellSettings, ShellState
@@ -30,7 +32,7 @@ def _loaded(count: int, share: float) -> np.ndarray:
     return np.diff(np.clip(ends, (1 - share) / 2, (1 + share) / 2)) / np.diff(ends)
 
 
-def panel(along: int, around: int, **settings: object) -> ShellModel:
+def panel(along: int, around: int, **settings: Any) -> ShellModel:
     """Model of ``along`` by ``around`` elements, both even; nodes run around fastest.
 
     Nodes get the momentum of their share of the loaded area: those on its border half the speed, so
@@ -55,7 +57,7 @@ def panel(along: int, around: int, **settings: object) -> ShellModel:
         materials=[METAL],
         fixed=fixed.reshape(-1, 6),
         velocity=(-SPEED * loaded[..., None] * outwards).reshape(-1, 3),
-        settings=ShellSettings(**settings),  # type: ignore[arg-type]
+        settings=ShellSettings(**settings),
     )
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import json
+import zlib
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from zipfile import BadZipFile, is_zipfile
-from zlib import error as BadStream  # noqa: N812
 
 import numpy as np
 
@@ -114,7 +114,7 @@ def read_restart(path: Path, mark: str, isa: str) -> Saved:
         head = json.loads(arrays["head"].tobytes())
         found = {key: head[key] for key in ("format", "mark", "isa", "seconds")}
         ended = tuple(StageSummary(**stage) for stage in head.get("ended", ()))
-    except (OSError, KeyError, TypeError, ValueError, EOFError, BadZipFile, BadStream) as error:
+    except (OSError, KeyError, TypeError, ValueError, EOFError, BadZipFile, zlib.error) as error:
         raise _unreadable(path, error) from error
     if found["format"] != FORMAT or found["mark"] != mark:
         what, todo = (
