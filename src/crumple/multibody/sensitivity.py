@@ -53,7 +53,7 @@ class Sensitivities:
 def sensitivities(
     structure: Structure,
     run: Run,
-    parameters: Sequence[str] | Mapping[str, float],
+    parameters: str | Sequence[str] | Mapping[str, float],
     cancel: Cancel | None = None,
 ) -> Sensitivities:
     """Derivatives of where a run ends.
@@ -63,8 +63,8 @@ def sensitivities(
     structure, run
         What is solved; the quantities are those of `solve_variants`.
     parameters
-        Paths and factors as in `solve_variants`; as a mapping, with the step [SI] by which each is moved to
-        see how the model's arrays follow it, needed where its value is zero.
+        Paths and factors as in `solve_variants`, or one of them; as a mapping, with the step [SI] by which
+        each is moved to see how the model's arrays follow it, needed where its value is zero.
     cancel
         As in `solve_multibody`.
 
@@ -90,6 +90,8 @@ def sensitivities(
     Derivation and limits in docs/theory/sensitivities.md.
     Verified in tests/verification/test_sensitivities.py and test_space_sensitivities.py.
     """
+    if isinstance(parameters, str):
+        parameters = (parameters,)
     if why_spatial(structure, placed_hinges(structure), run) is not None:
         given = parameters if isinstance(parameters, Mapping) else dict.fromkeys(parameters)
         threads = os.cpu_count() or 1

@@ -184,7 +184,7 @@ def _columns(
     structure: Structure, hinges: Sequence[str], parameters: Mapping[str, ArrayLike]
 ) -> dict[str, Floats]:
     """One array per parameter, all as long."""
-    values = {name: np.atleast_1d(np.asarray(given, float)) for name, given in parameters.items()}
+    values = {name: _column(name, given) for name, given in parameters.items()}
     count = max((column.size for column in values.values()), default=0)
     problems = []
     for name, column in values.items():
@@ -198,6 +198,14 @@ def _columns(
         raise InputError(problems)
     checked_names(structure, hinges, list(values))
     return {name: np.broadcast_to(column, (count,)).copy() for name, column in values.items()}
+
+
+def _column(name: str, given: ArrayLike) -> Floats:
+    try:
+        return np.atleast_1d(np.asarray(given, float))
+    except (TypeError, ValueError):
+        allowed, todo = "numbers, in SI units", "solve structures that differ in words one by one"
+        raise InputError(Problem("a parameter is not a number", repr(given), allowed, todo, name)) from None
 
 
 def _models(

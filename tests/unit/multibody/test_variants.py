@@ -5,7 +5,7 @@ import pytest
 from tests.verification.structures import STEEL, TUBE, cantilever, constant_law
 
 from crumple.errors import InputError, Status
-from crumple.multibody import Run, solve_variants
+from crumple.multibody import Run, sensitivities, solve_variants
 from crumple.multibody.lowered import lowered
 from crumple.structure import MultibodySettings, Outputs, Structure, changed
 
@@ -173,3 +173,13 @@ def test_a_variant_that_leaves_the_plane_is_refused():
     table = solve_variants(bent, RUN, {"nodes.tip.1": [0.0, 0.2], "nodes.tip.2": 0.1}, threads=1)
     assert table.status == (Status.COMPLETE, Status.REFUSED)
     assert "not parallel" in table.reason[1]
+
+
+def test_values_that_are_no_numbers_are_refused(tube):
+    with pytest.raises(InputError, match="not a number"):
+        solve_variants(tube, RUN, {"masses.payload.mass": ["heavy"]})
+
+
+def test_one_parameter_may_stand_by_itself(tube):
+    (name,) = sensitivities(tube, RUN, "masses.payload.mass")[QUANTITY]
+    assert name == "masses.payload.mass"
