@@ -225,6 +225,8 @@ class Simulation:
         Allowed error of the motion, relative to the largest rotation.
     minimum_step, maximum_step
         Bounds of the step [s].
+    compiled
+        The model's compiled form if there is one already: runs share it.
     """
 
     def __init__(
@@ -233,10 +235,11 @@ class Simulation:
         accuracy: float = 1e-3,
         minimum_step: float = MINIMUM_STEP,
         maximum_step: float = math.inf,
+        compiled: Any = None,
     ) -> None:
         self.model = model
         self._kernel = _kernels.multibody.Simulation(
-            kernel_model(model), accuracy, minimum_step, maximum_step
+            compiled or kernel_model(model), accuracy, minimum_step, maximum_step
         )
 
     def set_motion(self, velocity: Floats, impulse: Floats) -> float:

@@ -63,9 +63,8 @@ def sampled_envelope(
         points: Floats = np.interp(np.arange(first[-1] + 1), number.ravel(), dense.ravel())
         points[first] = ends
         middles = (points[1:] + points[:-1]) / 2.0
-        moment, between = np.split(
-            law.moment_capacity(np.concatenate([points, middles]), sense), [points.size]
-        )
+        both = law.moment_capacity(np.concatenate([points, middles]), sense)
+        moment, between = both[: points.size], both[points.size :]
         off_chord = np.abs((moment[1:] + moment[:-1]) / 2.0 / between - 1.0)
         off_dense = np.abs(np.interp(dense, points, moment) / exact - 1.0)
         too_far = np.maximum(np.maximum.reduceat(off_chord, first[:-1]), off_dense.max(axis=1)) >= error

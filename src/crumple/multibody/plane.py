@@ -6,6 +6,7 @@ and constraints across it are carried by the hinges.  So the mechanism is solved
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -124,13 +125,13 @@ def plane_of(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Plane:
     else:
         axes = [field.axis for field in structure.initial_velocity if field.axis and field.rotation]
         normal = np.asarray(axes[0] if axes else (0.0, 1.0, 0.0), float)
-    normal = normal / np.linalg.norm(normal)
+    normal = normal / math.hypot(*normal)
     # the sense of the normal is that of the global axis it is nearest to, so rotations read as one expects
     if normal[np.argmax(np.abs(normal))] < 0.0:
         normal = -normal
     first = np.eye(3)[(int(np.argmax(np.abs(normal))) + 1) % 3]
     first = first - (first @ normal) * normal
-    first /= np.linalg.norm(first)
+    first /= math.hypot(*first)
     return Plane(normal, first, cross(normal, first))
 
 

@@ -50,8 +50,8 @@ def output_times(run: Run, *, ends_only: bool = False) -> Floats:
     regular = np.minimum(run.every * np.arange(number + 1), run.duration)
     pictures = [t for t in run.outputs.pictures if t < run.duration]
     times = np.sort(np.concatenate([regular, [run.duration], pictures]))
-    kept: Floats = times[np.diff(times, prepend=-1.0) > 1e-9 * run.duration]
-    return kept
+    apart = times[1:] - times[:-1] > 1e-9 * run.duration
+    return np.concatenate([times[:1], times[1:][apart]])
 
 
 def poll_of(

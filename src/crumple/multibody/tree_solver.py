@@ -5,10 +5,11 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
-from crumple._core.tree import Simulation, TreeRecord
+from crumple._core.tree import Simulation, TreeRecord, kernel_model
 from crumple.multibody.mechanism import Mechanism, hinge_links, lower
 from crumple.multibody.model import start_of, tree_model
 from crumple.multibody.poses import TreePoses
@@ -42,6 +43,10 @@ class TreeSolver:
         self._model = tree_model(structure, self.mechanism, run.duration)
         self._start = start_of(structure, self.mechanism)
 
+    @cached_property
+    def _compiled(self) -> Any:
+        return kernel_model(self._model)
+
     @property
     def moving(self) -> bool:
         """See `Solver`."""
@@ -59,7 +64,8 @@ class TreeSolver:
     def run(self, accuracy: float, poll: Poll | None, *, ends_only: bool = False) -> Solved:
         """See `Solver`."""
         settings = self._run.settings
-        simulation = Simulation(self._model, accuracy, settings.minimum_time_step, settings.maximum_time_step)
+        bounds = settings.minimum_time_step, settings.maximum_time_step
+        simulation = Simulation(self._model, accuracy, *bounds, self._compiled)
         lost = simulation.set_motion(self._start.velocity, self._start.impulse)
         begin = time.perf_counter()
         record = simulation.run(output_times(self._run, ends_only=ends_only), poll)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import lru_cache
 from typing import Annotated, Any
 
 from pydantic import ConfigDict, Field, model_validator
@@ -113,19 +114,7 @@ class MaterialSpec(Spec):
 
     def material(self, name: str) -> material.Material:
         """Material of the physics room, under the name that the description gives it."""
-        return material.Material(
-            name=name,
-            youngs_modulus=self.youngs_modulus,
-            poissons_ratio=self.poissons_ratio,
-            density=self.density,
-            yield_stress=self.yield_stress,
-            ultimate_stress=self.ultimate_stress,
-            given_flow_stress=self._flow_stress,
-            yield_rate=None if self.yield_rate is None else self.yield_rate.law(),
-            flow_rate=None if self.flow_rate is None else self.flow_rate.law(),
-            hardening=None if self.hardening is None else self.hardening.curve(self.yield_stress),
-            failure_strain=self.failure_strain,
-        )
+        return _made(self, name)
 
     @property
     def _flow_stress(self) -> float | None:
@@ -137,3 +126,21 @@ class MaterialSpec(Spec):
     def statement(self) -> str:
         """What the numbers of its grade are and are not; empty without a grade."""
         return "" if self.grade is None else material.grade(self.grade).statement
+
+
+@lru_cache(maxsize=256)
+def _made(spec: MaterialSpec, name: str) -> material.Material:
+    """One object per description: every part of the lowering asks for it."""
+    return material.Material(
+        name=name,
+        youngs_modulus=spec.youngs_modulus,
+        poissons_ratio=spec.poissons_ratio,
+        density=spec.density,
+        yield_stress=spec.yield_stress,
+        ultimate_stress=spec.ultimate_stress,
+        given_flow_stress=spec._flow_stress,
+        yield_rate=None if spec.yield_rate is None else spec.yield_rate.law(),
+        flow_rate=None if spec.flow_rate is None else spec.flow_rate.law(),
+        hardening=None if spec.hardening is None else spec.hardening.curve(spec.yield_stress),
+        failure_strain=spec.failure_strain,
+    )

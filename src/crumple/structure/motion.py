@@ -71,7 +71,8 @@ class Support(Spec):
         """Freedoms that are held at zero: those of `fix` that are not driven."""
         words: dict[object, tuple[Freedom, ...]] = {"all": FREEDOMS, "pin": FREEDOMS[:3]}
         named = words[self.fix] if isinstance(self.fix, str) else self.fix
-        return tuple(freedom for freedom in named if freedom not in self.driven)
+        driven = self.driven
+        return tuple(freedom for freedom in named if freedom not in driven)
 
     @property
     def driven(self) -> dict[Freedom, TimeFunction]:
