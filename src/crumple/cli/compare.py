@@ -162,10 +162,13 @@ def _show(found: Comparison, folder: Path) -> None:
             "-" if rated is None else f"{rated.overall:.2f}",
         )
     console.print(table)
-    seconds = [format_quantity(s.result.solve_seconds, "s", 3) for s in (found.candidate, found.reference)]
+    times = [
+        f"{format_quantity(source.result.solve_seconds, 's', 3)} ({source.with_threads})"
+        for source in (found.candidate, found.reference)
+    ]
     ratio = f", {found.speed_ratio:.3g} times faster" if found.speed_ratio else ""
     alone = f" ({found.stepping_ratio:.3g} times, stepping alone)" if found.stepping_ratio else ""
-    console.print(f"Solved in {seconds[0]} ({first}) and {seconds[1]} ({second}){ratio}{alone}")
+    console.print(f"Solved in {times[0]} and {times[1]}{ratio}{alone}")
     for caution in found.trust.cautions:
         console.print(Text(f"Caution: {caution}", style="yellow"))
     console.print(Text(f"Results: {folder}  (open {folder / 'report.html'})"), soft_wrap=True)

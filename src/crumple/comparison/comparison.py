@@ -40,6 +40,12 @@ class Source:
     extra: tuple[HingeMotion, ...]
     signals: Mapping[str, Signal]
 
+    @property
+    def with_threads(self) -> str:
+        """Its name, and of how many threads its solve time is where these are several."""
+        threads = self.result.provenance.threads
+        return self.name if threads == 1 else f"{self.name}, {threads} threads"
+
     def hinge(self, name: str) -> HingeMotion | None:
         """Motion of a hinge or fold by name."""
         return next((motion for motion in (*self.hinges, *self.extra) if motion.name == name), None)

@@ -66,7 +66,8 @@ def key_figures(comparison: Comparison) -> list[tuple[str, str, str]]:
                 figures.append((word, f"{pair.rating.overall:.2f}", f"{pair.rating.grade}, {where}"))
     ratio, alone = comparison.speed_ratio, comparison.stepping_ratio
     if ratio is not None:
-        note = f"{first} than {second}" + (f"; {number(alone, 2)} × stepping alone" if alone else "")
+        note = f"{first} than {comparison.reference.with_threads}"
+        note += f"; {number(alone, 2)} × stepping alone" if alone else ""
         figures.append(("Faster", f"{number(ratio, 3)} ×", note))
     return figures
 

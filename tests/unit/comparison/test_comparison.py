@@ -24,6 +24,8 @@ from crumple.comparison.variant import (
     yielding_law,
 )
 from crumple.errors import InputError, Status
+from crumple.report.comparison_wording import key_figures
+from crumple.result import Provenance
 from crumple.section import bending_moment
 from crumple.structure import Structure
 from crumple.structure.hinges import hinge_places, law_spec, placed_hinges
@@ -71,6 +73,15 @@ def test_the_comparison_travels(found):
     again = pickle.loads(pickle.dumps(found))
     assert again.hinges[0].first == found.hinges[0].first or again.trust == found.trust
     assert again.speed_ratio == found.speed_ratio
+
+
+def test_solve_times_say_of_how_many_threads_they_are(case, multibody):
+    shell = folded_result(provenance=Provenance(version="0.1.0", input_hash="0" * 64, threads=2))
+    found = compare(multibody, shell, case.structure)
+    assert found.candidate.with_threads == "multibody"
+    assert found.reference.with_threads == "shell, 2 threads"
+    note = next(note for name, _, note in key_figures(found) if name == "Faster")
+    assert note.startswith("multibody than shell, 2 threads")
 
 
 def test_curves_are_paired_by_name_and_the_rest_is_named(case, multibody):
