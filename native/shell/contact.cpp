@@ -10,6 +10,10 @@ namespace {
 constexpr std::size_t check_every = 10;
 // ... and a search is due when a node has moved by this share of the margin; two nodes approach at most twice as fast.
 constexpr double moved_share = 0.35;
+// Of what a search has listed most is too far away to touch in the next steps.  So all of it is looked at only when a node has moved by half of
+// this share of the margin of the search, and what is nearer than the gap and that share in every step: no touch is missed, and
+// none is late.  A larger share makes the looks at all rarer and the list of what is close longer.
+constexpr double close_share = 0.1;
 // Items that are handed out at once: a few microseconds of work.
 constexpr std::size_t items_at_once = 16;
 
@@ -50,6 +54,8 @@ Contact::Contact(const Model& model, const Masses& masses, double step) : sheets
     // not beyond the neighbourhood, else every node would list the rest of its own wall
     const double thickest = *std::max_element(model.thickness.begin(), model.thickness.end());
     skin_ = (WallContact::neighbourhood - 1.0) * (walls_ ? walls_->reach() : thickest);
+    margin_ = close_share * skin_;
+    if (walls_) seen_.assign(position_record * model.nodes(), 0.0);
 }
 
 bool Contact::moved_far(const Motions& m, Range nodes) const {
@@ -60,8 +66,6 @@ bool Contact::moved_far(const Motions& m, Range nodes) const {
     }
     return false;
 }
-
-void Contact::list_work() { found_.resize((items() + items_at_once - 1) / items_at_once); }
 
 void Contact::search(const Motions& m, const std::vector<std::uint8_t>& alive, const Member& member) {
     if (!any()) return;
@@ -81,26 +85,35 @@ void Contact::search(const Motions& m, const std::vector<std::uint8_t>& alive, c
     member.meet([&] {
         if (walls_) edges_->end_search(m);
         obstacles_.search(m, skin_);
-        list_work();
+        all_ = true;
         searches_++;
         due_ = false;
     });
 }
 
+void Contact::prepare(double way2) {
+    all_ |= !(way2 < 0.25 * margin_ * margin_);
+    chunks_ = (items() + items_at_once - 1) / items_at_once;
+    if (found_.size() < chunks_) found_.resize(chunks_);
+}
+
 void Contact::evaluate(const Motions& m, const Member& member) {
     const std::size_t walls = wall_items(), edges = walls + edge_items(), all = edges + obstacles_.items();
-    for (std::size_t k; (k = next_.fetch_add(1, std::memory_order_relaxed)) < found_.size();) {
+    for (std::size_t k; (k = next_.fetch_add(1, std::memory_order_relaxed)) < chunks_;) {
         FoundForces& found = found_[k];
         found.clear(sheets_.model.nodes(), member.count);
         for (std::size_t i = items_at_once * k; i < std::min(all, items_at_once * (k + 1)); i++) {
             if (i < walls)
-                walls_->evaluate(m, i, found);
+                all_ ? walls_->evaluate_all(m, i, margin_, found) : walls_->evaluate_close(m, i, found);
             else if (i < edges)
-                edges_->evaluate(m, i - walls, found);
+                all_ ? edges_->evaluate_all(m, i - walls, margin_, found) : edges_->evaluate_close(m, i - walls, found);
             else
                 obstacles_.evaluate(m, i - edges);
         }
     }
+    if (!all_ || !walls_) return;
+    const Range nodes = member.share(sheets_.model.nodes());
+    std::copy_n(m.position + position_record * nodes.first, position_record * (nodes.last - nodes.first), &seen_[position_record * nodes.first]);
 }
 
 void Contact::turn_over(const Motions& m) {
@@ -111,8 +124,8 @@ void Contact::turn_over(const Motions& m) {
 
 void Contact::sum(const Motions& m, const Member& member) {
     const Range chunks = member.share(now_.chunks());
-    for (const FoundForces& found : found_)
-        for (const FoundForces::Found& f : found.of(member)) now_.add(f.node, f.force);
+    for (std::size_t k = 0; k < chunks_; k++)
+        for (const FoundForces::Found& f : found_[k].of(member)) now_.add(f.node, f.force);
     for (std::size_t c = chunks.first; c < chunks.last; c++) power_[c] = now_.power(m, c) + before_.power(m, c);
     before_.clear(chunks);
     const bool look = (checks_ + 1) % check_every == 0;
@@ -120,7 +133,7 @@ void Contact::sum(const Motions& m, const Member& member) {
 }
 
 void Contact::commit(double last_dt) {
-    for (const FoundForces& found : found_) deepest_ = std::max(deepest_, found.deepest);
+    for (std::size_t k = 0; k < chunks_; k++) deepest_ = std::max(deepest_, found_[k].deepest);
     double power = obstacles_.power(false) + obstacles_.power(true);
     for (double p : power_) power += p;
     // work done against contact over the last step, by the mean of the forces at both ends
@@ -128,6 +141,11 @@ void Contact::commit(double last_dt) {
     obstacles_.book(last_dt);
     due_ = ++checks_ % check_every == 0 && (moved_ || !(obstacles_.moved() < moved_share * skin_));
     moved_ = false;
+    if (walls_ && all_) {
+        walls_->list_close();
+        edges_->list_close();
+    }
+    all_ = false;
 }
 
 std::vector<double> Contact::save() const {
@@ -156,7 +174,7 @@ void Contact::restore(const std::vector<double>& saved) {
         edges_->restore(in);
     }
     obstacles_.restore(in);
-    list_work();
+    all_ = true;
 }
 
 }  // namespace crumple::shell

@@ -15,7 +15,12 @@ public:
 
     bool any() const { return walls_ || obstacles_.any(); }
 
+    // Where each node was when everything listed was last looked at, [node][position_record]; null if nobody asks.
+    const double* seen() const { return walls_ ? seen_.data() : nullptr; }
+
     // A step, in this order; every member of the team calls what takes a member, one alone calls the rest.
+    // Whether to look at everything again: `way2` is the square of the largest way that a node has made since [m2].
+    void prepare(double way2);
     // Finds the touches at new positions; who is ready first takes more of them.
     void evaluate(const Motions& m, const Member& member);
     // Makes room for new forces and puts those of obstacles there.
@@ -43,22 +48,25 @@ public:
     void restore(const std::vector<double>& saved);
 
 private:
-    std::size_t wall_items() const { return walls_ ? walls_->items() : 0; }
-    std::size_t edge_items() const { return edges_ ? edges_->items() : 0; }
+    std::size_t wall_items() const { return !walls_ ? 0 : all_ ? walls_->items() : walls_->close_items(); }
+    std::size_t edge_items() const { return !edges_ ? 0 : all_ ? edges_->items() : edges_->close_items(); }
     std::size_t items() const { return wall_items() + edge_items() + obstacles_.items(); }
     bool moved_far(const Motions& m, Range nodes) const;
-    void list_work();
 
     Sheets sheets_;
     std::unique_ptr<WallContact> walls_;         // null without self-contact
     std::unique_ptr<EdgeContact> edges_;
     ObstacleContact obstacles_;
-    std::vector<FoundForces> found_;             // [chunk of items]
-    std::atomic<std::size_t> next_{0};           // chunk of items to be handed out
+    std::vector<FoundForces> found_;             // [chunk of items]; those in use come first
+    std::size_t chunks_ = 0;
+    alignas(64) std::atomic<std::size_t> next_{0};       // chunk of items to be handed out
     NodeForces now_, before_;
     std::vector<double> power_;                  // of the forces at both ends of the step, [chunk of nodes] [W]
     double skin_ = 0.0;                          // margin of the search [m]
     std::vector<double> searched_at_;            // positions of the last search
+    double margin_ = 0.0;                        // of what is close [m]
+    aligned_vector<double> seen_;                // positions at the last look at all
+    bool all_ = true;                            // this step looks at all
     double work_ = 0.0, deepest_ = 0.0;
     std::size_t searches_ = 0, checks_ = 0;
     std::atomic<bool> moved_{false};

@@ -113,6 +113,19 @@ Simulation::Kick Simulation::kick_body(std::size_t i, RigidState& s) const {
     return out;
 }
 
+double Simulation::way_of_others() const {
+    double farthest = 0.0;
+    if (!contact_->seen()) return farthest;
+    auto look = [&](Index n) {
+        const Vec3 way = read3(&position_[position_record * n]) - read3(contact_->seen() + position_record * n);
+        farthest = std::max(farthest, dot(way, way));
+    };
+    for (const Driven& d : driven_) look(d.node);
+    for (const RigidBody& body : bodies_)
+        for (Index n : body.nodes) look(n);
+    return farthest;
+}
+
 void Simulation::move_bodies() {
     const double damping = model_->settings.damping;
     for (std::size_t i = 0; i < bodies_.size(); i++) {

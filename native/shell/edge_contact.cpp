@@ -17,14 +17,15 @@ constexpr double parallel = 0.03;
 struct Crossing {
     double s, t;                     // places along both segments, 0 to 1
     Vec3 apart;                      // from the second to the first
-    bool inside;                     // within both segments and not parallel
+    bool parallel, inside;           // inside: within both segments and not parallel
 };
 
 Crossing crossing(Vec3 a0, Vec3 a1, Vec3 b0, Vec3 b1) {
     const Vec3 u = a1 - a0, v = b1 - b0, r = a0 - b0;
     const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), ur = dot(u, r), vr = dot(v, r), d = uu * vv - uv * uv;
     Crossing c{};
-    if (!(d > parallel * uu * vv)) return c;
+    c.parallel = !(d > parallel * uu * vv);
+    if (c.parallel) return c;
     c.s = (uv * vr - vv * ur) / d;
     c.t = (uu * vr - uv * ur) / d;
     c.apart = r + c.s * u - c.t * v;
@@ -40,6 +41,14 @@ double segment_distance(Vec3 a0, Vec3 a1, Vec3 b0, Vec3 b1) {
         return norm(p - s0 - std::clamp(dot(p - s0, u) / dot(u, u), 0.0, 1.0) * u);
     };
     return std::min({from(a0, b0, b1), from(a1, b0, b1), from(b0, a0, a1), from(b1, a0, a1)});
+}
+
+// No more than the distance of two segments.  Those that count as parallel may cross between their ends after all: then an end lies within
+// half the shorter one of the crossing, and beside the other by at most the sine of their angle times that.
+double least_distance(Vec3 a0, Vec3 a1, Vec3 b0, Vec3 b1) {
+    const double distance = segment_distance(a0, a1, b0, b1);
+    if (!crossing(a0, a1, b0, b1).parallel) return distance;
+    return distance - 0.5 * std::sqrt(parallel * std::min(dot(a1 - a0, a1 - a0), dot(b1 - b0, b1 - b0)));
 }
 
 }  // namespace
@@ -139,7 +148,7 @@ void EdgeContact::search(const Motions& m, const Member& member) {
             if (p >= q) return;
             const Edge& a = edges_[listed_[p]];
             if (segment_distance(position_of(m, a.node[0]), position_of(m, a.node[1]), b0, b1) > far_ || same_sheet(a, b)) return;
-            near.push_back({listed_[p], listed_[q], a.half + b.half, {}});
+            near.push_back({listed_[p], listed_[q], a.half + b.half, {}, false});
         });
     }
 }
@@ -163,8 +172,21 @@ void EdgeContact::end_search(const Motions& m) {
     pairs_ = std::move(pairs);
 }
 
-void EdgeContact::evaluate(const Motions& m, std::size_t i, FoundForces& found) {
+void EdgeContact::evaluate_all(const Motions& m, std::size_t i, double margin, FoundForces& found) {
     Pair& p = pairs_[i];
+    evaluate(m, p, found);
+    const Edge &a = edges_[p.first], &b = edges_[p.second];
+    p.close = least_distance(position_of(m, a.node[0]), position_of(m, a.node[1]), position_of(m, b.node[0]),
+                             position_of(m, b.node[1])) < p.gap + margin;
+}
+
+void EdgeContact::list_close() {
+    close_.clear();
+    for (std::size_t i = 0; i < pairs_.size(); i++)
+        if (pairs_[i].close) close_.push_back(i);
+}
+
+void EdgeContact::evaluate(const Motions& m, Pair& p, FoundForces& found) const {
     const Edge &a = edges_[p.first], &b = edges_[p.second];
     const Vec3 a0 = position_of(m, a.node[0]), b0 = position_of(m, b.node[0]);
     const Crossing c = crossing(a0, position_of(m, a.node[1]), b0, position_of(m, b.node[1]));
@@ -197,7 +219,7 @@ void EdgeContact::save(std::vector<double>& out) const {
 void EdgeContact::restore(const double*& in) {
     pairs_.resize(std::size_t(*in++));
     for (Pair& p : pairs_) {
-        p = {Index(in[0]), Index(in[1]), in[2], read3(in + 3)};
+        p = {Index(in[0]), Index(in[1]), in[2], read3(in + 3), false};
         in += 6;
     }
 }

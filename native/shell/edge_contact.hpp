@@ -12,8 +12,14 @@ class EdgeContact {
 public:
     EdgeContact(const Sheets& sheets, const WallContact& walls);
 
+    // Pairs, and those that are close.
     std::size_t items() const { return pairs_.size(); }
-    void evaluate(const Motions& m, std::size_t item, FoundForces& found);
+    std::size_t close_items() const { return close_.size(); }
+    // Forces of the pair of an item; the first notes whether it is nearer than its gap and `margin`.
+    void evaluate_all(const Motions& m, std::size_t item, double margin, FoundForces& found);
+    void evaluate_close(const Motions& m, std::size_t item, FoundForces& found) { evaluate(m, pairs_[close_[item]], found); }
+    // Lists what was noted as close.
+    void list_close();
     // Parts of a search: each member with its share of the elements, then of the edges; one alone; each; one alone.
     void turn(const Motions& m, Range elements);
     void find_creases(const std::vector<std::uint8_t>& alive, const Member& member);
@@ -35,7 +41,9 @@ private:
         Index first, second;         // edges
         double gap;                  // distance kept: that of the walls, or what it was when the pair was found
         Vec3 stick;
+        bool close;                  // noted by the last look at all
     };
+    void evaluate(const Motions& m, Pair& pair, FoundForces& found) const;
     void list_edges();
     bool stands_out(const std::vector<std::uint8_t>& alive, const Edge& e) const;
     bool same_sheet(const Edge& a, const Edge& b) const;
@@ -44,6 +52,7 @@ private:
     const WallContact& walls_;
     std::vector<Edge> edges_;
     std::vector<Pair> pairs_;        // in order of their edges
+    std::vector<std::size_t> close_; // places of close ones among them
     // of a search
     std::vector<Vec3> normal_;       // [element] not of unit length
     std::vector<std::uint8_t> out_;  // [edge] whether it stands out

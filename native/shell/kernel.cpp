@@ -131,10 +131,17 @@ inline void run_node(const NodeStage& s, std::size_t i, Quad gravity, double& da
     store(position, load(position) + s.drift * v);
 }
 
-void run_nodes(const NodeStage& stage, std::size_t first, std::size_t last) {
+double run_nodes(const NodeStage& stage, std::size_t first, std::size_t last) {
     const Quad gravity = {stage.gravity[0], stage.gravity[1], stage.gravity[2], 0.0};
-    for (std::size_t i = first; i < last; i++)
-        if (stage.kind[i] == 0) run_node(stage, i, gravity, stage.damping_work[i / node_chunk]);
+    double farthest = 0.0;
+    for (std::size_t i = first; i < last; i++) {
+        if (stage.kind[i] != 0) continue;
+        run_node(stage, i, gravity, stage.damping_work[i / node_chunk]);
+        if (!stage.seen) continue;
+        const Quad way = load(stage.position + position_record * i) - load(stage.seen + position_record * i), square = way * way;
+        farthest = std::max(farthest, square[0] + square[1] + square[2]);
+    }
+    return farthest;
 }
 
 }  // namespace

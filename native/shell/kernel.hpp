@@ -42,6 +42,7 @@ struct NodeStage {
     const double* inverse_mass;      // [node][velocity_record]; 0 for a fixed degree of freedom
     const double* sum;               // [sum][corner_record] force and moment of a chunk's elements
     const double* contact;           // [node][4] force, or null
+    const double* seen;              // [node][position_record] where contact last looked at everything, or null
     const std::uint8_t* kind;        // 0: free
     const std::uint32_t* first;      // CSR of sums per node
     const std::uint32_t* sum_of;
@@ -57,7 +58,8 @@ struct Kernels {
     int lanes;
     ElementReport (*elements)(const ElementStage&, std::size_t first, std::size_t last);
     void (*sums)(const SumStage&, std::size_t first, std::size_t last);
-    void (*nodes)(const NodeStage&, std::size_t first, std::size_t last);
+    // Gives the square of the largest way from `seen`.
+    double (*nodes)(const NodeStage&, std::size_t first, std::size_t last);
 };
 
 // The build named by the variable CRUMPLE_ISA, else the best that this machine runs.

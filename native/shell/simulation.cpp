@@ -39,6 +39,7 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const Kernels& kernel
     contact_->obstacles().place(motions());
     contact_->search(motions(), alive_, {});
     // forces of contact at the start; the elements are free of stress
+    contact_->prepare(0.0);
     contact_->evaluate(motions(), {});
     contact_->turn_over(motions());
     contact_->sum(motions(), {});
@@ -130,45 +131,41 @@ ElementStage Simulation::element_stage(double dt, double* corner) {
             state_.size() > largest_in_cache, 4.0 / (least * least)};
 }
 
-ElementReport Simulation::move_elements(Range chunks, double dt, double* corner) {
+// adds what another report found; of what is bad the first counts, in whatever order they come
+static void add(ElementReport& sum, const ElementReport& r) {
+    if (r.bad_block >= 0) sum.bad_block = sum.bad_block < 0 ? r.bad_block : std::min(sum.bad_block, r.bad_block);
+    sum.frequency = std::max(sum.frequency, r.frequency);
+}
+
+void Simulation::move_elements(const ElementStage& stage, std::size_t i, ElementReport& report) {
     const Chunks& c = blocks_.chunks;
-    const ElementStage stage = element_stage(dt, corner);
-    const SumStage sums = {corner, c.first.data(), c.corner_of.data(), sum_.data()};
-    ElementReport report;
-    for (std::size_t i = chunks.first; i < chunks.last; i++) {
-        const ElementReport r = kernels_.elements(stage, c.block[i], c.block[i + 1]);
-        if (report.bad_block < 0) report.bad_block = r.bad_block;
-        report.frequency = std::max(report.frequency, r.frequency);
-        kernels_.sums(sums, c.sums[i], c.sums[i + 1]);
-        for (std::size_t j = c.kept[i]; j < c.kept[i + 1]; j++)
-            std::copy_n(corner + std::size_t(corner_record) * c.kept_corner[j], corner_record, &kept_[corner_record * j]);
-    }
-    return report;
+    add(report, kernels_.elements(stage, c.block[i], c.block[i + 1]));
+    kernels_.sums({stage.corner, c.first.data(), c.corner_of.data(), sum_.data()}, c.sums[i], c.sums[i + 1]);
+    for (std::size_t j = c.kept[i]; j < c.kept[i + 1]; j++)
+        std::copy_n(stage.corner + std::size_t(corner_record) * c.kept_corner[j], corner_record, &kept_[corner_record * j]);
 }
 
 NodeStage Simulation::node_stage() {
     const Settings& s = model_->settings;
     return {position_.data(), velocity_.data(), inverse_mass_.data(), sum_.data(), contact_->any() ? contact_->force() : nullptr,
-            kind_.data(), blocks_.first.data(), blocks_.sum_of.data(), damping_work_.data(), kick(), dt_, s.damping,
+            contact_->seen(), kind_.data(), blocks_.first.data(), blocks_.sum_of.data(), damping_work_.data(), kick(), dt_, s.damping,
             {s.gravity.x, s.gravity.y, s.gravity.z}};
 }
 
-void Simulation::move_nodes(Range range) { kernels_.nodes(node_stage(), range.first, range.last); }
+double Simulation::move_nodes(Range range) { return kernels_.nodes(node_stage(), range.first, range.last); }
 
 // the step that follows from what the elements found, or why there is none
 void Simulation::end_step(const std::vector<ElementReport>& reports) {
-    double frequency = 0.0;
-    for (const ElementReport& r : reports) {
-        if (r.bad_block >= 0 && end_ == End::running) note_failure(r);
-        frequency = std::max(frequency, r.frequency);
-    }
+    ElementReport all;
+    for (const ElementReport& r : reports) add(all, r);
+    if (all.bad_block >= 0) note_failure(all);
     last_dt_ = dt_;
     time_ += dt_;
     steps_++;
     if (end_ != End::running) return;
     contact_->turn_over(motions());
     // a shape that relaxes lengthens the step slowly; with every element gone the step stays
-    const double stable = frequency > 0.0 ? model_->settings.safety * 2.0 / std::sqrt(frequency) : dt_;
+    const double stable = all.frequency > 0.0 ? model_->settings.safety * 2.0 / std::sqrt(all.frequency) : dt_;
     dt_ = std::min(stable, 1.02 * dt_);
 }
 
@@ -234,6 +231,8 @@ End Simulation::advance(double until, double seconds, std::int64_t steps, int th
     const int members = int(std::min<std::size_t>(useful, std::size_t(std::max(threads, 1))));
     std::vector<ElementReport> reports;
     reports.resize(std::size_t(members));
+    std::vector<double> ways(reports.size(), 0.0);
+    Shares shares(members);
     bool go = true;
     auto decide = [&] {
         go = end_ == End::running && time_ < until && steps_ < last_step;
@@ -245,15 +244,23 @@ End Simulation::advance(double until, double seconds, std::int64_t steps, int th
         aligned_vector<double> corner = chunk_corners();
         while (go) {
             // nodes: forces of the last step move them
-            move_nodes(member.share(model_->nodes(), node_chunk));
+            double& way = ways[std::size_t(member.index)];
+            way = move_nodes(member.share(model_->nodes(), node_chunk));
             if (member.index == 0) {
                 move_driven();
                 move_bodies();
                 contact_->obstacles().move(time_, kick(), dt_);
+                way = std::max(way, way_of_others());
             }
-            member.meet([] {});
+            member.meet([&] {
+                contact_->prepare(*std::max_element(ways.begin(), ways.end()));
+                shares.deal(blocks_.chunks.count());
+            });
             // elements and contact: the new shape gives new forces
-            reports[std::size_t(member.index)] = move_elements(member.share(blocks_.chunks.count()), dt_, corner.data());
+            ElementReport report;
+            const ElementStage stage = element_stage(dt_, corner.data());
+            shares.take(member, [&](std::size_t chunk) { move_elements(stage, chunk, report); });
+            reports[std::size_t(member.index)] = report;
             contact_->evaluate(motions(), member);
             member.meet([&] {
                 end_step(reports);
@@ -271,7 +278,9 @@ void Simulation::deform(const double* position, const double* velocity, const do
         write3(&velocity_[velocity_record * i], read3(velocity + 3 * i));
         write3(&velocity_[velocity_record * i + 4], read3(spin + 3 * i));
     }
-    move_elements({0, blocks_.chunks.count()}, dt, chunk_corners().data());
+    aligned_vector<double> corner = chunk_corners();
+    ElementReport report;
+    for (std::size_t i = 0; i < blocks_.chunks.count(); i++) move_elements(element_stage(dt, corner.data()), i, report);
 }
 
 }  // namespace crumple::shell

@@ -83,9 +83,10 @@ private:
     ElementStage element_stage(double dt, double* corner);
     // room for the forces at the corners of a chunk's elements
     aligned_vector<double> chunk_corners() const { return aligned_vector<double>(std::size_t(4 * corner_record) * elements_per_chunk); }
-    ElementReport move_elements(Range chunks, double dt, double* corner);
+    void move_elements(const ElementStage& stage, std::size_t chunk, ElementReport& report);
     NodeStage node_stage();
-    void move_nodes(Range range);
+    double move_nodes(Range range);              // gives the square of the largest way since contact looked at everything
+    double way_of_others() const;                // the same of nodes that are driven or of rigid sets
     void move_driven();
     void move_bodies();
     void begin_step();

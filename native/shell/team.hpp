@@ -1,6 +1,7 @@
 // A team of threads that runs stages one after another, with a barrier that spins first and yields then.
 #pragma once
 #include <atomic>
+#include <cstdint>
 #include <thread>
 #include <vector>
 
@@ -63,6 +64,44 @@ struct Member {
         else
             serial();
     }
+};
+
+// Pieces of work dealt out to the members of a team beforehand, so that each finds what it worked on last in its caches; who is
+// ready takes pieces from the end of another's share.
+class Shares {
+public:
+    explicit Shares(int members) : rest_(std::size_t(members)) {}
+    // One member alone, before the others take.
+    void deal(std::size_t pieces) {
+        const int members = int(rest_.size());
+        for (int i = 0; i < members; i++) {
+            const Range own = share_of(pieces, i, members);
+            rest_[std::size_t(i)].range.store(packed(own.first, own.last), std::memory_order_relaxed);
+        }
+    }
+    // Calls work(piece) until nothing is left to take.
+    template <class Work> void take(const Member& member, Work work) {
+        for (std::size_t k = 0; k < rest_.size(); k++) {
+            std::atomic<std::uint64_t>& range = rest_[(std::size_t(member.index) + k) % rest_.size()].range;
+            for (std::size_t piece; pop(range, k == 0, piece);) work(piece);
+        }
+    }
+
+private:
+    struct alignas(64) Rest {
+        std::atomic<std::uint64_t> range{0};     // first and last piece that are left
+    };
+    static std::uint64_t packed(std::size_t first, std::size_t last) { return std::uint64_t(first) << 32 | std::uint64_t(last); }
+    static bool pop(std::atomic<std::uint64_t>& range, bool front, std::size_t& piece) {
+        for (std::uint64_t now = range.load(std::memory_order_relaxed);;) {
+            const std::size_t first = std::size_t(now >> 32), last = std::size_t(now & 0xffffffffu);
+            if (first == last) return false;
+            piece = front ? first : last - 1;
+            const std::uint64_t then = front ? packed(first + 1, last) : packed(first, last - 1);
+            if (range.compare_exchange_weak(now, then, std::memory_order_relaxed)) return true;
+        }
+    }
+    std::vector<Rest> rest_;                     // [member]
 };
 
 // Runs work(member) on so many members; the caller is the first.

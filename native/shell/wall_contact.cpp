@@ -7,8 +7,10 @@ namespace crumple::shell {
 
 namespace {
 
-// A node can be near so many elements at once at most; more are passed over.
+// A node can touch so many elements at once at most; more are passed over.
 constexpr std::size_t most_hits = 24;
+// Distance of what is too far away to be looked at.
+constexpr double beyond = 1e300;
 
 // Elements of `near` that hang together with the node: start at its own, go on to those that share a node.
 std::vector<Index> connected(const std::vector<Index>& quads, Index node, const std::vector<Index>& near) {
@@ -163,16 +165,22 @@ void WallContact::end_search() {
         candidates_.push_back({a.element, a.side});
         candidate_first_.back() = candidates_.size();
     }
+    is_close_.assign(candidates_.size(), 0);
     // a node that has left every wall behind has nothing that sticks
     for (Index n : before)
         if (!std::binary_search(listed_.begin(), listed_.end(), n)) stick_[2 * n] = stick_[2 * n + 1] = {};
 }
 
-// Whether the node is nearer to the element than the gap, and how.  The side on which it is held is the one from
-// which it comes to lie over the element; beside the border there is none.
-bool WallContact::hit(const Motions& m, Index n, Candidate& c, Hit& found) const {
+struct WallContact::Hits {
+    Hit hit[most_hits];
+    std::size_t count = 0;
+};
+
+// Distance of the node from the element, `beyond` if that is more than the gap and `margin`; adds to `hits` how they touch.
+// The side on which the node is held is the one from which it comes to lie over the element; beside the border there is none.
+double WallContact::approach(const Motions& m, Index n, Candidate& c, double margin, Hits& hits) const {
     const Vec3 p = position_of(m, n);
-    const double g = gap(n, c.element);
+    const double g = gap(n, c.element), far = g + margin;
     Vec3 x[4];
     sheets_.corners(m.position, position_record, c.element, x);
     // reject by the slab and the ball around the element
@@ -180,20 +188,21 @@ bool WallContact::hit(const Motions& m, Index n, Candidate& c, Hit& found) const
     const Vec3 away = p - ball.centre, across = cross(x[2] - x[0], x[3] - x[1]);
     // height over the slab that the warped element fills, times the length of `across`
     const double high = std::abs(dot(away, across)) - std::abs(dot(x[0] - ball.centre, across));
-    const bool near = (high < 0.0 || high * high < g * g * dot(across, across)) && ball.within(dot(away, away), g);
+    const bool near = (high < 0.0 || high * high < far * far * dot(across, across)) && ball.within(dot(away, away), far);
     const Closest q = near ? closest_on_quad(p, x) : Closest{};
     if (!near || q.distance >= g) {
         c.side = 0;
-        return false;
+        return near ? q.distance : beyond;
     }
+    if (hits.count == most_hits) return q.distance;
     const Vec3 d = p - q.point;
     if (!q.inside) c.side = 0;
     else if (c.side == 0) c.side = dot(d, across) >= 0.0 ? 1 : -1;
     const Vec3 normal = (double(c.side) / norm(across)) * across;
     const bool through = dot(d, normal) < 0.0, on_it = q.distance < 1e-9 * g;
-    found = {q, through || (on_it && q.inside) ? normal : (1.0 / std::max(q.distance, 1e-9 * g)) * d, g,
-             g - (through ? -q.distance : q.distance), c.element};
-    return true;
+    hits.hit[hits.count++] = {q, through || (on_it && q.inside) ? normal : (1.0 / std::max(q.distance, 1e-9 * g)) * d, g,
+                              g - (through ? -q.distance : q.distance), c.element};
+    return q.distance;
 }
 
 // The force goes to the node, its opposite to the corners by weight.
@@ -214,17 +223,13 @@ void WallContact::touch(const Motions& m, Index n, const Hit& hit, Vec3& stick, 
         if (hit.at.weight[c] != 0.0) found.add(corners[c], (-hit.at.weight[c]) * force);
 }
 
-void WallContact::evaluate(const Motions& m, std::size_t i, FoundForces& found) {
-    const Index n = listed_[i];
-    Hit hits[most_hits];
-    std::size_t count = 0;
-    for (std::size_t k = candidate_first_[i]; k < candidate_first_[i + 1] && count < most_hits; k++)
-        count += hit(m, n, candidates_[k], hits[count]);
-    const Hit *first = nullptr, *second = nullptr;
-    for (std::size_t k = 0; k < count; k++)
-        if (!first || hits[k].at.distance < first->at.distance) first = &hits[k];
-    for (std::size_t k = 0; k < count; k++)
-        if (dot(hits[k].direction, first->direction) < 0.0 && (!second || hits[k].at.distance < second->at.distance)) second = &hits[k];
+// The closest element, and the closest on the other side.
+void WallContact::answer(const Motions& m, Index n, const Hits& hits, FoundForces& found) {
+    const Hit *first = nullptr, *second = nullptr, *end = hits.hit + hits.count;
+    for (const Hit* h = hits.hit; h != end; h++)
+        if (!first || h->at.distance < first->at.distance) first = h;
+    for (const Hit* h = hits.hit; h != end; h++)
+        if (dot(h->direction, first->direction) < 0.0 && (!second || h->at.distance < second->at.distance)) second = h;
     const Hit* chosen[2] = {first, second};
     for (std::size_t k = 0; k < 2; k++) {
         Vec3& stick = stick_[2 * n + k];
@@ -232,6 +237,34 @@ void WallContact::evaluate(const Motions& m, std::size_t i, FoundForces& found) 
             touch(m, n, *chosen[k], stick, found);
         else
             stick = {};
+    }
+}
+
+void WallContact::evaluate_all(const Motions& m, std::size_t i, double margin, FoundForces& found) {
+    const Index n = listed_[i];
+    Hits hits;
+    for (std::size_t k = candidate_first_[i]; k < candidate_first_[i + 1]; k++)
+        is_close_[k] = approach(m, n, candidates_[k], margin, hits) < gap(n, candidates_[k].element) + margin;
+    answer(m, n, hits, found);
+}
+
+void WallContact::evaluate_close(const Motions& m, std::size_t i, FoundForces& found) {
+    const Index n = close_nodes_[i];
+    Hits hits;
+    for (std::size_t k = close_first_[i]; k < close_first_[i + 1]; k++) approach(m, n, candidates_[close_[k]], 0.0, hits);
+    answer(m, n, hits, found);
+}
+
+void WallContact::list_close() {
+    close_nodes_.clear();
+    close_first_.assign(1, 0);
+    close_.clear();
+    for (std::size_t i = 0; i < listed_.size(); i++) {
+        for (std::size_t k = candidate_first_[i]; k < candidate_first_[i + 1]; k++)
+            if (is_close_[k]) close_.push_back(k);
+        if (close_.size() == close_first_.back()) continue;
+        close_nodes_.push_back(listed_[i]);
+        close_first_.push_back(close_.size());
     }
 }
 
@@ -256,6 +289,7 @@ void WallContact::save(std::vector<double>& out) const {
 void WallContact::restore(const double*& in) {
     listed_.resize(std::size_t(*in++));
     candidates_.resize(std::size_t(*in++));
+    is_close_.assign(candidates_.size(), 0);
     candidate_first_.assign(listed_.size() + 1, 0);
     stick_.assign(stick_.size(), Vec3{});
     for (std::size_t i = 0; i < listed_.size(); i++) {

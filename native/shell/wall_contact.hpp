@@ -20,8 +20,14 @@ public:
     explicit WallContact(const Sheets& sheets);
 
     double reach() const { return reach_; }      // largest gap [m]
+    // Nodes with candidates, and those of them with close ones.
     std::size_t items() const { return listed_.size(); }
-    void evaluate(const Motions& m, std::size_t item, FoundForces& found);
+    std::size_t close_items() const { return close_nodes_.size(); }
+    // Forces on the node of an item; the first looks at all its candidates and notes which are nearer than the gap and `margin`.
+    void evaluate_all(const Motions& m, std::size_t item, double margin, FoundForces& found);
+    void evaluate_close(const Motions& m, std::size_t item, FoundForces& found);
+    // Lists what was noted as close.
+    void list_close();
     // Three parts of a search: one member alone, each with its share of the elements, one alone.
     void start_search(const Motions& m, double skin, int members);
     void search(const Motions& m, const std::vector<std::uint8_t>& alive, Range elements, const Member& member);
@@ -50,7 +56,9 @@ private:
     void list_neighbours();
     double gap(Index node, Index element) const;
     std::int8_t side_so_far(Index node, Index element) const;
-    bool hit(const Motions& m, Index node, Candidate& c, Hit& found) const;
+    struct Hits;
+    double approach(const Motions& m, Index node, Candidate& c, double margin, Hits& hits) const;
+    void answer(const Motions& m, Index node, const Hits& hits, FoundForces& found);
     void touch(const Motions& m, Index node, const Hit& hit, Vec3& stick, FoundForces& found) const;
 
     const Sheets& sheets_;
@@ -60,6 +68,9 @@ private:
     std::vector<std::size_t> candidate_first_{0};
     std::vector<Candidate> candidates_;
     std::vector<Vec3> stick_;                    // two for each node; zero unless listed
+    std::vector<std::uint8_t> is_close_;         // [candidate]
+    std::vector<Index> close_nodes_;             // nodes with close candidates
+    std::vector<std::size_t> close_first_{0}, close_;    // places of those among the candidates
     // of a search
     PointGrid grid_;
     double far_ = 0.0;
