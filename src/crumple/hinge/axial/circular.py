@@ -90,8 +90,8 @@ class CircularCrushing:
         section
             Circular tube; its mean radius and wall are used.
         material
-        Flow stress for the mean force, yield stress for the peak, flow rate for the rate factor. mode,
-        crush_distance
+            Flow stress for the mean force, yield stress for the peak, flow rate for the rate factor.
+        mode, crush_distance
             Choices, by enum or by text; the diamond mode knows the effective distance alone.
 
         Raises

@@ -87,7 +87,8 @@ class SquareCrushing:
         section
             Square tube; its outer side and wall are used.
         material
-        Flow stress for the mean force, yield stress for the peak, flow rate for the rate factor. mode
+            Flow stress for the mean force, yield stress for the peak, flow rate for the rate factor.
+        mode
             Folding mode, by enum or by its text.
 
         Raises

@@ -94,7 +94,7 @@ class SuperfoldingCrushing:
         section
             Rectangular tube; its outer sides and wall are used.
         material
-        Flow stress for the mean force, yield stress for the peak, flow rate for the rate factor.
+            Flow stress for the mean force, yield stress for the peak, flow rate for the rate factor.
         crush_distance
             Choice, by enum or by its text.
 

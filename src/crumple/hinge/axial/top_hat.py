@@ -71,7 +71,8 @@ class HatCrushing:
         section
             Closed hat; its area and wall are used, L = area/thickness.
         material
-        Flow stress for the mean force, yield stress for the peak, flow rate for the rate factor. double
+            Flow stress for the mean force, yield stress for the peak, flow rate for the rate factor.
+        double
             Take the section as two hats on each other, not a hat on a plate.
 
         Raises

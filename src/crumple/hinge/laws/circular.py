@@ -21,15 +21,15 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.capped import CappedMechanism
-from crumple.hinge.jamming import AfterJamming, continued, continued_kinks
-from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.folding import FoldingLaw
+from crumple.hinge.jamming import AfterJamming
+from crumple.hinge.law import Floats, Source, Trust, Validity
 from crumple.hinge.mechanism import FoldMechanism
 from crumple.hinge.options import choice
-from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
+from crumple.hinge.rate import hinge_rate
 from crumple.hinge.registry import law_type
 from crumple.hinge.root import sign_change
 from crumple.hinge.stop import Stop
@@ -48,7 +48,7 @@ FLATTENED = math.sqrt(0.5) * (2.0 - math.pi / 2.0)
 
 @law_type("circular")
 @dataclass(frozen=True)
-class CircularLaw:
+class CircularLaw(FoldingLaw):
     """Collapse law of a circular tube; the same about every axis and in both senses.
 
     Attributes
@@ -61,8 +61,8 @@ class CircularLaw:
         theta_k: rotation at which the tube ovalises plastically [rad].
     elastic_limit
         Brazier's moment [N m].
-    after_jamming, rate, stop
-        As in the Kecman-type law.
+    validity, after_jamming, rate, stop
+        See `FoldingLaw`.
 
     References
     ----------
@@ -70,19 +70,12 @@ class CircularLaw:
     """
 
     name: ClassVar[str] = "circular"
-    symmetric: ClassVar[bool] = True
+    source: ClassVar[Source] = SOURCE
 
     fold: CappedMechanism
     residual: float
     kink_from: float
     elastic_limit: float
-    validity: Validity
-    after_jamming: AfterJamming = AfterJamming.HOLD
-    rate: HingeRate | None = None
-    stop: Stop | None = None
-    softening_variable: SofteningVariable = SofteningVariable.PEAK
-    source: Source = SOURCE
-    elastic_stiffness: float | None = None
 
     @classmethod
     def of(
@@ -101,7 +94,8 @@ class CircularLaw:
         section
             Circular tube.
         material
-        Yield stress, elastic constants; flow stress for the kink; flow rate for the rate factor. axis
+            Yield stress, elastic constants; flow stress for the kink; flow rate for the rate factor.
+        axis
             Any: the tube looks the same about all.
         rolling_weight, after_jamming
             As in the Kecman-type law; by default the capacity is held when the scaled fold jams.
@@ -129,10 +123,10 @@ class CircularLaw:
             min(FLATTENED * plastic, fold.peak),
             kink,
             limit,
-            _validity(min(kink, fold.folding_from, fold.jamming_angle), plastic, limit, material),
-            after,
-            hinge_rate(material.flow_rate),
-            Stop(fold.jamming_angle, stiffness) if after is AfterJamming.STOP else None,
+            validity=_validity(min(kink, fold.folding_from, fold.jamming_angle), plastic, limit, material),
+            after_jamming=after,
+            rate=hinge_rate(material.flow_rate),
+            stop=Stop(fold.jamming_angle, stiffness) if after is AfterJamming.STOP else None,
         )
 
     @property
@@ -145,24 +139,17 @@ class CircularLaw:
         """Rotation at which the scaled fold jams [rad]."""
         return self.fold.jamming_angle
 
-    def kinks(self, sense: int = 1) -> tuple[float, ...]:
-        """Rotations where the slope jumps [rad]."""
+    @property
+    def fold_kinks(self) -> tuple[float, ...]:
+        """Rotations up to jamming where the slope jumps [rad]."""
         jamming = self.jamming_angle
         floor = sign_change(
             lambda at: self.residual - self.fold.mechanism.moment(at), 1e-4 * jamming, jamming
         )
-        within = (*self.fold.kinks, *(() if floor is None or floor >= jamming else (floor,)))
-        return continued_kinks(within, jamming, self.after_jamming)
+        return (*self.fold.kinks, *(() if floor is None or floor >= jamming else (floor,)))
 
-    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
-        """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
-        return continued(self._single_fold, rotation, self.jamming_angle, self.after_jamming)
-
-    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
-        """Factor on the capacity at a rotation rate [rad/s]."""
-        return rate_factor(self.rate, rotation_rate)
-
-    def _single_fold(self, rotation: Floats) -> Floats:
+    def single_fold(self, rotation: Floats) -> Floats:
+        """Capacity of one fold [N m] at rotations up to jamming [rad]."""
         return np.maximum(self.fold.moment(rotation), self.residual)
 
 

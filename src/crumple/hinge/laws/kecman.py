@@ -20,16 +20,16 @@ from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.capacity import PeakMoment, peak_moment
-from crumple.hinge.jamming import AfterJamming, continued, continued_kinks
+from crumple.hinge.folding import FoldingLaw
+from crumple.hinge.jamming import AfterJamming
 from crumple.hinge.kecman_range import kecman_validity
-from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.law import Floats, Source, Trust
 from crumple.hinge.mechanism import FoldMechanism
 from crumple.hinge.options import choice, number_between
-from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
+from crumple.hinge.rate import hinge_rate
 from crumple.hinge.registry import law_type
 from crumple.hinge.root import sign_change
 from crumple.hinge.stop import Stop
@@ -55,21 +55,17 @@ class Start(Enum):
 
 @law_type("kecman")
 @dataclass(frozen=True)
-class KecmanLaw:
+class KecmanLaw(FoldingLaw):
     """Kecman-type collapse law of a rectangular tube about one axis; the same in both senses.
 
     Attributes
     ----------
     mechanism, peak
         What the two branches come from.
-    start, after_jamming
-        Choices before and behind the mechanism.
-    validity
-        Range and warnings.
-    rate
-        Strain-rate law of the hinge, or None.
-    stop
-        Stop at the jamming angle, where ``after_jamming`` asks for it.
+    start
+        Choice before the mechanism.
+    validity, after_jamming, rate, stop
+        See `FoldingLaw`.
 
     References
     ----------
@@ -77,18 +73,11 @@ class KecmanLaw:
     """
 
     name: ClassVar[str] = "kecman"
-    symmetric: ClassVar[bool] = True
+    source: ClassVar[Source] = SOURCE
 
     mechanism: FoldMechanism
     peak: PeakMoment
     start: Start
-    after_jamming: AfterJamming
-    validity: Validity
-    rate: HingeRate | None = None
-    stop: Stop | None = None
-    softening_variable: SofteningVariable = SofteningVariable.PEAK
-    source: Source = SOURCE
-    elastic_stiffness: float | None = None
 
     @classmethod
     def of(
@@ -145,10 +134,10 @@ class KecmanLaw:
             mechanism,
             peak,
             choice("start", start, Start),
-            after,
-            kecman_validity(section, material, axis, peak, mechanism),
-            hinge_rate(material.flow_rate),
-            _jamming_stop(mechanism, section, material, axis) if after is AfterJamming.STOP else None,
+            validity=kecman_validity(section, material, axis, peak, mechanism),
+            after_jamming=after,
+            rate=hinge_rate(material.flow_rate),
+            stop=_jamming_stop(mechanism, section, material, axis) if after is AfterJamming.STOP else None,
         )
         if law.start is Start.PARABOLA and law.mechanism_from > mechanism.jamming_angle:
             what = "no parabola from the largest moment touches the mechanism before the walls do"
@@ -182,18 +171,10 @@ class KecmanLaw:
         crossing = sign_change(condition, 1e-4 * self.jamming_angle, self.jamming_angle)
         return np.inf if crossing is None else crossing
 
-    def kinks(self, sense: int = 1) -> tuple[float, ...]:
-        """Rotations where the slope or the curvature jumps [rad]."""
-        within = (self.mechanism_from,) if self.mechanism_from < self.jamming_angle else ()
-        return continued_kinks(within, self.jamming_angle, self.after_jamming)
-
-    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
-        """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
-        return continued(self._single_fold, rotation, self.jamming_angle, self.after_jamming)
-
-    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
-        """Factor on the capacity at a rotation rate [rad/s]."""
-        return rate_factor(self.rate, rotation_rate)
+    @property
+    def fold_kinks(self) -> tuple[float, ...]:
+        """Rotations up to jamming where the slope or the curvature jumps [rad]."""
+        return (self.mechanism_from,) if self.mechanism_from < self.jamming_angle else ()
 
     @cached_property
     def _parabola(self) -> float:
@@ -201,7 +182,7 @@ class KecmanLaw:
         drop = self.peak.moment - self.mechanism.moment(self.mechanism_from)
         return float(drop / self.mechanism_from**2)
 
-    def _single_fold(self, rotation: Floats) -> Floats:
+    def single_fold(self, rotation: Floats) -> Floats:
         """Capacity of one fold up to jamming [N m]."""
         parabola = self._parabola if self.start is Start.PARABOLA else 0.0
         capacity: Floats = np.asarray(self.peak.moment - parabola * rotation**2)

@@ -25,14 +25,13 @@ from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.jamming import AfterJamming, continued, continued_kinks
-from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.folding import FoldingLaw
+from crumple.hinge.jamming import AfterJamming
+from crumple.hinge.law import Floats, Source, Trust, Validity
 from crumple.hinge.laws.kecman import KecmanLaw
 from crumple.hinge.options import choice, number_between
-from crumple.hinge.rate import HingeRate, rate_factor
 from crumple.hinge.registry import law_type
 from crumple.hinge.root import sign_change
 from crumple.hinge.stop import Stop
@@ -51,7 +50,7 @@ SAME_KINK = 1e-9
 
 @law_type("oblique")
 @dataclass(frozen=True)
-class ObliqueLaw:
+class ObliqueLaw(FoldingLaw):
     """Collapse law of a rectangular tube about an axis between its sides; the same in both senses.
 
     Attributes
@@ -62,8 +61,8 @@ class ObliqueLaw:
         Laws about that side and about the other one.
     peak
         M_alpha [N m].
-    after_jamming, rate, stop
-        As in the Kecman-type law.
+    validity, after_jamming, rate, stop
+        See `FoldingLaw`.
 
     References
     ----------
@@ -71,19 +70,12 @@ class ObliqueLaw:
     """
 
     name: ClassVar[str] = "oblique"
-    symmetric: ClassVar[bool] = True
+    source: ClassVar[Source] = SOURCE
 
     angle: float
     first: KecmanLaw
     second: KecmanLaw
     peak: float
-    validity: Validity
-    after_jamming: AfterJamming = AfterJamming.SECOND_FOLD
-    rate: HingeRate | None = None
-    stop: Stop | None = None
-    softening_variable: SofteningVariable = SofteningVariable.PEAK
-    source: Source = SOURCE
-    elastic_stiffness: float | None = None
 
     @classmethod
     def of(
@@ -107,7 +99,7 @@ class ObliqueLaw:
         axis
             Side that the angle is measured from.
         angle
-        Of the bending axis from that side [rad], 0 to pi/2; either way: the tube has both mirrors.
+            Of the bending axis from that side [rad], 0 to pi/2; either way: the tube has both mirrors.
         rolling_weight, after_jamming
             As in the Kecman-type law.
 
@@ -138,10 +130,10 @@ class ObliqueLaw:
             first,
             second,
             peak,
-            _validity(first, second, jamming),
-            after,
-            first.rate,
-            stop if after is AfterJamming.STOP else None,
+            validity=_validity(first, second, jamming),
+            after_jamming=after,
+            rate=first.rate,
+            stop=stop if after is AfterJamming.STOP else None,
         )
 
     @property
@@ -154,8 +146,9 @@ class ObliqueLaw:
         """Rotation at which one of the folds jams [rad]."""
         return _jamming(self.first, self.second, self.angle)
 
-    def kinks(self, sense: int = 1) -> tuple[float, ...]:
-        """Rotations where the slope jumps [rad]."""
+    @property
+    def fold_kinks(self) -> tuple[float, ...]:
+        """Rotations up to jamming where the slope jumps [rad]."""
         c, s = math.cos(self.angle), math.sin(self.angle)
         ends = [(self.first.mechanism_from, c), (self.second.mechanism_from, s), (self._peak_to, 1.0)]
         within: list[float] = []
@@ -163,15 +156,7 @@ class ObliqueLaw:
             # both folds of a square tube at 45 deg begin at once but for rounding
             if not within or kink - within[-1] > SAME_KINK * self.jamming_angle:
                 within.append(kink)
-        return continued_kinks(tuple(within), self.jamming_angle, self.after_jamming)
-
-    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
-        """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
-        return continued(self._single_fold, rotation, self.jamming_angle, self.after_jamming)
-
-    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
-        """Factor on the capacity at a rotation rate [rad/s]."""
-        return rate_factor(self.rate, rotation_rate)
+        return tuple(within)
 
     @cached_property
     def _peak_to(self) -> float:
@@ -186,7 +171,7 @@ class ObliqueLaw:
         first = self.first.moment_capacity(c * rotation)
         return np.asarray(c * first + s * self.second.moment_capacity(s * rotation), np.float64)
 
-    def _single_fold(self, rotation: Floats) -> Floats:
+    def single_fold(self, rotation: Floats) -> Floats:
         """Capacity of one fold up to jamming [N m]."""
         return np.minimum(self.peak, self._folds(rotation))
 

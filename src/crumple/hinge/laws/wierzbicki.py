@@ -16,14 +16,14 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.capacity import peak_moment
-from crumple.hinge.jamming import AfterJamming, continued, continued_kinks
-from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.folding import FoldingLaw
+from crumple.hinge.jamming import AfterJamming
+from crumple.hinge.law import Floats, Source, Trust, Validity
 from crumple.hinge.options import choice
-from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
+from crumple.hinge.rate import hinge_rate
 from crumple.hinge.registry import law_type
 from crumple.hinge.stop import Stop
 from crumple.material import Material
@@ -45,7 +45,7 @@ SAME_SIDE = 1e-3
 
 @law_type("wierzbicki")
 @dataclass(frozen=True)
-class WierzbickiLaw:
+class WierzbickiLaw(FoldingLaw):
     """Closed-form law of a square tube; the same in both senses.
 
     Attributes
@@ -54,12 +54,10 @@ class WierzbickiLaw:
         Mmax [N m].
     scale
         C [N m].
-    jamming_angle
+    touching
         Rotation at which the flange halves touch [rad], from half the fold length H_b and the depth.
-    validity
-        Range and warnings.
-    after_jamming, rate, stop
-        As in the Kecman-type law.
+    validity, after_jamming, rate, stop
+        See `FoldingLaw`.
 
     References
     ----------
@@ -67,18 +65,11 @@ class WierzbickiLaw:
     """
 
     name: ClassVar[str] = "wierzbicki"
-    symmetric: ClassVar[bool] = True
+    source: ClassVar[Source] = SOURCE
 
     peak: float
     scale: float
-    jamming_angle: float
-    validity: Validity
-    after_jamming: AfterJamming = AfterJamming.SECOND_FOLD
-    rate: HingeRate | None = None
-    stop: Stop | None = None
-    softening_variable: SofteningVariable = SofteningVariable.PEAK
-    source: Source = SOURCE
-    elastic_stiffness: float | None = None
+    touching: float
 
     @classmethod
     def of(
@@ -131,10 +122,10 @@ class WierzbickiLaw:
             peak_moment(section, material, axis).moment,
             COEFFICIENT * material.flow_stress * side ** (4.0 / 3.0) * t ** (5.0 / 3.0),
             jamming,
-            _validity(jamming, material, equivalent_side),
-            after,
-            hinge_rate(material.flow_rate),
-            Stop(jamming, stiffness) if after is AfterJamming.STOP else None,
+            validity=_validity(jamming, material, equivalent_side),
+            after_jamming=after,
+            rate=hinge_rate(material.flow_rate),
+            stop=Stop(jamming, stiffness) if after is AfterJamming.STOP else None,
         )
 
     @property
@@ -143,25 +134,22 @@ class WierzbickiLaw:
         return "closed form of a square tube after Wierzbicki et al. (1994)"
 
     @property
+    def jamming_angle(self) -> float:
+        """Rotation at which the flange halves touch [rad]."""
+        return self.touching
+
+    @property
     def folding_from(self) -> float:
         """theta_T: rotation from which the fold governs [rad]; infinite if it never does."""
         excess = self.peak / self.scale - STEADY
         return math.inf if excess <= 0.0 else 1.0 / (2.0 * excess) ** 2
 
-    def kinks(self, sense: int = 1) -> tuple[float, ...]:
-        """Rotations where the slope jumps [rad]."""
-        within = (self.folding_from,) if self.folding_from < self.jamming_angle else ()
-        return continued_kinks(within, self.jamming_angle, self.after_jamming)
+    @property
+    def fold_kinks(self) -> tuple[float, ...]:
+        """Rotations up to jamming where the slope jumps [rad]."""
+        return (self.folding_from,) if self.folding_from < self.jamming_angle else ()
 
-    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
-        """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
-        return continued(self._single_fold, rotation, self.jamming_angle, self.after_jamming)
-
-    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
-        """Factor on the capacity at a rotation rate [rad/s]."""
-        return rate_factor(self.rate, rotation_rate)
-
-    def _single_fold(self, rotation: Floats) -> Floats:
+    def single_fold(self, rotation: Floats) -> Floats:
         """Capacity of one fold up to jamming [N m]."""
         # the fold's moment meets the cap at theta_T: clipping there keeps it finite at zero
         folded = np.maximum(rotation, min(self.folding_from, self.jamming_angle))
