@@ -8,11 +8,11 @@ from typing import ClassVar
 
 from crumple.errors import InputError, Problem
 from crumple.section.outline import circle
-from crumple.section.section import Axis, Floats, checked_axis, in_mm, not_positive
+from crumple.section.section import Axis, ByAxis, Floats, checked_axis, in_mm, not_positive
 
 
 @dataclass(frozen=True)
-class CircularTube:
+class CircularTube(ByAxis):
     """Circular tube.
 
     Attributes
@@ -87,36 +87,6 @@ class CircularTube:
         """(D^3 - d^3)/6 [m^3]."""
         checked_axis(axis)
         return (self.diameter**3 - self.inner_diameter**3) / 6.0
-
-    @property
-    def second_moment_y(self) -> float:
-        """Second moment of area about y [m^4]."""
-        return self.second_moment("y")
-
-    @property
-    def second_moment_z(self) -> float:
-        """Second moment of area about z [m^4]."""
-        return self.second_moment("z")
-
-    @property
-    def elastic_section_modulus_y(self) -> float:
-        """Elastic section modulus about y [m^3]."""
-        return self.elastic_section_modulus("y")
-
-    @property
-    def elastic_section_modulus_z(self) -> float:
-        """Elastic section modulus about z [m^3]."""
-        return self.elastic_section_modulus("z")
-
-    @property
-    def plastic_section_modulus_y(self) -> float:
-        """Plastic section modulus about y [m^3]."""
-        return self.plastic_section_modulus("y")
-
-    @property
-    def plastic_section_modulus_z(self) -> float:
-        """Plastic section modulus about z [m^3]."""
-        return self.plastic_section_modulus("z")
 
     def flange_width(self, axis: Axis) -> float:
         """Outer diameter: the width that a fold crosses [m]."""

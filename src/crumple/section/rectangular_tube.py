@@ -20,11 +20,11 @@ from typing import ClassVar
 
 from crumple.errors import InputError, Problem
 from crumple.section.outline import rounded_rectangle
-from crumple.section.section import Axis, Floats, checked_axis, in_mm, not_positive
+from crumple.section.section import Axis, ByAxis, Floats, checked_axis, in_mm, not_positive
 
 
 @dataclass(frozen=True)
-class RectangularTube:
+class RectangularTube(ByAxis):
     """Rectangular tube given by its outer dimensions.
 
     Attributes
@@ -124,36 +124,6 @@ class RectangularTube:
     def plastic_section_modulus(self, axis: Axis) -> float:
         """Twice the first moment of the half above the axis [m^3]."""
         return 2.0 * (_half_first_moment(*self._outer(axis)) - _half_first_moment(*self._inner(axis)))
-
-    @property
-    def second_moment_y(self) -> float:
-        """Second moment of area about y [m^4]."""
-        return self.second_moment("y")
-
-    @property
-    def second_moment_z(self) -> float:
-        """Second moment of area about z [m^4]."""
-        return self.second_moment("z")
-
-    @property
-    def elastic_section_modulus_y(self) -> float:
-        """Elastic section modulus about y [m^3]."""
-        return self.elastic_section_modulus("y")
-
-    @property
-    def elastic_section_modulus_z(self) -> float:
-        """Elastic section modulus about z [m^3]."""
-        return self.elastic_section_modulus("z")
-
-    @property
-    def plastic_section_modulus_y(self) -> float:
-        """Plastic section modulus about y [m^3]."""
-        return self.plastic_section_modulus("y")
-
-    @property
-    def plastic_section_modulus_z(self) -> float:
-        """Plastic section modulus about z [m^3]."""
-        return self.plastic_section_modulus("z")
 
     def flange_width(self, axis: Axis) -> float:
         """Outer width of the compression flange in bending about an axis [m]."""

@@ -7,6 +7,7 @@ its moment vector along y: the compression flange runs along y, the depth of ben
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import Literal, Protocol, get_args, runtime_checkable
 
@@ -91,6 +92,52 @@ class Section(Protocol):
     def inner_outline(self) -> Floats:
         """Polygon of the inner surface, like `outline`."""
         ...
+
+
+class ByAxis(ABC):
+    """Properties about y and z of what gives them about an axis, so that both can be tabled by name."""
+
+    @abstractmethod
+    def second_moment(self, axis: Axis) -> float:
+        """Second moment of area about an axis [m^4]."""
+
+    @abstractmethod
+    def elastic_section_modulus(self, axis: Axis) -> float:
+        """Second moment over the distance of the extreme fibre [m^3]."""
+
+    @abstractmethod
+    def plastic_section_modulus(self, axis: Axis) -> float:
+        """First moment of the metal about the equal-area axis, taken absolutely [m^3]."""
+
+    @property
+    def second_moment_y(self) -> float:
+        """Second moment of area about y [m^4]."""
+        return self.second_moment("y")
+
+    @property
+    def second_moment_z(self) -> float:
+        """Second moment of area about z [m^4]."""
+        return self.second_moment("z")
+
+    @property
+    def elastic_section_modulus_y(self) -> float:
+        """Elastic section modulus about y [m^3]."""
+        return self.elastic_section_modulus("y")
+
+    @property
+    def elastic_section_modulus_z(self) -> float:
+        """Elastic section modulus about z [m^3]."""
+        return self.elastic_section_modulus("z")
+
+    @property
+    def plastic_section_modulus_y(self) -> float:
+        """Plastic section modulus about y [m^3]."""
+        return self.plastic_section_modulus("y")
+
+    @property
+    def plastic_section_modulus_z(self) -> float:
+        """Plastic section modulus about z [m^3]."""
+        return self.plastic_section_modulus("z")
 
 
 def checked_axis(axis: str) -> Axis:

@@ -12,7 +12,7 @@ from crumple.section.assembly import skeleton_of
 from crumple.section.plates import plates_of
 from crumple.section.polygons import above, equal_level
 from crumple.section.properties import SectionProperties, properties_of
-from crumple.section.section import Axis, Floats, checked_axis, in_mm
+from crumple.section.section import Axis, ByAxis, Floats, checked_axis, in_mm
 from crumple.section.skeleton import Complexes, Skeleton
 from crumple.section.wall import Wall, Weld
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 SLENDER_HELD, SLENDER_FREE = 500.0, 60.0
 
 
-class WalledSection:
+class WalledSection(ByAxis):
     """Base of sections that consist of walls; a subclass is a frozen dataclass with ``kind`` and `walls`.
 
     The origin of the `Section` methods is the centroid.  Axes may be "y", "z" or an angle from y towards z
@@ -164,36 +164,6 @@ class WalledSection:
         centres = np.array([arc.centre for arc in arcs], complex)
         radii = np.array([arc.radius + arc.thickness / 2.0 for arc in arcs])
         return np.array(ends, complex).reshape(-1, 2), centres - self._centroid, radii
-
-    @property
-    def second_moment_y(self) -> float:
-        """Second moment of area about y [m^4]."""
-        return self.second_moment("y")
-
-    @property
-    def second_moment_z(self) -> float:
-        """Second moment of area about z [m^4]."""
-        return self.second_moment("z")
-
-    @property
-    def elastic_section_modulus_y(self) -> float:
-        """Elastic section modulus about y [m^3]."""
-        return self.elastic_section_modulus("y")
-
-    @property
-    def elastic_section_modulus_z(self) -> float:
-        """Elastic section modulus about z [m^3]."""
-        return self.elastic_section_modulus("z")
-
-    @property
-    def plastic_section_modulus_y(self) -> float:
-        """Plastic section modulus about y [m^3]."""
-        return self.plastic_section_modulus("y")
-
-    @property
-    def plastic_section_modulus_z(self) -> float:
-        """Plastic section modulus about z [m^3]."""
-        return self.plastic_section_modulus("z")
 
     def flange_width(self, axis: Axis | float) -> float:
         """Outer width along an axis [m]."""
