@@ -18,10 +18,10 @@ from crumple.multibody.histories import (
     section_channels,
 )
 from crumple.multibody.lowered import Lowered
-from crumple.multibody.poses import TreePoses
+from crumple.multibody.poses import Poses, TreePoses
 from crumple.multibody.rigid import Floats
 from crumple.multibody.tree_solver import energy_of, hinge_columns
-from crumple.structure import Outputs
+from crumple.structure import Outputs, Structure
 
 OF_HINGES = ("rotation", "plastic_rotation", "moment", "capacity", "energy")
 OF_NODES = ("displacement", "rotation")
@@ -63,10 +63,18 @@ def final_quantities(model: Lowered, finals: TreeFinals, outputs: Outputs) -> di
         found[f"hinge.{name}.rotation_max"] = finals.summary[:, k, 0]
         found[f"hinge.{name}.moment_max"] = finals.summary[:, k, 1]
     found |= {f"energy.{name}": values for name, values in energy_of(record).items()}
-    for channel in node_channels(model.structure, poses, outputs.nodes):
-        if channel.name.split(".")[2] in OF_NODES:
-            found[channel.name] = channel.values
-    for channels in (section_channels, distance_channels, clearance_channels):
-        found |= {channel.name: channel.values for channel in channels(model.structure, poses, outputs)}
+    found |= place_quantities(model.structure, poses, outputs)
     found["energy_residual"] = finals.residual
+    return found
+
+
+def place_quantities(structure: Structure, poses: Poses, outputs: Outputs) -> dict[str, Floats]:
+    """What outputs ask of nodes, sections, distances and clearances, (n,) each."""
+    found = {
+        channel.name: channel.values
+        for channel in node_channels(structure, poses, outputs.nodes)
+        if channel.name.split(".")[2] in OF_NODES
+    }
+    for channels in (section_channels, distance_channels, clearance_channels):
+        found |= {channel.name: channel.values for channel in channels(structure, poses, outputs)}
     return found

@@ -9,13 +9,7 @@ import numpy as np
 from crumple._core.space import SpaceRecord
 from crumple._core.space_batch import SpaceFinals
 from crumple._core.tree import Outcome
-from crumple.multibody.finals import OF_NODES
-from crumple.multibody.histories import (
-    clearance_channels,
-    distance_channels,
-    node_channels,
-    section_channels,
-)
+from crumple.multibody.finals import place_quantities
 from crumple.multibody.linkage import GROUND
 from crumple.multibody.poses import SpacePoses
 from crumple.multibody.rigid import Floats
@@ -98,10 +92,6 @@ def space_quantities(model: SpaceLowered, finals: SpaceFinals, outputs: Outputs)
     energy = energy_in_space(record, touched=bool(model.model.capsules), slowed=slowed)
     found |= {f"energy.{name}": values for name, values in energy.items()}
     poses = FinalPoses(model.linkage, record, finals.start)
-    for channel in node_channels(model.structure, poses, outputs.nodes):
-        if channel.name.split(".")[2] in OF_NODES:
-            found[channel.name] = channel.values
-    for channels in (section_channels, distance_channels, clearance_channels):
-        found |= {channel.name: channel.values for channel in channels(model.structure, poses, outputs)}
+    found |= place_quantities(model.structure, poses, outputs)
     found["energy_residual"] = finals.residual
     return found

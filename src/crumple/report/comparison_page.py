@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from crumple.comparison import Comparison
-from crumple.report.report import MAX_INPUT, ReportInput, embedded
+from crumple.report.report import MAX_INPUT, ReportInput, embedded, write_figures
 from crumple.result.files import write_text
 
 MOST_HINGES = 4
@@ -52,8 +52,7 @@ def write_comparison(
     """
     folder = Path(directory)
     drawn = _draw(comparison, pictures)
-    for name, svg, _ in drawn:
-        write_text(folder / "figures" / f"{name}.svg", '<?xml version="1.0" encoding="utf-8"?>\n' + svg)
+    write_figures(folder, drawn)
     page = folder / "report.html"
     write_text(page, _render(comparison, source, drawn))
     return page

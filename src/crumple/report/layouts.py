@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from crumple.report.report import write_figures
 from crumple.result.files import write_text
 
 if TYPE_CHECKING:
@@ -84,8 +85,7 @@ def write_layouts(layouts: Sequence[Layout], title: str, directory: Path | str) 
     names = common_outputs(layouts)
     write_text(folder / "layouts.csv", _csv(layouts, names))
     drawn = _draw(layouts, names)
-    for name, svg, _ in drawn:
-        write_text(folder / "figures" / f"{name}.svg", '<?xml version="1.0" encoding="utf-8"?>\n' + svg)
+    write_figures(folder, drawn)
     page = folder / "report.html"
     write_text(page, _render(layouts, title, names, drawn))
     return page

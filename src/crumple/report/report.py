@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
@@ -85,11 +85,16 @@ def write_report(result: Result, source: ReportInput, directory: Path | str) -> 
     )
     accuracy = source.accuracy if source.accuracy is not None else settings.get("accuracy")
     drawn = _draw(result, bound)
-    for name, svg, _ in drawn:
-        write_text(folder / "figures" / f"{name}.svg", '<?xml version="1.0" encoding="utf-8"?>\n' + svg)
+    write_figures(folder, drawn)
     page = folder / "report.html"
     write_text(page, _render(result, source, drawn, bound, accuracy))
     return page
+
+
+def write_figures(folder: Path, drawn: Sequence[tuple[str, str, str]]) -> None:
+    """Write figures, each a file name, its SVG and its caption, to ``figures/`` of a folder."""
+    for name, svg, _ in drawn:
+        write_text(folder / "figures" / f"{name}.svg", '<?xml version="1.0" encoding="utf-8"?>\n' + svg)
 
 
 def _draw(result: Result, bound: float | None) -> list[tuple[str, str, str]]:
