@@ -138,8 +138,13 @@ void Simulation::move_bodies() {
             drive.outside[c] = k.outside[c];
         }
         if (damping > 0.0) {
+            // what is held or driven is not damped: its reaction gives it its velocity
             const Vec3 v = 0.5 * (old.velocity + s.velocity), L = 0.5 * (old.angular_momentum + s.angular_momentum);
-            body_damping_ += damping * kick() * (bodies_[i].mass * dot(v, v) + dot(L, 0.5 * (old.omega + read3(k.velocity + 3))));
+            const Vec3 w = 0.5 * (old.omega + read3(k.velocity + 3));
+            for (int c = 0; c < 3; c++) {
+                if (!(bodies_[i].held & (1u << c))) body_damping_ += damping * kick() * bodies_[i].mass * v[c] * v[c];
+                if (!(bodies_[i].held & (8u << c))) body_damping_ += damping * kick() * L[c] * w[c];
+            }
         }
         const Vec3 wanted{k.velocity[3], k.velocity[4], k.velocity[5]};
         drift(bodies_[i], s, dt_, wanted);

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from sheets import grid, model
 
-from crumple._core.shell import RigidSet, ShellState
+from crumple._core.shell import PrescribedVelocity, RigidSet, ShellState
 
 
 def test_body_pinned_beside_its_centre_swings_as_a_compound_pendulum():
@@ -52,3 +52,21 @@ def test_pin_takes_a_blow_on_its_axis_and_turns_by_one_beside_it():
     inertia = 2 * kinetic / (omega @ omega)
     assert omega[1] == pytest.approx(-state.mass * 0.04 * 2.0 / inertia, rel=1e-9)
     assert inertia == pytest.approx(state.mass * 0.08**2 / 3, rel=0.05)
+
+
+def test_a_driven_rigid_set_is_not_damped():
+    """Its reaction gives it its velocity: damping takes nothing from it, or the ledger would not close."""
+    x, quads = grid(10, 2, 0.1, 0.02)
+    ends = [
+        RigidSet(np.flatnonzero(x[:, 0] < 1e-9), mass=0.3),
+        RigidSet(np.flatnonzero(x[:, 0] > 0.1 - 1e-9)),
+    ]
+    motions = [
+        PrescribedVelocity(0, dof, [0.0, 1e-3], [0.0, value], rigid_set=True)
+        for dof, value in (("z", 2.0), ("ry", -20.0))
+    ]
+    state = ShellState(model(x, quads, 2e-3, rigid_sets=ends, motions=motions, settings={"damping": 500.0}))
+    state.advance(2e-3)
+    e = state.energies
+    assert e["damping"] > 0.01 * e["external_work"]
+    assert abs(e["residual"]) < 1e-3 * e["external_work"]
