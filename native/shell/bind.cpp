@@ -93,6 +93,13 @@ static Array obstacle_states(const Simulation& s) {
     return to_array(std::move(v), {s.contact().obstacles().states().size(), 15});
 }
 
+// broken or not, time of the last look or of failure, normal and shear force then, largest use so far (5)
+static Array weld_states(const Simulation& s) {
+    std::vector<double> v;
+    for (const WeldState& w : s.welds().states()) v.insert(v.end(), {double(w.broken), w.time, w.normal, w.shear, w.worst});
+    return to_array(std::move(v), {s.welds().states().size(), 5});
+}
+
 // depth of the deepest node when an obstacle appeared, and that node (2)
 static Array appeared_inside(const Simulation& s) {
     std::vector<double> v;
@@ -172,6 +179,7 @@ static void bind_simulation(nb::module_& m) {
         .def("velocities", &velocities)
         .def("node_forces", &node_forces)
         .def("rigid_states", &rigid_states)
+        .def("weld_states", &weld_states)
         .def("save", &save)
         .def("restore", &restore)
         .def("obstacle_states", &obstacle_states)

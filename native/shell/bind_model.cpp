@@ -70,6 +70,10 @@ static void add_rigid_set(Model& m, const InIndex& nodes, double mass, const In&
     m.rigid_sets.push_back(std::move(s));
 }
 
+static void add_spot_weld(Model& m, const InIndex& nodes, const In& weight, std::size_t first, double normal_strength, double shear_strength) {
+    m.spot_welds.push_back({to_vector(nodes), to_vector(weight), first, normal_strength, shear_strength});
+}
+
 static Curve curve(const In& time, const In& value) {
     Curve c{to_vector(time), to_vector(value)};
     if (c.time.empty() || c.time.size() != c.value.size()) throw std::invalid_argument("a curve needs as many values as times, at least one");
@@ -147,6 +151,7 @@ void bind_model(nb::module_& module) {
         .def("material", &add_material)
         .def("sheet", [](Model& m, Index material, int points, bool lobatto) { m.sheets.push_back({material, points, lobatto}); })
         .def("rigid_set", &add_rigid_set)
+        .def("spot_weld", &add_spot_weld)
         .def("load", [](Model& m, Index node, int dof, const In& t, const In& v) { m.loads.push_back({node, dof, curve(t, v)}); })
         .def("motion", [](Model& m, bool rigid, Index target, int dof, const In& t, const In& v) {
             m.motions.push_back({rigid, target, dof, curve(t, v)});

@@ -16,6 +16,9 @@ constexpr double moved_share = 0.35;
 constexpr double close_share = 0.1;
 // Items that are handed out at once: a few microseconds of work.
 constexpr std::size_t items_at_once = 16;
+// Share of half its wall's thickness that a node around a spot weld keeps.  The weld holds the mean of these nodes apart; did
+// contact hold each of them too, it would push against the weld, whose force would be told too large by as much.
+constexpr double welded_share = 0.5;
 
 }  // namespace
 
@@ -27,6 +30,11 @@ Sheets::Sheets(const Model& m, const Masses& masses, double dt) : model(m), mass
             sharing[m.quads[4 * e + c]]++;
         }
     for (std::size_t n = 0; n < m.nodes(); n++) half[n] /= std::max(sharing[n], 1);
+    std::vector<Index> welded;
+    for (const SpotWeld& weld : m.spot_welds) welded.insert(welded.end(), weld.nodes.begin(), weld.nodes.end());
+    std::sort(welded.begin(), welded.end());
+    welded.erase(std::unique(welded.begin(), welded.end()), welded.end());
+    for (Index n : welded) half[n] *= welded_share;
 }
 
 void NodeForces::save(std::vector<double>& out) const {

@@ -43,7 +43,7 @@ double Simulation::kinetic() const {
         sum += of_body(bodies_[i], body_states_[i], after, k.velocity);
     }
     if (contact_) sum += contact_->obstacles().kinetic(kick());
-    return sum;
+    return sum + kinetic_of_welds();
 }
 
 // work of loads and reactions over the last step, not yet booked
@@ -158,6 +158,7 @@ Checkpoint Simulation::save() const {
     }
     for (const Driven& d : driven_) c.drives.insert(c.drives.end(), d.outside, d.outside + 6);
     for (const BodyDrive& d : body_drives_) c.drives.insert(c.drives.end(), d.outside, d.outside + 6);
+    welds_->save(c.bodies);
     c.contact = contact_->save();
     return c;
 }
@@ -183,6 +184,8 @@ void Simulation::restore(const Checkpoint& c) {
         std::copy_n(p, 9, s.rotation.m);
         p += 9;
     }
+    welds_->restore(p);
+    sort_welds();
     p = c.drives.data();
     for (Driven& d : driven_) {
         std::copy_n(p, 6, d.outside);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "welds.hpp"
+
 namespace crumple::shell {
 
 double Curve::at(double t) const {
@@ -121,6 +123,7 @@ void check(const Model& m) {
     check_materials(m);
     check_elements(m);
     check_sets(m);
+    check_welds(m);
 }
 
 }  // namespace crumple::shell

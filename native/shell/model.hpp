@@ -44,6 +44,13 @@ struct RigidSet {
     Vec3 pin;
 };
 
+struct SpotWeld {                    // tie of two sheets
+    std::vector<Index> nodes;        // of both sheets
+    std::vector<double> weight;      // of each; those of one sheet add up to 1
+    std::size_t first;               // so many nodes are the first sheet's
+    double normal_strength, shear_strength;      // [N]; infinite: does not fail
+};
+
 struct Load {                        // nodal force or moment
     Index node;
     int dof;                         // 0..5
@@ -112,6 +119,7 @@ struct Model {
     std::vector<Material> materials;
     std::vector<Sheet> sheets;
     std::vector<RigidSet> rigid_sets;
+    std::vector<SpotWeld> spot_welds;
     std::vector<Load> loads;
     std::vector<Motion> motions;
     std::vector<Obstacle> obstacles;

@@ -29,6 +29,9 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const Kernels& kernel
     }
     place_nodes();
     sort_drives();
+    welds_ = std::make_unique<SpotWelds>(*model_, masses_);
+    sort_welds();
+    fit_welds();
     start_elements();
     double step = std::numeric_limits<double>::max();
     for (std::size_t e = 0; e < model_->elements(); e++)
@@ -164,6 +167,7 @@ void Simulation::end_step(const std::vector<ElementReport>& reports) {
     steps_++;
     if (end_ != End::running) return;
     contact_->turn_over(motions());
+    sort_welds();
     // a shape that relaxes lengthens the step slowly; with every element gone the step stays
     const double stable = all.frequency > 0.0 ? model_->settings.safety * 2.0 / std::sqrt(all.frequency) : dt_;
     dt_ = std::min(stable, 1.02 * dt_);
@@ -249,6 +253,7 @@ End Simulation::advance(double until, double seconds, std::int64_t steps, int th
             if (member.index == 0) {
                 move_driven();
                 move_bodies();
+                move_welds();
                 contact_->obstacles().move(time_, kick(), dt_);
                 way = std::max(way, way_of_others());
             }

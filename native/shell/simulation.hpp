@@ -6,6 +6,7 @@
 #include "contact.hpp"
 #include "rigid_body.hpp"
 #include "team.hpp"
+#include "welds.hpp"
 
 namespace crumple::shell {
 
@@ -16,6 +17,9 @@ struct Energies {
 };
 
 enum class End : int { running, reached, not_finite, step_collapsed, torn, inverted };
+
+// Kind of a node that a spot weld holds; 0 is free, 1 a rigid set's, 2 loaded or driven.
+constexpr std::uint8_t tied_node = 3;
 
 struct Checkpoint {
     std::vector<double> numbers, nodes, elements, sums, bodies, drives, contact;
@@ -53,6 +57,7 @@ public:
     const Contact& contact() const { return *contact_; }
     const std::vector<RigidBody>& bodies() const { return bodies_; }
     const std::vector<RigidState>& body_states() const { return body_states_; }
+    const SpotWelds& welds() const { return *welds_; }
     const double* position() const { return position_.data(); }
     double time() const { return time_; }
     double step() const { return dt_; }
@@ -89,6 +94,13 @@ private:
     double way_of_others() const;                // the same of nodes that are driven or of rigid sets
     void move_driven();
     void move_bodies();
+    std::vector<SpotWelds::Motion6> weld_motion() const;
+    void set_weld_motion(const std::vector<SpotWelds::Motion6>& motion);
+    std::vector<SpotWelds::Motion6> kick_welds(std::vector<Vec3>& impulse) const;
+    void move_welds();
+    double kinetic_of_welds() const;
+    void sort_welds();
+    void fit_welds();
     void begin_step();
     void end_step(const std::vector<ElementReport>& reports);
     void end_contact(const Member& member);
@@ -116,6 +128,7 @@ private:
     std::vector<RigidState> body_states_;
     std::vector<BodyDrive> body_drives_;
     std::vector<Driven> driven_;
+    std::unique_ptr<SpotWelds> welds_;
     std::unique_ptr<Contact> contact_;
     double time_ = 0.0, dt_ = 0.0, last_dt_ = 0.0, first_dt_ = 0.0;
     double outside_work_ = 0.0, body_damping_ = 0.0, first_kinetic_ = 0.0;

@@ -27,7 +27,8 @@ void Simulation::add_motion(const double* velocity, const double* spin) {
         }
     };
     for (Index n = 0; n < model_->nodes(); n++)
-        if (kind_[n] == 0) add(n, 0);
+        if (kind_[n] == 0 || kind_[n] == tied_node) add(n, 0);
+    fit_welds();
     for (const Driven& d : driven_) add(d.node, d.held);
     for (std::size_t b = 0; b < bodies_.size(); b++) push(bodies_[b], body_states_[b], masses_, velocity, spin);
     outside_work_ += kinetic() - before;

@@ -23,6 +23,7 @@ from crumple._core.shell_model import (
     ShellMaterial,
     ShellModel,
     ShellSettings,
+    SpotWeld,
 )
 from crumple.errors import InputError, Status
 
@@ -40,6 +41,7 @@ __all__ = [
     "ShellModel",
     "ShellSettings",
     "ShellState",
+    "SpotWeld",
     "thickness_rule",
 ]
 
@@ -230,6 +232,15 @@ class ShellState:
     def rigid_sets(self) -> Floats:
         """Per rigid set, (k, 18): centre of mass [m], velocity, angular velocity, rotation by rows."""
         return _array(self._core.rigid_states())
+
+    @property
+    def spot_welds(self) -> Floats:
+        """Per spot weld, (k, 5).
+
+        1 where it has failed; time of the last look or of failure [s]; normal force (tension positive) and
+        shear force then [N]; largest left side of the criterion so far.
+        """
+        return _array(self._core.weld_states())
 
     @property
     def obstacles(self) -> Floats:

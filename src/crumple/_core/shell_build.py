@@ -82,6 +82,11 @@ def _add_sets(core: Any, model: ShellModel) -> None:
         at = model.position[nodes].mean(axis=0) if rigid.at is None else rigid.at
         pin = floats(() if rigid.pin is None else rigid.pin)
         core.rigid_set(nodes, rigid.mass, floats(at), floats(rigid.inertia), _bits(rigid.fixed), pin)
+    for weld in model.spot_welds:
+        nodes = np.concatenate([weld.first, weld.second])
+        weight = np.concatenate([weld.first_weight, weld.second_weight])
+        strength = weld.normal_strength, weld.shear_strength
+        core.spot_weld(_indices(nodes), floats(weight), len(weld.first), *strength)
     for load in model.loads:
         core.load(load.node, _DOFS[load.dof], floats(load.time), floats(load.value))
     for motion in model.motions:

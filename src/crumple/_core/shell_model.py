@@ -123,6 +123,28 @@ class RigidSet:
 
 
 @dataclass(frozen=True)
+class SpotWeld:
+    """Tie of two sheets between means of their nodes, which fails by the force that it carries.
+
+    Attributes
+    ----------
+    first, second
+        Nodes of both sheets.
+    first_weight, second_weight
+        Of each node, adding up to 1, such that the means of both sheets' positions lie across each other.
+    normal_strength, shear_strength
+        Sn and Ss [N] of (max(Fn, 0)/Sn)^2 + (Fs/Ss)^2 >= 1; infinite: never.
+    """
+
+    first: Sequence[int] | Indices
+    second: Sequence[int] | Indices
+    first_weight: Sequence[float] | Floats
+    second_weight: Sequence[float] | Floats
+    normal_strength: float = _INFINITY
+    shear_strength: float = _INFINITY
+
+
+@dataclass(frozen=True)
 class NodalLoad:
     """Force [N] or moment [N m] on a node, piecewise linear in time; ``dof`` as in `RigidSet`."""
 
@@ -300,6 +322,7 @@ class ShellModel:
     velocity: Floats | None = None
     spin: Floats | None = None
     rigid_sets: Sequence[RigidSet] = ()
+    spot_welds: Sequence[SpotWeld] = ()
     loads: Sequence[NodalLoad] = ()
     motions: Sequence[PrescribedVelocity] = ()
     obstacles: Sequence[RigidObstacle] = ()

@@ -6,6 +6,9 @@ from collections import defaultdict
 from dataclasses import dataclass, field
 from itertools import pairwise
 
+import numpy as np
+from numpy.typing import NDArray
+
 from crumple.errors import InputError, Problem
 from crumple.multibody.rigid import RigidMass, combined, lump_mass, piece_mass
 from crumple.structure import Joint, PlacedHinge, Structure
@@ -85,7 +88,7 @@ class Assembly:
 
 
 def assemble(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Assembly:
-    """Cut members at their hinges, and join what meets rigidly at the nodes."""
+    """Cut members at their hinges, and join what meets rigidly at the nodes and at spot welds."""
     assembly = Assembly(structure)
     assembly.node = {node: assembly.new() for node in structure.nodes}
     jointed = {(joint.node, joint.member): name for name, joint in structure.joints.items()}
@@ -105,7 +108,17 @@ def assemble(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Assembly:
                 assembly.cuts.append(Cut(assembly.node[node], end, joint=joint))
         for hinge, (a, b) in zip(by_member[name], pairwise(pieces), strict=True):
             assembly.cuts.append(Cut(a[2], b[2], hinge=hinge))
+    for welds in structure.spot_welds.values():
+        for place in welds.places(structure.frame_of(welds.members[0])) if len(welds.members) == 2 else ():
+            assembly.join(*(_piece_at(assembly, member, place) for member in welds.members))
     return assembly
+
+
+def _piece_at(assembly: Assembly, member: str, place: NDArray[np.float64]) -> int:
+    """Number of the piece of a member beside a place [m]."""
+    frame = assembly.structure.frame_of(member)
+    station = float((place - frame.origin) @ frame.x)
+    return next((i for _, end, i in assembly.pieces[member] if station < end), assembly.pieces[member][-1][2])
 
 
 def joint_of(structure: Structure, cut: Cut) -> Joint | None:

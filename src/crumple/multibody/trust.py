@@ -49,6 +49,12 @@ def assumptions(structure: Structure, solver: Solver) -> tuple[str, ...]:
         _contact(structure),
         *free_parts(link(structure, solver.hinges)),
     ]
+    for name, welds in structure.spot_welds.items():
+        if len(welds.members) == 2:
+            first, second = welds.members
+            found.append(f"Spot welds {name} join members {first} and {second} rigidly and do not fail.")
+        elif welds.fails:
+            found.append(f"Spot welds {name} of member {welds.members[0]} do not fail.")
     for hinge in solver.hinges:
         record, member = hinge.record, structure.members[hinge.member]
         place = f"{hinge.station * 1e3:.4g} mm from node {member.nodes[0]} of member {hinge.member}"

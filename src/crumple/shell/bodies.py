@@ -12,7 +12,7 @@ from crumple.shell.contour import Floats, Integers
 from crumple.shell.joints import Joint
 from crumple.shell.mesh import Mesh, clamped_nodes
 from crumple.shell.rigid_parts import Group, groups_of
-from crumple.shell.welds import spot_welds
+from crumple.shell.welds import weld_pairs
 from crumple.structure import FREEDOMS, Structure
 
 TRANSLATIONS, ROTATIONS = set(FREEDOMS[:3]), set(FREEDOMS[3:])
@@ -66,7 +66,7 @@ class Body:
 
 
 def bodies_of(structure: Structure, mesh: Mesh, weld_pitch: float | None = None) -> tuple[Body, ...]:
-    """Rigid bodies: those of sections and rigid parts, then spot welds, one each.
+    """Rigid bodies: those of sections and rigid parts, then pairs of nodes of spot welds, one each.
 
     Raises
     ------
@@ -74,11 +74,14 @@ def bodies_of(structure: Structure, mesh: Mesh, weld_pitch: float | None = None)
         If a rigid part is too short, or supports hold it in a way that shells cannot follow.
     """
     bodies = [_body(structure, mesh, group) for group in groups_of(structure, mesh)]
-    spots = spot_welds(mesh, weld_pitch)
-    taken = np.zeros(len(mesh.position), dtype=bool)
-    taken[[*clamped_nodes(mesh), *(node for body in bodies for node in body.nodes)]] = True
-    free = spots[~taken[spots].any(axis=1)]
+    spots = weld_pairs(structure, mesh, weld_pitch)
+    free = spots[~np.isin(spots, taken_nodes(mesh, bodies)).any(axis=1)]
     return (*bodies, *(Body({}, spot, mesh.position[spot[-1]], (), None, False) for spot in free))
+
+
+def taken_nodes(mesh: Mesh, bodies: Iterable[Body]) -> Integers:
+    """Nodes that a clamp or a rigid body holds."""
+    return np.unique(np.concatenate([clamped_nodes(mesh), *(body.nodes for body in bodies)]))
 
 
 def body_numbers(bodies: Iterable[Body]) -> dict[str, int]:

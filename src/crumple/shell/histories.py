@@ -10,6 +10,7 @@ from crumple.result import Channel, HingeSummary
 from crumple.shell.contour import Floats
 from crumple.shell.places import HingeZone
 from crumple.shell.record import ENERGIES, IMPULSE, Record, Sampler
+from crumple.shell.weld_histories import weld_channels
 from crumple.structure import Outputs, Structure
 from crumple.structure.rotation import continuous, relative_rotation, rotation_vector
 
@@ -27,6 +28,7 @@ def channels_of(structure: Structure, sampler: Sampler, record: Record, outputs:
         *energy_channels(record),
         *cut_channels(sampler, record),
         *obstacle_channels(structure, record),
+        *weld_channels(structure, sampler.lowered, record),
         *node_channels(sampler, record),
         *section_channels(structure, sampler, record, outputs),
     ]

@@ -15,9 +15,10 @@ from crumple._core.shell import (
     Sheet,
     ShellMaterial,
     ShellModel,
+    SpotWeld,
 )
 from crumple._core.shell import ShellSettings as CoreSettings
-from crumple.shell.bodies import Body, bodies_of
+from crumple.shell.bodies import Body, bodies_of, taken_nodes
 from crumple.shell.contour import Integers, triple
 from crumple.shell.drives import loads_of, motions_of
 from crumple.shell.mesh import Mesh, clamped_nodes, mesh_of
@@ -28,6 +29,7 @@ from crumple.shell.quality import MeshReport, report_of, wall_metals, wall_thick
 from crumple.shell.refusals import damping_of
 from crumple.shell.rigid_parts import rigid_elements
 from crumple.shell.start import Start, start_of
+from crumple.shell.welds import Spot, spots_of
 from crumple.structure import Outputs, ShellSettings, Stage, Structure
 
 CONTACT_DAMPING = 0.1
@@ -50,6 +52,8 @@ class Lowered:
         Where each hinge is measured, in the order of the model's first cuts.
     supports
         What the model's further cuts look at, by support.
+    welds
+        Described spot welds, in the order of the model's.
     model
         What the stepper takes in the first stage.
     """
@@ -60,6 +64,7 @@ class Lowered:
     start: Start
     zones: tuple[HingeZone, ...]
     supports: dict[str, SupportCut]
+    welds: tuple[Spot, ...]
     model: ShellModel
 
 
@@ -94,6 +99,7 @@ def lower(
     mesh = mesh_of(structure, settings, outputs)
     report = report_of(structure, mesh)
     bodies = bodies_of(structure, mesh, settings.weld_pitch)
+    welds = spots_of(structure, mesh, taken_nodes(mesh, bodies))
     first = {
         "initial_velocity": structure.initial_velocity + stage.initial_velocity,
         "impulses": structure.impulses + stage.impulses,
@@ -119,10 +125,11 @@ def lower(
         velocity=start.velocity,
         spin=start.spin,
         rigid_sets=[_rigid_set(body) for body in bodies],
+        spot_welds=[_spot_weld(spot) for spot in welds],
         cuts=[*cuts, *(_cut(cut.elements, cut.nodes) for cut in held.values())],
         settings=_settings(structure, settings),
     )
-    lowered = Lowered(mesh, report, bodies, start, zones, held, model)
+    lowered = Lowered(mesh, report, bodies, start, zones, held, welds, model)
     return replace(lowered, model=model_of_stage(structure, settings, lowered, stage, 0.0))
 
 
@@ -181,6 +188,17 @@ def _rigid_set(body: Body) -> RigidSet:
         inertia=(float(xx), float(yy), float(zz), float(xy), float(yz), float(zx)),
         fixed=body.held,
         pin=None if body.pin is None else triple(body.pin),
+    )
+
+
+def _spot_weld(spot: Spot) -> SpotWeld:
+    first, second = spot.first, spot.second
+    return SpotWeld(
+        first.nodes.astype(np.uint32),
+        second.nodes.astype(np.uint32),
+        first.weights,
+        second.weights,
+        *spot.strength,
     )
 
 

@@ -56,7 +56,8 @@ class Sampler:
     def sample(self, state: ShellState) -> dict[str, Floats]:
         """Histories now.
 
-        time (), energy (9,), zone (h,), cut (c, 9), ring (r, 3, 3), node (k, 6, 3), obstacle (o, 15)
+        time (), energy (9,), zone (h,), cut (c, 9), ring (r, 3, 3), node (k, 6, 3), obstacle (o, 15),
+        weld (w, 5)
         """
         mesh, position = self.lowered.mesh, state.position
         velocity = state.velocity[0]
@@ -76,6 +77,7 @@ class Sampler:
             "ring": np.array(rotations).reshape(-1, 3, 3),
             "node": np.array(motions).reshape(-1, 6, 3),
             "obstacle": state.obstacles,
+            "weld": state.spot_welds,
         }
 
     def _motion(self, state: ShellState, name: str, position: Floats, velocity: Floats) -> Floats:

@@ -19,7 +19,7 @@ from crumple.shell.contour import Floats
 from crumple.shell.record import Record
 from crumple.structure import Outputs, ShellSettings, Stage, Structure
 
-FORMAT = 3
+FORMAT = 4
 """Version of the file; another one is refused."""
 
 

@@ -15,6 +15,7 @@ from crumple.shell.model import Lowered
 from crumple.shell.obstacles import too_sharp
 from crumple.shell.quality import wall_metals
 from crumple.shell.record import ENERGIES, Record
+from crumple.shell.weld_histories import weld_assumptions, weld_warnings
 from crumple.structure import ShellSettings, Stage, Structure
 
 LOST_SHARE = 5e-3
@@ -61,9 +62,7 @@ def assumptions(structure: Structure, lowered: Lowered, settings: ShellSettings)
             found.append(f"The ends of {members} at node {node} are cut back and move as one rigid body.")
         elif joint.is_body:
             found.append(f"The section at node {node} is rigid.")
-    spots = sum(not body.lumps and not body.stretch for body in lowered.bodies)
-    if spots:
-        found.append(f"{spots} spot welds tie pairs of nodes rigidly and do not fail.")
+    found += weld_assumptions(structure, lowered)
     for name, member in structure.members.items():
         length = structure.frame_of(name).length
         found += [
@@ -121,6 +120,7 @@ def warnings(structure: Structure, lowered: Lowered, record: Record, state: Shel
         )
     if state.added_mass > ADDED_SHARE * state.mass:
         found.append(f"Mass scaling added {state.added_mass:.3g} kg to {state.mass:.3g} kg of walls.")
+    found += weld_warnings(structure, lowered, record)
     kinetic, given = float(energy["kinetic"][0]), lowered.start.given_energy
     if not structure.impulses and given - kinetic > LOST_SHARE * given:
         found.append(

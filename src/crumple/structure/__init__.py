@@ -57,6 +57,7 @@ from crumple.structure.section import (
 )
 from crumple.structure.settings import MultibodySettings
 from crumple.structure.shell_settings import FinePlace, ShellSettings
+from crumple.structure.spot_welds import SpotWelds
 from crumple.structure.stages import Stage, Until
 from crumple.structure.structure import Structure
 from crumple.structure.walls import WallSectionSpec, WallSpec, WeldSpec
@@ -105,6 +106,7 @@ __all__ = [
     "SectionRotation",
     "ShellSettings",
     "SphereObstacle",
+    "SpotWelds",
     "SquareTubeSpec",
     "Stage",
     "Stops",

@@ -26,6 +26,7 @@ from crumple.structure.rigid_checks import rigid_problems
 from crumple.structure.shell_settings import ShellSettings
 from crumple.structure.start_checks import start_problems
 from crumple.structure.structure import Structure
+from crumple.structure.weld_checks import pitch_problems, spot_weld_problems
 
 COINCIDENT = 1e-6
 """Distance [m] below which two nodes are one place: a thousandth of a wall, far above rounding."""
@@ -118,7 +119,7 @@ def _shape_problems(corners: Floats, where: str) -> Iterator[Problem]:
 def shell_problems(
     settings: ShellSettings, structure: Structure, defined: Names | None = None
 ) -> list[Problem]:
-    """Fine places of members that do not exist, or outside them."""
+    """Fine places of members that do not exist, or outside them; a pitch that no weld takes."""
     members = {*structure.members, *(defined or {}).get("members", ())}
     problems: list[Problem] = []
     for i, place in enumerate(settings.fine_at):
@@ -128,6 +129,8 @@ def shell_problems(
             length = structure.frame_of(place.member).length
             if place.at > length * (1.0 + 1e-9):
                 problems.append(outside(f"{where}.at", place.at, length))
+    if settings.weld_pitch is not None:
+        problems += pitch_problems(structure)
     return problems
 
 
@@ -254,6 +257,7 @@ _CHECKS: tuple[Callable[[Structure, Known], Iterator[Problem]], ...] = (
     place_problems,
     rigid_problems,
     joint_problems,
+    spot_weld_problems,
     _supports,
     start_problems,
     obstacle_problems,

@@ -22,6 +22,7 @@ from crumple.structure.obstacles import MemberContact, ObstacleSpec
 from crumple.structure.quantity import Acceleration, Position
 from crumple.structure.section import SectionSpec
 from crumple.structure.spec import Named, Spec, raise_all
+from crumple.structure.spot_welds import SpotWelds
 
 
 class Structure(Spec):
@@ -40,6 +41,8 @@ class Structure(Spec):
     """Members by name."""
     joints: Named[Joint] = FrozenMapping()
     """Joints between members' ends and their nodes, by name; every other end is joined rigidly."""
+    spot_welds: Named[SpotWelds] = FrozenMapping()
+    """Spot welds of members with members, or along the weld lines of members' own sections, by name."""
     hinges: OnlyAutomatic | None = None
     """`auto`: candidate hinges, wherever a fold can form, in every member that has no hinges of its own."""
     hinge_laws: Named[LawSpec] = FrozenMapping()

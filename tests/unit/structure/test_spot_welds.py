@@ -1,0 +1,85 @@
+"""Spot welds in a description: where the spots lie, and what is refused."""
+
+import numpy as np
+import pytest
+from tests.unit.multibody.parts import STEEL, TUBE, member
+
+from crumple.analysis import Analysis
+from crumple.errors import InputError
+from crumple.structure import ShellSettings, SpotWelds, Structure
+
+HAT = {"type": "closed_hat", "width": 0.06, "depth": 0.04, "thickness": 1.5e-3, "flange": 0.02}
+STACK = {"up": {"members": ("low", "top"), "at": (0.0, 0.0125), "pitch": 0.1}}
+
+
+def welded(welds=STACK, **more):
+    """Two tubes, one on top of the other, and a closed hat beside them."""
+    return Structure(
+        materials={"steel": STEEL},
+        sections={"tube": TUBE, "hat": HAT},
+        nodes={
+            "a": (0, 0, 0), "b": (1, 0, 0), "c": (0.5, 0, 0.025), "d": (1.5, 0, 0.025),
+            "e": (0, 1, 0), "f": (1, 1, 0),
+        },
+        members={"low": member("a", "b"), "top": member("c", "d"), "hat": member("e", "f", section="hat")},
+        supports={"clamp": {"node": "a", "fix": "all"}},
+        spot_welds=welds,
+        **more,
+    )  # fmt: skip
+
+
+def test_spots_of_a_line_lie_a_pitch_apart_half_a_pitch_from_its_ends():
+    welds = SpotWelds(members=("low", "top"), at=(0.01, 0.0125), start=0.5, end=0.9, pitch=0.1)
+    whole = welded({"up": welds})
+    places = welds.places(whole.frame_of("low"))
+    assert places[:, 0] == pytest.approx([0.55, 0.65, 0.75, 0.85])
+    # local y of a member along x is global y
+    assert places[:, 1:] == pytest.approx(np.tile([0.01, 0.0125], (4, 1)))
+    assert SpotWelds(members=("hat",), pitch=0.3).stations(1.0) == pytest.approx([1 / 6, 0.5, 5 / 6])
+    # a pitch longer than the line leaves one spot in its middle
+    assert SpotWelds(members=("hat",), pitch=3.0).stations(1.0) == pytest.approx([0.5])
+
+
+def test_points_are_taken_as_they_are():
+    welds = SpotWelds(members=("low", "top"), points=[(0.6, 0.0, 0.0125)])
+    assert welds.places(welded().frame_of("low")) == pytest.approx(np.array([[0.6, 0.0, 0.0125]]))
+    assert not welds.fails
+    assert SpotWelds(members=("low", "top"), points=[(0, 0, 0)], shear_strength="5 kN").fails
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"members": ("low", "top"), "at": (0, 0)}, "the distance of the spots is missing"),
+        ({"members": ("low", "top"), "pitch": 0.1}, "nothing says where the spots lie"),
+        ({"members": ("low", "low"), "at": (0, 0), "pitch": 0.1}, "both members are the same"),
+        ({"members": ("hat",), "at": (0, 0), "pitch": 0.1}, "lie on the weld lines of its section"),
+        ({"members": ("hat",), "points": [(0, 0, 0)]}, "lie on the weld lines of its section"),
+        ({"members": ("low", "top"), "points": [(0, 0, 0)], "pitch": 0.1}, "as points and as a line"),
+        ({"members": ("low", "top"), "points": [(0, 0, 0)], "from": 0.1}, "as points and as a line"),
+        ({"members": ("hat",), "pitch": 0.1, "from": 0.3, "to": 0.2}, "ends before it begins"),
+        ({"members": ("hat",), "pitch": 0.1, "shear_strength": 0.0}, "out of range"),
+        ({"members": ("hut",), "pitch": 0.1}, "there is no member 'hut'"),
+        ({"members": ("hat",), "pitch": 0.1, "to": 1.2}, "outside the member"),
+        ({"members": ("hat",), "pitch": 0.1, "from": 1.0}, "outside the member"),
+        ({"members": ("hat",), "pitch": 1e-5}, "too many spots"),
+        ({"members": ("low",), "pitch": 0.1}, "the section of member 'low' has no lines of spot welds"),
+    ],
+)
+def test_welds_that_cannot_be_are_refused(keys, words):
+    with pytest.raises(InputError) as caught:
+        welded({"up": keys})
+    assert words in str(caught.value)
+
+
+@pytest.mark.parametrize("entry", [{}, {"own": {"members": ("hat",), "pitch": 0.1}}])
+def test_a_pitch_of_the_shell_settings_needs_a_line_that_takes_it(entry):
+    settings = ShellSettings(weld_pitch=0.05)
+    if not entry:
+        Analysis(structure=welded(), duration=1e-3, shell=settings)
+        plain = welded({}).members["low"].model_copy(update={"nodes": ("e", "f")})
+        given = welded().model_copy(update={"members": {**welded().members, "hat": plain}})
+    else:
+        given = welded(entry)
+    with pytest.raises(InputError, match="no line of spot welds that would take this pitch"):
+        Analysis(structure=given, duration=1e-3, shell=settings)
