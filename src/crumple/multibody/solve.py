@@ -28,7 +28,7 @@ from crumple.multibody.shapes import states_of
 from crumple.multibody.solved import Solved, Solver
 from crumple.multibody.space_solver import SpaceSolver
 from crumple.multibody.tree_solver import TreeSolver
-from crumple.result import Provenance, Result
+from crumple.result import Provenance, Result, missing_pictures
 from crumple.structure import Structure, any_automatic, placed_hinges
 
 
@@ -146,7 +146,11 @@ def _result(
         states=states_of(structure, solved.poses, picture_times(run)),
         energy_residual=solved.residual,
         solve_seconds=seconds,
-        warnings=(*trust.warnings(structure, hinges, solved), *([doubt] if doubt else [])),
+        warnings=(
+            *trust.warnings(structure, hinges, solved),
+            *([doubt] if doubt else []),
+            *missing_pictures(run.outputs.pictures, float(solved.time[-1])),
+        ),
         assumptions=trust.assumptions(structure, solver),
         provenance=Provenance(
             version="", input_hash="", isa="scalar", settings=_settings(run, solver, solved)

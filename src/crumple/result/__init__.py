@@ -1,6 +1,7 @@
 """The result room: what a run answered, how to filter it, and how it is stored."""
 
 from crumple.result.filters import ChannelClass, Standard, cfc
+from crumple.result.pictures import missing_pictures
 from crumple.result.result import (
     Channel,
     HingeSummary,
@@ -26,6 +27,7 @@ __all__ = [
     "Standard",
     "States",
     "cfc",
+    "missing_pictures",
     "read",
     "summary",
     "summary_json",

@@ -9,7 +9,7 @@ import numpy as np
 
 from crumple._core.shell import ShellState
 from crumple.errors import InputError, Problem, Status
-from crumple.result import Channel, Provenance, Result
+from crumple.result import Channel, Provenance, Result, missing_pictures
 from crumple.shell import trust
 from crumple.shell.contour import Floats
 from crumple.shell.histories import channels_of, summaries
@@ -91,7 +91,8 @@ def _result(structure: Structure, run: ShellRun, stepping: Stepping, status: Sta
         energy_residual=trust.energy_residual(record),
         solve_seconds=stepping.seconds,
         warnings=trust.warnings(structure, lowered, record, state)
-        + trust.slow_warnings(run.stages, stepping.ended, record),
+        + trust.slow_warnings(run.stages, stepping.ended, record)
+        + tuple(missing_pictures(run.outputs.pictures, float(times[-1]))),
         assumptions=trust.assumptions(structure, lowered, run.settings),
         provenance=Provenance("", "", state.isa, run.threads, _settings(run, lowered, state, record)),
         stages=stepping.ended if run.stages else (),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -53,7 +53,8 @@ def assumptions(structure: Structure, lowered: Lowered, settings: ShellSettings)
         f"One-point quadrilaterals ({settings.element}) with {settings.thickness_points} points through the "
         f"thickness ({settings.thickness_rule}), {_held(settings)}, thickness update "
         f"{settings.thickness_update}, warping correction {settings.warping_correction}, self-contact "
-        f"{settings.self_contact}.",
+        f"{'on' if lowered.model.settings.self_contact else 'off'}.",
+        *_without_effect(structure, lowered, settings),
     ]
     found += [in_words(metal) for metal in wall_metals(structure, lowered.mesh)[0]]
     for node, joint in lowered.mesh.joints.items():
@@ -77,6 +78,16 @@ def assumptions(structure: Structure, lowered: Lowered, settings: ShellSettings)
         for zone in lowered.zones
     ]
     return tuple(found)
+
+
+def _without_effect(structure: Structure, lowered: Lowered, settings: ShellSettings) -> Iterator[str]:
+    """What was asked for and changes nothing here."""
+    if settings.self_contact == "off" and lowered.model.settings.self_contact:
+        yield "Walls touch walls although self-contact is off, since the structure has contact of members."
+    if structure.member_contact is not None and structure.member_contact.restitution:
+        yield "The restitution of members is that of rigid bodies: walls rebound by their own elasticity."
+    if settings.coarse_sections == "on" and not lowered.report.triangles:
+        yield "No stretch of long elements is long enough for coarser sections: there are none."
 
 
 def _held(settings: ShellSettings) -> str:

@@ -119,7 +119,7 @@ def _shape_problems(corners: Floats, where: str) -> Iterator[Problem]:
 def shell_problems(
     settings: ShellSettings, structure: Structure, defined: Names | None = None
 ) -> list[Problem]:
-    """Fine places of members that do not exist, or outside them; a pitch that no weld takes."""
+    """Fine places of members that do not exist, or outside them; what does nothing in this structure."""
     members = {*structure.members, *(defined or {}).get("members", ())}
     problems: list[Problem] = []
     for i, place in enumerate(settings.fine_at):
@@ -131,6 +131,10 @@ def shell_problems(
                 problems.append(outside(f"{where}.at", place.at, length))
     if settings.weld_pitch is not None:
         problems += pitch_problems(structure)
+    if settings.contact_friction and settings.self_contact == "off" and structure.member_contact is None:
+        what, todo = "'contact_friction' would do nothing: walls do not touch", "add 'self_contact: on'"
+        where = "analysis.shell.contact_friction"
+        problems.append(Problem(what, f"{settings.contact_friction:g}", "0 without contact", todo, where))
     return problems
 
 

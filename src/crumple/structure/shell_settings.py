@@ -101,13 +101,32 @@ class ShellSettings(Spec):
         return self
 
     @model_validator(mode="after")
-    def _coarse_needs_fine(self) -> ShellSettings:
-        if self.coarse_sections == "on" and self.fine_size is None:
-            refuse(
-                "coarse sections lie away from fine ones, and there are none",
-                key="coarse_sections",
-                todo="add 'fine_size', or leave it off",
-            )
+    def _nothing_idle(self) -> ShellSettings:
+        """Refuse keys that do nothing beside the others."""
+        graded = self.fine_size is not None
+        needs: dict[str, tuple[bool, str, str]] = {
+            **dict.fromkeys(
+                ("fine_length", "growth", "fine_at"),
+                (graded, "all elements have one size", "add 'fine_size'"),
+            ),
+            "coarse_sections": (graded, "coarse sections lie away from fine ones", "add 'fine_size'"),
+            **dict.fromkeys(
+                ("hourglass", "hourglass_coefficient"),
+                (
+                    self.element != "stabilised",
+                    "the stabilised element holds itself",
+                    "choose the other element",
+                ),
+            ),
+            "drill_stiffness": (
+                self.warping_correction == "on",
+                "nothing bends by the drill without the warping correction",
+                "add 'warping_correction: on'",
+            ),
+        }
+        for key, (works, why, todo) in needs.items():
+            if not works and getattr(self, key) != type(self).model_fields[key].default:
+                refuse(f"'{key}' would do nothing: {why}", key=key, todo=f"{todo}, or leave it out")
         return self
 
     @model_validator(mode="after")

@@ -1,0 +1,81 @@
+"""What is asked for and would change nothing: refused, or told with the result."""
+
+import pytest
+from tests.unit.shell_room.structures import cantilever, thrown
+
+from crumple.analysis import Analysis
+from crumple.errors import InputError, Status
+from crumple.multibody import Run, solve_multibody
+from crumple.shell import ShellRun, solve_shell
+from crumple.structure import Outputs, ShellSettings, Stage
+
+COARSE = {"element_size": 24e-3}
+
+
+@pytest.mark.parametrize(
+    ("idle", "beside"),
+    [
+        ({"fine_length": 0.1}, {"fine_size": 6e-3}),
+        ({"growth": 1.3}, {"fine_size": 6e-3}),
+        ({"fine_at": [{"member": "tube", "at": 0.5}]}, {"fine_size": 6e-3}),
+        ({"coarse_sections": "on"}, {"fine_size": 6e-3}),
+        ({"hourglass": "viscous", "element": "stabilised"}, {"element": "belytschko-tsay"}),
+        ({"hourglass_coefficient": 0.05, "element": "stabilised"}, {"element": "belytschko-tsay"}),
+        ({"drill_stiffness": 0.02}, {"warping_correction": "on"}),
+    ],
+)
+def test_settings_that_do_nothing_are_refused_and_say_what_they_need(idle, beside):
+    key = next(iter(idle))
+    with pytest.raises(InputError) as caught:
+        ShellSettings(element_size=25e-3, **idle)
+    (problem,) = caught.value.problems
+    assert f"'{key}' would do nothing" in problem.what
+    assert problem.where == key
+    ShellSettings(**{"element_size": 25e-3, **idle, **beside})
+
+
+def test_friction_without_contact_is_refused_unless_members_touch():
+    idle = ShellSettings(self_contact="off", contact_friction=0.2)
+    with pytest.raises(InputError, match="'contact_friction' would do nothing"):
+        Analysis(structure=thrown(), duration=1e-3, shell=idle)
+    touching = thrown().model_copy(update={"member_contact": {"friction": 0.1, "restitution": 0.5}})
+    Analysis(structure=touching, duration=1e-3, shell=idle)
+    told = " ".join(
+        solve_shell(touching, ShellRun(1e-4, 1e-4, ShellSettings(**COARSE, self_contact="off"))).assumptions
+    )
+    assert "self-contact on." in told
+    assert "although self-contact is off" in told
+    assert "restitution of members" in told
+    plain = " ".join(solve_shell(thrown(), ShellRun(1e-4, 1e-4, ShellSettings(**COARSE))).assumptions)
+    assert "although" not in plain
+    assert "restitution" not in plain
+
+
+def test_coarser_sections_that_find_no_room_are_told():
+    settings = ShellSettings(element_size=30e-3, fine_size=20e-3, fine_length=40e-3, coarse_sections="on")
+    result = solve_shell(cantilever(), ShellRun(1e-5, 1e-5, settings))
+    assert any("there are none" in text for text in result.assumptions)
+
+
+def test_pictures_after_an_early_end_are_told():
+    """The tip has moved by 2 mm long before the end."""
+    way = [{"distance": 2e-3, "between": ("root", "tip")}]
+    stages = (Stage(name="throw", duration=2e-3, until=[{"energy": 1e9}, *way]),)
+    asked = Outputs(pictures=(1e-4, 1e-3, 1.9e-3))
+    result = solve_shell(
+        cantilever(
+            masses={"m": {"node": "tip", "mass": 6.0}},
+            initial_velocity=[{"nodes": ["tip"], "translation": (15.0, 0.0, 0.0)}],
+        ),
+        ShellRun(2e-3, 2e-4, ShellSettings(**COARSE), asked, stages=stages),
+    )
+    assert result.status is Status.COMPLETE
+    assert result.time[-1] < 1e-3
+    (told,) = [text for text in result.warnings if "no pictures at" in text]
+    assert "no pictures at 1 ms, 1.9 ms." in told
+    run = Run(0.05, 0.005, outputs=Outputs(pictures=(0.0, 0.021)))
+    stopped = solve_multibody(thrown(), run, cancel=lambda: True)
+    assert stopped.status is Status.CANCELLED
+    assert any("no pictures at 21 ms." in text for text in stopped.warnings)
+    whole = solve_multibody(thrown(), run)
+    assert not [text for text in whole.warnings if "pictures" in text]
