@@ -1,13 +1,13 @@
 """Elements between the rings of a member; where they are long, every second point around is left out.
 
 A point within a wall can be left out with every other one of that wall, where it has an even number of sides.
-From a fine ring to a coarse one each pair of sides becomes three triangles: two that stand on the fine sides
-and one on the coarse.
+From a ring to the next coarser one each pair of sides becomes three triangles: two that stand on the finer
+sides and one on the coarser.  What is left is halved again where elements are twice as long once more.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,16 +17,21 @@ from crumple.shell.profile import Contour, Floats, Integers
 FLAT = 1e-6
 """Sine of the turn at a point up to which it lies in a wall and not at a corner or in a bend."""
 LONG = 2.0
-"""Length of an element over the fine size from which it may be twice as wide: then it is square again."""
+"""Factor on the length of an element at which it may be twice as wide: then it is square again."""
+FEWEST_LEFT = 2
+"""Sides of a wall that a further halving leaves, at least: one alone, with one point, has no stiffness
+against bending in its plane."""
 FEWEST_COARSE = 4
 """Coarse rings in a row that save more elements than the triangles at their ends cost."""
 
 Flags = NDArray[np.bool_]
+Levels = NDArray[np.int64]
+"""How often the section is halved at every ring, (rings,)."""
 
 
 @dataclass(frozen=True, eq=False)
 class Halving:
-    """Pairs of sides that become one where a section is coarse.
+    """Pairs of sides that become one where a section is coarser.
 
     Attributes
     ----------
@@ -40,8 +45,53 @@ class Halving:
     others: Integers
 
 
-def halving_of(contour: Contour) -> Halving:
-    """What can be left out of a section: every second point of walls with an even number of sides."""
+@dataclass(frozen=True, eq=False)
+class Level:
+    """A section after some halvings.
+
+    Attributes
+    ----------
+    contour
+        All points of the whole section, and the sides that are left.
+    of
+        Side of the whole section that each lies on, the first of those that it took up, (k,).
+    halving
+        To the next level.
+    """
+
+    contour: Contour
+    of: Integers
+    halving: Halving
+
+
+def levels_of(contour: Contour) -> tuple[Level, ...]:
+    """Every level of a section, the whole one first; nothing can be left out of the last."""
+    level = Level(contour, np.arange(len(contour.sides)), halving_of(contour))
+    levels = [level]
+    while len(level.halving.pairs):
+        first, second = level.halving.pairs.T
+        kept = np.concatenate([level.halving.others, first])
+        old = level.contour
+        sides = np.vstack(
+            [old.sides[level.halving.others], np.column_stack([old.sides[first, 0], old.sides[second, 1]])]
+        )
+        metals = tuple(old.metals[side] for side in kept) if old.metals else ()
+        coarser = replace(old, sides=sides, thickness=old.thickness[kept], metals=metals)
+        level = Level(coarser, level.of[kept], halving_of(coarser, fewest=FEWEST_LEFT))
+        levels.append(level)
+    return tuple(levels)
+
+
+def halving_of(contour: Contour, fewest: int = 1) -> Halving:
+    """What can be left out of a section: every second point of walls with an even number of sides.
+
+    Parameters
+    ----------
+    contour
+        Section, or what earlier halvings left of it.
+    fewest
+        Sides that must be left of a wall.
+    """
     first, second = contour.sides[:, 0], contour.sides[:, 1]
     number = len(contour.points)
     out, into = np.full(number, -1), np.full(number, -1)
@@ -57,7 +107,9 @@ def halving_of(contour: Contour) -> Halving:
             not contour.metals or contour.metals[a] == contour.metals[b]
         )
         inner[p] = p not in contour.welds and abs(turn) < FLAT and along[a] @ along[b] > 0.0 and same
-    pairs = [pair for side in np.flatnonzero(~inner[first]) for pair in _pairs(int(side), second, out, inner)]
+    walls = [_pairs(int(side), second, out, inner) for side in np.flatnonzero(~inner[first])]
+    # a wall of so many pairs has as many sides afterwards
+    pairs = [pair for wall in walls if len(wall) >= fewest for pair in wall]
     paired = np.array(pairs, dtype=np.int64).reshape(-1, 2)
     return Halving(paired, np.setdiff1d(np.arange(len(first)), paired))
 
@@ -70,10 +122,11 @@ def _pairs(side: int, second: Integers, out: Integers, inner: Flags) -> list[tup
     return [(wall[i], wall[i + 1]) for i in range(0, len(wall), 2)] if len(wall) % 2 == 0 else []
 
 
-def coarse_rings(stations: Floats, size: float) -> Flags:
-    """Rings at which the section may be coarse: between long elements, several in a row.
+def coarse_rings(stations: Floats, size: float, most: int = 1) -> Levels:
+    """How often the section may be halved at every ring: between long elements, several in a row.
 
-    Ends at which members meet or something holds lie in fine zones, so their elements are not long.
+    Neighbours differ by one at most.  Ends at which members meet or something holds lie in fine zones, so
+    their elements are not long.
 
     Parameters
     ----------
@@ -81,13 +134,22 @@ def coarse_rings(stations: Floats, size: float) -> Flags:
         Of the rings [m].
     size
         Fine size [m].
+    most
+        Halvings that the section bears.
     """
-    long = np.diff(stations) >= LONG * size * (1.0 - 1e-9)
-    coarse = np.concatenate([[True], long]) & np.concatenate([long, [True]])
-    for run in np.split(np.arange(len(coarse)), np.flatnonzero(np.diff(coarse)) + 1):
-        if len(run) < FEWEST_COARSE:
-            coarse[run] = False
-    return np.asarray(coarse, dtype=bool)
+    length = np.diff(stations) / size * (1.0 + 1e-9)
+    between = np.minimum(np.concatenate([length[:1], length]), np.concatenate([length, length[-1:]]))
+    levels: Levels = np.clip(np.floor(np.log(between) / np.log(LONG)), 0, most).astype(np.int64)
+    for level in range(most, 0, -1):
+        coarse = levels >= level
+        for run in np.split(np.arange(len(coarse)), np.flatnonzero(np.diff(coarse)) + 1):
+            if coarse[run[0]] and len(run) < FEWEST_COARSE:
+                levels[run] = level - 1
+    # one level at a time, from either side
+    for order in (range(1, len(levels)), range(len(levels) - 2, -1, -1)):
+        for i in order:
+            levels[i] = min(levels[i], levels[i - order.step] + 1)
+    return levels
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,28 +171,22 @@ class Bays:
     start: Integers
 
 
-def bays_of(contour: Contour, coarse: Flags) -> Bays:
-    """Elements between rings, with triangles where a fine ring meets a coarse one."""
-    halving, around = halving_of(contour), len(contour.points)
-    every = np.arange(len(contour.sides))
+def bays_of(contour: Contour, halved: Levels) -> Bays:
+    """Elements between rings, with triangles where a ring meets one that is halved once more."""
+    levels, around = levels_of(contour), len(contour.points)
     corners, side, start = [], [], [0]
-    for i in range(len(coarse) - 1):
-        here, there = bool(coarse[i]), bool(coarse[i + 1])
-        if not here and not there:
-            of, found = every, _quads(contour.sides)
+    for i in range(len(halved) - 1):
+        here, there = int(halved[i]), int(halved[i + 1])
+        level = levels[min(here, there)]
+        sides, halving = level.contour.sides, level.halving
+        if here == there:
+            of, found = level.of, _quads(sides)
         else:
-            a, b = contour.sides[halving.pairs[:, 0], 0], contour.sides[halving.pairs[:, 1], 1]
-            wide = np.column_stack([a, b])
-            middle = contour.sides[halving.pairs[:, 0], 1]
-            rest = _quads(contour.sides[halving.others])
-            if here and there:
-                of, found = (
-                    np.concatenate([halving.others, halving.pairs[:, 0]]),
-                    np.vstack([rest, _quads(wide)]),
-                )
-            else:
-                of = np.concatenate([halving.others, *[halving.pairs[:, 0]] * 3])
-                found = np.vstack([rest, *_triangles(wide, middle, coarse_first=here)])
+            first = halving.pairs[:, 0]
+            wide = np.column_stack([sides[first, 0], sides[halving.pairs[:, 1], 1]])
+            of = level.of[np.concatenate([halving.others, first, first, first])]
+            triangles = _triangles(wide, sides[first, 1], coarse_first=here > there)
+            found = np.vstack([_quads(sides[halving.others]), *triangles])
         # corners: point around, and 0 for this ring or 1 for the next
         corners.append(found[..., 0] + (found[..., 1] + i) * around)
         side.append(of)
@@ -166,17 +222,20 @@ def _corners(*corners: tuple[Integers, int]) -> Integers:
     ).astype(np.int64)
 
 
-def left_out(contour: Contour, coarse: Flags) -> Flags:
+def left_out(contour: Contour, halved: Levels) -> Flags:
     """Points that have no node of their own, (rings, points)."""
-    out = np.zeros((len(coarse), len(contour.points)), dtype=bool)
-    out[np.ix_(coarse, contour.sides[halving_of(contour).pairs[:, 0], 1])] = True
+    out = np.zeros((len(halved), len(contour.points)), dtype=bool)
+    for number, level in enumerate(levels_of(contour)):
+        out[np.ix_(halved > number, level.contour.sides[level.halving.pairs[:, 0], 1])] = True
     return out
 
 
-def without_points(numbers: Integers, contour: Contour, coarse: Flags) -> Integers:
+def without_points(numbers: Integers, contour: Contour, halved: Levels) -> Integers:
     """Nodes of the rings with the points that are left out replaced by their neighbours, (rings, points)."""
-    pairs = halving_of(contour).pairs[:, 0]
-    left, before = contour.sides[pairs, 1], contour.sides[pairs, 0]
     changed = numbers.copy()
-    changed[np.ix_(coarse, left)] = numbers[np.ix_(coarse, before)]
+    # the last halving first: the neighbour of a point may be left out later itself
+    for number, level in reversed(list(enumerate(levels_of(contour)))):
+        pairs, rings = level.halving.pairs[:, 0], halved > number
+        left, before = level.contour.sides[pairs, 1], level.contour.sides[pairs, 0]
+        changed[np.ix_(rings, left)] = changed[np.ix_(rings, before)]
     return changed

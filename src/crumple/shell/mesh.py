@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crumple.errors import InputError, Problem
-from crumple.shell.bays import Bays, bays_of, coarse_rings, left_out, without_points
+from crumple.shell.bays import Bays, Levels, bays_of, coarse_rings, left_out, levels_of, without_points
 from crumple.shell.contour import Contour, Floats, Integers, contour_of
 from crumple.shell.imperfection import offsets
 from crumple.shell.joints import SHEARED_LENGTH, Joint, Kind, joints_of
@@ -157,8 +157,8 @@ def mesh_of(structure: Structure, settings: ShellSettings, outputs: Outputs | No
     }
     _check_number(contours, rings)
     refuse_waves(settings, contours, rings)
-    coarse = {name: _coarse(settings, at) for name, at in rings.items()}
-    return _joined(structure, contours, joints, rings, coarse, imperfection=settings.imperfection)
+    halved = {name: _halved(settings, contours[name], at) for name, at in rings.items()}
+    return _joined(structure, contours, joints, rings, halved, imperfection=settings.imperfection)
 
 
 def _rings(
@@ -187,11 +187,11 @@ def _rings(
     return stations(ends, asked, _fine_zones(structure, member, settings, joints, ends), sizes)
 
 
-def _coarse(settings: ShellSettings, at: Floats) -> NDArray[np.bool_]:
-    """Rings at which the section is divided half as finely."""
+def _halved(settings: ShellSettings, contour: Contour, at: Floats) -> Levels:
+    """How often the section is divided half as finely at every ring."""
     if settings.coarse_sections == "off" or settings.fine_size is None:
-        return np.zeros(len(at), dtype=bool)
-    return coarse_rings(at, settings.fine_size)
+        return np.zeros(len(at), dtype=np.int64)
+    return coarse_rings(at, settings.fine_size, len(levels_of(contour)) - 1)
 
 
 def _fine_zones(
@@ -233,7 +233,7 @@ def _joined(
     contours: dict[str, Contour],
     joints: dict[str, Joint],
     rings: dict[str, Floats],
-    coarse: dict[str, NDArray[np.bool_]],
+    halved: dict[str, Levels],
     *,
     imperfection: float,
 ) -> Mesh:
@@ -252,12 +252,12 @@ def _joined(
             shared = _shared(structure, joints, tubes, name, second)
             if shared is not None:
                 numbers[-1 if second else 0] = shared
-        new = (numbers < 0) & ~left_out(contours[name], coarse[name])
+        new = (numbers < 0) & ~left_out(contours[name], halved[name])
         numbers[new] = count + np.arange(int(new.sum()))
         count += int(new.sum())
         positions.append(points[new])
-        numbers = without_points(numbers, contours[name], coarse[name])
-        bays = bays_of(contours[name], coarse[name])
+        numbers = without_points(numbers, contours[name], halved[name])
+        bays = bays_of(contours[name], halved[name])
         tubes[name] = Tube(frame, contours[name], rings[name], numbers, bays, elements)
         quads.append(numbers.reshape(-1)[bays.corners])
         elements += len(quads[-1])

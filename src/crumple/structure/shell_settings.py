@@ -52,8 +52,8 @@ class ShellSettings(Spec):
     growth: Growth = 1.15
     """Largest ratio of the lengths of neighbouring elements between fine and coarse."""
     coarse_sections: Switch = "off"
-    """Divide sections half as finely where the elements are longer than twice the fine size: fewer elements,
-    with triangles where both meet."""
+    """Divide sections half as finely where the elements are longer than twice the fine size, again where they
+    are longer than four times it, and so on: fewer elements, with triangles where both meet."""
     fine_at: tuple[FinePlace, ...] = ()
     """Further places with a fine mesh."""
     weld_pitch: PositiveLength | None = None

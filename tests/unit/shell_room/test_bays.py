@@ -9,7 +9,7 @@ from tests.unit.shell_room.structures import STEEL, cantilever, thrown
 from crumple._core.shell import ShellState
 from crumple.errors import Status
 from crumple.shell import ShellRun, lower, mesh_of, solve_shell
-from crumple.shell.bays import bays_of, coarse_rings, halving_of
+from crumple.shell.bays import bays_of, coarse_rings, halving_of, levels_of
 from crumple.shell.contour import contour_of
 from crumple.shell.profile import Contour
 from crumple.shell.quality import areas, report_of
@@ -18,6 +18,8 @@ from crumple.structure import Outputs, ShellSettings, Structure
 
 GRADED = ShellSettings(element_size=30e-3, fine_size=8e-3, fine_length=40e-3, growth=1.3)
 COARSER = GRADED.model_copy(update={"coarse_sections": "on"})
+DEEPER = COARSER.model_copy(update={"fine_size": 3e-3})
+"""Ten times as long far away as in the fine zone: the section is halved three times."""
 
 
 def square(sides_each, thickness=1e-3):
@@ -84,6 +86,28 @@ def test_coarse_rings_lie_between_long_elements_and_several_in_a_row():
     assert not coarse_rings(np.arange(6) * 1.9, 1.0).any()
 
 
+def test_sections_are_halved_again_down_to_two_sides_a_wall():
+    """Sixteen, eight, six and two sides; one alone is the first halving's, three are odd."""
+    levels = levels_of(square((16, 8, 6, 2)))
+    walls = [np.bincount(np.searchsorted([16, 24, 30], level.of, side="right")) for level in levels]
+    assert [wall.tolist() for wall in walls] == [[16, 8, 6, 2], [8, 4, 3, 1], [4, 2, 3, 1], [2, 2, 3, 1]]
+    for level in levels:
+        ends = level.contour.points[level.contour.sides]
+        # sides follow each other around, and are as long as the whole together
+        assert np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum() == pytest.approx(4.0)
+        assert np.array_equal(np.sort(level.contour.sides[:, 0]), np.sort(level.contour.sides[:, 1]))
+    assert not len(levels[-1].halving.pairs)
+
+
+def test_rings_are_halved_as_often_as_their_elements_are_twice_as_long():
+    at = np.concatenate([[0], np.cumsum([1.0] * 4 + [2.0] * 5 + [4.0] * 6 + [9.0] * 6)])
+    assert coarse_rings(at, 1.0, 3).tolist() == [0] * 5 + [1] * 5 + [2] * 6 + [3] * 6
+    assert coarse_rings(at, 1.0, 2).max() == 2
+    # from one to eight at once: a level a ring, from both sides
+    jump = np.concatenate([[0], np.cumsum([1.0] * 4 + [8.0] * 8 + [1.0] * 4)])
+    assert coarse_rings(jump, 1.0, 3).tolist() == [0] * 5 + [1, 2, 3, 3, 3, 2, 1] + [0] * 5
+
+
 def edges_of(quads):
     """Every edge of the elements with the number of elements on it."""
     pairs = np.stack([quads, np.roll(quads, -1, axis=1)], axis=2).reshape(-1, 2)
@@ -121,6 +145,26 @@ def test_mesh_is_closed_and_keeps_its_mass(fine_at):
     assert (np.einsum("ij,ij->i", normal, out) > 0).all()
 
 
+def test_mesh_halved_three_times_is_closed_and_better_shaped():
+    given = thrown()
+    mesh, full = (
+        mesh_of(given, DEEPER.model_copy(update={"coarse_sections": word})) for word in ("on", "off")
+    )
+    report, whole = report_of(given, mesh), report_of(given, full)
+    levels = levels_of(mesh.tubes["tube"].contour)
+    assert [len(level.contour.sides) for level in levels] == [48, 24, 12, 8]
+    assert report.triangles == 3 * sum(len(level.halving.pairs) for level in levels)
+    assert report.elements < 0.6 * whole.elements
+    assert report.worst_aspect < 0.4 * whole.worst_aspect
+    assert report.smallest_side == pytest.approx(whole.smallest_side)
+    assert report.mass == pytest.approx(whole.mass, rel=1e-12)
+    assert np.array_equal(np.unique(mesh.quads), np.arange(mesh.walls))
+    _, counts = edges_of(mesh.quads)
+    # eight sides are left at the tip's section
+    assert (counts == 1).sum() == 48 + 8
+    assert set(counts) == {1, 2}
+
+
 def test_nodes_of_triangles_have_the_mass_that_the_stepper_gives_them():
     """Kinetic energy of one moving node at a time."""
     lowered = lower(cantilever(), COARSER)
@@ -152,9 +196,10 @@ def test_elements_are_found_by_bay_and_by_place():
     assert areas(mesh).min() > 0
 
 
-def test_stretch_along_the_tube_is_the_same_in_every_element():
+@pytest.mark.parametrize("settings", [COARSER, DEEPER])
+def test_stretch_along_the_tube_is_the_same_in_every_element(settings):
     """Constant strain along the member through triangles and quadrilaterals: stress E e within rounding."""
-    lowered = lower(cantilever(), COARSER)
+    lowered = lower(cantilever(), settings)
     state = ShellState(replace(lowered.model, fixed=None, rigid_sets=[]))
     x = lowered.model.position
     moved = x * [1e-4, -0.3e-4, -0.3e-4]
@@ -164,10 +209,12 @@ def test_stretch_along_the_tube_is_the_same_in_every_element():
     assert mises == pytest.approx(210e9 * 1e-4, rel=1e-3)
 
 
-def test_a_run_on_a_coarser_section_keeps_its_energy_and_its_channels():
+@pytest.mark.parametrize("settings", [COARSER, DEEPER])
+def test_a_run_on_a_coarser_section_keeps_its_energy_and_its_channels(settings):
     outputs = Outputs(nodes=("tip",), section_rotations={"bend": {"member": "tube", "from": 0.0, "to": 1.0}})
     results = [
-        solve_shell(thrown(), ShellRun(4e-3, 2e-4, settings, outputs)) for settings in (GRADED, COARSER)
+        solve_shell(thrown(), ShellRun(4e-3, 2e-4, chosen, outputs))
+        for chosen in (settings.model_copy(update={"coarse_sections": "off"}), settings)
     ]
     fine, coarse = results
     assert coarse.status is Status.COMPLETE
@@ -179,7 +226,7 @@ def test_a_run_on_a_coarser_section_keeps_its_energy_and_its_channels():
     assert len(states.quads) == coarse.provenance.settings["elements"]
     assert states.cell_data["plastic_work"].shape[1] == len(states.quads)
     # what is stored is drawn where it is
-    mesh = mesh_of(thrown(), COARSER, outputs)
+    mesh = mesh_of(thrown(), settings, outputs)
     assert np.array_equal(states.points[states.quads], mesh.position[mesh.quads])
 
 
