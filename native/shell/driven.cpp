@@ -121,6 +121,8 @@ double Simulation::way_of_others() const {
         farthest = std::max(farthest, dot(way, way));
     };
     for (const Driven& d : driven_) look(d.node);
+    for (Index n : welds_->nodes())
+        if (kind_[n] == tied_node) look(n);
     for (const RigidBody& body : bodies_)
         for (Index n : body.nodes) look(n);
     return farthest;

@@ -188,7 +188,7 @@ CRUMPLE_INLINE Integrals integrate(const Part& part, const Step& s, double dt, R
     in.thickness = t;
     if (part.thickness_update) {
         in.volume = slots[volume0] * (1.0 + part.bulk_compliance * (in.r.nx + in.r.ny));
-        in.thickness = in.volume / s.f.area;
+        in.thickness = in.volume * s.f.inverse_area;
         slots[thickness] = in.thickness;
     }
     in.xz = in.volume * xz;

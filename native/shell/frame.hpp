@@ -13,7 +13,7 @@ namespace {
 
 struct Frame {
     Vec e1, e2, e3;
-    Real area;
+    Real area, inverse_area;
     Real bx1, bx2, by1, by2;     // [1/m]
     Real hx, hy, hz;             // sum over corners of (+1, -1, +1, -1) times position [m]; hz = 4 z0
 };
@@ -33,9 +33,10 @@ CRUMPLE_INLINE Frame frame_of(const Vec (&x)[4]) {
     const Real twice_area = root(dot(normal, normal)), inverse = 1.0 / twice_area;
     f.e3 = inverse * normal;
     f.area = 0.5 * twice_area;
+    f.inverse_area = 2.0 * inverse;
     // midlines lie in the plane; the mean of their turns is the material's spin
     const Vec g1 = d31 - d42, g2 = d31 + d42;
-    const Vec both = (1.0 / root(dot(g1, g1))) * g1 + (1.0 / root(dot(g2, g2))) * cross(g2, f.e3);
+    const Vec both = root(dot(g2, g2)) * g1 + root(dot(g1, g1)) * cross(g2, f.e3);
     f.e1 = (1.0 / root(dot(both, both))) * both;
     f.e2 = cross(f.e3, f.e1);
     f.bx1 = -dot(d42, f.e2) * inverse;

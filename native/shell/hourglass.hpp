@@ -20,9 +20,8 @@ struct HourglassRange {
 CRUMPLE_INLINE HourglassRange hourglass_stiffness(const Part& part, const Frame& f, Real thickness, Real volume, double dt) {
     const Real bb = dt * 2.0 * (f.bx1 * f.bx1 + f.bx2 * f.bx2 + f.by1 * f.by1 + f.by2 * f.by2);
     const Real tt = thickness * thickness;
-    return {(part.hourglass_membrane * part.youngs_modulus / 8.0) * volume * bb,
-            (part.hourglass_shear * part.transverse_modulus / 12.0) * tt * thickness * bb,
-            (part.hourglass_bending * part.youngs_modulus / 192.0) * volume * tt * bb};
+    const Real vb = volume * bb;
+    return {part.hourglass_moduli[0] * vb, part.hourglass_moduli[1] * (tt * (thickness * bb)), part.hourglass_moduli[2] * (tt * vb)};
 }
 
 CRUMPLE_INLINE HourglassRange hourglass_viscosity(const Part& part, const Frame& f, Real thickness) {

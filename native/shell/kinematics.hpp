@@ -50,7 +50,7 @@ struct Warp {
 };
 
 CRUMPLE_INLINE Warp warp_of(const Frame& f) {
-    const Real c = f.hz / f.area;
+    const Real c = f.hz * f.inverse_area;
     return {c * f.by2, c * f.by1, -c * f.bx2, -c * f.bx1, f.hz * (f.bx1 * f.e1 + f.by1 * f.e2), f.hz * (f.bx2 * f.e1 + f.by2 * f.e2)};
 }
 

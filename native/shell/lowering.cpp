@@ -42,12 +42,18 @@ Part part_of(const Model& m, const Sheet& sheet, bool triangle) {
     set_plasticity(p, a);
     p.points = sheet.points;
     thickness_rule(sheet.points, sheet.lobatto, p.z, p.weight);
+    for (int k = 0; k < p.points; k++) p.second_moment += p.weight[k] * p.z[k] * p.z[k];
+    p.half_compliance = 0.5 / E;
+    p.half_shear_compliance = 0.5 / p.shear_modulus;
     p.rigid = a.rigid;
     const Settings& s = m.settings;
     p.viscous_hourglass = s.viscous_hourglass;
     p.hourglass_membrane = s.hourglass_membrane;
     p.hourglass_shear = s.hourglass_shear;
     p.hourglass_bending = s.hourglass_bending;
+    p.hourglass_moduli[0] = s.hourglass_membrane * E / 8.0;
+    p.hourglass_moduli[1] = s.hourglass_shear * p.transverse_modulus / 12.0;
+    p.hourglass_moduli[2] = s.hourglass_bending * E / 192.0;
     p.formulation = triangle ? Formulation::triangle : (s.stabilised ? Formulation::stabilised : Formulation::one_point);
     p.drill_stiffness = triangle ? 0.0 : s.drill_stiffness;
     p.thickness_update = s.thickness_update;

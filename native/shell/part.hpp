@@ -28,9 +28,12 @@ struct Part {
     bool fails, fails_at_any_point;
     double failure_strain;
     int points;
-    double z[max_points], weight[max_points];    // in units of the thickness, z in [-1/2, 1/2], weights sum to 1
+    double z[max_points], weight[max_points];    // in units of the thickness, z in [-1/2, 1/2] mirrored, weights sum to 1
+    double second_moment;        // sum of weight z^2
+    double half_compliance, half_shear_compliance;             // 1 / (2 E), 1 / (2 G) [1/Pa]
     bool viscous_hourglass;
     double hourglass_membrane, hourglass_shear, hourglass_bending;
+    double hourglass_moduli[3];  // of stiffness, in that order [Pa]: see hourglass.hpp
     bool thickness_update, warping_correction;
     double drill_stiffness;      // share of G V; 0: nothing holds the drill
     bool extra() const { return formulation == Formulation::stabilised || drill_stiffness > 0.0; }

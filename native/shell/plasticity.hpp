@@ -23,11 +23,6 @@ constexpr int max_return_steps = 40;
 struct Stress {
     Real x, y, xy;
 };
-// What a return leaves behind: plastic work per volume [J/m3], and the share of the deviator that was kept.
-struct Returned {
-    Real work{}, kept = all(1.0);
-};
-
 // yield line in force at plastic strain `at`: value extrapolated to `start`, and slope
 struct YieldLine {
     Real value, slope;
@@ -71,51 +66,69 @@ CRUMPLE_INLINE Real rate_factor(const Part& part, Real& rate, Real strain, doubl
 CRUMPLE_INLINE Real plastic_work(const Part& part, const Stress& old, const Stress& trial, const Stress& now) {
     const double nu = part.poissons_ratio;
     const Real dx = trial.x - now.x, dy = trial.y - now.y;
-    return ((old.x + now.x) * (dx - nu * dy) + (old.y + now.y) * (dy - nu * dx)) * (0.5 / part.youngs_modulus) +
-           ((0.5 / part.shear_modulus) * (old.xy + now.xy)) * (trial.xy - now.xy);
+    return part.half_compliance * ((old.x + now.x) * (dx - nu * dy) + (old.y + now.y) * (dy - nu * dx)) +
+           part.half_shear_compliance * ((old.xy + now.xy) * (trial.xy - now.xy));
 }
 
-// Linear hardening.
-CRUMPLE_INLINE Returned return_linear(const Part& part, const Stress& old, Stress& s, Real& ep) {
-    const Stress trial = s;
+// Linear hardening, of `n` points at once so that their chains of roots and divisions overlap.  `kept` is the share of the deviator that is
+// left; false, and nothing done, where no lane yields.
+template <int n> CRUMPLE_INLINE bool return_linear(const Part& part, Stress (&s)[n], Real (&ep)[n], Real (&kept)[n]) {
     const double R = part.pressure_ratio, h = part.hardening * part.inverse_3g;
-    const Real Y = part.yield_stress + part.hardening * ep;
-    Real p = s.x + s.y, d = s.x - s.y;
-    const Real a = 0.25 * p * p, b = 0.75 * d * d + 3.0 * s.xy * s.xy;
-    const Mask yields = a + b > Y * Y;
-    if (!any(yields)) return {};
-    Real X{}, u = all(1.0), v = u;
-    const Real inverse_Y = 1.0 / Y;
-    Mask active = yields;
-    for (int step = 0; step < max_return_steps && any(active); step++) {
-        // newton step on 1/q
-        const Real A = a * u * u, B = b * v * v, F = A + B, q = root(F) * inverse_Y;
-        const Real residual = q * (1.0 - h * X) - 1.0;
-        const Real next = X + F * residual / (R * A * u + B * v + h * F * q);
-        X = active ? larger(next, Real{}) : X;
-        u = 1.0 / (1.0 + R * X);
-        v = 1.0 / (1.0 + X);
-        active &= magnitude(residual) > last_step_residual;
+    Real Y[n];
+    Mask yields[n], active{};
+    for (int i = 0; i < n; i++) {
+        Y[i] = part.yield_stress + part.hardening * ep[i];
+        yields[i] = s[i].x * (s[i].x - s[i].y) + s[i].y * s[i].y + 3.0 * s[i].xy * s[i].xy > Y[i] * Y[i];
+        active |= yields[i];
     }
-    // commit the lanes that yield
-    p *= u;
-    d *= v;
-    s.xy = yields ? s.xy * v : s.xy;
-    s.x = yields ? 0.5 * (p + d) : s.x;
-    s.y = yields ? 0.5 * (p - d) : s.y;
-    ep += X * (Y / (1.0 - h * X)) * part.inverse_3g;   // X is 0 where nothing yields
-    return {plastic_work(part, old, trial, s), v};
+    if (!any(active)) return false;
+    // with P = 1/u, S = 1/v and Q = q P S a Newton step on 1/q takes one root and one division
+    Real p[n], d[n], a[n], b[n], X[n], P[n], S[n], soft[n];
+    Mask goes_on[n];
+    for (int i = 0; i < n; i++) {
+        p[i] = s[i].x + s[i].y;
+        d[i] = s[i].x - s[i].y;
+        a[i] = 0.25 * p[i] * p[i];
+        b[i] = 0.75 * d[i] * d[i] + 3.0 * s[i].xy * s[i].xy;
+        X[i] = Real{};
+        P[i] = S[i] = soft[i] = all(1.0);
+        goes_on[i] = yields[i];
+    }
+    for (int step = 0; step < max_return_steps && any(active); step++) {
+        active = Mask{};
+        for (int i = 0; i < n; i++) {
+            const Real A = a[i] * S[i] * S[i], B = b[i] * P[i] * P[i], F = A + B, Q = root(F), wanted = Y[i] * P[i] * S[i];
+            const Real residual = Q * soft[i] - wanted;
+            const Real next = X[i] + residual * F / (Y[i] * (R * A * S[i] + B * P[i]) + h * F * Q);
+            X[i] = goes_on[i] ? larger(next, Real{}) : X[i];
+            P[i] = 1.0 + R * X[i];
+            S[i] = 1.0 + X[i];
+            soft[i] = 1.0 - h * X[i];
+            goes_on[i] &= magnitude(residual) > last_step_residual * wanted;
+            active |= goes_on[i];
+        }
+    }
+    // commit the lanes that yield; X is 0 in the others
+    for (int i = 0; i < n; i++) {
+        const Real inverse = 1.0 / (P[i] * S[i] * soft[i]), u = inverse * S[i] * soft[i], v = inverse * P[i] * soft[i];
+        s[i].xy = yields[i] ? s[i].xy * v : s[i].xy;
+        s[i].x = yields[i] ? 0.5 * (p[i] * u + d[i] * v) : s[i].x;
+        s[i].y = yields[i] ? 0.5 * (p[i] * u - d[i] * v) : s[i].y;
+        ep[i] += X[i] * Y[i] * (inverse * P[i] * S[i]) * part.inverse_3g;
+        kept[i] = v;
+    }
+    return true;
 }
 
 // Table and rate factor: the line in force is looked up at every Newton step.
-CRUMPLE_INLINE Returned return_general(const Part& part, const Stress& old, Stress& s, Real& ep, Real factor) {
-    const Stress trial = s;
+CRUMPLE_INLINE bool return_general(const Part& part, Stress& s, Real& ep, Real factor, Real& kept) {
+    kept = all(1.0);
     const double R = part.pressure_ratio;
     YieldLine line = yield_line(part, ep, ep, factor);
     Real p = s.x + s.y, d = s.x - s.y;
     const Real a = 0.25 * p * p, b = 0.75 * d * d + 3.0 * s.xy * s.xy;
     const Mask yields = a + b > line.value * line.value;
-    if (!any(yields)) return {};
+    if (!any(yields)) return false;
     Real X{}, u = all(1.0), v = u, q{};
     Mask active = yields;
     for (int step = 0; step < max_return_steps && any(active); step++) {
@@ -137,7 +150,8 @@ CRUMPLE_INLINE Returned return_general(const Part& part, const Stress& old, Stre
     s.x = yields ? 0.5 * (p + d) : s.x;
     s.y = yields ? 0.5 * (p - d) : s.y;
     ep += X * q * part.inverse_3g;
-    return {plastic_work(part, old, trial, s), v};
+    kept = v;
+    return true;
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ private:
     void move_elements(const ElementStage& stage, std::size_t chunk, ElementReport& report);
     NodeStage node_stage();
     double move_nodes(Range range);              // gives the square of the largest way since contact looked at everything
-    double way_of_others() const;                // the same of nodes that are driven or of rigid sets
+    double way_of_others() const;                // the same of nodes that are driven, tied or of rigid sets
     void move_driven();
     void move_bodies();
     std::vector<SpotWelds::Motion6> weld_motion() const;

@@ -1,13 +1,17 @@
-"""Plane-stress return: yield surface to round-off, fine integration, hardening, rate, failure."""
+"""Plane-stress return: yield surface to round-off, fine integration, resultants, hardening, rate, failure."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from sheets import ELASTIC, STEEL, grid, model
 
-from crumple._core.shell import ShellMaterial, ShellState
+from crumple._core.shell import Sheet, ShellMaterial, ShellState, thickness_rule
 
 E, NU, G = 210e9, 0.3, 210e9 / 2.6
 X, QUAD = grid(1, 1, 0.01, 0.01)
+# rotations [rad] that bend by 1/m
+BEND = (X[:, :1] - 0.005) * np.array([0.0, 1.0, 0.0])
 
 
 def stress_of(state):
@@ -37,6 +41,50 @@ def test_stress_ends_on_the_yield_surface(size, strain):
         assert mises(stress) <= 488e6
         return
     assert mises(stress) == pytest.approx(488e6, rel=5e-14)
+
+
+@pytest.mark.parametrize("lobatto", [False, True])
+@pytest.mark.parametrize("points", [2, 4, 5, 7])
+@pytest.mark.parametrize("table", [False, True])
+def test_forces_are_the_integrals_of_the_points(points, lobatto, table):
+    """Force and moment on a side, bent beyond yield at one face first: sums of the stresses in the state."""
+    curve = ShellMaterial(7850.0, E, NU, hardening=([0.0, 0.1], [488e6, 600e6]))
+    m = model(X, QUAD, 2e-3, curve if table else STEEL, settings={"thickness_update": False})
+    m = replace(m, sheets=[Sheet(points=points, lobatto=lobatto)])
+    state, z, weight = ShellState(m), *thickness_rule(points, lobatto)
+    yielded = []
+    for stretch, curvature in ((1.8e-3, 2.0), (1.5e-3, -0.5), (-5e-3, 1.0)):
+        u = stretch * X @ np.array([[1.0, 0.3, 0.0], [0.3, -0.2, 0.0], [0.0, 0.0, 0.0]])
+        force = state.deform(X, u, curvature * BEND, 1.0)
+        for along, names in ((0, ("stress_x", 4)), (1, ("stress_xy", 3))):
+            stress = state.point_field(names[0])[0]
+            on_side = force[X[:, 0] > 0]
+            assert on_side[:, along].sum() == pytest.approx(
+                0.01 * 2e-3 * weight @ stress, rel=1e-12, abs=1e-6
+            )
+            moment = 0.01 * 2e-3**2 * (weight * z) @ stress * (1 if along == 0 else -1)
+            assert on_side[:, names[1]].sum() == pytest.approx(moment, rel=1e-12, abs=1e-9)
+        yielded.append((state.point_field("plastic_strain")[0] > 0).sum())
+    assert 0 < yielded[0] < points
+    assert yielded[-1] == points
+
+
+def test_hourglass_force_is_returned_with_the_points():
+    """One point of three has yielded: the force falls by the mean share of the deviator that is left."""
+    pattern = np.array([[1.0], [-1.0], [1.0], [-1.0]])[np.argsort(QUAD[0])] * [1e-5, 0.0, 0.0]
+    forces, kept = [], 1.0
+    for metal in (ELASTIC, STEEL):
+        m = model(X, QUAD, 2e-3, metal, points=3, settings={"thickness_update": False})
+        state = ShellState(m)
+        force = state.deform(X, 1e-3 * X + pattern, 2.5 * BEND, 1.0)
+        forces.append((force[:, :3] * np.sign(pattern)).sum())
+        if metal is STEEL:
+            plastic = state.point_field("plastic_strain")[0]
+            assert (plastic > 0).sum() == 1
+            kept = thickness_rule(3)[1] @ (1 / (1 + 3 * G * plastic / 488e6))
+    assert forces[0] != 0
+    assert forces[1] == pytest.approx(kept * forces[0], rel=1e-12)
+    assert kept < 0.98
 
 
 def fine_path(strain, steps, table=((0.0,), (488e6,))):
