@@ -158,7 +158,7 @@ def crossing_strips(height, **settings):
 def welded_plates():
     """Two elements, every node of them tied, thrown at a plate that is held."""
     m, below = two_plates(0.003, 30.0, n=3)
-    upper = m.position[below:] + [0.0, 0.0, 0.0022]
+    upper = m.position[below:] + np.array([0.0, 0.0, 0.0022])
     fixed = np.zeros((below + 8, 6), dtype=bool)
     fixed[:below] = True
     even = np.full(4, 0.25)
