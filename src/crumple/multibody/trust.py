@@ -55,20 +55,39 @@ def assumptions(structure: Structure, solver: Solver) -> tuple[str, ...]:
             found.append(f"Spot welds {name} join members {first} and {second} rigidly and do not fail.")
         elif welds.fails:
             found.append(f"Spot welds {name} of member {welds.members[0]} do not fail.")
+    alike: dict[tuple[Form, bool, SofteningVariable], list[PlacedHinge]] = {}
     for hinge in solver.hinges:
-        record, member = hinge.record, structure.members[hinge.member]
-        place = f"{hinge.station * 1e3:.4g} mm from node {member.nodes[0]} of member {hinge.member}"
-        form = {
-            Form.SET_VALUED: "rigid until its capacity is reached",
-            Form.ELASTIC_PLASTIC: f"elastic, {record.elastic_stiffness / 1e3:.4g} kN m/rad, to its capacity",
-            Form.REGULARISED: f"its capacity times a HAVSIN ramp of {record.regularisation_rate:.3g} rad/s",
-        }[record.form]
-        rate = ", raised with the strain rate" if math.isfinite(record.rate_reference) else ""
-        found.append(
-            f"Hinge {hinge.name} lies {place} and is {form}{rate}; "
-            f"its curve runs on {SOFTENING[record.softening_variable]}."
-        )
+        key = (hinge.record.form, math.isfinite(hinge.record.rate_reference), hinge.record.softening_variable)
+        alike.setdefault(key, []).append(hinge)
+    found += [_carries(structure, hinges) for hinges in alike.values()]
     return tuple(found)
+
+
+def _carries(structure: Structure, hinges: list[PlacedHinge]) -> str:
+    """What hinges of one kind resist: one with its place, several together."""
+    records = [hinge.record for hinge in hinges]
+    form = {
+        Form.SET_VALUED: "rigid until {} capacity is reached",
+        Form.ELASTIC_PLASTIC: f"elastic, {_span([r.elastic_stiffness / 1e3 for r in records])} kN m/rad, to "
+        "{} capacity",
+        Form.REGULARISED: "{} capacity times a HAVSIN ramp of "
+        f"{_span([r.regularisation_rate for r in records], 3)} rad/s",
+    }[records[0].form]
+    rate = ", raised with the strain rate" if math.isfinite(records[0].rate_reference) else ""
+    curve = f"run{'s' if len(hinges) == 1 else ''} on {SOFTENING[records[0].softening_variable]}"
+    if len(hinges) > 1:
+        names = _shown([hinge.name for hinge in hinges])
+        return f"{len(hinges)} hinges ({names}) are {form.format('their')}{rate}; their curves {curve}."
+    (hinge,) = hinges
+    first = structure.members[hinge.member].nodes[0]
+    place = f"{hinge.station * 1e3:.4g} mm from node {first} of member {hinge.member}"
+    return f"Hinge {hinge.name} lies {place} and is {form.format('its')}{rate}; its curve {curve}."
+
+
+def _span(values: list[float], digits: int = 4) -> str:
+    """The one value of all, or the smallest and the largest."""
+    ends = dict.fromkeys(f"{value:.{digits}g}" for value in (min(values), max(values)))
+    return " to ".join(ends)
 
 
 def _contact(structure: Structure) -> str:
@@ -90,7 +109,9 @@ def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solv
     for hinge in placed:
         for text in _of_hinge(structure, hinge, hinges[hinge.name]):
             by_text.setdefault(text, []).append(hinge.name)
-    found += [f"{_named(names)}: {text}" for text, names in by_text.items()]
+    for text, names in by_text.items():
+        turned = _span([math.degrees(hinges[name].rotation_max) for name in names], 3)
+        found.append(f"{_named(names)}: {text.format(turned=turned)}")
     found += overlap_warnings(structure, tuple(placed))
     found += _inaccurate(hinges, largest)
     found += [
@@ -147,15 +168,17 @@ def _bends_both_ways(hinge: PlacedHinge) -> bool:
 
 
 def _of_hinge(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -> list[str]:
-    """Sentences about one hinge; those that many hinges share read the same."""
-    law, found = hinge.law, list(hinge.law.validity.warnings)
-    turned = f"turned by {math.degrees(summary.rotation_max):.1f} deg"
+    """Sentences about one hinge; those that many hinges share read the same, with a field for their turns."""
+    law = hinge.law
+    found = [text.replace("{", "{{").replace("}", "}}") for text in law.validity.warnings]
+    turned = "turned by {turned} deg"
     if law.jamming_angle is not None and summary.rotation_max > law.jamming_angle:
         jams = math.degrees(law.jamming_angle)
-        found.append(f"{turned}; its walls jam at {jams:.1f} deg, and what follows is a guess")
+        found.append(f"{turned}; the walls jam at {jams:.1f} deg, and what follows is a guess")
     elif summary.rotation_max > law.validity.rotation_max:
         backed = math.degrees(law.validity.rotation_max)
-        found.append(f"{turned}; its law is backed up to {backed:.1f} deg only ({law.validity.basis})")
+        basis = law.validity.basis.replace("{", "{{").replace("}", "}}")
+        found.append(f"{turned}; the law is backed up to {backed:.1f} deg only ({basis})")
     normal = structure.bending_normal
     if normal is not None and not _bends_both_ways(hinge):
         off = math.degrees(math.acos(min(1.0, abs(float(hinge.direction @ np.asarray(normal))))))
@@ -181,14 +204,12 @@ def _inaccurate(hinges: dict[str, HingeSummary], largest: float) -> list[str]:
 
 def _named(names: list[str]) -> str:
     """Hinges of a sentence: all names while they are few."""
-    if len(names) == 1:
-        return f"Hinge {names[0]}"
-    shown = (
-        names
-        if len(names) <= MOST_NAMES
-        else [*names[: MOST_NAMES - 1], f"{len(names) - MOST_NAMES + 1} more"]
-    )
-    return f"Hinges {', '.join(shown)}"
+    return f"Hinge {names[0]}" if len(names) == 1 else f"Hinges {_shown(names)}"
+
+
+def _shown(names: list[str]) -> str:
+    few = len(names) <= MOST_NAMES
+    return ", ".join(names if few else [*names[: MOST_NAMES - 1], f"{len(names) - MOST_NAMES + 1} more"])
 
 
 def _elastic_limit(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import pytest
@@ -117,3 +118,41 @@ def test_energy_that_rigid_impacts_took_is_named(restitution: float, said: bool)
     )
     result = solve_multibody(structure, Run(0.03, 1e-3))
     assert any("vanish in impacts" in warning for warning in result.warnings) == said
+
+
+def test_hinges_alike_are_told_together() -> None:
+    result = thrown(15.0, bars=130)
+    told = [text for text in result.assumptions if "capacity" in text]
+    (text,) = told
+    assert text.startswith(f"{len(result.hinges)} hinges (tube-1, ")
+    assert (
+        f"{len(result.hinges) - 5} more) are rigid until their capacity is reached; their curves run" in text
+    )
+    assert len(result.warnings) < 8
+
+
+def test_turns_beyond_the_range_are_told_in_one_sentence() -> None:
+    law = {"type": "table", "rotation": (0.0, 0.02), "moment": (900.0, 900.0), "rate": "off"}
+    members = {
+        name: {
+            "nodes": (f"{name}0", f"{name}1"),
+            "section": "tube",
+            "material": "steel",
+            "hinges": [{"name": name, "at": f"{name}0", "law": law, "axis": "y"}],
+        }
+        for name in "ab"
+    }
+    structure = Structure(
+        materials={"steel": STEEL},
+        sections={"tube": TUBE},
+        nodes={f"{name}{i}": (float(i), float(k), 0.0) for k, name in enumerate("ab") for i in (0, 1)},
+        members=members,
+        supports={name: {"node": f"{name}0", "fix": "all"} for name in "ab"},
+        impulses=[{"node": "a1", "impulse": (0, 0, 20.0)}, {"node": "b1", "impulse": (0, 0, 25.0)}],
+    )
+    result = solve_multibody(structure, Run(duration=0.1, every=0.01))
+    (text,) = about(result, "turned by")
+    turns = [f"{math.degrees(result.hinges[name].rotation_max):.3g}" for name in "ab"]
+    assert text.startswith(
+        f"Hinges a, b: turned by {turns[0]} to {turns[1]} deg; the law is backed up to 1.1 deg"
+    )
