@@ -13,11 +13,13 @@ def check(file: Annotated[Path, typer.Argument(help="Input file (YAML).", show_d
     from crumple.analysis import check as problems_of
     from crumple.analysis import load
     from crumple.errors import InputError
-    from crumple.multibody import link, notes
+    from crumple.multibody import link, notes, unheld_notes
 
     problems = problems_of(file)
     if problems:
         raise InputError(problems)
     typer.echo(f"{file}: no mistakes found")
-    for note in notes(link(load(file).structure)):
+    analysis = load(file)
+    linkage = link(analysis.structure)
+    for note in (*notes(linkage), *unheld_notes(analysis.structure, linkage, analysis.stages)):
         typer.echo(f"  {note}")

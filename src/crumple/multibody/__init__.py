@@ -13,6 +13,7 @@ from crumple.multibody.run import Run
 from crumple.multibody.sensitivity import Sensitivities, sensitivities
 from crumple.multibody.solve import solve_multibody, solver_of
 from crumple.multibody.timing import stepping_seconds
+from crumple.multibody.unheld import unheld_notes
 from crumple.multibody.variants import VariantTable, solve_variants
 
 __all__ = [
@@ -36,4 +37,5 @@ __all__ = [
     "stepping_seconds",
     "tree_hinge",
     "tree_model",
+    "unheld_notes",
 ]

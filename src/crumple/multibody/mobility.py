@@ -104,6 +104,42 @@ def mobility(linkage: Linkage, *, locked: bool = False) -> Mobility:
     return Mobility(number, tuple(sorted(bodies)), stuck, redundant, tuple(sorted(doubled)))
 
 
+def free_twists(linkage: Linkage, points: Floats, *, locked: bool = False) -> Floats:
+    """Velocities of places on every body in each independent motion.
+
+    Parameters
+    ----------
+    linkage
+        Bodies and connections.
+    points
+        One place for every body [m], (b, 3).
+    locked
+        Whether hinges carry every moment.
+
+    Returns
+    -------
+    Floats
+        Angular velocity and velocity of the place, (motions, b, 6), to scales of their own.
+    """
+    if not linkage.bodies:
+        return np.zeros((0, 0, 6))
+    tree = _tree(linkage, locked)
+    width = len(tree.owner)
+    blocks = [_loop_rows(linkage, tree, width, closing, own)[0] for closing, own in tree.loops]
+    rates, _ = _null_space(np.concatenate(blocks) if blocks else np.zeros((0, width)))
+    if not blocks:
+        rates = np.eye(width)
+    centre, length = _scale(linkage)
+    found = np.zeros((len(rates), len(linkage.bodies), 6))
+    for body in range(len(linkage.bodies)):
+        for _, own, sign in tree.path(body):
+            for k in own:
+                found[:, body] += sign * np.outer(rates[:, k], tree.columns[k])
+        spin = found[:, body, :3]
+        found[:, body, 3:] = length * found[:, body, 3:] + np.cross(spin, points[body] - centre)
+    return found
+
+
 def notes(linkage: Linkage) -> tuple[str, ...]:
     """Sentences about parts that nothing holds, hinges that cannot turn, and constraints held twice."""
     found = list(free_parts(linkage))

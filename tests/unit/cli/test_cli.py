@@ -114,6 +114,18 @@ def test_check(run_command, tmp_path: Path) -> None:
     code, out, _ = run_command("check", EXAMPLE)
     assert code == 0
     assert "no mistakes found" in out
+    loose = tmp_path / "loose.yaml"
+    stages = "analysis: {stages: [{name: hang, kind: quasi-static, duration: 0.1 s}]}"
+    loose.write_text(
+        "crumple: 1\nnodes: {a: [0, 0, 0], b: [1 m, 0, 0]}\ngravity: [0, 0, -9.81 m/s^2]\n"
+        "materials: {steel: {grade: S355}}\n"
+        "sections: {tube: {type: square_tube, side: 50 mm, thickness: 3 mm}}\n"
+        f"members: {{ab: {{nodes: [a, b], section: tube, material: steel}}}}\n"
+        f"supports: {{pin: {{node: a, fix: pin}}}}\n{stages}\n"
+    )
+    code, out, err = run_command("check", loose)
+    assert code == 0, err
+    assert "Stage hang is quasi-static, and nothing resists gravity there" in out
     bad = tmp_path / "bad.yaml"
     bad.write_text(
         EXAMPLE.read_text()
