@@ -279,6 +279,7 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
     d["outcome"] = static_cast<int>(r.outcome);
     d["reason"] = r.reason;
     d["ended_by"] = r.ended_by;
+    d["lost_time"] = r.lost_time;
     d["residual"] = r.residual;
     d["steps"] = r.steps;
     d["rejected"] = r.rejected;

@@ -61,7 +61,7 @@ void Stepper::commit(State& s, double h) {
     work_of_loads(s, h);
     show_forces(s, h);
     for (size_t i = 0; i < end_.size(); i++) {
-        s.acceleration[i] = (1 / h) * (velocity_[i] - s.velocity[i]);
+        s.acceleration[i] = stage_.quasi_static ? Twist{} : (1 / h) * (velocity_[i] - s.velocity[i]);
         s.velocity[i] = stage_.quasi_static ? Twist{} : velocity_[i];
     }
     s.pose = end_;
@@ -105,7 +105,7 @@ void Stepper::turn_hinges(State& s) {
     }
 }
 
-// Gravity and loads act over the true way of their points; and what of their work only inertia took up.
+// Gravity and loads act over the true way of their points; and what drag takes in quasi-static stages.
 void Stepper::work_of_loads(State& s, double h) {
     double on_structure = 0;
     for (size_t i = 0; i < end_.size(); i++) {
@@ -123,12 +123,11 @@ void Stepper::work_of_loads(State& s, double h) {
         on_structure += work;
     }
     if (!stage_.quasi_static) return;
-    double slowed = 0;
+    s.load_work += on_structure;
     for (size_t i = 0; i < end_.size(); i++) {
-        if (!model_.bodies[i].obstacle) slowed += inertial_energy(i);
+        if (!model_.bodies[i].obstacle) s.dragged += inertial_energy(i);
         if (!model_.bodies[i].stand_in) s.slowed += inertial_energy(i);
     }
-    s.unresisted = on_structure > 0 ? slowed / on_structure : 0;
 }
 
 // Positions and velocities back to the held rows at the end of the step, the nearest in kinetic energy with the laws'
@@ -213,11 +212,11 @@ bool Stepper::drives_obstacle(size_t joint) const {
     return body >= 0 && model_.bodies[at(body)].obstacle;
 }
 
-// Energy of a body at the end of a quasi-static step, with what is left of its inertia.
+// Energy that drag takes from a body in a quasi-static step: all that the step's inertia has at its end.
 double Stepper::inertial_energy(size_t body) const {
     const Body& b = model_.bodies[body];
     const Vec3 w = velocity_[body].w;
-    return residual_inertia * (b.mass * dot(velocity_[body].v, velocity_[body].v) + dot(w, inertia_[body] * w)) / 2;
+    return inertia() * (b.mass * dot(velocity_[body].v, velocity_[body].v) + dot(w, inertia_[body] * w)) / 2;
 }
 
 // Work that a drive spends in a quasi-static step on the inertia that stands in for an obstacle: no energy of anything.

@@ -80,8 +80,7 @@ struct State {
     double external_work = 0, spring_damped = 0;
     double slowed = 0;                          // kinetic energy that quasi-static stages took away
     double obstacle_work = 0;                   // part of the external work: that on obstacles
-    double unresisted = 0;                      // after a quasi-static step: share of the work of loads and gravity that only
-                                                // inertia took up, near 1 where nothing holds what they move
+    double load_work = 0, dragged = 0;          // quasi-static: work of loads and gravity on the structure, and what drag took
     void work_on(bool obstacle, double work) {
         external_work += work;
         if (obstacle) obstacle_work += work;

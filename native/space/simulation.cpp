@@ -12,6 +12,9 @@ namespace {
 // the square root of the accuracy, as in the planar engine.  With the whole accuracy for a step M3 errs by just that.
 constexpr double loosest_share = 1e-3, step_share = 0.4;
 
+// The same out of equilibrium in a quasi-static stage, where without inertia no way is more than a guess.
+constexpr double lost_tolerance = 2e-2;
+
 double step_tolerance(double accuracy) { return step_share * accuracy * std::min(1.0, std::sqrt(accuracy / loosest_share)); }
 
 // Turn [rad] by which a locked hinge may creep; the strongest hinge's work over it is no energy worth balancing.
@@ -124,7 +127,7 @@ double Simulation::error(const State& coarse, const State& fine) const {
     double e = worst / scale_;
     const double speed = std::max(speed_, negligible_speed_);
     if (speed > 0) e = std::max(e, kinetic_norm(model_, coarse, &fine) / speed);
-    e /= step_tolerance_;
+    e /= lost_ > 0 ? std::max(step_tolerance_, lost_tolerance) : step_tolerance_;
     if (stepper_.stage().quasi_static) return e;
     // a step that leaves more energy unbalanced than the accuracy allows has missed something
     const Energies after = energies(model_, fine);
@@ -231,7 +234,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
         record.steps++;
         overshot_ = NAN;
         watch(record);
-        if (unheld(record)) return false;
+        if (lost(fine_, record)) return false;
         if (share <= 1) {
             record.ended_by = which;
             return false;
@@ -325,7 +328,7 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     prepare(times.back());
     for (const double t : times) {
         const bool reached = t <= state_.t || advance(t, record, poll);
-        if (reached || record.ended_by >= 0) store(record);
+        if (reached || record.ended_by >= 0 || !std::isnan(record.lost_time)) store(record);
         if (!reached) break;
     }
     record.solves = stepper_.solves() - solves;

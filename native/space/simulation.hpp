@@ -1,6 +1,7 @@
 // A run of a spatial model: stages, adaptive steps to the requested output times, and what they record.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -9,7 +10,7 @@
 
 namespace crumple::space {
 
-enum class Outcome { complete, step_collapsed, not_finite, cancelled, refused, unheld };
+enum class Outcome { complete, step_collapsed, not_finite, cancelled, refused, unheld, limit_load };
 
 struct Settings {
     double accuracy = 1e-3;      // allowed error of the motion, relative to the largest rotation
@@ -36,6 +37,7 @@ struct Record {
     Outcome outcome = Outcome::complete;
     std::string reason;
     int ended_by = -1;
+    double lost_time = NAN;      // when the equilibrium ended that a quasi-static stage does not find again
     double residual = 0;         // largest |balance - start| over the energy that the structure was given
     long steps = 0, rejected = 0, forced = 0, solves = 0;
 };
@@ -85,7 +87,7 @@ private:
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
     bool solve(double h);
     bool failed(double e, bool smallest, Record& record) const;
-    bool unheld(Record& record);
+    bool lost(const State& before, Record& record);
     bool jumps(int which);
     bool strike(Record& record);
     double error(const State& coarse, const State& fine) const;
@@ -118,7 +120,8 @@ private:
     double landing_ = 0;              // step that ends where a contact closes; 0 if none is ahead
     double largest_energy_ = 0;       // kinetic, of the structure
     double overshot_ = 0;             // by the condition that last shortened a step; NaN for none
-    int unresisted_steps_ = 0;        // quasi-static ones in a row
+    int lost_ = 0;                    // steps of a quasi-static stage out of equilibrium, since this state:
+    State held_;
     std::vector<Vec3> stored_impulse_;  // on every obstacle when last stored, and when that was
     double stored_time_ = -1;
     Journey* journey_ = nullptr;

@@ -8,10 +8,14 @@ namespace crumple::space {
 
 namespace {
 
-// Share of the work of loads that goes into inertia in a quasi-static step in which nothing resists them, and how many such
-// steps in a row end a run.
-constexpr double unresisted_share = 0.5;
-constexpr int most_unresisted = 10;
+// Share of the work of loads that drag takes in a step out of equilibrium.  In equilibrium it is drag m v over the load.
+constexpr double lost_share = 1e-3;
+// Way out of equilibrium [rad, model lengths] that is no snap any more, and drag's least share of the work on it.
+constexpr double longest_snap = 0.5, snap_share = 5e-2;
+// Steps in a row out of equilibrium that are too many for a snap.
+constexpr int most_lost = 1000;
+// Share of the work that drag takes where nothing else resists.
+constexpr double unheld_share = 0.999;
 // A condition that ends a stage is met to this share of its value.
 constexpr double met = 1e-4;
 
@@ -55,7 +59,7 @@ void Simulation::begin_stage(bool quasi_static, const std::vector<bool>& drives,
     }
     h_ = 0;
     overshot_ = NAN;
-    unresisted_steps_ = 0;
+    lost_ = 0;
     until_ = std::move(until);
     for (Condition& c : until_) {
         if (c.quantity == Quantity::distance) {
@@ -104,14 +108,28 @@ bool Simulation::jumps(int which) {
     return before - reached < 0.1 * (before - std::fabs(c.value));
 }
 
-// Whether in a quasi-static stage nothing but inertia resists what loads and gravity do, step after step: there is no
-// equilibrium near.
-bool Simulation::unheld(Record& record) {
-    const bool resisted = !stepper_.stage().quasi_static || state_.unresisted < unresisted_share;
-    unresisted_steps_ = resisted ? 0 : unresisted_steps_ + 1;
-    if (unresisted_steps_ < most_unresisted) return false;
-    record.outcome = Outcome::unheld;
-    record.reason = "loads or gravity move it in a quasi-static stage, and nothing but inertia resists";
+// Whether the structure goes a long way in a quasi-static stage while loads do more work than it takes up: no equilibrium is
+// near.  Drives end with their motion, so what they do counts as held.
+bool Simulation::lost(const State& before, Record& record) {
+    if (!stepper_.stage().quasi_static) return false;
+    auto drag_share = [&](const State& since) {
+        const double work = state_.load_work - since.load_work, all = state_.external_work - since.external_work;
+        return work > 0 ? (state_.dragged - since.dragged) / std::max(work, all) : 0;
+    };
+    if (drag_share(before) < lost_share) {
+        lost_ = 0;
+        return false;
+    }
+    if (lost_ == 0) held_ = before;
+    lost_++;
+    const double share = drag_share(held_);
+    const bool far = worst_place(state_, held_, false) >= longest_snap || lost_ >= most_lost;
+    if (share < snap_share || !far) return false;
+    const bool unheld = share > unheld_share;
+    record.outcome = unheld ? Outcome::unheld : Outcome::limit_load;
+    record.reason = unheld ? "loads or gravity move it in a quasi-static stage, and nothing resists"
+                           : "loads or gravity pass what the structure can carry in a quasi-static stage";
+    record.lost_time = held_.t;
     return true;
 }
 

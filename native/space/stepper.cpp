@@ -351,6 +351,7 @@ void Stepper::keep_locked() {
 }
 
 bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
+    length_ = h;
     guess_ = guess ? *guess : s.velocity;
     speed_ = 0;
     for (size_t i = 0; i < s.velocity.size(); i++) {

@@ -17,8 +17,12 @@
 
 namespace crumple::space {
 
-// Inertia that a quasi-static step keeps, relative to the true one.  Its momentum is lost at every step.
-constexpr double residual_inertia = 1e-6;
+// Drag of quasi-static stages over mass [1/s], all that resists what is out of equilibrium.  A step begins at rest and ends
+// with twice its mean velocity, so drag h/2 of the inertia gives the force drag m v whatever the step's length; motion out of
+// equilibrium then does not depend on the steps.  Less costs steps where loads turn with what they bend; more is felt.
+constexpr double drag = 0.1;
+// Share of the inertia that remains in steps so short that less would drown in rounding.
+constexpr double least_inertia = 1e-8;
 
 struct Stage {
     bool quasi_static = false;
@@ -76,7 +80,7 @@ private:
     };
     void link_all();
     // share of the true inertia that acts in this stage
-    double inertia() const { return stage_.quasi_static ? residual_inertia : 1; }
+    double inertia() const { return stage_.quasi_static ? std::max(drag * length_ / 2, least_inertia) : 1; }
     bool is(size_t link, Kind kind) const { return connections_[link].kind == kind; }
     double mobility(size_t link, const Row& row) const;
     // touching.cpp
@@ -159,6 +163,7 @@ private:
     int redundant_ = 0;
     std::vector<int> redundant_rows_;
     double speed_ = 0;                       // scale of rates
+    double length_ = 0;                      // of the step [s]
     double narrowest_ramp_ = 0;
     bool solved_ = false;                    // w_ holds the solution of the last pass
     double tolerance_ = 0;                   // of impulses, as of the ramps' present width

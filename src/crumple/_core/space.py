@@ -98,6 +98,8 @@ class SpaceRecord:
         Per component: largest absolute rotation, moment, (c, 2).
     ended_by
         Index of the condition that ended the run, -1 for none.
+    lost_time
+        When the equilibrium ended that a quasi-static stage then did not find again [s]; NaN: it held.
     """
 
     time: Floats
@@ -119,6 +121,7 @@ class SpaceRecord:
     outcome: Outcome
     reason: str
     ended_by: int
+    lost_time: float
     residual: float
     steps: int
     rejected: int

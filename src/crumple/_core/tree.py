@@ -40,6 +40,7 @@ class Outcome(IntEnum):
     CANCELLED = 3
     REFUSED = 4
     UNHELD = 5
+    LIMIT_LOAD = 6
 
 
 @dataclass(frozen=True)

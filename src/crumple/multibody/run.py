@@ -27,6 +27,7 @@ STATUS = {
     Outcome.CANCELLED: Status.CANCELLED,
     Outcome.REFUSED: Status.REFUSED,
     Outcome.UNHELD: Status.UNHELD,
+    Outcome.LIMIT_LOAD: Status.LIMIT_LOAD,
 }
 
 

@@ -72,6 +72,7 @@ def space_quantities(model: SpaceLowered, finals: SpaceFinals, outputs: Outputs)
         outcome=Outcome.COMPLETE,
         reason="",
         ended_by=-1,
+        lost_time=float("nan"),
         residual=0.0,
         steps=0,
         rejected=0,

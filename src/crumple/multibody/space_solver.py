@@ -21,7 +21,7 @@ from crumple.multibody.run import Run, output_times
 from crumple.multibody.solved import HingeHistory, Poll, Solved
 from crumple.multibody.space_lowered import added_motion, kernel_stage
 from crumple.multibody.space_model import space_model, support_drives
-from crumple.multibody.stages import lowered_until, refuse_floating, stages_of, told
+from crumple.multibody.stages import lost_equilibrium, lowered_until, refuse_floating, stages_of, told
 from crumple.multibody.start import Placed
 from crumple.result import Channel, StageSummary
 from crumple.structure import PlacedHinge, Stage, Structure
@@ -109,8 +109,11 @@ class SpaceSolver:
         if self._stages[0].kind == "quasi-static":
             # nothing pushes yet; the kernel shows the jump of a drive that starts with a rate
             record.joint_force[0] = 0.0
-        if record.outcome is Outcome.UNHELD:
-            record = replace(record, reason=" ".join([f"{record.reason}.", *free_parts(self.linkage)]))
+        if record.outcome in (Outcome.UNHELD, Outcome.LIMIT_LOAD):
+            stage, begin = self._stages[len(stages) - 1], stages[-1].start
+            where = lost_equilibrium(self._structure, stage, begin, record.lost_time)
+            parts = [f"{record.reason}.", where, *free_parts(self.linkage)]
+            record = replace(record, reason=" ".join(parts))
         return self._solved(record, stages, (given, lost, seconds))
 
     def _begin(

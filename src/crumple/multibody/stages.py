@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -18,6 +19,12 @@ from crumple.units import format_quantity
 
 Conditions = list[tuple[Until, SpaceUntil]]
 """What the input asks for, and what the kernel looks at: a path ends a stage in either sense."""
+
+
+SAMPLES = 1001
+"""Times in a stage at which its loads are looked at."""
+MOST_LOADS = 3
+"""Loads that a sentence tells."""
 
 
 def stages_of(structure: Structure, run: Run) -> tuple[Stage, ...]:
@@ -67,6 +74,8 @@ def lowered_until(structure: Structure, linkage: Linkage, touching: Touching, st
 
 def told(stage: Stage, conditions: Conditions, record: SpaceRecord) -> str:
     """What ended a stage, in words."""
+    if math.isfinite(record.lost_time):
+        return f"loss of equilibrium at {format_quantity(record.lost_time, 's', 4)}"
     if record.ended_by < 0:
         return f"after {format_quantity(stage.duration, 's', 3)}"
     until = conditions[record.ended_by][0]
@@ -74,6 +83,36 @@ def told(stage: Stage, conditions: Conditions, record: SpaceRecord) -> str:
     of = f" of {until.of}" if until.of else ""
     between = f" between {until.between[0]} and {until.between[1]}" if until.between else ""
     return f"{until.quantity}{of}{between} reached {format_quantity(until.value, unit, 3)}"
+
+
+def lost_equilibrium(structure: Structure, stage: Stage, begin: float, lost: float) -> str:
+    """Where a quasi-static stage lost its equilibrium, and under which loads.
+
+    Parameters
+    ----------
+    structure, stage
+        What was solved, and the stage that lost it.
+    begin, lost
+        When the stage began, and when its equilibrium ended [s].
+    """
+    grid, since = np.linspace(0.0, stage.duration, SAMPLES), lost - begin
+    told = []
+    for load in structure.loads:
+        for what, unit, parts in (("force", "N", load.force), ("moment", "N*m", load.moment)):
+            for axis in "xyz":
+                function = getattr(parts, axis)
+                if function is None:
+                    continue
+                value, largest = float(function(np.array([since]))[0]), float(np.abs(function(grid)).max())
+                if largest > 0.0:
+                    factor = f"{abs(value) / largest:.4g} of the largest in the stage"
+                    told.append(f"{what} {axis} on {load.node} {format_quantity(value, unit, 4)}, {factor}")
+    shown = [*told[:MOST_LOADS], *([f"{len(told) - MOST_LOADS} more loads"] if told[MOST_LOADS:] else [])]
+    under = "; ".join(shown) or "gravity alone"
+    return (
+        f"Equilibrium ended {format_quantity(since, 's', 4)} into stage {stage.name} ({under}). What follows "
+        "shows where it goes; motion there needs a dynamic stage, or a drive instead of the load."
+    )
 
 
 def _conditions(

@@ -35,7 +35,8 @@ REASONS = {
     Outcome.REFUSED: "masses, inertias and capacities must be positive, and every value finite",
     Outcome.STEP_COLLAPSED: "the equations of a step did not converge at the smallest step",
     Outcome.NOT_FINITE: "the place of a body is not a number",
-    Outcome.UNHELD: "loads and gravity move it on in a quasi-static stage, and nothing but inertia resists",
+    Outcome.UNHELD: "loads or gravity move it in a quasi-static stage, and nothing resists",
+    Outcome.LIMIT_LOAD: "loads or gravity pass what the structure can carry in a quasi-static stage",
 }
 
 
