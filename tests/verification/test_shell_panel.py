@@ -12,10 +12,11 @@ yielding.
 The speed jumps at the border of the thrown part, where a mesh spreads it over an element: momentum is exact,
 but energy is missing, of first order in the element's size, in both codes.  So meshes of the same energy
 are compared: 32 x 64 shells and the fine mesh of bricks, 1697 and 1699 J of 1769 J.  A finer pair, too slow
-for a test, is in docs/theory/shell_panel.md.
+for a test, and what its difference is made of, is in docs/theory/shell_panel.md.
 
 Tolerance 2 % of the largest deflection, the sum of what is open: four elements through the wall in place of
-two move the coarse bricks by 1.6 % (half the step: 0.04 %), ten points in place of five the shells by 0.5 %.
+two move the coarse bricks by 1.6 % and the fine ones by 0.5 % (half the step: 0.04 %), ten points in place of
+five the shells by 0.5 %.
 The middle moves by 0.3 % in 40 us about its largest deflection, so the time of it is known to 4 %.
 """
 

@@ -42,6 +42,7 @@ MESHES = {
     "coarse, half the step": (UNIFORM, 7, 2, (1e-6, 0.5e-3)),
     "coarse, four through the wall": (UNIFORM, 7, 4, (2e-6, 0.5e-3)),
     "fine": (FINE, 15, 2, (2e-6, 1e-3)),
+    "fine, four through the wall": (FINE, 15, 4, (2e-6, 0.4e-3)),
     "finest": (FINEST, 25, 2, (2e-6, 0.5e-3)),
 }
 """Lines along the half length, elements around and through the wall, largest step and end [s]."""
