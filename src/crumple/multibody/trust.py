@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from crumple.hinge import Form, Freedom, SofteningVariable, tributary_stiffness
+from crumple.multibody.crushing import crushing_warnings
 from crumple.multibody.linkage import link
 from crumple.multibody.mobility import free_parts
 from crumple.multibody.overlap import overlap_warnings
@@ -133,7 +134,8 @@ def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solv
             f"({stored / total:.0%} of the energy): rotations lack the elastic part and the plastic ones are "
             "too large; use form elastic-plastic."
         )
-    found += [*_struck(solved, total), *_slowed(solved)]
+    struck = _struck(solved, total)
+    found += [*struck, *crushing_warnings(structure, solved, struck=bool(struck)), *_slowed(solved)]
     if solved.forced:
         found.append(f"{solved.forced} steps were taken at the smallest step without meeting the accuracy.")
     return tuple(found)

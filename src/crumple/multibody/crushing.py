@@ -1,0 +1,103 @@
+"""Members struck along their axis whose hinges cannot shorten: the model has no axial folding there.
+
+A hinge without an axial component carries any axial force.  What would fold the walls is the peak of the
+first axial law that takes the section, or its squash load.  Against it stands, at every hinge, the axial
+force that two outputs in a row reach; and, where impacts took most of the energy, the force of an obstacle,
+which is a mean between outputs, on members that lie along it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from crumple.errors import InputError
+from crumple.hinge import Freedom, axial_law_types, build_axial_law
+from crumple.multibody.forces import on_second
+from crumple.multibody.poses import SpacePoses
+from crumple.multibody.solved import Solved
+from crumple.section import plastic_interaction
+from crumple.structure import Structure
+from crumple.structure.rotation import turned
+
+ALONG = np.cos(np.radians(30.0))
+"""Cosine of the angle between a blow and a member's axis from which it counts as bending, not crushing."""
+
+
+def crushing_warnings(structure: Structure, solved: Solved, *, struck: bool) -> list[str]:
+    """A sentence for every member that would fold along its axis, and cannot in this model.
+
+    Parameters
+    ----------
+    structure, solved
+        What was solved, and how it went.  Without forces, from the planar kernel, there are no sentences.
+    struck
+        Whether impacts took most of the energy.
+    """
+    found: dict[str, float] = {}
+    for member, force in (*_at_hinges(structure, solved), *(_blows(structure, solved) if struck else ())):
+        found[member] = max(force, found.get(member, 0.0))
+    texts = []
+    known: dict[tuple[object, object], tuple[str, float]] = {}
+    for member, force in found.items():
+        spec = structure.members[member]
+        kind = (spec.section, spec.material)
+        if kind not in known:
+            known[kind] = _folding(structure, member)
+        law, peak = known[kind]
+        if force <= peak:
+            continue
+        what = f"by the law {law}" if law else "the squash load"
+        ask = law or "superfolding"
+        texts.append(
+            f"Member {member} carries up to {force / 1e3:.4g} kN along its axis, and {peak / 1e3:.4g} kN "
+            f"fold its walls ({what}), but nothing in it can shorten: axial folding is not modelled. Give it "
+            f"hinges with 'axial: {{law: {ask}}}', or solve with shells."
+        )
+    return texts
+
+
+def _at_hinges(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:
+    """Members and the largest axial compression [N] that stays for two outputs."""
+    poses = solved.poses
+    if not isinstance(poses, SpacePoses):
+        return
+    for i, connection in enumerate(poses.linkage.connections):
+        if connection.hinge is None or int(Freedom.AXIAL) in connection.free:
+            continue
+        axis = turned(poses.quaternion(connection.first), structure.frame_of(connection.hinge.member).x)
+        pressed = np.einsum("ni,ni->n", on_second(poses, i).force, np.broadcast_to(axis, (len(axis), 3)))
+        if pressed.size > 1:
+            yield connection.hinge.member, float(np.minimum(pressed[1:], pressed[:-1]).max())
+
+
+def _blows(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:
+    """Members along a blow that cannot shorten, and the largest force of an obstacle along them [N]."""
+    channels = {channel.name: channel.values for channel in solved.further}
+    shortening = {
+        history.hinge.member
+        for history in solved.hinges
+        if history.hinge.spatial is not None and Freedom.AXIAL in history.hinge.spatial.freedoms
+    }
+    for name in structure.obstacles:
+        force = np.column_stack([channels[f"obstacle.{name}.force.{axis}"] for axis in "xyz"])
+        if len(force) < 2:
+            continue
+        # the first is of one shortest step, no mean
+        strongest = force[1 + int(np.argmax(np.linalg.norm(force[1:], axis=1)))]
+        for member in structure.members:
+            along = abs(float(strongest @ structure.frame_of(member).x))
+            if member not in shortening and along > ALONG * np.linalg.norm(strongest):
+                yield member, along
+
+
+def _folding(structure: Structure, member: str) -> tuple[str, float]:
+    """The axial law that takes a member's section, and its peak [N]; no name: the squash load."""
+    section, material = structure.section_of(member), structure.material_of(member)
+    for name in axial_law_types():
+        try:
+            return name, float(build_axial_law(name, section, material).peak_force)
+        except InputError:
+            continue
+    return "", plastic_interaction(section, material).squash_force

@@ -1,0 +1,68 @@
+"""The unasked warning that a member would fold along its axis, where nothing in the model can shorten."""
+
+from pathlib import Path
+
+import pytest
+from tests.verification.structures import STEEL
+
+from crumple.analysis import load, solve
+from crumple.hinge import build_axial_law
+from crumple.multibody import Run, solve_multibody
+from crumple.structure import MultibodySettings, Outputs, SectionForce, Structure
+
+SIDE, WALL = 0.05, 0.0015
+CRUSH = Path(__file__).parents[3] / "examples" / "07_axial_crush.yaml"
+
+
+def column(force, axial=None):
+    """Tube on its clamp under a force along it that rises in 10 ms and stays."""
+    law = {"type": "constant", "moment": 5000.0, "rate": "off"}
+    hinge = {"name": "foot", "at": 0.05, "law": law}
+    hinge |= {"axis": "y"} if axial is None else {"axes": ("y", "z"), "axial": axial}
+    member = {"nodes": ("a", "b"), "section": "tube", "material": "steel", "hinges": (hinge,)}
+    rise = {"z": {"table": {"time": (0.0, 0.01, 1.0), "value": (0.0, -force, -force)}}}
+    return Structure(
+        materials={"steel": STEEL},
+        sections={"tube": {"type": "square_tube", "side": SIDE, "thickness": WALL}},
+        nodes={"a": (0, 0, 0), "b": (0, 0, 0.4)},
+        members={"ab": member},
+        supports={"clamp": {"node": "a", "fix": "all"}},
+        masses={"m": {"node": "b", "mass": 50.0}},
+        loads=[{"node": "b", "force": rise}],
+    )
+
+
+def about(structure, kernel="spatial"):
+    outputs = (
+        Outputs(section_forces={"cut": SectionForce(member="ab", at=0.2)})
+        if kernel == "spatial"
+        else Outputs()
+    )
+    run = Run(0.02, 1e-3, MultibodySettings(kernel=kernel), outputs)
+    return [text for text in solve_multibody(structure, run).warnings if "along its axis" in text]
+
+
+@pytest.fixture
+def peak():
+    whole = column(1.0)
+    return build_axial_law("square", whole.section_of("ab"), whole.material_of("ab")).peak_force
+
+
+def test_a_column_pressed_beyond_its_folding_force_is_named(peak):
+    (text,) = about(column(1.1 * peak))
+    assert text.startswith(f"Member ab carries up to {1.1 * peak / 1e3:.4g} kN along its axis")
+    assert f"{peak / 1e3:.4g} kN fold its walls (by the law square)" in text
+    assert "'axial: {law: square}'" in text
+    assert about(column(0.9 * peak)) == []
+    # tension folds nothing, and what can shorten needs no warning
+    assert about(column(-1.1 * peak)) == []
+    assert about(column(1.1 * peak, axial={"law": "square"})) == []
+
+
+def test_a_tube_thrown_at_a_wall_along_its_axis_is_named():
+    result = solve(load(CRUSH))
+    (text,) = [text for text in result.warnings if "along its axis" in text]
+    # 200 kg and the tube stop at once from 10 m/s: the mean over an output interval of 0.05 ms
+    carried = float(text.split("carries up to ")[1].split(" kN")[0])
+    assert carried == pytest.approx(200.0 * 10.0 / 5e-5 / 1e3, rel=0.01)
+    assert "axial folding is not modelled" in text
