@@ -7,7 +7,7 @@ add_library(shell_core OBJECT
   ${shell_dir}/model.cpp ${shell_dir}/lowering.cpp ${shell_dir}/thickness_rule.cpp ${shell_dir}/rigid_body.cpp
   ${shell_dir}/contact.cpp ${shell_dir}/contact_search.cpp ${shell_dir}/wall_contact.cpp ${shell_dir}/edge_contact.cpp
   ${shell_dir}/obstacles.cpp ${shell_dir}/body_contact.cpp ${shell_dir}/simulation.cpp ${shell_dir}/driven.cpp ${shell_dir}/stage.cpp
-  ${shell_dir}/ledger.cpp ${shell_dir}/welds.cpp ${shell_dir}/isa.cpp)
+  ${shell_dir}/ledger.cpp ${shell_dir}/welds.cpp ${shell_dir}/isa.cpp ${shell_dir}/team.cpp)
 set(shell_libraries shell_core)
 
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")

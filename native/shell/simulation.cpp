@@ -244,7 +244,7 @@ End Simulation::advance(double until, double seconds, std::int64_t steps, int th
             go = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < seconds;
     };
     decide();
-    run_team(members, [&](const Member& member) {
+    team_.run(members, [&](const Member& member) {
         aligned_vector<double> corner = chunk_corners();
         while (go) {
             // nodes: forces of the last step move them

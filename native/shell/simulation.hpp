@@ -135,6 +135,7 @@ private:
     std::int64_t steps_ = 0, failed_element_ = -1;
     End end_ = End::running;
     bool can_fail_ = false;
+    Team team_;
 };
 
 }  // namespace crumple::shell

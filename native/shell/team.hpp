@@ -1,7 +1,9 @@
-// A team of threads that runs stages one after another, with a barrier that spins first and yields then.
+// A team of threads that stays, and runs stages one after another with a barrier that spins first and yields then.
 #pragma once
 #include <atomic>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -9,6 +11,12 @@ namespace crumple::shell {
 
 // Blocking system barriers cost more than a stage on a busy machine; spinning alone would starve the others.
 constexpr int spins_before_yield = 2000;
+
+inline void pause() {
+#if defined(__x86_64__) || defined(_M_X64)
+    __builtin_ia32_pause();
+#endif
+}
 
 class Barrier {
 public:
@@ -31,11 +39,6 @@ public:
     }
 
 private:
-    static void pause() {
-#if defined(__x86_64__) || defined(_M_X64)
-        __builtin_ia32_pause();
-#endif
-    }
     const int members_;
     alignas(64) std::atomic<int> arrived_{0};
     alignas(64) std::atomic<unsigned> phase_{0};
@@ -104,13 +107,25 @@ private:
     std::vector<Rest> rest_;                     // [member]
 };
 
-// Runs work(member) on so many members; the caller is the first.
-template <class Work> void run_team(int members, Work work) {
-    Barrier barrier(members);
-    std::vector<std::thread> others;
-    for (int i = 1; i < members; i++) others.emplace_back([&, i] { work(Member{i, members, &barrier}); });
-    work(Member{0, members, &barrier});
-    for (std::thread& t : others) t.join();
-}
+// Members that stay for the next call: a run that is looked at every few steps calls every few hundred microseconds, and a thread started
+// anew is late by as much.  Between calls they spin for a while, then they sleep.
+class Team {
+public:
+    Team();
+    ~Team();
+    // Runs work(member) on so many members; the caller is the first.
+    template <class Work> void run(int members, Work work) {
+        Barrier barrier(members);
+        call(members, [&](int index) { work(Member{index, members, &barrier}); });
+    }
+
+private:
+    struct Crew;
+    void call(int members, const std::function<void(int)>& task);
+    void dismiss();
+
+    std::unique_ptr<Crew> crew_;
+    long process_ = 0;               // that started the crew: one forked off has none, and must not wait for it
+};
 
 }  // namespace crumple::shell

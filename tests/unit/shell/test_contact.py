@@ -1,5 +1,6 @@
 """Contact of walls: plate on plate, small elements in thick walls, folding, momentum, energy, edges."""
 
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -138,6 +139,16 @@ def test_any_number_of_threads_gives_the_same_bits():
         assert bits(state) == bits(first)
         assert state.energies == first.energies
         assert state.deepest_penetration == first.deepest_penetration
+
+
+def test_team_may_change_and_rest_between_calls():
+    m, _ = two_plates(0.003, 30.0, n=40, slide=30.0)
+    state, alone = ShellState(m), ShellState(m)
+    for threads in (2, 5, 1, 5, 2, 2):
+        state.advance(1.0, steps=30, threads=threads)
+        time.sleep(0.005)
+    alone.advance(1.0, steps=180)
+    assert bits(state) == bits(alone)
 
 
 def crossing_strips(height, **settings):

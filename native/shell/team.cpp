@@ -1,0 +1,105 @@
+#include "team.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#endif
+
+namespace crumple::shell {
+
+namespace {
+
+// How long a member waits awake for the next call: longer than a look at a run between two of them takes.
+constexpr auto awake = std::chrono::microseconds(200);
+
+long this_process() {
+#if defined(__unix__) || defined(__APPLE__)
+    return long(getpid());
+#else
+    return 1;
+#endif
+}
+
+}  // namespace
+
+// The members beside the caller.
+struct Team::Crew {
+    explicit Crew(int others) {
+        for (int i = 1; i <= others; i++) threads.emplace_back([this, i] { serve(i); });
+    }
+    ~Crew() {
+        tell(nullptr);
+        for (std::thread& thread : threads) thread.join();
+    }
+    // Null: go home.
+    void tell(const std::function<void(int)>* next) {
+        {
+            const std::lock_guard<std::mutex> lock(mutex);
+            task = next;
+            busy.store(int(threads.size()), std::memory_order_relaxed);
+            calls.fetch_add(1, std::memory_order_release);
+        }
+        called.notify_all();
+    }
+    void serve(int index) {
+        for (unsigned seen = 0;; seen++) {
+            await_call(seen);
+            if (!task) return;
+            (*task)(index);
+            busy.fetch_sub(1, std::memory_order_release);
+        }
+    }
+    void await_call(unsigned seen) {
+        const auto start = std::chrono::steady_clock::now();
+        for (int i = 0; calls.load(std::memory_order_acquire) == seen; i++) {
+            if (i < spins_before_yield) {
+                pause();
+                continue;
+            }
+            std::this_thread::yield();
+            if (std::chrono::steady_clock::now() - start < awake) continue;
+            std::unique_lock<std::mutex> lock(mutex);
+            called.wait(lock, [&] { return calls.load(std::memory_order_relaxed) != seen; });
+        }
+    }
+    void await_end() const {
+        for (int i = 0; busy.load(std::memory_order_acquire) != 0; i++) {
+            if (i < spins_before_yield)
+                pause();
+            else
+                std::this_thread::yield();
+        }
+    }
+
+    std::mutex mutex;
+    std::condition_variable called;
+    alignas(64) std::atomic<unsigned> calls{0};
+    alignas(64) std::atomic<int> busy{0};
+    const std::function<void(int)>* task = nullptr;
+    std::vector<std::thread> threads;            // last: they use the others
+};
+
+Team::Team() = default;
+
+Team::~Team() { dismiss(); }
+
+void Team::dismiss() {
+    if (process_ != this_process()) crew_.release();
+    crew_.reset();
+}
+
+void Team::call(int members, const std::function<void(int)>& task) {
+    if (members == 1) return task(0);
+    if (!crew_ || process_ != this_process() || crew_->threads.size() != std::size_t(members - 1)) {
+        dismiss();
+        process_ = this_process();
+        crew_ = std::make_unique<Crew>(members - 1);
+    }
+    crew_->tell(&task);
+    task(0);
+    crew_->await_end();
+}
+
+}  // namespace crumple::shell
