@@ -13,7 +13,7 @@ def check(file: Annotated[Path, typer.Argument(help="Input file (YAML).", show_d
     from crumple.analysis import check as problems_of
     from crumple.analysis import load
     from crumple.errors import InputError
-    from crumple.multibody import link, notes, unheld_notes
+    from crumple.multibody import infinitesimal, link, notes, unheld_notes
 
     problems = problems_of(file)
     if problems:
@@ -21,5 +21,6 @@ def check(file: Annotated[Path, typer.Argument(help="Input file (YAML).", show_d
     typer.echo(f"{file}: no mistakes found")
     analysis = load(file)
     linkage = link(analysis.structure)
-    for note in (*notes(linkage), *unheld_notes(analysis.structure, linkage, analysis.stages)):
+    loose = unheld_notes(analysis.structure, linkage, analysis.stages)
+    for note in filter(None, (*notes(linkage), infinitesimal(linkage), *loose)):
         typer.echo(f"  {note}")

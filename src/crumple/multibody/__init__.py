@@ -4,6 +4,7 @@
 """
 
 from crumple.multibody.assembly import Piece
+from crumple.multibody.infinitesimal import infinitesimal
 from crumple.multibody.linkage import Connection, Linkage, link
 from crumple.multibody.mechanism import Link, Mechanism, lower
 from crumple.multibody.mobility import notes
@@ -26,6 +27,7 @@ __all__ = [
     "Run",
     "Sensitivities",
     "VariantTable",
+    "infinitesimal",
     "link",
     "lower",
     "notes",

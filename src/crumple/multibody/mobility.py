@@ -54,7 +54,7 @@ class Mobility:
 
 
 @dataclass
-class _Tree:
+class Tree:
     """Spanning tree: twists of the free freedoms, and from where every body is reached."""
 
     columns: list[Floats] = field(default_factory=list)
@@ -83,7 +83,7 @@ def mobility(linkage: Linkage, *, locked: bool = False) -> Mobility:
     """
     if not linkage.bodies:
         return Mobility(0, (), (), 0, ())
-    tree = _tree(linkage, locked)
+    tree = tree_of(linkage, locked)
     width = len(tree.owner)
     blocks = [_loop_rows(linkage, tree, width, closing, own) for closing, own in tree.loops]
     system = np.concatenate([rows for rows, _ in blocks]) if blocks else np.zeros((0, width))
@@ -123,12 +123,9 @@ def free_twists(linkage: Linkage, points: Floats, *, locked: bool = False) -> Fl
     """
     if not linkage.bodies:
         return np.zeros((0, 0, 6))
-    tree = _tree(linkage, locked)
-    width = len(tree.owner)
-    blocks = [_loop_rows(linkage, tree, width, closing, own)[0] for closing, own in tree.loops]
-    rates, _ = _null_space(np.concatenate(blocks) if blocks else np.zeros((0, width)))
-    if not blocks:
-        rates = np.eye(width)
+    tree = tree_of(linkage, locked)
+    system = loop_system(linkage, tree)
+    rates = _null_space(system)[0] if len(system) else np.eye(len(tree.owner))
     centre, length = _scale(linkage)
     found = np.zeros((len(rates), len(linkage.bodies), 6))
     for body in range(len(linkage.bodies)):
@@ -184,10 +181,10 @@ def floating_members(linkage: Linkage) -> tuple[str, ...]:
     return tuple(name for name, pieces in linkage.pieces.items() if not {p.body for p in pieces} & held)
 
 
-def _tree(linkage: Linkage, locked: bool) -> _Tree:
+def tree_of(linkage: Linkage, locked: bool = False) -> Tree:
     """Breadth first from the ground; what it does not reach floats."""
     centre, length = _scale(linkage)
-    tree = _Tree()
+    tree = Tree()
     own: list[list[int]] = []
     edges: dict[int, list[int]] = defaultdict(list)
     for i, connection in enumerate(linkage.connections):
@@ -222,8 +219,15 @@ def _tree(linkage: Linkage, locked: bool) -> _Tree:
     return tree
 
 
+def loop_system(linkage: Linkage, tree: Tree) -> Floats:
+    """Equations of all loops, (6 loops, freedoms)."""
+    width = len(tree.owner)
+    blocks = [_loop_rows(linkage, tree, width, closing, own)[0] for closing, own in tree.loops]
+    return np.concatenate(blocks) if blocks else np.zeros((0, width))
+
+
 def _loop_rows(
-    linkage: Linkage, tree: _Tree, width: int, closing: int, own: list[int]
+    linkage: Linkage, tree: Tree, width: int, closing: int, own: list[int]
 ) -> tuple[Floats, set[int]]:
     """Six equations of a loop, and the connections along it."""
     rows = np.zeros((6, width))

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from crumple._core.tree import Outcome
-from crumple.errors import InputError, Problem
+from crumple.errors import InputError, Problem, Status
 from crumple.multibody import trust
 from crumple.multibody.choice import why_spatial
 from crumple.multibody.collapse import changed_capacities, collapse_log, not_unique
@@ -22,6 +22,8 @@ from crumple.multibody.histories import (
     section_channels,
     summaries,
 )
+from crumple.multibody.infinitesimal import infinitesimal
+from crumple.multibody.linkage import link
 from crumple.multibody.rigid import Floats
 from crumple.multibody.run import CHECK_FACTOR, Cancel, Progress, Run, outcome_status, picture_times, poll_of
 from crumple.multibody.shapes import states_of
@@ -121,6 +123,9 @@ def _result(
 ) -> Result:
     bound = run.settings.energy_residual_bound
     status, reason = outcome_status(solved.outcome, solved.reason, solved.residual, bound)
+    if status is Status.RESIDUAL_EXCEEDED:
+        cause = infinitesimal(link(structure, solver.hinges))
+        reason = f"{reason}. {cause}" if cause else reason
     wanted = [
         *node_channels(structure, solved.poses, run.outputs.nodes),
         *section_channels(structure, solved.poses, run.outputs),

@@ -5,7 +5,7 @@ import pytest
 from tests.unit.multibody.parts import CLAMP, LAW, member, structure
 
 from crumple.errors import InputError
-from crumple.multibody import Run, link, notes, solve_multibody
+from crumple.multibody import Run, infinitesimal, link, notes, solve_multibody
 from crumple.multibody.linkage import GROUND, check_inertia
 from crumple.multibody.mobility import free_parts, mobility
 from crumple.structure import MultibodySettings
@@ -98,6 +98,11 @@ def test_bricards_six_bars_move_though_counted_rigid():
     assert len(linkage.bodies) == 6
     assert free.motions == 6 + 1
     assert free.redundant == 1
+    # held at a bar it moves on: no infinitesimal mechanism
+    clamp = {"clamp": {"node": "n0", "fix": "all"}}
+    held = link(structure(nodes, members, supports=clamp, joints=joints))
+    assert mobility(held).motions == 1
+    assert infinitesimal(held) == ""
 
 
 def test_supports_that_hold_in_part_are_connections_with_the_ground():

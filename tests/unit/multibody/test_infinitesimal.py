@@ -1,0 +1,52 @@
+"""Motions that begin and cannot go on: two bars in one line between two pins, struck in the middle."""
+
+import pytest
+from tests.verification.structures import TUBE, constant_law
+from tests.verification.test_limit_loads import beam, portal
+from tests.verification.test_spatial_lowering import frame
+
+from crumple.errors import Status
+from crumple.multibody import Run, infinitesimal, link, solve_multibody
+
+ACROSS = (0, 1, 0)
+
+
+def two_bars(sag=0.0, slide=False, **parts):
+    """Bars of 1 m between pins, hinged in the middle, which hangs lower by a sag."""
+    bars = {f"{a}{b}": {"nodes": (a, b), "section": "tube", "material": "steel"} for a, b in ("am", "mb")}
+    pin = ("x", "y", "z", "rx", "rz")
+    supports = {"left": {"node": "a", "fix": pin}, "right": {"node": "b", "fix": pin[slide:]}}
+    joints = {"middle": {"node": "m", "member": "mb", "type": "revolute", "axis": ACROSS}}
+    nodes = {"a": (0, 0, 0), "m": (1, 0, -sag), "b": (2, 0, 0)}
+    return frame(nodes, bars, TUBE, supports=supports, joints=joints, **parts)
+
+
+@pytest.mark.parametrize("sag", [0.0, 1e-12])
+def test_bars_in_one_line_begin_to_move_and_cannot_go_on(sag):
+    assert "begin to move but not go on" in infinitesimal(link(two_bars(sag)))
+
+
+@pytest.mark.parametrize(
+    "structure",
+    [two_bars(0.05), two_bars(slide=True), portal(constant_law(1e3))[0], beam(constant_law(1e3))[0]],
+    ids=["stiff triangle", "sliding", "portal", "beam that slides"],
+)
+def test_what_moves_on_or_not_at_all_is_not_told(structure):
+    assert infinitesimal(link(structure)) == ""
+
+
+def test_a_blow_on_such_bars_is_lost_and_says_why():
+    """The joints take the energy of the given motion: m v^2/2 of the first motion, all of it."""
+    struck = two_bars(impulses=[{"node": "m", "impulse": (0.0, 0.0, -30.0)}])
+    result = solve_multibody(struck, Run(0.01, 0.005))
+    # both bars turn about their pins: inertia mu L^3/3 each, 30 N s at 1 m
+    inertia = 2 * 2.8998685 / 3
+    assert result["energy.kinetic"][0] == pytest.approx(30.0**2 / (2 * inertia), rel=1e-3)
+    assert result["energy.kinetic"][-1] < 1e-6
+    assert result.status is Status.RESIDUAL_EXCEEDED
+    assert "begin to move but not go on" in result.reason
+    free = solve_multibody(
+        two_bars(slide=True, impulses=[{"node": "m", "impulse": (0.0, 0.0, -30.0)}]), Run(0.01, 0.005)
+    )
+    assert free.status.ok
+    assert "not go on" not in free.reason
