@@ -87,6 +87,9 @@ void respond(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w
              double* potential);
 void law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
          double* potential);
+// adds what dampers and stops give
+void add_beside(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+                double* potential);
 // g of the trial state: below 1 the hinge is locked (or elastic), above it flows, and the more the farther above
 double load_factor(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w);
 // power D(w) that a coupled hinge takes at rates w where it flows

@@ -9,8 +9,8 @@ namespace crumple::space {
 
 namespace {
 
-// Whole Newton steps before the guaranteed path is taken; they fail only by cycling.
-constexpr int bold_limit = 32;
+// Whole Newton steps before the guaranteed way is taken, and before the central path is tried; they fail only by cycling.
+constexpr int bold_limit = 32, bold_limit_before_path = 12;
 // Newton steps per width of the ramps before the step is given up and shortened: a fixed number, and some per hinge,
 // since in the worst case (an impulse on the end of a long chain) hinges lock and let go one at a time.
 constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
@@ -67,11 +67,8 @@ void Stepper::scale_rate(size_t link, double factor, double* w) const {
     for (int k = 0; k < n; k++) w[k] = lead > 0 ? (factor * seen[k] - lead * f->w0[k]) / (1 - lead) : factor * w[k];
 }
 
-// A locked hinge is nearly infinitely stiff, so a line search at the true ramps unlocks hinges one at a time.  So whole
-// steps are tried first; where they cycle, the ramps are widened and narrowed in steps, each a good start for the
-// next, with line search.
+// Whole steps are tried first, unless they cycled before in this step, then the central path; the guaranteed way is the last.
 bool Stepper::newton() {
-    const int limit = newton_limit + newton_limit_per_hinge * static_cast<int>(frozen_.size());
     tolerance_ = impulse_tolerance;
     energy_ = 0;
     for (size_t i = 0; i < free_.size(); i++) {
@@ -79,11 +76,34 @@ bool Stepper::newton() {
     }
     const std::vector<Twist> velocity = velocity_;
     const std::vector<double> w = w_;
-    // without inertia a locked hinge is so stiff that the rates which unlock it drown in rounding: wide ramps first
-    if (!stage_.quasi_static && (all_set_valued_ ? descend(bold_limit, true) : descend(limit, false))) return true;
     // what cycled may have strayed far
-    velocity_ = velocity;
-    w_ = w;
+    auto start_anew = [&] {
+        velocity_ = velocity;
+        w_ = w;
+    };
+    // without inertia a locked hinge is so stiff that the rates which unlock it drown in rounding: wide ramps first
+    if (stage_.quasi_static) return narrow_ramps();
+    if (!all_set_valued_) {
+        if (descend(newton_steps(), false)) return true;
+    } else if (!has_paths_ || contacts_.size() > 0) {
+        if (descend(bold_limit, true)) return true;
+    } else {
+        if (bold_ && descend(bold_limit_before_path, true)) return true;
+        bold_ = false;
+        for (const bool together : {false, true}) {
+            start_anew();
+            if (follow_path(together)) return true;
+        }
+    }
+    start_anew();
+    return narrow_ramps();
+}
+
+int Stepper::newton_steps() const { return newton_limit + newton_limit_per_hinge * static_cast<int>(frozen_.size()); }
+
+// A locked hinge is nearly infinitely stiff, so a line search at the true ramps unlocks hinges one at a time.  So the ramps are
+// widened and narrowed in steps, each a good start for the next, with line search.
+bool Stepper::narrow_ramps() {
     double width = 1;
     for (size_t c = 0; c < connections_.size(); c++) {
         // a contact's normal rate is no slip
@@ -94,7 +114,7 @@ bool Stepper::newton() {
     for (bool narrowest = false; !narrowest; width *= narrowing) {
         widen(width, narrowest);
         tolerance_ = narrowest ? impulse_tolerance : widened_tolerance;
-        if (!descend(limit, false)) return false;
+        if (!descend(newton_steps(), false)) return false;
     }
     return true;
 }
@@ -118,18 +138,37 @@ void Stepper::widen(double width, bool& narrowest) {
     }
 }
 
-// The tangent D = Q d Q^T of a law as root Q sqrt(d), and what the law gives beyond it.
+// A law, or a point of the path in its place, as impulse = offset + tangent w.
+void Stepper::tangent_of(size_t link, double* offset, double* tangent) const {
+    const Link& l = system_.links()[link];
+    const int n = l.laws;
+    const double* w = &w_[at(start(link) + l.held)];
+    double impulse[most_components] = {}, slope[most_components * most_components] = {};
+    std::fill(offset, offset + n, 0.0);
+    std::fill(tangent, tangent + n * n, 0.0);
+    if (on_path_[link]) {
+        const size_t hinge = at(hinge_index(link));
+        path_tangent(model_.hinges[hinge], frozen_[hinge], point_[hinge], mu_, offset, tangent);
+        add_beside(model_.hinges[hinge], frozen_[hinge], w, impulse, slope, nullptr);
+    } else {
+        respond(link, w, impulse, slope);
+    }
+    for (int i = 0; i < n; i++) {
+        offset[i] += impulse[i];
+        for (int j = 0; j < n; j++) {
+            offset[i] -= slope[i * n + j] * w[j];
+            tangent[i * n + j] += slope[i * n + j];
+        }
+    }
+}
+
+// The tangent D = Q d Q^T as root Q sqrt(d), and what the law gives beyond it.
 void Stepper::linearise(size_t link) {
     const Link& l = system_.links()[link];
     const int n = l.laws, first = start(link) + l.held;
     Tangent& t = tangent_[link];
     double matrix[most_components * most_components];
-    const double* w = &w_[at(first)];
-    respond(link, w, t.impulse, matrix);
-    for (int i = 0; i < n; i++) {
-        t.offset[i] = t.impulse[i];
-        for (int j = 0; j < n; j++) t.offset[i] -= matrix[i * n + j] * w[j];
-    }
+    tangent_of(link, t.offset, matrix);
     eigenvectors(n, matrix, t.value, t.vectors);
     for (int k = 0; k < n; k++) {
         const double root = std::sqrt(std::max(t.value[k], 0.0));

@@ -167,6 +167,11 @@ void law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, do
 void respond(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
              double* potential) {
     law(hinge, f, w, impulse, tangent, potential);
+    add_beside(hinge, f, w, impulse, tangent, potential);
+}
+
+void add_beside(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+                double* potential) {
     const int n = size(hinge);
     for (int k = 0; k < n; k++) {
         const multibody::Hinge& one = hinge.components[static_cast<size_t>(k)].law;

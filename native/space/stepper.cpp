@@ -44,6 +44,8 @@ Stepper::Stepper(const Model& model) : model_(model), contacts_(model.contact), 
         all_set_valued_ = all_set_valued_ && hinge.components.front().law.form == Form::set_valued;
     }
     component_.push_back(components);
+    has_paths_ = all_set_valued_ && !model.hinges.empty();
+    for (const SpaceHinge& hinge : model.hinges) has_paths_ = has_paths_ && hinge.surface.coupling != Coupling::tension_flange;
     const size_t bodies = model.bodies.size();
     frozen_.resize(model.hinges.size());
     for (auto* v : {&spring_force_, &spring_tangent_, &spring_weight_}) v->assign(model.springs.size(), 0.0);
@@ -91,6 +93,7 @@ void Stepper::link_all() {
     rows_.resize(n);
     for (auto* v : {&error_, &rate0_, &bias_, &target_, &w_, &w_next_, &impulse_, &x_, &work_}) v->assign(n, 0.0);
     overload_.assign(links.size(), 0.0);
+    on_path_.assign(links.size(), 0);
     solved_ = false;
 }
 
@@ -323,33 +326,6 @@ void Stepper::freeze(const State& s, double h) {
     }
 }
 
-// Whether a coupled hinge came to rest or turned back in a step that took it for sliding on: it weighs its rates otherwise
-// then, see `FrozenSpaceHinge::lead`.
-bool Stepper::turned_back() {
-    bool any = false;
-    for (size_t c = 0; c < connections_.size(); c++) {
-        if (!hinge_of(c)) continue;
-        const FrozenSpaceHinge& f = frozen_[at(hinge_index(c))];
-        if (f.lead == 0) continue;
-        double along = 0;
-        for (int k = 0; k < size(*hinge_of(c)); k++) along += f.w0[k] * w_[at(start(c) + system_.links()[c].held + k)];
-        if (along > 0) continue;
-        turned_back_[at(hinge_index(c))] = true;
-        any = true;
-    }
-    return any;
-}
-
-// Newton's method starts from the guess, but hinges that the last pass found locked start so: their rates are their shares of
-// the capacity, far below what a guess is good for.  The frozen laws know only the guess.
-void Stepper::keep_locked() {
-    for (size_t c = 0; solved_ && c < connections_.size(); c++) {
-        const size_t first = at(start(c) + system_.links()[c].held);
-        if (!hinge_of(c) || load(c, &w_next_[first]) >= 1) continue;
-        std::copy_n(&w_next_[first], system_.links()[c].laws, &w_[first]);
-    }
-}
-
 bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
     length_ = h;
     guess_ = guess ? *guess : s.velocity;
@@ -366,6 +342,10 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
     locate_all(s, s.pose, s.t, rows_, error_.data());
     rates(rows_, s.velocity.data(), rate0_.data());
     turned_back_.assign(frozen_.size(), false);
+    if (!guess) {
+        kept_mu_ = 0;
+        bold_ = true;
+    }
     // a guess comes from a step that has just been solved
     solved_ = solved_ && guess;
     bool settled = true;

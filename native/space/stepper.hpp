@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "space/central.hpp"
 #include "space/journey.hpp"
 #include "space/model.hpp"
 #include "space/system.hpp"
@@ -70,7 +71,7 @@ public:
 private:
     // A law's tangent P = offset + root root^T w at the rates where it was last asked.
     struct Tangent {
-        double impulse[most_components] = {}, offset[most_components] = {};
+        double offset[most_components] = {};
         double vectors[most_components * most_components] = {}, value[most_components] = {};
     };
     enum class Kind { joint, spring, contact };
@@ -102,6 +103,7 @@ private:
     void mend_middle(const State& s, double t);
     void rates(const std::vector<Row>& rows, const Twist* v, double* out) const;
     void freeze(const State& s, double h);
+    // passes.cpp
     bool turned_back();
     void keep_locked();
     // follow.cpp
@@ -109,6 +111,9 @@ private:
     bool follow_pass();
     // newton.cpp
     bool newton();
+    bool narrow_ramps();
+    int newton_steps() const;
+    void tangent_of(size_t link, double* offset, double* tangent) const;
     bool descend(int limit, bool bold);
     void linearise(size_t link);
     void solve_once();
@@ -122,6 +127,11 @@ private:
     void widen(double width, bool& narrowest);
     void respond(size_t link, const double* w, double* impulse, double* tangent) const;
     double load(size_t link, const double* w) const;
+    // path.cpp
+    bool follow_path(bool together);
+    double enter_path(bool warm);
+    double step_on_path(bool together, double& least);
+    void leave_path();
     // finish.cpp
     void commit(State& s, double h);
     void work_on_links(State& s, double h);
@@ -171,6 +181,12 @@ private:
     std::vector<double> allowed_;            // normal rate per contact, in this pass
     double energy_ = 0;                      // kinetic energy of the free motion [J]
     long solves_ = 0;
+    bool bold_ = true;                       // whole Newton steps have not cycled in this step
+    bool has_paths_ = false;                 // all hinges are rigid and have smooth surfaces
+    std::vector<char> on_path_;              // per link: whether it is linearised on the central path
+    std::vector<CentralPoint> point_, next_point_, kept_point_;  // per hinge
+    std::vector<double> share_;              // per hinge: of the way to the next point
+    double mu_ = 0, kept_mu_ = 0;            // of the points [rad/s]; 0: none kept
     std::vector<Pass>* kept_ = nullptr;
     const std::vector<Pass>* followed_ = nullptr;
     size_t next_pass_ = 0;                   // of those followed

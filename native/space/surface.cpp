@@ -294,6 +294,19 @@ double gauge(const Surface& s, int n, const double* x, double* gradient) {
     return g;
 }
 
+// Where g is zero, and for the ellipsoid, the curvature is that of a ball.
+double half_square(const Surface& s, int n, const double* x, double* gradient, double* curvature, int stride) {
+    const bool section = s.coupling == Coupling::section;
+    const Shape at = section ? shape(s, n, x, true) : Shape{};
+    for (int j = 0; j < n; j++) {
+        gradient[j] = section ? at.g * at.gradient[j] : x[j];
+        for (int k = 0; k < n; k++) {
+            curvature[j * stride + k] = at.g > 0 ? at.gradient[j] * at.gradient[k] + at.g * at.curvature[j][k] : (j == k ? 1 : 0);
+        }
+    }
+    return section ? at.g * at.g : dot(n, x, x);
+}
+
 SurfacePoint nearest(const Surface& s, int n, const double* y, const double* m, const double* guess, double* derivative) {
     SurfacePoint p;
     bool inside = true;

@@ -33,6 +33,8 @@ struct SurfacePoint {
 
 // g of the ellipsoid, ball or section; gradient may be null
 double gauge(const Surface& s, int n, const double* x, double* gradient);
+// g^2/2, smooth where g is zero, with gradient (n) and curvature (n x n, rows `stride` apart); returns g^2
+double half_square(const Surface& s, int n, const double* x, double* gradient, double* curvature, int stride);
 // `guess` (null: none): direction in which to start; `derivative` (n x n, null: not wanted): dx/dy, symmetric and positive
 // semidefinite.  Closed form for the ellipsoid with equal m, Newton's method else
 SurfacePoint nearest(const Surface& s, int n, const double* y, const double* m, const double* guess, double* derivative);

@@ -1,0 +1,41 @@
+// What a pass over a step takes from the one before it.
+#include <algorithm>
+
+#include "space/stepper.hpp"
+
+namespace crumple::space {
+
+namespace {
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+}  // namespace
+
+// Whether a coupled hinge came to rest or turned back in a step that took it for sliding on: it weighs its rates otherwise
+// then, see `FrozenSpaceHinge::lead`.
+bool Stepper::turned_back() {
+    bool any = false;
+    for (size_t c = 0; c < connections_.size(); c++) {
+        if (!hinge_of(c)) continue;
+        const FrozenSpaceHinge& f = frozen_[at(hinge_index(c))];
+        if (f.lead == 0) continue;
+        double along = 0;
+        for (int k = 0; k < size(*hinge_of(c)); k++) along += f.w0[k] * w_[at(start(c) + system_.links()[c].held + k)];
+        if (along > 0) continue;
+        turned_back_[at(hinge_index(c))] = true;
+        any = true;
+    }
+    return any;
+}
+
+// Newton's method starts from the guess, but hinges that the last pass found locked start so: their rates are their shares of
+// the capacity, far below what a guess is good for.  The frozen laws know only the guess.
+void Stepper::keep_locked() {
+    for (size_t c = 0; solved_ && c < connections_.size(); c++) {
+        const size_t first = at(start(c) + system_.links()[c].held);
+        if (!hinge_of(c) || load(c, &w_next_[first]) >= 1) continue;
+        std::copy_n(&w_next_[first], system_.links()[c].laws, &w_[first]);
+    }
+}
+
+}  // namespace crumple::space
