@@ -93,9 +93,16 @@ def _laws(
     shape: Section, metal: Material, axis: Axis, wanted: list[str] | None
 ) -> tuple[dict[str, HingeLaw], list[str]]:
     """Laws to show, and a sentence for each that does not fit; one asked for by name must fit."""
-    from crumple.errors import InputError
+    from crumple.errors import InputError, Problem
     from crumple.hinge import build_law, law_types
 
+    for name in wanted or []:
+        if name in NEEDS_CURVE:
+            allowed = ", ".join(sorted(set(law_types()) - NEEDS_CURVE))
+            todo = "show a measured curve by --curve FILE"
+            raise InputError(
+                Problem("this law comes from a file, not from the section", name, allowed, todo, "--law")
+            )
     if wanted:
         return {name: build_law(name, shape, metal, axis) for name in wanted}, []
     laws: dict[str, HingeLaw] = {}

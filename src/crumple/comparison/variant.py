@@ -12,7 +12,7 @@ from crumple.structure import HingePlace, Member, Structure, TableLaw
 from crumple.structure.automatic import hinges_of
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges import hinge_places, law_spec
-from crumple.structure.law import LawKeys, LawReference
+from crumple.structure.law import LawKeys, LawReference, Regularisation
 from crumple.structure.member import Bars, Hinge
 
 ELASTIC = "elastic-plastic"
@@ -183,5 +183,5 @@ def _elastic(structure: Structure, name: str, member: Member, places: dict[str, 
 
 def _law(structure: Structure, place: HingePlace) -> LawReference:
     spec: LawKeys = law_spec(structure, place)
-    changed = spec.model_copy(update={"form": ELASTIC})
+    changed = spec.model_copy(update={"form": ELASTIC, "regularisation": Regularisation()})
     return changed  # type: ignore[return-value]

@@ -80,7 +80,7 @@ class Family:
         return _keyword_only(self.type_of(name).of)
 
     def build(self, name: str, *arguments: Any, **options: Any) -> Any:
-        """Build a law by its name; refuses unknown options with `InputError`."""
+        """Build a law by its name; refuses unknown and missing options with `InputError`."""
         cls = self.type_of(name)
         allowed = self.options(name)
         unknown = [option for option in options if option not in allowed]
@@ -92,6 +92,10 @@ class Family:
                     for option in unknown
                 ]
             )
+        missing = [option for option in allowed if option not in options and option in _needed(cls.of)]
+        if missing:
+            what, todo = f"the law {name} needs more than a section and a material", "give it"
+            raise InputError([Problem(what, "nothing", option, todo, option) for option in missing])
         return cls.of(*arguments, **options)
 
 
@@ -99,6 +103,15 @@ class Family:
 def _keyword_only(function: Callable[..., Any]) -> tuple[str, ...]:
     parameters = inspect.signature(function).parameters.values()
     return tuple(parameter.name for parameter in parameters if parameter.kind is parameter.KEYWORD_ONLY)
+
+
+@cache
+def _needed(function: Callable[..., Any]) -> tuple[str, ...]:
+    """Keyword options without a default."""
+    parameters = inspect.signature(function).parameters
+    return tuple(
+        name for name in _keyword_only(function) if parameters[name].default is inspect.Parameter.empty
+    )
 
 
 _BENDING = Family("crumple.hinge.laws", "hinge law")
@@ -156,7 +169,7 @@ def build_law(name: str, section: Section, material: Material, axis: Axis = "y",
     Raises
     ------
     InputError
-        If the name or an option is unknown, or the law does not fit the section.
+        If the name or an option is unknown or missing, or the law does not fit the section.
     """
     law: HingeLaw = _BENDING.build(name, section, material, axis, **options)
     return law

@@ -108,10 +108,31 @@ def assemble(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Assembly:
                 assembly.cuts.append(Cut(assembly.node[node], end, joint=joint))
         for hinge, (a, b) in zip(by_member[name], pairwise(pieces), strict=True):
             assembly.cuts.append(Cut(a[2], b[2], hinge=hinge))
-    for welds in structure.spot_welds.values():
+    for name, welds in structure.spot_welds.items():
         for place in welds.places(structure.frame_of(welds.members[0])) if len(welds.members) == 2 else ():
+            _refuse_beside(structure, name, place)
             assembly.join(*(_piece_at(assembly, member, place) for member in welds.members))
     return assembly
+
+
+def _refuse_beside(structure: Structure, name: str, place: NDArray[np.float64]) -> None:
+    """Refuse a spot [m] farther from a member's outline, or its ends, than both walls are thick."""
+    members = structure.spot_welds[name].members
+    both = sum(structure.section_of(member).thickness for member in members)
+    for member in members:
+        frame, outline = structure.frame_of(member), structure.section_of(member).outer_outline()
+        low, high = np.array([0.0, *outline.min(axis=0)]), np.array([frame.length, *outline.max(axis=0)])
+        local = frame.axes @ (place - frame.origin)
+        beside = float(np.linalg.norm(np.maximum(low - local, local - high).clip(0.0)))
+        if beside > both:
+            at = ", ".join(f"{1e3 * float(value):.6g}" for value in place)
+            what, came = (
+                f"member '{member}' does not reach the spot at ({at}) mm",
+                f"{1e3 * beside:.3g} mm away",
+            )
+            todo = "correct the places of the spots, or of the members"
+            allowed = f"at most {1e3 * both:.3g} mm, both thicknesses"
+            raise InputError(Problem(what, came, allowed, todo, f"spot_welds.{name}"))
 
 
 def _piece_at(assembly: Assembly, member: str, place: NDArray[np.float64]) -> int:

@@ -131,7 +131,7 @@ def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solv
     if total > 0.0 and stored > ELASTIC_SHARE * total:
         found.append(
             f"The bars are rigid, but the members could store up to {stored:.3g} J elastically "
-            f"({stored / total:.0%} of the energy): rotations lack the elastic part and the plastic ones are "
+            f"({_share(stored / total)}): rotations lack the elastic part and the plastic ones are "
             "too large; use form elastic-plastic."
         )
     struck = _struck(solved, total)
@@ -139,6 +139,11 @@ def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solv
     if solved.forced:
         found.append(f"{solved.forced} steps were taken at the smallest step without meeting the accuracy.")
     return tuple(found)
+
+
+def _share(part: float) -> str:
+    """A share of the energy put in, in words where it is more than all of it."""
+    return f"{part:.0%} of the energy" if part <= 1.0 else "more than all that was put in"
 
 
 def _struck(solved: Solved, total: float) -> list[str]:

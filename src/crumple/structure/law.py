@@ -95,6 +95,13 @@ class LawKeys(Spec):
     bound: Literal["nominal", "lower", "upper"] = "nominal"
     """Which law of the band that the law states: the middle or an edge."""
 
+    @model_validator(mode="after")
+    def _ramp_is_used(self) -> LawKeys:
+        if self.form != "regularised" and self.regularisation != Regularisation():
+            what = f"'regularisation' would do nothing: the form is {self.form}"
+            refuse(what, key="regularisation", todo="write 'form: regularised', or leave it out")
+        return self
+
 
 class ConstantLaw(LawKeys):
     """Constant moment: a perfectly plastic hinge."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+import numpy as np
+
 from crumple.errors import Problem
 from crumple.structure.problems import one_of, outside, unknown
 from crumple.structure.spot_welds import MOST_SPOTS
@@ -29,11 +31,34 @@ def spot_weld_problems(structure: Structure, known: Mapping[str, set[str]]) -> I
             came, todo = f"{1e3 * welds.pitch:g} mm", "give a larger pitch"
             what, allowed = "the line has too many spots", f"at most {MOST_SPOTS}"
             yield Problem(what, came, allowed, todo, f"{where}.pitch")
+        else:
+            yield from _crowded(structure, name)
         if len(welds.members) == 1 and has_weld_lines(structure, first) is False:
             what = f"the section of member '{first}' has no lines of spot welds"
             welded = [other for other in structure.members if has_weld_lines(structure, other)]
             todo = "name the member that it is welded to as well, or give its section 'welds'"
             yield Problem(what, structure.members[first].section, one_of(welded), todo, f"{where}.members")
+
+
+def _crowded(structure: Structure, name: str) -> Iterator[Problem]:
+    """Spots of an entry nearer to each other than the wall is thick: one would carry all until it fails."""
+    welds = structure.spot_welds[name]
+    members = [structure.members[member] for member in welds.members if member in structure.members]
+    specs = [structure.sections[member.section] for member in members if member.section in structure.sections]
+    least = min((spec.section().thickness for spec in specs), default=0.0)
+    allowed, came = f"at least {1e3 * least:.3g} mm apart, the thickness of the wall", ""
+    if not welds.points:
+        stations = welds.stations(structure.frame_of(welds.members[0]).length)
+        if len(stations) > 1 and stations[1] - stations[0] < least:
+            came, key, todo = f"{1e3 * (stations[1] - stations[0]):.3g} mm", "pitch", "give a larger pitch"
+    points = np.array(welds.points, float).reshape(-1, 3)
+    for i, point in enumerate(points[1:], 1):
+        apart = float(np.linalg.norm(points[:i] - point, axis=1).min())
+        if apart < least:
+            came, key, todo = f"{1e3 * apart:.3g} mm", f"points[{i}]", "leave one of them out"
+            break
+    if came:
+        yield Problem("spots lie nearer than two can", came, allowed, todo, f"spot_welds.{name}.{key}")
 
 
 def pitch_problems(structure: Structure) -> Iterator[Problem]:

@@ -27,3 +27,10 @@ def test_saved_law_is_the_law_shown(tmp_path):
 def test_several_laws_are_refused(tmp_path):
     with pytest.raises(InputError, match="one law"):
         invoke("--save", str(tmp_path / "hinge.yaml"))
+
+
+@pytest.mark.parametrize("name", ["table", "file"])
+def test_a_law_without_a_formula_is_refused_with_what_to_do(name):
+    with pytest.raises(InputError, match="comes from a file") as caught:
+        invoke("--law", name)
+    assert "--curve" in caught.value.problems[0].todo

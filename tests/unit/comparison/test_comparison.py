@@ -246,6 +246,16 @@ def test_bars_of_an_elastic_member_yield_as_their_section_bends(case):
     assert bending_moment(section, metal, "y", curvature) == pytest.approx(law.moment, rel=2e-3)
 
 
+def test_the_ramp_of_a_regularised_hinge_is_left_behind(case):
+    law = {"type": "kecman", "form": "regularised", "regularisation": {"rate": 0.2}}
+    tube = case.structure.members["tube"]
+    hinges = tuple(hinge.model_copy(update={"law": law}) for hinge in tube.hinges)
+    members = {"tube": tube.model_copy(update={"hinges": hinges})}
+    elastic = with_elastic_hinges(case.structure.model_copy(update={"members": members}))
+    (place,) = hinge_places(elastic)
+    assert law_spec(elastic, place).form == "elastic-plastic"
+
+
 def test_variants_change_forms_and_bars_alone(case):
     elastic = with_elastic_hinges(case.structure)
     assert law_spec(elastic, hinge_places(elastic)[0]).form == "elastic-plastic"

@@ -49,6 +49,8 @@ def test_options_are_listed():
         ("wierzbicki", TUBE, {"equivalent_side": 0.001}, "equivalent side"),
         ("constant", TUBE, {"moment": -1.0}, "must be positive"),
         ("table", TUBE, {"rotation": [0.0, 0.0], "moment": [1.0, 1.0]}, "increase strictly"),
+        ("table", TUBE, {"rotation": [0.0, 1.0]}, "moment: the law table needs more"),
+        ("file", TUBE, {}, "text: the law file needs more"),
     ],
 )
 def test_what_cannot_be_is_refused(name, section, options, said):

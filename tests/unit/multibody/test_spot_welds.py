@@ -46,3 +46,19 @@ def test_bars_without_the_weld_are_two():
 def test_a_hinge_between_two_spots_cannot_turn():
     with pytest.raises(InputError, match="joined rigidly elsewhere"):
         solve_multibody(lapped(("own", "c", {"offset": 0.1})), Run(1e-3, 1e-3))
+
+
+@pytest.mark.parametrize(
+    ("point", "member", "away"),
+    [
+        ((0.9, 0.0, 0.1), "low", "87.5 mm"),
+        ((0.5, 0.0, 0.0125), "top", "300 mm"),
+        ((0.9, 0.2, 0.0125), "low", "175 mm"),
+    ],
+)
+def test_a_spot_beside_its_members_is_refused(point, member, away):
+    welds = {"lap": {"members": ("low", "top"), "points": [(0.85, 0.0, 0.0125), point]}}
+    with pytest.raises(InputError, match=f"member '{member}' does not reach the spot") as caught:
+        solve_multibody(lapped(welds=welds), Run(1e-3, 1e-3))
+    assert caught.value.problems[0].came == f"{away} away"
+    assert caught.value.problems[0].where == "spot_welds.lap"

@@ -49,6 +49,13 @@ def test_rigid_bars_that_hide_much_elastic_energy_are_named() -> None:
     assert not about(thrown(15.0, form="elastic-plastic"), "elastically")
 
 
+def test_elastic_energy_beyond_all_that_was_put_in_is_told_in_words() -> None:
+    # 3.1 J at 1 rad/s
+    (text,) = about(thrown(1.0), "elastically")
+    assert "(more than all that was put in)" in text
+    assert "%" not in text
+
+
 def test_a_stop_does_not_count_as_elastic_energy() -> None:
     stop = {"rotation": 0.3, "stiffness": 1e6, "damping": 0.0}
     (text,) = about(thrown(15.0, stops=stop), "elastically")

@@ -95,3 +95,10 @@ def test_keys_of_one_law_are_unknown_to_another():
         KecmanLaw(moment=3)
     with pytest.raises(InputError, match="more than 0"):
         ConstantLaw(moment="-3 N*m")
+
+
+def test_a_ramp_that_no_form_uses_is_refused():
+    assert KecmanLaw(form="regularised", regularisation={"rate": 0.1}).regularisation.rate == 0.1
+    with pytest.raises(InputError, match="'regularisation' would do nothing") as caught:
+        KecmanLaw(regularisation={"rate": 0.1})
+    assert caught.value.problems[0].where == "regularisation"

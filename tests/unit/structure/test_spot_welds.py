@@ -63,6 +63,12 @@ def test_points_are_taken_as_they_are():
         ({"members": ("hat",), "pitch": 0.1, "to": 1.2}, "outside the member"),
         ({"members": ("hat",), "pitch": 0.1, "from": 1.0}, "outside the member"),
         ({"members": ("hat",), "pitch": 1e-5}, "too many spots"),
+        (
+            {"members": ("low", "top"), "points": [(0.6, 0, 0.0125), (0.7, 0, 0.0125), (0.6, 0, 0.013)]},
+            "nearer than",
+        ),
+        ({"members": ("low", "top"), "at": (0, 0.0125), "pitch": 2e-3}, "nearer than two can"),
+        ({"members": ("hat",), "pitch": 1e-3}, "nearer than two can"),
         ({"members": ("low",), "pitch": 0.1}, "the section of member 'low' has no lines of spot welds"),
     ],
 )
@@ -83,3 +89,12 @@ def test_a_pitch_of_the_shell_settings_needs_a_line_that_takes_it(entry):
         given = welded(entry)
     with pytest.raises(InputError, match="no line of spot welds that would take this pitch"):
         Analysis(structure=given, duration=1e-3, shell=settings)
+
+
+def test_a_point_that_is_too_near_to_another_is_named():
+    points = [(0.6, 0, 0.0125), (0.7, 0, 0.0125), (0.6, 0, 0.013)]
+    with pytest.raises(InputError) as caught:
+        welded({"up": {"members": ("low", "top"), "points": points}})
+    (problem,) = caught.value.problems
+    assert problem.where == "spot_welds.up.points[2]"
+    assert problem.came == "0.5 mm"
