@@ -8,7 +8,7 @@ section wider than deep gets two of them side by side, so that its width and its
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import combinations
 
@@ -25,6 +25,7 @@ from crumple._core.space_model import (
     SpaceObstacle,
     frame_of,
 )
+from crumple.multibody.assembly import Piece
 from crumple.multibody.linkage import GROUND, Linkage
 from crumple.multibody.rigid import Floats
 from crumple.multibody.sampling import sampled_motion
@@ -77,7 +78,7 @@ def with_obstacles(
     """
     if not structure.obstacles and structure.member_contact is None:
         return Touching(model, {}, owners, np.zeros((0, 3)))
-    capsules, member = member_capsules(structure, linkage)
+    capsules, member = member_capsules(structure, linkage.pieces)
     bodies, joints, drives, names = list(model.bodies), list(model.joints), list(model.drives), list(owners)
     light = LIGHT * sum(body.mass for body in bodies)
     obstacles, velocity, joint = [], [], {}
@@ -176,17 +177,19 @@ def _travel(obstacle: Obstacle, duration: float) -> tuple[Floats, Floats]:
     return union, np.stack([np.interp(union, times, rates) for times, rates in parts], axis=1)
 
 
-def member_capsules(structure: Structure, linkage: Linkage) -> tuple[list[SpaceCapsule], list[str]]:
-    """Capsules of all pieces that move, and the member of each."""
+def member_capsules(
+    structure: Structure, of_member: Mapping[str, tuple[Piece, ...]], *, held: bool = False
+) -> tuple[list[SpaceCapsule], list[str]]:
+    """Capsules of all pieces that move, or of all that are held, and the member of each."""
     ends = Counter(node for member in structure.members.values() for node in member.nodes)
     capsules, owner = [], []
-    for name, pieces in linkage.pieces.items():
+    for name, pieces in of_member.items():
         frame, nodes = structure.frame_of(name), structure.members[name].nodes
         places, radius = _rows(structure.section_of(name).outer_outline())
         # the round end of a capsule ends with the member where that is free, and rounds the corner elsewhere
         inset = [radius if ends[node] == 1 else 0.0 for node in nodes]
         for piece in pieces:
-            if piece.body == GROUND:
+            if (piece.body == GROUND) is not held:
                 continue
             start = piece.start + (inset[0] if piece.start == 0.0 else 0.0)
             end = piece.end - (inset[1] if piece is pieces[-1] else 0.0)

@@ -21,7 +21,7 @@ def overlap_warnings(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> t
         return ()
     deepest: dict[tuple[str, str], float] = {}
     crossing: set[tuple[str, str]] = set()
-    capsules, owner = member_capsules(structure, link(structure, hinges))
+    capsules, owner = member_capsules(structure, link(structure, hinges).pieces)
     for i, j in touching_pairs(structure, capsules, owner):
         first, second = capsules[i], capsules[j]
         radii = first.radius + second.radius

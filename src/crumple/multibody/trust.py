@@ -8,6 +8,7 @@ import numpy as np
 
 from crumple.hinge import Form, Freedom, SofteningVariable, tributary_stiffness
 from crumple.multibody.crushing import crushing_warnings
+from crumple.multibody.held_parts import held_part_warnings
 from crumple.multibody.linkage import link
 from crumple.multibody.mobility import free_parts
 from crumple.multibody.overlap import overlap_warnings
@@ -114,6 +115,7 @@ def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solv
         turned = _span([math.degrees(hinges[name].rotation_max) for name in names], 3)
         found.append(f"{_named(names)}: {text.format(turned=turned)}")
     found += overlap_warnings(structure, tuple(placed))
+    found += held_part_warnings(structure, solved)
     found += _inaccurate(hinges, largest)
     found += [
         f"Material {name}: {spec.statement}" for name, spec in structure.materials.items() if spec.statement

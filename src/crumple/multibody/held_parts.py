@@ -1,0 +1,70 @@
+"""Moving obstacles that pass through held parts of members: told, since held parts touch nothing.
+
+A held part is the ground, and a driven obstacle is given: no force between them could change anything.  What
+hangs on the held part may then be pressed where it cannot give way, at the axis of its hinge.  Looked at is
+translation at the output times; planes with an edge and obstacles that turn are left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from crumple._core.space_model import SpaceCapsule
+from crumple.multibody.obstacle_bodies import member_capsules
+from crumple.multibody.overlap import segment_distance
+from crumple.multibody.rigid import Floats
+from crumple.multibody.solved import Solved
+from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Structure
+from crumple.units import format_quantity
+
+DEPTH = 1e-6
+"""Depth [m] up to which an obstacle only touches."""
+LONG = 1e3
+"""Half-length [m] that stands for a cylinder without ends."""
+
+
+def held_part_warnings(structure: Structure, solved: Solved) -> list[str]:
+    """A sentence for every moving obstacle that passes through held parts while it presses something."""
+    channels = {channel.name: channel.values for channel in solved.further}
+    found = []
+    capsules, owner = member_capsules(structure, solved.poses.pieces, held=True)
+    for name, obstacle in structure.obstacles.items():
+        if f"obstacle.{name}.displacement.x" not in channels or obstacle.turning is not None:
+            continue
+        travel = np.stack([channels[f"obstacle.{name}.displacement.{axis}"] for axis in "xyz"], axis=1)
+        force = np.stack([channels[f"obstacle.{name}.force.{axis}"] for axis in "xyz"], axis=1)
+        met: dict[str, int] = {}  # output at which it is first inside a member's held part
+        for capsule, member in zip(capsules, owner, strict=True):
+            if obstacle.members is not None and member not in obstacle.members:
+                continue
+            inside = np.flatnonzero(np.fromiter(_gaps(obstacle, travel, capsule), float) < -DEPTH)
+            if inside.size and force[inside[0] :].any():
+                met[member] = min(int(inside[0]), met.get(member, len(travel)))
+        if met:
+            since = format_quantity(float(solved.time[min(met.values())]), "s", 3)
+            found.append(
+                f"Obstacle {name} passes through held parts of {', '.join(f'member {m}' for m in met)} from "
+                f"{since} on: held parts touch nothing, so it presses what moves alone, perhaps where that "
+                "cannot give way. Use a sphere or cylinder that reaches the moving parts only, or end before."
+            )
+    return found
+
+
+def _gaps(obstacle: Obstacle, travel: Floats, capsule: SpaceCapsule) -> Iterator[float]:
+    """Distance of the surfaces [m] at every output; nothing of a plane with an edge."""
+    ends = np.asarray(capsule.first, float), np.asarray(capsule.second, float)
+    if isinstance(obstacle, PlaneObstacle):
+        if obstacle.edge is None:
+            normal = np.asarray(obstacle.normal, float) / np.linalg.norm(obstacle.normal)
+            nearest = min(float(normal @ (end - np.asarray(obstacle.point))) for end in ends)
+            yield from nearest - capsule.radius - travel @ normal
+        return
+    assert isinstance(obstacle, CylinderObstacle | SphereObstacle)
+    half = np.zeros(3)
+    if isinstance(obstacle, CylinderObstacle):
+        axis = np.asarray(obstacle.axis, float)
+        half = axis / np.linalg.norm(axis) * (obstacle.length / 2.0 if obstacle.length else LONG)
+    for centre in np.asarray(obstacle.point, float) + travel:
+        yield segment_distance((centre - half, centre + half), ends) - obstacle.radius - capsule.radius

@@ -1,0 +1,55 @@
+"""Obstacles that pass through held parts: told with the time at which the surfaces meet."""
+
+import pytest
+
+from crumple.analysis import loads, solve
+
+TEXT = """
+crumple: 1
+materials:
+  steel: {{youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 300 MPa}}
+sections: {{tube: {{type: rectangular_tube, width: 50 mm, depth: 50 mm, thickness: 2 mm}}}}
+nodes: {{root: [0 m, 0 m, 0 m], tip: [0 m, 0 m, 1 m]}}
+members:
+  post:
+    nodes: [root, tip]
+    section: tube
+    material: steel
+    hinges: [{{name: h, at: root, offset: 200 mm, law: {{type: constant}}}}]
+supports: {{clamp: {{node: root, fix: all}}}}
+obstacles:
+  ram: {{{shape}, motion: {{x: {{table: {{time: [0 s, 1 s], value: [0 m, 100 mm]}}}}}}}}
+analysis: {{stages: [{{name: push, kind: quasi-static, duration: 0.5 s}}]}}
+outputs: {{every: 10 ms}}
+"""
+PLANE = "type: plane, point: [-40 mm, 0 m, 0 m], normal: [1, 0, 0]"
+POLE = "type: cylinder, point: [-55 mm, 0 m, {height}], axis: [0, 1, 0], radius: 15 mm"
+BALL = "type: sphere, point: [-55 mm, 0 m, {height}], radius: 15 mm"
+
+
+def told(shape):
+    result = solve(loads(TEXT.format(shape=shape)))
+    return [text for text in result.warnings if "held part" in text]
+
+
+@pytest.mark.parametrize("shape", [PLANE, POLE.format(height="230 mm"), BALL.format(height="230 mm")])
+def test_what_reaches_the_held_part_is_told(shape):
+    # the plane has 15 mm to go at 100 mm/s; pole and ball stand 30 mm above the end, round with 25 mm
+    (text,) = told(shape)
+    assert "Obstacle ram" in text
+    assert "member post" in text
+    if shape is PLANE:
+        assert "from 160 ms on" in text
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        POLE.format(height="700 mm"),
+        BALL.format(height="700 mm"),
+        PLANE.replace("-40 mm", "-80 mm"),
+        PLANE + ", edge: [0, 0, 1]",
+    ],
+)
+def test_what_stays_clear_of_it_is_not(shape):
+    assert told(shape) == []
