@@ -31,6 +31,8 @@ constexpr long poll_interval = 20'000;  // solves times rows between calls of `p
 constexpr double negligible_impact = 1e-3;
 // Gap [model lengths, the first times accuracy] below which a contact counts as closed: more than a smallest step goes.
 constexpr double closed_gap = 1e-3, least_closed_gap = 1e-8;
+// Impacts in a row that only what cannot give way leads to.
+constexpr int most_strikes = 1000;
 // Steps are not shortened below this many smallest ones to end where a contact closes.
 constexpr double shortest_landing = 4;
 
@@ -164,7 +166,10 @@ bool Simulation::strike(Record& record) {
     }
     record.steps++;
     watch(record);
-    return true;
+    if (++strikes_ <= most_strikes) return true;
+    record.outcome = Outcome::step_collapsed;
+    record.reason = "impacts follow on each other without end: an obstacle or a driven part presses on what cannot give way";
+    return false;
 }
 
 // Whether a step of error e (infinite: not solved) cannot be mended by a shorter one.
@@ -234,6 +239,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
         record.steps++;
         overshot_ = NAN;
         watch(record);
+        strikes_ = 0;
         if (lost(fine_, record)) return false;
         if (share <= 1) {
             record.ended_by = which;

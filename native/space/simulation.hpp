@@ -120,6 +120,7 @@ private:
     double landing_ = 0;              // step that ends where a contact closes; 0 if none is ahead
     double largest_energy_ = 0;       // kinetic, of the structure
     double overshot_ = 0;             // by the condition that last shortened a step; NaN for none
+    int strikes_ = 0;                 // impacts in a row
     int lost_ = 0;                    // steps of a quasi-static stage out of equilibrium, since this state:
     State held_;
     std::vector<Vec3> stored_impulse_;  // on every obstacle when last stored, and when that was
