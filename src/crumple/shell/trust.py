@@ -17,6 +17,7 @@ from crumple.shell.quality import wall_metals
 from crumple.shell.record import ENERGIES, Record
 from crumple.shell.weld_histories import weld_assumptions, weld_warnings
 from crumple.structure import ShellSettings, Stage, Structure
+from crumple.structure.hinges import hinge_places
 
 LOST_SHARE = 5e-3
 """Share of the given energy that may vanish at the start before a warning."""
@@ -30,6 +31,8 @@ MASS_SHARE = 0.01
 """Difference of the meshed mass from that of the sections above which it is worth a warning."""
 OFF_CENTRE = 0.05
 """Distance of a held body's centre of mass from its node, over the section's size, worth a warning."""
+FLAT = 1e-6
+"""Spread of a section's points across their line over that along it, below which they lie in a line."""
 SLOW_SHARE = 0.05
 """Kinetic or damped energy over the internal energy above which a stage is not quasi-static."""
 LEAST_ENERGY = 1e-9
@@ -100,7 +103,7 @@ def _held(settings: ShellSettings) -> str:
 def warnings(structure: Structure, lowered: Lowered, record: Record, state: ShellState) -> tuple[str, ...]:
     """Sentences that must be read before believing the result."""
     energy = {name: record["energy"][:, i] for i, name in enumerate(ENERGIES)}
-    found = list(_mesh_warnings(structure, lowered))
+    found = [*_mesh_warnings(structure, lowered), *_flat_members(structure, lowered)]
     internal = float((energy["elastic"] + energy["plastic"]).max())
     hourglass = float(energy["hourglass"].max())
     artificial = lowered.model.settings.element is Element.BELYTSCHKO_TSAY
@@ -199,6 +202,18 @@ def _mesh_warnings(structure: Structure, lowered: Lowered) -> list[str]:
                 "from the node."
             )
     return found
+
+
+def _flat_members(structure: Structure, lowered: Lowered) -> Iterator[str]:
+    """Members of one flat wall with hinges: a section's nodes in a line have no plane that could turn."""
+    for name in dict.fromkeys(place.member for place in hinge_places(structure)):
+        points = lowered.mesh.tubes[name].contour.points
+        spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
+        if spread[1] < FLAT * spread[0]:
+            yield (
+                f"Member {name} is one flat wall: nodes in a line do not tell how a section turns, so the "
+                "rotations told of hinges in it mean nothing; read displacements."
+            )
 
 
 def _off_centre(lowered: Lowered, body: Body, lump: Lump) -> float:
