@@ -159,7 +159,8 @@ def band_of(law: HingeLaw, uncertainty: float | None = None) -> Band:
     """
     width = law.validity.uncertainty if uncertainty is None else uncertainty
     if width is None:
-        what, todo = "nothing is known of the scatter of this law", "give the relative half-width yourself"
+        what = "nothing is known of the scatter of this law"
+        todo = "leave the bound out, or in Python give the relative half-width as uncertainty"
         raise InputError(Problem(what, law.title, "a law that states a band", todo, "uncertainty"))
     if not 0.0 <= width < 1.0:
         what, todo = "the half-width of the band is out of range", "0.1 means 10 % to either side"
