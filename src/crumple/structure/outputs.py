@@ -78,7 +78,7 @@ class Outputs(Spec):
     section_forces: Named[SectionForce] = FrozenMapping()
     """Forces and moments in sections of members, by name; multibody runs alone."""
     distances: Named[Distance] = FrozenMapping()
-    """Changes of distances between nodes, by channel name, negative where they come nearer; multibody runs alone."""
+    """Changes of distances of nodes, by channel name, negative if they come nearer; multibody runs alone."""
     clearances: Named[Clearance] = FrozenMapping()
     """Distances between spaces that must stay free and members, by channel name; multibody runs alone."""
     filters: Named[Filter] = FrozenMapping()
