@@ -67,9 +67,14 @@ def key_figures(comparison: Comparison) -> list[tuple[str, str, str]]:
     ratio, alone = comparison.speed_ratio, comparison.stepping_ratio
     if ratio is not None:
         note = f"{first} than {comparison.reference.with_threads}"
-        note += f"; {number(alone, 2)} × stepping alone" if alone else ""
-        figures.append(("Faster", f"{number(ratio, 3)} ×", note))
+        note += f"; {_speed_ratio(alone, 2)} × stepping alone" if alone else ""
+        figures.append(("Faster", f"{_speed_ratio(ratio)} ×", note))
     return figures
+
+
+def _speed_ratio(ratio: float, digits: int = 3) -> str:
+    """A ratio of solve times, rounded: a clock that swings knows no more digits."""
+    return number(float(f"{ratio:.{digits}g}"), digits)
 
 
 def hinge_tables(comparison: Comparison) -> list[Table]:
@@ -232,9 +237,9 @@ def model_table(comparison: Comparison) -> Table:
         for key in ("", "_rate"):
             pair = pair_of(comparison, chord + key, source.name, second.name)
             cells.append("—" if pair is None or pair.rating is None else f"{pair.rating.overall:.3f}")
-        cells += [_seconds(seconds), "1" if source is second else f"{number(ratio, 3)}"]
+        cells += [_seconds(seconds), "1" if source is second else _speed_ratio(ratio)]
         alone = comparison.stepping.get(source.name, 0.0)
-        cells.append(number(second.result.solve_seconds / alone, 2) if alone > 0.0 else "—")
+        cells.append(_speed_ratio(second.result.solve_seconds / alone, 2) if alone > 0.0 else "—")
         rows.append(tuple(cells))
     of = f" of hinge {hinge.name}" if hinge else ""
     heads = (
