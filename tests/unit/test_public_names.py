@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from importlib.metadata import version
 
 import pytest
 
@@ -16,6 +17,10 @@ HEAVY = ("numpy", "pydantic", "pint", "h5py", "matplotlib", "scipy", "pandas", "
 def test_resolves(name: str) -> None:
     assert getattr(crumple, name) is not None
     assert name in dir(crumple)
+
+
+def test_version_is_that_of_the_package() -> None:
+    assert crumple.__version__ == version("crumple")
 
 
 def test_unknown_name() -> None:

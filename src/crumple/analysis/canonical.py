@@ -33,9 +33,12 @@ def canonical(analysis: Analysis) -> dict[str, Any]:
 
 def input_hash(analysis: Analysis) -> str:
     """SHA-256 of the canonical form, 64 hexadecimal digits."""
-    text = json.dumps(
-        canonical(analysis), sort_keys=True, separators=(",", ":"), allow_nan=False, ensure_ascii=True
-    )
+    return hash_of(canonical(analysis))
+
+
+def hash_of(plain: dict[str, Any]) -> str:
+    """SHA-256 of what `canonical` gave, 64 hexadecimal digits."""
+    text = json.dumps(plain, sort_keys=True, separators=(",", ":"), allow_nan=False, ensure_ascii=True)
     return hashlib.sha256(text.encode()).hexdigest()
 
 

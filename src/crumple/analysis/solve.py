@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from importlib.metadata import version
 from typing import TYPE_CHECKING
 
+from crumple import __version__
 from crumple.analysis.analysis import Analysis
-from crumple.analysis.canonical import canonical, input_hash
+from crumple.analysis.canonical import canonical, hash_of
 from crumple.analysis.filters import with_filters
 from crumple.errors import InputError, Problem, Status
 from crumple.structure.spec import raise_all
@@ -77,11 +77,12 @@ def solve(
     else:
         solved = _multibody(analysis, progress, cancel)
     result = with_filters(solved, analysis)
-    settings = {**canonical(analysis)[fidelity], **result.provenance.settings}
+    plain = canonical(analysis)
+    settings = {**plain[fidelity], **result.provenance.settings}
     provenance = replace(
         result.provenance,
-        version=version("crumple"),
-        input_hash=input_hash(analysis),
+        version=__version__,
+        input_hash=hash_of(plain),
         threads=threads,
         settings=settings,
     )

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from itertools import groupby
+from operator import itemgetter
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,17 +24,18 @@ LONGEST_QUAD = 2.0
 def states_of(structure: Structure, poses: Poses, times: Floats) -> States:
     """Shapes at those of the given times [s] that the run reached; a time is taken at the nearest output."""
     reached = times[times <= poses.time[-1] * (1 + 1e-12)]
-    rows = np.array([int(np.argmin(np.abs(poses.time - t))) for t in reached], dtype=np.int64)
+    rows = np.searchsorted((poses.time[1:] + poses.time[:-1]) / 2.0, reached)
     points, moved, quads, member, station, contour = [], [], [], [], [], []
     count = 0
     for index, name in enumerate(structure.members):
         frame, outline = structure.frame_of(name), structure.section_of(name).outline()
         around = len(outline)
         stations = _stations(poses.pieces[name], float(np.ptp(outline, axis=0).max()))
-        for x in stations:
-            ring = frame.position(x) + outline @ frame.axes[1:]
-            points.append(ring)
-            moved.append(_carried(poses, name, x, ring=ring, rows=rows))
+        rings = frame.position(stations[:, None, None]) + outline @ frame.axes[1:]
+        points.append(rings.reshape(-1, 3))
+        bodies = [_meeting(poses, name, station) for station in stations]
+        for pair, group in groupby(zip(bodies, rings, strict=True), key=itemgetter(0)):
+            moved.append(_carried(poses, pair, np.array([ring for _, ring in group]), rows))
         member += [index] * (around * len(stations))
         station.append(np.repeat(stations, around))
         contour.append(np.tile(np.arange(around), len(stations)))
@@ -65,15 +69,23 @@ def _tube_quads(rings: int, around: int) -> Integers:
     return np.stack([i * around + j, (i + 1) * around + j, (i + 1) * around + k, i * around + k], axis=1)
 
 
-def _carried(poses: Poses, member: str, station: float, *, ring: Floats, rows: Integers) -> Floats:
-    """Positions of a ring of points at some of the output times, (rows, around, 3).
+def _meeting(poses: Poses, member: str, station: float) -> tuple[int, int]:
+    """Bodies that carry a station of a member: one twice, or the two that a hinge there joins."""
+    bodies = [piece.body for piece in poses.pieces[member] if piece.start <= station <= piece.end]
+    return bodies[0], bodies[-1]
 
-    At a hinge the ring turns by the mean of both bodies about the hinge, so that the walls meet.
+
+def _carried(poses: Poses, bodies: tuple[int, int], rings: Floats, rows: Integers) -> Floats:
+    """Positions of rings of points, (rings, around, 3), at some output times, (rows, rings * around, 3).
+
+    At a hinge a ring turns by the mean of both bodies about the hinge, so that the walls meet.
     """
-    meeting = [piece.body for piece in poses.pieces[member] if piece.start <= station <= piece.end]
-    middle = ring.mean(axis=0)
-    place = np.mean([poses.place(body, middle)[0][rows] for body in (meeting[0], meeting[-1])], axis=0)
-    half = vector_quaternion(poses.relative(meeting[0], meeting[-1])[rows] / 2.0)
-    turn = product(poses.quaternion(meeting[0])[rows], half)
-    carried: Floats = place[:, None] + turned(turn[:, None], ring - middle)
+    first, last = bodies
+    middle = rings[0].mean(axis=0)
+    place = poses.place(first, middle)[0][rows]
+    turn = poses.quaternion(first)[rows]
+    if first != last:
+        place = (place + poses.place(last, middle)[0][rows]) / 2.0
+        turn = product(turn, vector_quaternion(poses.relative(first, last)[rows] / 2.0))
+    carried: Floats = place[:, None] + turned(turn[:, None], rings.reshape(-1, 3) - middle)
     return carried

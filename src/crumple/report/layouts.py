@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from crumple import __version__
 from crumple.report.report import write_figures
 from crumple.result.files import write_text
 
@@ -193,7 +194,6 @@ def _draw(layouts: Sequence[Layout], outputs: Sequence[str]) -> list[tuple[str, 
 def _render(
     layouts: Sequence[Layout], title: str, outputs: Sequence[str], drawn: list[tuple[str, str, str]]
 ) -> str:
-    from importlib.metadata import version  # noqa: PLC0415
     from urllib.parse import quote  # noqa: PLC0415
 
     from jinja2 import Environment, FileSystemLoader, StrictUndefined  # noqa: PLC0415
@@ -207,7 +207,7 @@ def _render(
         {"number": i + 1, "svg": Markup(svg), "caption": caption} for i, (_, svg, caption) in enumerate(drawn)
     ]
     return environment.get_template("layouts.html.jinja").render(
-        version=version("crumple"),
+        version=__version__,
         title=title,
         style=Markup((here / "page.css").read_text(encoding="utf-8")),
         tables=[table for table in (layout_table(layouts), _output_table(layouts, outputs)) if table.rows],

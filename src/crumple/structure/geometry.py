@@ -49,8 +49,8 @@ class Frame:
         """Unit vector of the section's z, shape (3,)."""
         return np.asarray(self.axes[2])
 
-    def position(self, station: float) -> Floats:
-        """Point on the member's line at a distance [m] from its first node, shape (3,)."""
+    def position(self, station: float | Floats) -> Floats:
+        """Point on the member's line at a distance [m] from its first node, (3,); (..., 3) for (..., 1)."""
         return self.origin + station * self.x
 
     def axis(self, name: str) -> Floats:
