@@ -167,8 +167,13 @@ def _show(found: Comparison, folder: Path) -> None:
         for source in (found.candidate, found.reference)
     ]
     ratio = f", {found.speed_ratio:.3g} times faster" if found.speed_ratio else ""
-    alone = f" ({found.stepping_ratio:.3g} times, stepping alone)" if found.stepping_ratio else ""
-    console.print(f"Solved in {times[0]} and {times[1]}{ratio}{alone}")
+    console.print(f"Solved in {times[0]} and {times[1]}{ratio}")
+    timing = found.timings.get(first)
+    if timing is not None and found.speed_ratio:
+        said = f"{format_quantity(timing.again, 's', 3)}, {found.times_faster(timing.again):.3g} times faster"
+        alone = found.times_faster(timing.stepping)
+        also = f"; stepping alone {alone:.3g} times" if alone else ""
+        console.print(f"Solved again, its laws known, {first} took {said}{also}")
     for caution in found.trust.cautions:
         console.print(Text(f"Caution: {caution}", style="yellow"))
     console.print(Text(f"Results: {folder}  (open {folder / 'report.html'})"), soft_wrap=True)

@@ -1,6 +1,6 @@
 """Two results, or a result and a measured curve: metrics, rating, verdict."""
 
-from crumple.comparison.comparison import Comparison, Opening, Source, compare
+from crumple.comparison.comparison import Comparison, Opening, Source, Timing, compare
 from crumple.comparison.curve_file import CurveFile, read_curves
 from crumple.comparison.metrics import HingeComparison, HingeMetrics
 from crumple.comparison.motion import HingeMotion
@@ -30,6 +30,7 @@ __all__ = [
     "Rating",
     "Signal",
     "Source",
+    "Timing",
     "Trust",
     "at_times",
     "compare",

@@ -61,6 +61,23 @@ class Opening:
     time: float
 
 
+@dataclass(frozen=True)
+class Timing:
+    """Wall times of a model that was solved several times more, the least of each [s].
+
+    Attributes
+    ----------
+    again
+        Of the whole solve, as ``Result.solve_seconds``: the laws are known from the first solve, and the
+        processor's caches hold what it left.
+    stepping
+        Of the stepper's part at the accuracy asked for, histories included; None if it did not complete.
+    """
+
+    again: float
+    stepping: float | None
+
+
 @dataclass(frozen=True, eq=False)
 class Comparison:
     """What two results say of one structure; plain data.
@@ -87,8 +104,8 @@ class Comparison:
         Hinges in order of opening, by source name.
     trust
         Verdict and sentences.
-    stepping
-        Wall time of one run of the multibody stepper alone [s], by source name, where it was measured.
+    timings
+        Of multibody models that were solved again for it, by source name.
     """
 
     title: str
@@ -102,19 +119,17 @@ class Comparison:
     unpaired: Mapping[str, tuple[str, ...]]
     opened: Mapping[str, tuple[Opening, ...]]
     trust: Trust = field(default_factory=lambda: Trust("caution", "", (), ()))
-    stepping: Mapping[str, float] = field(default_factory=dict)
+    timings: Mapping[str, Timing] = field(default_factory=dict)
 
     @property
     def speed_ratio(self) -> float | None:
         """Solve time of the reference over that of the candidate; None where one is not known."""
-        a, b = self.candidate.result.solve_seconds, self.reference.result.solve_seconds
-        return b / a if a > 0.0 and b > 0.0 else None
+        return self.times_faster(self.candidate.result.solve_seconds)
 
-    @property
-    def stepping_ratio(self) -> float | None:
-        """Solve time of the reference over the candidate's stepping alone; None where one is not known."""
-        a, b = self.stepping.get(self.candidate.name, 0.0), self.reference.result.solve_seconds
-        return b / a if a > 0.0 and b > 0.0 else None
+    def times_faster(self, seconds: float | None) -> float | None:
+        """Solve time of the reference over a time [s]; None where one is not known."""
+        own = self.reference.result.solve_seconds
+        return own / seconds if seconds and own > 0.0 else None
 
     @property
     def sources(self) -> tuple[Source, ...]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crumple.analysis import Analysis, input_hash, solve
-from crumple.comparison.comparison import Comparison, compare
+from crumple.comparison.comparison import Comparison, Timing, compare
 from crumple.comparison.curve_file import CurveFile
 from crumple.comparison.sections import at_times
 from crumple.comparison.variant import (
@@ -22,7 +22,7 @@ from crumple.comparison.variant import (
     with_measured_laws,
 )
 from crumple.errors import InputError, Problem
-from crumple.multibody import Run, stepping_seconds
+from crumple.multibody import Run, least_seconds, stepping_seconds
 from crumple.result import Result
 from crumple.structure import Structure
 
@@ -86,12 +86,9 @@ def solve_and_compare(
     results = {name: result for name, (_, result) in models.items()}
     if other is not None and reference.status.ok:
         results[mesh_name(other)] = solve(other, "shell", threads, progress, cancel)
-    stepping = {
-        name: seconds for name, model in models.items() if (seconds := _stepping(dense, model[0])) is not None
-    }
-    own = _stepping(dense, analysis.structure)
-    if own is not None:
-        stepping[candidate.fidelity] = own
+    timings = {candidate.fidelity: _timing(dense)}
+    for name, (model, _) in models.items():
+        timings[name] = _timing(dense.model_copy(update={"structure": model}))
     found = compare(
         candidate,
         reference,
@@ -99,7 +96,7 @@ def solve_and_compare(
         variants=results,
         curves=curves,
     )
-    return replace(found, stepping=stepping)
+    return replace(found, timings=timings)
 
 
 def with_frames(analysis: Analysis, number: int = FRAMES) -> Analysis:
@@ -168,10 +165,13 @@ def _variants(dense: Analysis, candidate: Result, reference: Result) -> dict[str
     return found
 
 
-def _stepping(dense: Analysis, structure: Structure) -> float | None:
-    outputs = dense.outputs.model_copy(update={"pictures": ()})
-    run = Run(dense.duration, dense.output_interval, dense.multibody, outputs, dense.title)
-    return stepping_seconds(structure, run)
+def _timing(dense: Analysis) -> Timing:
+    """Times of a multibody model, solved again."""
+    again = least_seconds(lambda: solve(dense).solve_seconds)
+    run = Run(
+        dense.duration, dense.output_interval, dense.multibody, dense.outputs, dense.title, dense.stages
+    )
+    return Timing(again, stepping_seconds(dense.structure, run))
 
 
 def _hashed(result: Result, analysis: Analysis) -> Result:

@@ -13,7 +13,7 @@ from crumple.multibody.plane import Plane
 from crumple.multibody.run import Run
 from crumple.multibody.sensitivity import Sensitivities, sensitivities
 from crumple.multibody.solve import solve_multibody, solver_of
-from crumple.multibody.timing import stepping_seconds
+from crumple.multibody.timing import least_seconds, stepping_seconds
 from crumple.multibody.unheld import unheld_notes
 from crumple.multibody.variants import VariantTable, solve_variants
 
@@ -28,6 +28,7 @@ __all__ = [
     "Sensitivities",
     "VariantTable",
     "infinitesimal",
+    "least_seconds",
     "link",
     "lower",
     "notes",

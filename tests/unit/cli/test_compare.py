@@ -18,6 +18,7 @@ def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
     )  # fmt: skip
     assert (run.returncode, run.stderr) == (0, "")
     assert "times faster" in run.stdout
+    assert "Solved again, its laws known, multibody took" in run.stdout
     assert "Caution" in run.stdout
     for name in ("multibody", "shell"):
         summary = json.loads((tmp_path / "out" / name / "summary.json").read_text())
@@ -36,6 +37,7 @@ def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
         "left out: M2",
         'id="player"',
         "shell, 30 mm",
+        "Solved again",
     ):
         assert expected in page
     assert (tmp_path / "out" / "figures" / "shapes.svg").is_file()

@@ -10,7 +10,7 @@ from tests.unit.comparison.folded_tube import EXAMPLE, analysis, angle_over_time
 from tests.verification.structures import STEEL, TUBE
 
 from crumple.analysis import load, solve
-from crumple.comparison import CurveFile, Signal, compare, with_frames, with_pictures
+from crumple.comparison import CurveFile, Signal, Timing, compare, with_frames, with_pictures
 from crumple.comparison.motion import HingeMotion
 from crumple.comparison.pairing import pairs_of
 from crumple.comparison.solving import mesh_name, with_mesh
@@ -24,7 +24,7 @@ from crumple.comparison.variant import (
     yielding_law,
 )
 from crumple.errors import InputError, Status
-from crumple.report.comparison_wording import key_figures
+from crumple.report.comparison_wording import key_figures, speed_table
 from crumple.result import Provenance
 from crumple.section import bending_moment
 from crumple.structure import Structure
@@ -84,6 +84,22 @@ def test_solve_times_say_of_how_many_threads_they_are(case, multibody):
     assert note.startswith("multibody than shell, 2 threads")
     # no more digits than the clock knows
     assert set(value.removesuffix(" ×")[3:]) <= {"0"}
+
+
+def test_solve_times_are_held_against_the_reference_solve(case, multibody):
+    shell = folded_result(solve_seconds=20.0)
+    found = compare(replace(multibody, solve_seconds=2e-3), shell, case.structure)
+    table = speed_table(found)
+    assert table.rows == [
+        ("multibody", "1", "2 ms", "10000", "—", "—", "—", "—"),
+        ("shell", "1", "20 s", "—", "—", "—", "—", "—"),
+    ]
+    timed = replace(found, timings={"multibody": Timing(again=1e-3, stepping=1.234e-4)})
+    assert speed_table(timed).rows[0] == (
+        "multibody", "1", "2 ms", "10000", "1 ms", "20000", "123 µs", "162000",
+    )  # fmt: skip
+    note = next(note for name, _, note in key_figures(timed) if name == "Faster")
+    assert note == "multibody than shell; 20000 × solved again, its laws known"
 
 
 def test_curves_are_paired_by_name_and_the_rest_is_named(case, multibody):
