@@ -138,6 +138,7 @@ def _show(found: Comparison, folder: Path) -> None:
     from rich.table import Table
     from rich.text import Text
 
+    from crumple.report.comparison_wording import busy_note
     from crumple.units import format_quantity
 
     console = Console(highlight=False)
@@ -168,6 +169,8 @@ def _show(found: Comparison, folder: Path) -> None:
     ]
     ratio = f", {found.speed_ratio:.3g} times faster" if found.speed_ratio else ""
     console.print(f"Solved in {times[0]} and {times[1]}{ratio}")
+    if waited := busy_note(found):
+        console.print(waited)
     timing = found.timings.get(first)
     if timing is not None and found.speed_ratio:
         said = f"{format_quantity(timing.again, 's', 3)}, {found.times_faster(timing.again):.3g} times faster"

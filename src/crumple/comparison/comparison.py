@@ -106,6 +106,9 @@ class Comparison:
         Verdict and sentences.
     timings
         Of multibody models that were solved again for it, by source name.
+    busy_share
+        Processor time of the reference's solve over the wall time of its threads [-], where it was measured:
+        below 1 they waited, for the processor or for each other.
     """
 
     title: str
@@ -120,6 +123,7 @@ class Comparison:
     opened: Mapping[str, tuple[Opening, ...]]
     trust: Trust = field(default_factory=lambda: Trust("caution", "", (), ()))
     timings: Mapping[str, Timing] = field(default_factory=dict)
+    busy_share: float | None = None
 
     @property
     def speed_ratio(self) -> float | None:

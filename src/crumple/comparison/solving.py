@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -78,7 +79,9 @@ def solve_and_compare(
     dense = with_frames(analysis)
     other = None if second_mesh is None else with_mesh(dense, second_mesh)
     candidate = _hashed(solve(dense, cancel=cancel), analysis)
+    begin, worked = time.perf_counter(), time.process_time()
     shell = solve(dense, "shell", threads, progress, cancel, long_run=long_run)
+    busy = (time.process_time() - worked) / (threads * (time.perf_counter() - begin))
     reference = _hashed(shell, analysis)
     models: dict[str, tuple[Structure, Result]] = {}
     if variants and reference.time.size:
@@ -96,7 +99,7 @@ def solve_and_compare(
         variants=results,
         curves=curves,
     )
-    return replace(found, timings=timings)
+    return replace(found, timings=timings, busy_share=busy)
 
 
 def with_frames(analysis: Analysis, number: int = FRAMES) -> Analysis:

@@ -20,6 +20,11 @@ from crumple.units import format_quantity
 MOST_HINGES = 8
 """Hinges with a table of their own, those that absorbed most."""
 
+BUSY = 0.8
+"""Share of their time below which the threads of a solve were kept waiting."""
+LONG = 5.0
+"""Solve time [s] from which that is worth telling: before and after the stepping one thread works alone."""
+
 _PARTS = ("corridor", "phase", "magnitude", "slope")
 
 
@@ -248,6 +253,17 @@ def model_table(comparison: Comparison) -> Table:
     return Table(f"Every model against the {second.name} run: errors{of} and ratings.", heads, rows)
 
 
+def busy_note(comparison: Comparison) -> str:
+    """That solve times say little, where the threads of the reference waited; else empty."""
+    share = comparison.busy_share
+    if share is None or share > BUSY or comparison.reference.result.solve_seconds < LONG:
+        return ""
+    return (
+        f"The {comparison.reference.name} run's threads worked {100 * share:.0f} % of their time: the machine "
+        "was busy, or the mesh is small for so many. Alone it is faster than that."
+    )
+
+
 def speed_table(comparison: Comparison) -> Table:
     """Times that every model takes, and how many times faster than the reference that is."""
     rows = []
@@ -260,11 +276,13 @@ def speed_table(comparison: Comparison) -> Table:
             cells.append(_seconds(seconds) if seconds else "—")
             cells.append(_times_faster(comparison, seconds) if known else "—")
         rows.append(tuple(cells))
+    waited = busy_note(comparison)
     caption = (
         "Wall time of every solve, and how many times faster than the "
         f"{comparison.reference.with_threads}. The first solve samples the laws, in a process that has just "
         "loaded what it needs; solved again, they are known: the least of several. Stepping "
         "alone is the part that a sweep repeats, at the accuracy asked for, without the run that checks it."
+        + (f" {waited}" if waited else "")
     )
     heads = ("Model", "Threads", "First solve", "times", "Solved again", "times", "Stepping alone", "times")
     return Table(caption, heads, rows)

@@ -24,7 +24,7 @@ from crumple.comparison.variant import (
     yielding_law,
 )
 from crumple.errors import InputError, Status
-from crumple.report.comparison_wording import key_figures, speed_table
+from crumple.report.comparison_wording import busy_note, key_figures, speed_table
 from crumple.result import Provenance
 from crumple.section import bending_moment
 from crumple.structure import Structure
@@ -100,6 +100,19 @@ def test_solve_times_are_held_against_the_reference_solve(case, multibody):
     )  # fmt: skip
     note = next(note for name, _, note in key_figures(timed) if name == "Faster")
     assert note == "multibody than shell; 20000 × solved again, its laws known"
+
+
+@pytest.mark.parametrize(
+    ("share", "seconds", "told"),
+    [(0.5, 20.0, True), (0.95, 20.0, False), (0.5, 2.0, False), (None, 20.0, False)],
+)
+def test_a_reference_that_waited_is_told(case, multibody, share, seconds, told):
+    found = replace(
+        compare(multibody, folded_result(solve_seconds=seconds), case.structure), busy_share=share
+    )
+    said = "The shell run's threads worked 50 % of their time"
+    assert busy_note(found).startswith(said) is told
+    assert (said in speed_table(found).caption) is told
 
 
 def test_curves_are_paired_by_name_and_the_rest_is_named(case, multibody):
