@@ -259,8 +259,8 @@ def busy_note(comparison: Comparison) -> str:
     if share is None or share > BUSY or comparison.reference.result.solve_seconds < LONG:
         return ""
     return (
-        f"The {comparison.reference.name} run's threads worked {100 * share:.0f} % of their time: the machine "
-        "was busy, or the mesh is small for so many. Alone it is faster than that."
+        f"The {comparison.reference.name} run's threads worked {100 * share:.0f} % of their time: the "
+        "machine was busy, or the mesh is small for so many. Alone it is faster than that."
     )
 
 
