@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -104,6 +105,8 @@ class Comparison:
         Hinges in order of opening, by source name.
     trust
         Verdict and sentences.
+    until
+        End of what is compared [s]: a run that ended early cuts the figures of the others.
     timings
         Of multibody models that were solved again for it, by source name.
     busy_share
@@ -121,6 +124,7 @@ class Comparison:
     pairs: tuple[Pair, ...]
     unpaired: Mapping[str, tuple[str, ...]]
     opened: Mapping[str, tuple[Opening, ...]]
+    until: float = math.inf
     trust: Trust = field(default_factory=lambda: Trust("caution", "", (), ()))
     timings: Mapping[str, Timing] = field(default_factory=dict)
     busy_share: float | None = None
@@ -183,7 +187,9 @@ def compare(
     results = (candidate, *(variants or {}).values(), reference)
     sources = [_source(name, result, structure, hinges) for name, result in zip(names, results, strict=True)]
     first, others, last = sources[0], tuple(sources[1:-1]), sources[-1]
-    tables = {source.name: _hinges(source, last) for source in (first, *others)}
+    until = min(float(source.result.time[-1]) for source in (first, last))
+    short = {source.name: _until(source, until) for source in sources}
+    tables = {name: _hinges(short[name], short[last.name]) for name in (s.name for s in (first, *others))}
     pairs = pairs_of((first.name, first.signals), (last.name, last.signals))
     for s in others:
         pairs += pairs_of((s.name, s.signals), (last.name, last.signals), ranks=TELLING)
@@ -192,7 +198,7 @@ def compare(
         known = {c for source in sources for c in source.signals}
         unpaired[curve.name] = tuple(c for c in curve.signals if c not in known)
         pairs += [p for s in sources for p in pairs_of((s.name, s.signals), (curve.name, curve.signals))]
-    opened = {source.name: openings(source) for source in sources}
+    opened = {name: openings(source) for name, source in short.items()}
     found = Comparison(
         title=candidate.title or reference.title,
         candidate=first,
@@ -204,6 +210,7 @@ def compare(
         pairs=tuple(pairs),
         unpaired=unpaired,
         opened=opened,
+        until=until,
     )
     return _with_trust(found, structure)
 
@@ -232,6 +239,15 @@ def _source(name: str, result: Result, structure: Structure, hinges: Sequence[Pl
     members = member_signals(structure, seen.sections)
     signals = signals_of(result, seen.hinges, members)
     return Source(name, result, seen.hinges, seen.extra, signals)
+
+
+def _until(source: Source, end: float) -> Source:
+    """The same source with the motion of its hinges up to a time [s]."""
+    return replace(
+        source,
+        hinges=tuple(motion.until(end) for motion in source.hinges),
+        extra=tuple(motion.until(end) for motion in source.extra),
+    )
 
 
 def _hinges(first: Source, second: Source) -> tuple[HingeComparison, ...]:

@@ -12,6 +12,8 @@ from crumple.comparison.sections import Floats
 
 OPENED_AT = math.radians(0.5)
 """Plastic rotation [rad] from which a hinge counts as open."""
+NOTHING = 1e-6
+"""Plastic rotation [rad] below which there is none: work over it is no moment."""
 STEPS = (1.0, 2.0, 5.0)
 """Round steps of the rotations [deg] at which energies are compared, times powers of ten."""
 LEVELS = 5
@@ -131,7 +133,7 @@ def metrics_of(motion: HingeMotion, levels: tuple[float, ...]) -> HingeMetrics:
         plastic_energy=work,
         energy_at=tuple(_energy_at(plastic, motion.plastic_work, level) for level in levels),
         moment_peak=moment or None,
-        moment_mean=work / most if most > 0.0 and work > 0.0 else None,
+        moment_mean=work / most if most > NOTHING and work > 0.0 else None,
         opened=opening_time(motion.time, plastic),
     )
 
@@ -189,3 +191,8 @@ def compared(place: HingeMotion, first: HingeMotion | None, second: HingeMotion 
 def signed(error: float) -> str:
     """A relative error in per cent with its sign."""
     return f"{100 * error:+.1f} %".replace("-", "−")
+
+
+def percent(share: float) -> str:
+    """A share in per cent."""
+    return f"{100 * share:.1f} %"

@@ -9,6 +9,9 @@ A multibody result says it in its channels.  In a shell result it is measured:
   over rotation across a window of rotation;
 - plastic rotation: rotation - M/k, k = EI over the distance of the planes.
 
+A hinge about two bending axes has one rotation here: the angle by which it bends, whatever the axis, in both
+results, with 1/k = cos^2/k_y + sin^2/k_z in the direction in which it bends most.
+
 The rate of rotation is in every source the change of rotation from shape to shape: a rate at one instant
 shows vibration that a rate over an interval does not.
 """
@@ -16,21 +19,19 @@ shows vibration that a rate over an interval does not.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from crumple.comparison.fold_moment import ELASTIC_WORK, Bent, moment_in
 from crumple.comparison.folds import Fold, find_folds
 from crumple.comparison.sections import Floats, Sections, sections_of
+from crumple.hinge import Freedom
 from crumple.result import Result
 from crumple.structure import PlacedHinge, Structure
 
 REACH = 2.0
 """A fold belongs to a hinge within this many times the section's largest side along the member."""
-WINDOW = np.radians(2.0)
-"""Rotation [rad] over which work is divided by rotation: a few outputs of a run, a small part of a fold."""
-ELASTIC_WORK = 0.01
-"""Share of the final plastic work below which a fold is taken as elastic."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +87,15 @@ class HingeMotion:
             return 1.0
         return float(np.sign(self.rotation[int(np.argmax(np.abs(self.rotation)))]) or 1.0)
 
+    def until(self, end: float) -> HingeMotion:
+        """The same motion up to a time [s], the first instant at least, and the one next to the time."""
+        last = int(np.searchsorted(self.time, end))
+        if last + 1 >= self.time.size:
+            return self
+        histories = ("time", "rotation", "rotation_rate", "plastic_rotation", "moment", "plastic_work")
+        kept = {name: getattr(self, name)[: last + 1] for name in histories}
+        return replace(self, far=None if self.far is None else self.far[: last + 1], **kept)
+
 
 def channel_motions(
     result: Result, hinges: Sequence[PlacedHinge], sections: Mapping[str, Sections]
@@ -102,12 +112,17 @@ def channel_motions(
             result[prefix + key] if prefix + key in result.channels else zero
             for key in ("rotation_rate", "plastic_rotation", "moment", "energy")
         )
+        if bends_two_ways(hinge):
+            rotation, plastic, moment = (
+                np.hypot(result[f"{prefix}{key}.y"], result[f"{prefix}{key}.z"])
+                for key in ("rotation", "plastic_rotation", "moment")
+            )
         moved = float(np.ptp(plastic)) if rotation.size else 0.0
         own, far = sections.get(hinge.member), None
         if own is not None:
             seen = np.interp(own.times, result.time, rotation)
             rate = np.interp(result.time, own.times, rate_of(seen, own.times))
-            far = np.interp(result.time, own.times, far_rotation(own, hinge.station, hinge.direction))
+            far = np.interp(result.time, own.times, _far(own, hinge))
         found.append(
             HingeMotion(
                 name=hinge.name,
@@ -255,11 +270,13 @@ def _measure(result: Result, structure: Structure, own: Sections, site: _Site) -
     hinge, fold = site.hinge, site.fold
     first, last = site.planes
     a, b = float(own.stations[first]), float(own.stations[last])
-    rotation = own.relative_rotation(hinge.direction, first, last)
-    section, material = structure.section_of(hinge.member), structure.material_of(hinge.member)
-    stiffness = material.youngs_modulus * section.second_moment(hinge.axis) / (b - a)  # type: ignore[arg-type]
+    two_ways = bends_two_ways(hinge)
+    rotation = own.bend(first, last) if two_ways else own.relative_rotation(hinge.direction, first, last)
+    stiffness = _stiffness(structure, own, site)
     work = _work(result, own.times, fold)
-    moment, said = _moment(result, hinge.name, own.times, rotation, work, stiffness)
+    # the result's channel is about one axis
+    axes = own.bend_axes(first, last) if two_ways else None
+    moment, said = moment_in(result, hinge.name, Bent(own.times, rotation, work, stiffness, axes))
     plastic = rotation - moment / stiffness if fold is not None else np.zeros_like(rotation)
     elastic = work < ELASTIC_WORK * max(float(work.max(initial=0.0)), 1e-300)
     plastic = np.where(elastic, 0.0, plastic)
@@ -269,9 +286,9 @@ def _measure(result: Result, structure: Structure, own: Sections, site: _Site) -
         else "no fold found here"
     )
     how = (
-        f"Between best-fit planes of the sections at {a * 1e3:.0f} and {b * 1e3:.0f} mm of member "
-        f"{hinge.member} "
-        f"({where}); {said}; elastic part M/k with k = {stiffness / 1e3:.3g} kN m/rad."
+        f"{'The angle between' if two_ways else 'Between'} best-fit planes of the sections at {a * 1e3:.0f} "
+        f"and {b * 1e3:.0f} mm of member {hinge.member} ({where}); {said}; elastic part M/k "
+        f"with k = {stiffness / 1e3:.3g} kN m/rad."
     )
     return HingeMotion(
         name=hinge.name,
@@ -284,11 +301,41 @@ def _measure(result: Result, structure: Structure, own: Sections, site: _Site) -
         moment=moment,
         plastic_work=work,
         how=how,
-        far=far_rotation(own, hinge.station, hinge.direction),
+        far=_far(own, hinge),
         extent=(fold.start, fold.end) if fold is not None else None,
         planes=(a, b),
         fold=fold is not None,
     )
+
+
+def bends_two_ways(hinge: PlacedHinge | _Where) -> bool:
+    """Whether a hinge bends about both axes of its section."""
+    spatial = None if isinstance(hinge, _Where) else hinge.spatial
+    return spatial is not None and {Freedom.Y, Freedom.Z} <= set(spatial.freedoms)
+
+
+def _stiffness(structure: Structure, own: Sections, site: _Site) -> float:
+    """Elastic bending stiffness between the planes [N m/rad]."""
+    hinge, (first, last) = site.hinge, site.planes
+    section, modulus = structure.section_of(hinge.member), structure.material_of(hinge.member).youngs_modulus
+    length = float(own.stations[last] - own.stations[first])
+    if not bends_two_ways(hinge):
+        return modulus * section.second_moment(hinge.axis) / length  # type: ignore[arg-type]
+    frame = structure.frame_of(hinge.member)
+    turned = {axis: own.relative_rotation(frame.axis(axis), first, last) for axis in ("y", "z")}
+    most = int(np.argmax(np.hypot(turned["y"], turned["z"])))
+    y, z = float(turned["y"][most]), float(turned["z"][most])
+    share = y * y / (y * y + z * z) if y or z else 1.0
+    soft = share / section.second_moment("y") + (1.0 - share) / section.second_moment("z")
+    return modulus / (soft * length)
+
+
+def _far(own: Sections, hinge: PlacedHinge | _Where) -> Floats:
+    """Rotation of a hinge as the far end of its member shows it [rad], (n_states,)."""
+    if bends_two_ways(hinge):
+        near = hinge.station <= (own.stations[0] + own.stations[-1]) / 2
+        return own.chord_bend(0 if near else len(own.stations) - 1)
+    return far_rotation(own, hinge.station, hinge.direction)
 
 
 def far_rotation(own: Sections, station: float, axis: Floats) -> Floats:
@@ -314,47 +361,3 @@ def _work(result: Result, times: Floats, fold: Fold | None) -> Floats:
         return np.zeros_like(times)
     total = np.interp(times, result.time, result["energy.dissipated"])
     return np.asarray(np.maximum.accumulate(fold.share * total))
-
-
-def _moment(
-    result: Result, name: str, times: Floats, rotation: Floats, work: Floats, stiffness: float
-) -> tuple[Floats, str]:
-    """Moment in the sense of the rotation [N m], and where it is from."""
-    channel = result.channels.get(f"hinge.{name}.moment")
-    if channel is not None and np.isfinite(channel.values).all():
-        return np.interp(times, result.time, channel.values), "moment from the result"
-    if not work.any():
-        return np.zeros_like(times), "no moment known"
-    return conjugate_moment(rotation, work, stiffness), "moment conjugate to plastic work"
-
-
-def conjugate_moment(rotation: Floats, work: Floats, stiffness: float) -> Floats:
-    """Moment conjugate to plastic work: work over rotation across a window; elastic before it yields.
-
-    Parameters
-    ----------
-    rotation
-        [rad], (n,).
-    work
-        Plastic work, growing [J], (n,).
-    stiffness
-        Elastic, between the planes [N m/rad].
-
-    Returns
-    -------
-    Floats
-        [N m], (n,), with the sign of the rotation.  After the largest rotation the last value stays.
-    """
-    side = float(np.sign(rotation[int(np.argmax(np.abs(rotation)))]) or 1.0)
-    turned = np.maximum.accumulate(np.maximum(side * rotation, 0.0))
-    grid, first = np.unique(turned, return_index=True)
-    if grid.size < 3:
-        return np.zeros_like(rotation)
-    # the work done until a rotation is first passed; a window shrinks at both ends of the path
-    done = work[np.append(first[1:] - 1, len(work) - 1)]
-    low = np.clip(grid - WINDOW / 2, grid[0], grid[-1])
-    high = np.clip(grid + WINDOW / 2, grid[0], grid[-1])
-    slope = (np.interp(high, grid, done) - np.interp(low, grid, done)) / np.maximum(high - low, 1e-12)
-    moment = np.interp(turned, grid, slope)
-    elastic = work < ELASTIC_WORK * work[-1]
-    return np.asarray(side * np.where(elastic, np.minimum(stiffness * side * rotation, moment.max()), moment))

@@ -85,6 +85,16 @@ class Sections:
         """
         return _turn(self.start_normals[last], self.seen_from(first, self.normals[:, last]), axis)
 
+    def bend(self, first: int, last: int) -> Floats:
+        """Angle by which one section has turned against another, whatever the axis [rad], (n_states,)."""
+        return _opening(self.start_normals[last], self.seen_from(first, self.normals[:, last]))
+
+    def bend_axes(self, first: int, last: int) -> Floats:
+        """Unit vectors about which one section has turned against another; zero before it has, (n, 3)."""
+        sign = float(np.sign(self.start_normals[first] @ self.start_normals[last]) or 1.0)
+        across = sign * np.cross(self.normals[:, first], self.normals[:, last])
+        return np.asarray(across / np.maximum(np.linalg.norm(across, axis=1), SMALL)[:, None])
+
     def seen_from(self, ring: int, vectors: Floats) -> Floats:
         """Vectors over time as one section sees them, turned back as its normal turned, (n_states, 3)."""
         now, start = self.normals[:, ring], self.start_normals[ring]
@@ -110,6 +120,17 @@ class Sections:
         line = self.centres[:, -1] - self.centres[:, 0]
         seen = line if ring is None else self.seen_from(ring, line)
         return _turn(self.start_centres[-1] - self.start_centres[0], seen, axis)
+
+    def chord_bend(self, ring: int) -> Floats:
+        """Angle of the line between the end sections against one of them [rad], (n_states,)."""
+        line = self.centres[:, -1] - self.centres[:, 0]
+        return _opening(self.start_centres[-1] - self.start_centres[0], self.seen_from(ring, line))
+
+
+def _opening(start: Floats, now: Floats) -> Floats:
+    """Angle between a vector (3,) and others (n, 3) [rad]."""
+    across = np.linalg.norm(np.cross(start, now), axis=1)
+    return np.asarray(np.arctan2(across, now @ start))
 
 
 def _turn(start: Floats, now: Floats, axis: Floats) -> Floats:

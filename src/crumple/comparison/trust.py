@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crumple.comparison.metrics import HingeComparison, signed
+from crumple.comparison.metrics import percent
 from crumple.comparison.motion import REACH, HingeMotion, largest_side
+from crumple.comparison.sections import Floats
 from crumple.comparison.shortfall import shortfall
+from crumple.comparison.verdict import SMALL, agreement, verdict
 from crumple.hinge import Form
 from crumple.result import Result
 from crumple.structure import PlacedHinge, Structure, placed_hinges
@@ -19,20 +22,18 @@ from crumple.structure import PlacedHinge, Structure, placed_hinges
 if TYPE_CHECKING:
     from crumple.comparison.comparison import Comparison, Source
 
-AGREES = 0.12
-"""Relative error of largest rotation and plastic energy up to which a concept-stage answer agrees."""
-FAR_OFF = 0.25
-"""The same from which it does not."""
 ELASTIC = 0.05
 """Share of elastic energy from which rigid bars are worth a word."""
 VIBRATES = 0.05
 """Bending of a bar over the hinge's rotation from which it is worth a word."""
+SWING = 0.1
+"""Share of the largest bending below which a way back is no swing: noise of planes fitted to few points."""
+MOST_NAMED = 6
+"""Hinges of an order that are named."""
 HOURGLASS = 0.05
 """Hourglass energy over internal energy above which a shell run is no reference."""
 TOUCHED = 0.005
 """Contact energy over the energy put in from which walls count as having touched."""
-SMALL = 0.1
-"""Share of the largest plastic energy, in either result, below which a hinge's own errors decide nothing."""
 
 
 @dataclass(frozen=True)
@@ -57,51 +58,41 @@ def trust_of(comparison: Comparison, structure: Structure) -> Trust:
     """
     hinges = {hinge.name: hinge for hinge in placed_hinges(structure)}
     failed = [s for s in comparison.sources if not s.result.status.ok]
-    errors = list(_agreement(comparison))
-    facts = [text for text, _ in errors]
-    cautions = [text for text, wrong in errors if wrong]
-    facts = [text for text, wrong in errors if not wrong]
+    facts: list[str] = []
+    cautions: list[str] = []
     for text, serious in (
+        *agreement(comparison),
         *_ranges(comparison, hinges),
         *_folds(comparison, structure, hinges),
         *_order(comparison),
         *_elastic(comparison, hinges),
         *_bending(comparison),
-        *_contact(comparison),
+        *_contact(comparison, bool(structure.obstacles)),
         *_reference(comparison.reference),
         *shortfall(comparison),
     ):
         (cautions if serious else facts).append(text)
-    level, headline = _verdict(comparison, structure, hinges, bool(cautions))
+    level, headline = verdict(comparison, _missed(comparison, structure, hinges), bool(cautions))
     if failed:
-        ends = (f"The {s.name} run: {s.result.status.value}. {s.result.reason}".strip() for s in failed)
-        cautions = [*ends, *cautions]
-        level, headline = "bad", "A run did not end well: what was computed until then is compared."
+        cautions = [*(_ended(s) for s in failed), *cautions]
+        if not all(s.result.status.ok for s in (comparison.candidate, comparison.reference)):
+            level, headline = "bad", _unfinished(comparison)
     return Trust(level, headline, tuple(facts), tuple(cautions))
 
 
-def _verdict(
-    comparison: Comparison, structure: Structure, hinges: dict[str, PlacedHinge], doubtful: bool
-) -> tuple[str, str]:
-    """Level and headline of two runs that ended well."""
-    first, second = comparison.candidate.name, comparison.reference.name
-    missed = _missed(comparison, structure, hinges)
-    if missed:
-        return (
-            "bad",
-            f"The {first} answer is wrong: the {second} run folds where no hinge was put ({missed}).",
-        )
-    off = _worst(comparison)
-    if off is None:
-        return "bad", "No hinge turned in both results: nothing is compared."
-    said = f"largest rotation off by {off[0]:.1%}, plastic energy by up to {off[1]:.1%}"
-    if max(off) > FAR_OFF:
-        return "bad", f"The {first} answer is not that of the {second} run: {said}."
-    if max(off) > AGREES:
-        return "caution", f"The {first} answer is only roughly that of the {second} run: {said}."
-    if doubtful:
-        return "caution", f"Both answers agree, with reservations: {said}."
-    return "good", f"Both answers agree: {said}."
+def _ended(source: Source) -> str:
+    """How a run ended that did not end well."""
+    reason = f": {source.result.reason.rstrip('.')}" if source.result.reason else ""
+    return f"The {source.name} run: {source.result.status.value}{reason}."
+
+
+def _unfinished(comparison: Comparison) -> str:
+    """Headline where one of both runs did not end well."""
+    ends = [s.result.time[-1] for s in (comparison.candidate, comparison.reference)]
+    text = "A run did not end well"
+    if comparison.until < max(ends):
+        return f"{text}: only the {1e3 * comparison.until:.4g} ms that both have are compared."
+    return f"{text}: read what follows with that in mind."
 
 
 def _missed(comparison: Comparison, structure: Structure, hinges: dict[str, PlacedHinge]) -> str:
@@ -115,47 +106,6 @@ def _missed(comparison: Comparison, structure: Structure, hinges: dict[str, Plac
         if work[m.name] > SMALL * most and not _across_joint(structure, m, hinges)
     ]
     return ", ".join(dict.fromkeys(f"{m.member} at {_mm(m.station)}" for m in extra))
-
-
-def _worst(comparison: Comparison) -> tuple[float, float] | None:
-    """Largest relative errors of rotation and of plastic energy among the hinges that matter."""
-    most = max(map(_absorbed, comparison.hinges), default=0.0)
-    found = []
-    for hinge in comparison.hinges:
-        rotation = hinge.error("rotation_max")
-        if rotation is not None and _absorbed(hinge) > SMALL * most:
-            found.append((abs(rotation), abs(worst(hinge.energy_errors()) or 0.0)))
-    return (max(r for r, _ in found), max(e for _, e in found)) if found else None
-
-
-def _agreement(comparison: Comparison) -> Iterator[tuple[str, bool]]:
-    """Errors of rotation and energy of every hinge that matters."""
-    first, second = comparison.candidate.name, comparison.reference.name
-    most = max(map(_absorbed, comparison.hinges), default=0.0)
-    for hinge in comparison.hinges:
-        rotation, energy = hinge.error("rotation_max"), worst(hinge.energy_errors())
-        if rotation is None or hinge.first is None or hinge.second is None:
-            continue
-        matters = _absorbed(hinge) > SMALL * most
-        off = abs(rotation) > AGREES or (energy is not None and abs(energy) > AGREES)
-        text = (
-            f"Hinge {hinge.name}: largest rotation {_deg(hinge.first.rotation_max)} {first}, "
-            f"{_deg(hinge.second.rotation_max)} {second} ({signed(rotation)})"
-        )
-        if energy is not None:
-            text += f"; plastic energy at equal plastic rotation differs by at most {abs(energy):.1%}"
-        yield text + ".", off and matters
-
-
-def _absorbed(hinge: HingeComparison) -> float:
-    """Plastic energy of a hinge in that result in which it is larger [J]."""
-    return max((m.plastic_energy for m in (hinge.first, hinge.second) if m is not None), default=0.0)
-
-
-def worst(errors: tuple[float | None, ...]) -> float | None:
-    """Error of largest magnitude; None without any."""
-    known = [error for error in errors if error is not None]
-    return max(known, key=abs) if known else None
 
 
 def _ranges(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator[tuple[str, bool]]:
@@ -217,6 +167,7 @@ def _folds(
             "this fold takes up.",
             True,
         )
+    yield from _shared(comparison)
     opened = {source: {o.name for o in found} for source, found in comparison.opened.items()}
     for hinge in comparison.hinges:
         if hinge.name not in hinges:
@@ -239,6 +190,29 @@ def _folds(
             yield text, abs(away) > largest_side(structure, hinge.member)
 
 
+def _shared(comparison: Comparison) -> Iterator[tuple[str, bool]]:
+    """Hinges that stand in one fold, whose parts of its rotation depend on where the planes lie."""
+    first, second = comparison.candidate.name, comparison.reference.name
+    for hinge in comparison.hinges:
+        low, high = hinge.fold_extent or (math.inf, -math.inf)
+        for other in comparison.hinges:
+            half = (other.station + hinge.station) / 2
+            if other is hinge or other.member != hinge.member or not low < half < high:
+                continue
+            names = [h.name for h in sorted((hinge, other), key=lambda h: h.station)]
+            together = [
+                sum(_most(turn) for name in names if (turn := s.hinge(name)) is not None)
+                for s in (comparison.candidate, comparison.reference)
+            ]
+            yield (
+                f"Hinges {names[0]} and {names[1]} stand in one fold of the {second} result, from "
+                f"{_mm(low)} to {_mm(high)} of member {hinge.member}: together they turn by "
+                f"{_deg(together[0])} {first} and {_deg(together[1])} {second}, and figures of one alone "
+                "cannot be compared. One hinge is enough there.",
+                True,
+            )
+
+
 def _across_joint(structure: Structure, motion: HingeMotion, hinges: dict[str, PlacedHinge]) -> str:
     """Hinge of another member that lies beside a fold, as at a joint; empty where there is none."""
     place = structure.frame_of(motion.member).position(motion.station)
@@ -254,19 +228,28 @@ def _across_joint(structure: Structure, motion: HingeMotion, hinges: dict[str, P
 
 def _order(comparison: Comparison) -> Iterator[tuple[str, bool]]:
     """Order of opening of hinges that both results opened."""
+    first, second = comparison.candidate.name, comparison.reference.name
     orders = {name: [o.name for o in found] for name, found in comparison.opened.items()}
-    a, b = orders[comparison.candidate.name], orders[comparison.reference.name]
+    a, b = orders[first], orders[second]
     common = [[name for name in order if name in a and name in b] for order in (a, b)]
-    if len(common[0]) > 1:
-        if common[0] == common[1]:
-            yield f"Hinges open in the same order in both: {', '.join(common[0])}.", False
-        else:
-            yield (
-                f"Hinges open in another order: {', '.join(common[0])} in the {comparison.candidate.name} "
-                "result, "
-                f"{', '.join(common[1])} in the {comparison.reference.name} result.",
-                True,
-            )
+    if len(common[0]) < 2:
+        return
+    if common[0] == common[1]:
+        yield f"Hinges open in the same order in both: {_listed(common[0])}.", False
+        return
+    # they part company here
+    at = next(i for i, (x, y) in enumerate(zip(*common, strict=True)) if x != y)
+    same = f"After the first {at}, the same in both, hinges" if at else "Hinges"
+    yield (
+        f"{same} open in another order: {_listed(common[0][at:])} in the {first} result, "
+        f"{_listed(common[1][at:])} in the {second} result.",
+        True,
+    )
+
+
+def _listed(names: list[str]) -> str:
+    more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
+    return ", ".join(names[:MOST_NAMED]) + more
 
 
 def _elastic(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator[tuple[str, bool]]:
@@ -278,7 +261,9 @@ def _elastic(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator
     if stored is None or not put_in > 0.0:
         return
     share = stored / put_in
-    text = f"At most {share:.1%} of the energy put in is elastic in the {comparison.reference.name} result"
+    text = (
+        f"At most {percent(share)} of the energy put in is elastic in the {comparison.reference.name} result"
+    )
     rigid = [name for name, hinge in hinges.items() if hinge.record.form is not Form.ELASTIC_PLASTIC]
     if rigid and share > ELASTIC:
         text += (
@@ -295,33 +280,65 @@ def _bending(comparison: Comparison) -> Iterator[tuple[str, bool]]:
         if motion.far is None or not motion.fold or motion.time.size < 5:
             continue
         bent = motion.sense * (motion.far - motion.rotation)
-        most = _most(motion)
-        drift = np.convolve(np.pad(bent, 2, mode="edge"), np.full(5, 0.2), mode="valid")
-        wobble = float(np.std(bent - drift) * math.sqrt(2.0))
-        reach = float(np.max(np.abs(bent)))
-        if most > 0.0 and reach > VIBRATES * most:
-            yield (
-                f"Member {motion.member} bends between the fold of hinge {motion.name} and its far end by "
-                "up to "
-                f"{_deg(reach)} ({reach / most:.0%} of the rotation) and vibrates there with an amplitude of "
-                f"{_deg(wobble)}: bars between hinges are rigid and cannot.",
-                False,
-            )
+        most, reach = _most(motion), float(np.max(np.abs(bent)))
+        if not (most > 0.0 and reach > VIBRATES * most):
+            continue
+        swings = swings_of(bent, SWING * reach)
+        vibrates = f", and vibrates there by up to ±{_deg(max(swings))}" if len(swings) > 1 else ""
+        yield (
+            f"Member {motion.member} bends between the fold of hinge {motion.name} and its far end by up to "
+            f"{_deg(reach)} ({percent(reach / most)} of the rotation){vibrates}: bars between hinges are "
+            "rigid and cannot.",
+            False,
+        )
 
 
-def _contact(comparison: Comparison) -> Iterator[tuple[str, bool]]:
+def swings_of(values: Floats, least: float) -> list[float]:
+    """Amplitudes of a history's swings to and fro: half the way from one turning point to the next.
+
+    The way to the first turning point, from rest, and that after the last are no swings.
+
+    Parameters
+    ----------
+    values
+        (n,).
+    least
+        A way back shorter than this is no turn.
+    """
+    turns, side, best = [], 0.0, float(values[0])
+    for value in map(float, values):
+        if side == 0.0 and abs(value - best) > least:
+            side, best = math.copysign(1.0, value - best), value
+        elif side and side * (value - best) > 0.0:
+            best = value
+        elif side and side * (best - value) > least:
+            turns.append(best)
+            side, best = -side, value
+    return [abs(b - a) / 2 for a, b in pairwise(turns)]
+
+
+def _contact(comparison: Comparison, obstacles: bool) -> Iterator[tuple[str, bool]]:
     """Whether walls touched, which laws up to jamming know nothing of."""
     touched, put_in = (
         _largest(comparison.reference.result, "energy.contact"),
         energy_put_in(comparison.reference.result),
     )
-    if touched is not None and put_in > 0.0 and touched > TOUCHED * put_in:
+    if touched is None or not put_in > 0.0 or not touched > TOUCHED * put_in:
+        return
+    energy = f"contact energy up to {percent(touched / put_in)} of the energy put in"
+    if obstacles:
         yield (
-            f"Walls touch in the {comparison.reference.name} result (contact energy up to "
-            f"{touched / put_in:.1%} of the "
-            "energy put in): from then on a fold is stiffer than a law without contact.",
-            True,
+            f"In the {comparison.reference.name} result walls press on obstacles, or on each other "
+            f"({energy}, which does not say on which): where walls of a fold touch, it is stiffer than a law "
+            "without contact.",
+            False,
         )
+        return
+    yield (
+        f"Walls touch in the {comparison.reference.name} result ({energy}): from then on a fold is stiffer "
+        "than a law without contact.",
+        True,
+    )
 
 
 def _reference(source: Source) -> Iterator[tuple[str, bool]]:
@@ -336,7 +353,7 @@ def _reference(source: Source) -> Iterator[tuple[str, bool]]:
     hourglass = _largest(source.result, "energy.hourglass")
     if hourglass is not None and internal > 0.0 and hourglass > HOURGLASS * internal:
         yield (
-            f"Hourglass energy is {hourglass / internal:.1%} of the internal energy: the mesh is no "
+            f"Hourglass energy is {percent(hourglass / internal)} of the internal energy: the mesh is no "
             "reference.",
             True,
         )

@@ -149,7 +149,7 @@ def test_agreement_is_called_so(case, multibody):
 
 def test_an_equal_rotation_does_not_excuse_another_energy(found):
     assert found.trust.level == "bad"
-    assert "off by 0.0%, plastic energy by up to 3" in found.trust.headline
+    assert "off by 0.0 %, plastic energy at equal plastic rotation by up to 34" in found.trust.headline
     assert any("inside the range" in fact for fact in found.trust.facts)
     assert any("one mesh" in fact for fact in found.trust.facts)
 
@@ -251,6 +251,7 @@ def test_a_run_that_failed_is_compared_and_said(case, multibody):
     found = compare(multibody, shell, case.structure)
     assert found.trust.level == "bad"
     assert any("element 7 failed" in text for text in found.trust.cautions)
+    assert found.trust.headline == "A run did not end well: read what follows with that in mind."
 
 
 def test_a_result_without_histories_is_refused(case, multibody):

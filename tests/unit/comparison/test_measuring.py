@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from tests.unit.comparison.folded_tube import MOMENT, analysis, angle_over_time, folded_result, folded_states
 
+from crumple.comparison.fold_moment import conjugate_moment
 from crumple.comparison.folds import find_folds
-from crumple.comparison.motion import conjugate_moment, far_rotation, matched, measured
+from crumple.comparison.motion import far_rotation, matched, measured
 from crumple.comparison.sections import at_times, sections_of
 from crumple.structure import placed_hinges
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.unit.comparison.folded_tube import analysis, folded_result
+from tests.unit.comparison.folded_tube import analysis, angle_over_time, folded_result, folded_states
 from tests.unit.report.browser import Browser, find_browser
 
 import crumple.report
@@ -19,7 +19,7 @@ from crumple.analysis import solve
 from crumple.comparison import CurveFile, Signal, at_times, compare, with_frames
 from crumple.comparison.variant import with_elastic_hinges
 from crumple.report import ReportInput, write_comparison
-from crumple.report.player import hinge_states, scene_of
+from crumple.report.player import _times, hinge_states, scene_of
 
 WEBGL = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 NO_WEBGL = ("--disable-webgl", "--disable-3d-apis")
@@ -182,6 +182,16 @@ def test_the_scene_holds_the_shapes(found):
     grid = np.cumsum((low + 256 * high.astype(np.uint16)).reshape(frames, n), axis=0, dtype=np.uint16)
     last = grid[-1].reshape(-1, 3) * header["step"] + header["origin"]
     assert np.allclose(last, states.points + states.displacement[-1], atol=header["step"])
+
+
+def test_the_moving_picture_ends_with_the_run(found):
+    times = np.linspace(0.0, 0.1, 11)
+    states = folded_states(times, [(0.01, 0.04, angle_over_time(times))])
+    # a stepper notes each shape at its first step after the time asked for
+    late = replace(states, times=states.times + 1e-6)
+    assert _times([states, late])[-1] == late.times[-1]
+    short = replace(states, times=0.6 * states.times)
+    assert _times([short, late])[-1] == pytest.approx(0.06, abs=1e-5)
 
 
 def test_hinges_are_closed_then_turn_then_rest(found):

@@ -1,0 +1,155 @@
+"""Level and headline of a comparison, and how far each hinge agrees."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from crumple.comparison.metrics import HingeComparison, percent, signed
+
+if TYPE_CHECKING:
+    from crumple.comparison.comparison import Comparison
+
+AGREES = 0.12
+"""Relative error of largest rotation and plastic energy up to which a concept-stage answer agrees."""
+FAR_OFF = 0.25
+"""The same from which it does not."""
+SMALL = 0.1
+"""Share of the largest plastic energy, in either result, below which a hinge's own errors decide nothing."""
+MOST_TOLD = 8
+"""Hinges whose errors are told one by one, the farthest off first."""
+
+
+def verdict(comparison: Comparison, missed: str, doubtful: bool) -> tuple[str, str]:
+    """Level and headline of two runs that ended well.
+
+    Parameters
+    ----------
+    comparison
+        Everything but its own statement is used.
+    missed
+        Where the reference folds without a hinge; empty where it does not.
+    doubtful
+        Whether there is anything to warn of.
+    """
+    first, second = comparison.candidate.name, comparison.reference.name
+    if missed:
+        return (
+            "bad",
+            f"The {first} answer is wrong: the {second} run folds where no hinge was put ({missed}).",
+        )
+    alone = _alone(comparison)
+    if alone:
+        return (
+            "bad",
+            f"The {first} answer is not that of the {second} run: it folds where that does not "
+            f"({', '.join(alone)}).",
+        )
+    return _by_errors(comparison, doubtful)
+
+
+def _by_errors(comparison: Comparison, doubtful: bool) -> tuple[str, str]:
+    """Level and headline where both fold at the same hinges."""
+    first, second = comparison.candidate.name, comparison.reference.name
+    off = _worst(comparison)
+    if off is None:
+        return "caution", f"Nothing folds in the {second} run: there is no plastic rotation to compare."
+    said = (
+        f"largest rotation off by {percent(off[0])}, plastic energy at equal plastic rotation by up to "
+        f"{percent(off[1])}"
+    )
+    if max(off) > FAR_OFF:
+        return "bad", f"The {first} answer is not that of the {second} run: {said}."
+    if max(off) > AGREES:
+        return "caution", f"The {first} answer is only roughly that of the {second} run: {said}."
+    if doubtful:
+        return "caution", f"Both answers agree, with reservations: {said}."
+    return "good", f"Both answers agree: {said}."
+
+
+def _alone(comparison: Comparison) -> list[str]:
+    """Hinges that took up much of the candidate's plastic work, where the reference has no fold."""
+    own = [h for h in comparison.hinges if h.first is not None and h.second is not None]
+    most = max((h.first.plastic_energy for h in own if h.first), default=0.0)
+    opened = {o.name for o in comparison.opened[comparison.candidate.name]}
+    return [
+        h.name
+        for h in own
+        if h.name in opened and h.fold_station is None and h.first and h.first.plastic_energy > SMALL * most
+    ]
+
+
+def _worst(comparison: Comparison) -> tuple[float, float] | None:
+    """Largest relative errors of rotation and of plastic energy among the hinges that matter."""
+    most = max(map(absorbed, comparison.hinges), default=0.0)
+    found = []
+    for hinge in comparison.hinges:
+        rotation = hinge.error("rotation_max")
+        if rotation is not None and absorbed(hinge) > SMALL * most:
+            found.append((abs(rotation), abs(worst(hinge.energy_errors()) or 0.0)))
+    return (max(r for r, _ in found), max(e for _, e in found)) if found else None
+
+
+def agreement(comparison: Comparison) -> Iterator[tuple[str, bool]]:
+    """Errors of rotation and energy of the hinges that matter most, and whether each is a caution."""
+    most = max(map(absorbed, comparison.hinges), default=0.0)
+    told = []
+    for hinge in comparison.hinges:
+        off = _errors(hinge)
+        if off:
+            matters = absorbed(hinge) > SMALL * most
+            told.append((max(map(abs, off)) > AGREES and matters, matters, max(map(abs, off)), hinge))
+    # the farthest off first, and hinges that took up little last
+    told.sort(key=lambda one: one[:3], reverse=True)
+    for wrong, _, _, hinge in told[:MOST_TOLD]:
+        yield _agreement(comparison, hinge), wrong
+    if len(told) > MOST_TOLD:
+        count = sum(one[0] for one in told[MOST_TOLD:])
+        yield (
+            f"{len(told) - MOST_TOLD} further hinges are nearer, or took up little: {count} of them are off "
+            f"by more than {percent(AGREES)}.",
+            count > 0,
+        )
+
+
+def _errors(hinge: HingeComparison) -> list[float]:
+    """Errors that count: of the largest rotations, and of plastic energy at equal plastic rotation."""
+    found = [hinge.error("rotation_max"), hinge.error("plastic_rotation"), worst(hinge.energy_errors())]
+    return [] if found[0] is None else [error for error in found if error is not None]
+
+
+def _agreement(comparison: Comparison, hinge: HingeComparison) -> str:
+    first, second = comparison.candidate.name, comparison.reference.name
+    rotation, plastic = hinge.error("rotation_max"), hinge.error("plastic_rotation")
+    assert hinge.first is not None
+    assert hinge.second is not None
+    assert rotation is not None
+    text = (
+        f"Hinge {hinge.name}: largest rotation {_deg(hinge.first.rotation_max)} {first}, "
+        f"{_deg(hinge.second.rotation_max)} {second} ({signed(rotation)})"
+    )
+    if plastic is not None:
+        text += (
+            f", of which plastic {_deg(hinge.first.plastic_rotation)} and "
+            f"{_deg(hinge.second.plastic_rotation)} ({signed(plastic)})"
+        )
+    energy = worst(hinge.energy_errors())
+    if energy is not None:
+        text += f"; plastic energy at equal plastic rotation differs by at most {percent(abs(energy))}"
+    return text + "."
+
+
+def absorbed(hinge: HingeComparison) -> float:
+    """Plastic energy of a hinge in that result in which it is larger [J]."""
+    return max((m.plastic_energy for m in (hinge.first, hinge.second) if m is not None), default=0.0)
+
+
+def worst(errors: tuple[float | None, ...]) -> float | None:
+    """Error of largest magnitude; None without any."""
+    known = [error for error in errors if error is not None]
+    return max(known, key=abs) if known else None
+
+
+def _deg(angle: float) -> str:
+    return f"{math.degrees(angle):.1f}°"

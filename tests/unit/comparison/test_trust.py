@@ -1,0 +1,201 @@
+"""What a comparison says of runs cut short, of hinges in one fold, of swings, contact and many hinges."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from tests.unit.comparison.folded_tube import EXAMPLE, analysis, angle_over_time, folded_result
+
+from crumple.analysis import loads, solve
+from crumple.comparison import compare, with_frames
+from crumple.comparison.motion import channel_motions, measured
+from crumple.comparison.trust import _order, swings_of
+from crumple.comparison.verdict import agreement
+from crumple.errors import Status
+from crumple.result import Channel
+from crumple.structure import Structure
+from crumple.structure.hinges import placed_hinges
+
+TIMES = np.linspace(0.0, 0.1, 101)
+
+
+@pytest.fixture(scope="module", name="case")
+def _case():
+    return analysis()
+
+
+@pytest.fixture(scope="module", name="multibody")
+def _multibody(case):
+    return solve(with_frames(case, 21))
+
+
+def shortened(result, end):
+    """The same run, stopped on the way."""
+    inside, shapes = result.time <= end, result.states.times <= end
+    states = replace(
+        result.states,
+        times=result.states.times[shapes],
+        displacement=result.states.displacement[shapes],
+        cell_data={name: values[shapes] for name, values in result.states.cell_data.items()},
+    )
+    channels = {name: replace(c, values=c.values[inside]) for name, c in result.channels.items()}
+    return replace(
+        result, status=Status.CANCELLED, time=result.time[inside], channels=channels, states=states
+    )
+
+
+def test_a_run_that_was_stopped_is_compared_as_far_as_it_got(case, multibody):
+    whole = folded_result(largest=0.545)
+    found = compare(multibody, shortened(whole, 0.03), case.structure)
+    (hinge,) = found.hinges
+    # a tube thrown to 31 deg in 80 ms has turned by half of that at 30 ms, in both
+    assert hinge.first.rotation_max < 0.7 * multibody.hinges["root"].rotation_max
+    assert abs(hinge.error("rotation_max")) < 0.25
+    assert "only the 30 ms that both have are compared" in found.trust.headline
+    assert compare(multibody, whole, case.structure).hinges[0].first.rotation_max == pytest.approx(
+        multibody.hinges["root"].rotation_max, rel=1e-3
+    )
+
+
+def test_a_second_mesh_that_was_stopped_spoils_no_verdict(case, multibody):
+    whole = folded_result(largest=0.545)
+    other = {"shell, 20 mm": shortened(whole, 0.03)}
+    found = compare(multibody, whole, case.structure, variants=other)
+    assert found.trust.headline == compare(multibody, whole, case.structure).trust.headline
+    assert any("The shell, 20 mm run: cancelled" in text for text in found.trust.cautions)
+
+
+def test_nothing_that_folds_is_no_disagreement(case, multibody):
+    flat = folded_result([(0.01, 0.04, 0.0 * TIMES)])
+    still = folded_result([(0.01, 0.04, 0.0 * TIMES)])
+    trust = compare(still, flat, case.structure).trust
+    assert (trust.level, trust.headline.partition(":")[0]) == (
+        "caution",
+        "Nothing folds in the shell (reference) run",
+    )
+    # the candidate's alone is a disagreement
+    trust = compare(multibody, flat, case.structure).trust
+    assert trust.level == "bad"
+    assert "it folds where that does not (root)" in trust.headline
+
+
+def test_a_largest_rotation_does_not_hide_its_plastic_part():
+    hinge = SimpleNamespace(
+        name="root",
+        first=SimpleNamespace(plastic_energy=100.0, rotation_max=0.5, plastic_rotation=0.5),
+        second=SimpleNamespace(plastic_energy=100.0, rotation_max=0.5, plastic_rotation=0.4),
+        error={"rotation_max": 0.0, "plastic_rotation": 0.25}.get,
+        energy_errors=lambda: (0.02,),
+    )
+    comparison = SimpleNamespace(
+        candidate=SimpleNamespace(name="multibody"), reference=SimpleNamespace(name="shell"), hinges=(hinge,)
+    )
+    ((said, wrong),) = agreement(comparison)
+    assert wrong
+    assert "28.6° shell (+0.0 %), of which plastic 28.6° and 22.9° (+25.0 %); plastic energy" in said
+
+
+def test_hinges_in_one_fold_are_told():
+    path = EXAMPLE.parent / "01_tube_bending.yaml"
+    text = path.read_text().replace(
+        "      - {name: root, at: root, law: kecman}",
+        "      - {name: root, at: root, law: kecman}\n      - {name: next, at: 60 mm, law: kecman}",
+    )
+    two = loads(text)
+    found = compare(
+        solve(with_frames(two, 21)), folded_result([(0.01, 0.08, angle_over_time(TIMES))]), two.structure
+    )
+    (said,) = (text for text in found.trust.cautions if "stand in one fold" in text)
+    assert said.startswith("Hinges root and next stand in one fold of the shell result, from 10 mm to 80 mm")
+    assert "31.2° multibody and 34.4° shell" in said
+
+
+def test_a_hinge_that_bends_two_ways_is_measured_whatever_the_axis():
+    path = EXAMPLE.parent / "01_tube_bending.yaml"
+    text = path.read_text().replace("at: root, law: kecman}", "at: root, axes: [y, z], coupling: ellipsoid}")
+    two = loads(text.replace("roll: 0 deg", "roll: 30 deg"))
+    (hinge,) = placed_hinges(two.structure)
+    shell = folded_result(largest=0.6)
+    (motion,) = measured(shell, two.structure, [hinge]).hinges
+    assert abs(motion.rotation).max() == pytest.approx(0.6, rel=1e-3)
+    assert motion.far.max() == pytest.approx(0.6 * (1.0 - 0.025), rel=5e-3)
+    assert "conjugate" in motion.how
+    # the cut's moment counts as far as it lies along the axis of bending
+    cut = {
+        f"cut.root.moment.{axis}": size + 0.0 * shell.time
+        for axis, size in (("x", 50.0), ("y", -900.0), ("z", 70.0))
+    }
+    told = replace(
+        shell, channels={**shell.channels, **{name: Channel(name, "N*m", v) for name, v in cut.items()}}
+    )
+    (motion,) = measured(told, two.structure, [hinge]).hinges
+    assert motion.moment[5:] == pytest.approx(900.0)
+    # the multibody answer counts the same: the length of its vector of bending
+    rotation = np.linspace(0.0, 1.0, 5)
+    histories = ("rotation", "plastic_rotation", "moment")
+    sizes = {
+        f"{key}{axis}": size for key in histories for axis, size in (("", 5.0), (".y", 0.6), (".z", -0.8))
+    }
+    channels = {f"hinge.root.{name}": Channel(name, "", size * rotation) for name, size in sizes.items()}
+    (motion,) = channel_motions(replace(shell, channels=channels, time=rotation), [hinge], {})
+    for history in histories:
+        assert getattr(motion, history) == pytest.approx(rotation)
+
+
+def test_swings_are_measured_between_turning_points():
+    time = np.linspace(0.0, 4.0, 81)
+    values = 2.0 + 0.8 * np.sin(2.0 * np.pi * time)
+    values[0] = 0.0
+    swings = swings_of(values, 0.2)
+    assert len(swings) == 7
+    assert swings == pytest.approx([0.8] * 7, rel=0.02)
+    # a rise alone, and noise, are no swings
+    assert swings_of(time, 0.2) == []
+    assert swings_of(2.0 - 0.05 * np.cos(40.0 * time), 0.2) == []
+
+
+def test_walls_that_press_on_an_obstacle_are_not_said_to_touch_each_other(case, multibody):
+    shell = folded_result(contact=0.05)
+    floor = {"floor": {"type": "plane", "point": (0.0, 0.0, -1.0), "normal": (0.0, 0.0, 1.0)}}
+    open_air = compare(multibody, shell, case.structure).trust
+    before = Structure.model_validate({**case.structure.model_dump(by_alias=True), "obstacles": floor})
+    with_floor = compare(multibody, shell, before).trust
+    assert any("Walls touch in" in text for text in open_air.cautions)
+    assert not any("Walls touch in" in text for text in with_floor.cautions)
+    assert any("walls press on obstacles" in text for text in with_floor.facts)
+
+
+def test_many_hinges_and_a_long_order_are_cut():
+    names = [f"hinge {i}" for i in range(12)]
+    hinges = tuple(
+        SimpleNamespace(
+            name=name,
+            first=SimpleNamespace(plastic_energy=100.0, rotation_max=1.0 + 0.1 * i, plastic_rotation=1.0),
+            second=SimpleNamespace(plastic_energy=100.0, rotation_max=1.0, plastic_rotation=1.0),
+            error={"rotation_max": 0.1 * i, "plastic_rotation": 0.0}.get,
+            energy_errors=lambda: (),
+        )
+        for i, name in enumerate(names)
+    )
+    opened = {
+        "multibody": [SimpleNamespace(name=name) for name in names],
+        "shell": [SimpleNamespace(name=name) for name in (*names[:3], *names[:2:-1])],
+    }
+    comparison = SimpleNamespace(
+        candidate=SimpleNamespace(name="multibody"),
+        reference=SimpleNamespace(name="shell"),
+        hinges=hinges,
+        opened=opened,
+    )
+    told = list(agreement(comparison))
+    assert len(told) == 9
+    assert told[0][0].startswith("Hinge hinge 11: largest rotation")
+    assert told[-1] == (
+        "4 further hinges are nearer, or took up little: 2 of them are off by more than 12.0 %.",
+        True,
+    )
+    ((order, wrong),) = _order(comparison)
+    assert wrong
+    assert order.startswith("After the first 3, the same in both, hinges open in another order: hinge 3,")
+    assert order.count("and 3 more") == 2
