@@ -18,14 +18,14 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
     const size_t n = r.time.size(), bodies = static_cast<size_t>(sim.model().tree.bodies());
     const size_t dofs = static_cast<size_t>(sim.model().tree.dofs()), hinges = sim.model().hinges.size();
     nb::dict d;
-    d["time"] = array(r.time, {n});
-    d["q"] = array(r.q, {n, dofs});
-    d["w"] = array(r.w, {n, dofs});
-    d["pose"] = array(r.pose, {n, bodies, 3});
-    d["velocity"] = array(r.velocity, {n, bodies, 3});
-    d["hinge"] = array(r.hinge, {n, hinges, static_cast<size_t>(hinge_columns)});
-    d["energy"] = array(r.energy, {n, 6});
-    d["drive"] = array(r.drive, {n, sim.model().drives.size()});
+    d["time"] = to_array(r.time, {n});
+    d["q"] = to_array(r.q, {n, dofs});
+    d["w"] = to_array(r.w, {n, dofs});
+    d["pose"] = to_array(r.pose, {n, bodies, 3});
+    d["velocity"] = to_array(r.velocity, {n, bodies, 3});
+    d["hinge"] = to_array(r.hinge, {n, hinges, static_cast<size_t>(hinge_columns)});
+    d["energy"] = to_array(r.energy, {n, 6});
+    d["drive"] = to_array(r.drive, {n, sim.model().drives.size()});
     d["outcome"] = static_cast<int>(r.outcome);
     d["reason"] = r.reason;
     d["residual"] = r.residual;
@@ -36,7 +36,7 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
     return d;
 }
 
-std::vector<Twist> to_twists(const Array& a, int bodies) {
+std::vector<Twist> to_twists(const In& a, int bodies) {
     require(a.ndim() == 2 && a.shape(0) == static_cast<size_t>(bodies) && a.shape(1) == 3, "twists must have shape (bodies, 3)");
     std::vector<Twist> out;
     for (int i = 0; i < bodies; i++) out.push_back({a.data()[3 * i], {a.data()[3 * i + 1], a.data()[3 * i + 2]}});
@@ -45,19 +45,7 @@ std::vector<Twist> to_twists(const Array& a, int bodies) {
 
 nb::dict run(Simulation& sim, const Doubles& times, nb::object poll) {
     require(!times.empty(), "at least one output time is needed");
-    std::function<bool(double)> ask;
-    if (!poll.is_none()) {
-        ask = [&poll](double t) {
-            nb::gil_scoped_acquire locked;
-            return nb::cast<bool>(poll(t));
-        };
-    }
-    Record record;
-    {
-        nb::gil_scoped_release released;
-        record = sim.run(times, ask);
-    }
-    return to_dict(sim, record);
+    return to_dict(sim, unlocked(poll, [&](const auto& ask) { return sim.run(times, ask); }));
 }
 
 }  // namespace
@@ -72,7 +60,7 @@ void bind(nb::module_& m) {
              },
              nb::arg("model"), nb::arg("accuracy"), nb::arg("minimum_step"), nb::arg("maximum_step"))
         .def("set_motion",
-             [](Simulation& s, const Array& velocity, const Array& impulse) {
+             [](Simulation& s, const In& velocity, const In& impulse) {
                  const int n = s.model().tree.bodies();
                  return s.set_motion(to_twists(velocity, n).data(), to_twists(impulse, n).data());
              },
@@ -89,7 +77,7 @@ void bind(nb::module_& m) {
         .def("effective_inertia", [](Simulation& s, int dof) { return s.stepper().effective_inertia(s.state(), dof); },
              nb::arg("dof"))
         .def("summary",
-             [](const Simulation& s) { return array(hinge_summary(s), {s.state().hinge.size(), summary_columns}); })
+             [](const Simulation& s) { return to_array(hinge_summary(s), {s.state().hinge.size(), summary_columns}); })
         .def_prop_ro("time", [](Simulation& s) { return s.state().t; })
         .def_prop_ro("q", [](Simulation& s) { return s.state().q; })
         .def_prop_ro("w", [](Simulation& s) { return s.state().w; });

@@ -1,11 +1,8 @@
 // Python face of `solve_many`.
 #include "multibody/bind_batch.hpp"
 
-#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
-
-#include <optional>
 
 #include "multibody/batch.hpp"
 
@@ -13,15 +10,6 @@ namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
-
-using Rows = std::optional<Array>;
-
-// rows of a variant's values, (count, ...) in all, or null
-const double* rows(const Rows& given, size_t count, size_t each, const char* what) {
-    if (!given) return nullptr;
-    require(given->size() == count * each && given->ndim() > 0 && given->shape(0) == count, what);
-    return given->data();
-}
 
 void require_one_topology(const std::vector<const Model*>& models) {
     require(!models.empty(), "at least one model is needed");
@@ -39,22 +27,22 @@ nb::dict to_dict(const Finals& f, const Model& model, size_t n) {
     const size_t bodies = static_cast<size_t>(model.tree.bodies()), dofs = static_cast<size_t>(model.tree.dofs());
     const size_t hinges = model.hinges.size();
     nb::dict d;
-    d["time"] = array(f.time, {n});
-    d["q"] = array(f.q, {n, dofs});
-    d["w"] = array(f.w, {n, dofs});
-    d["pose"] = array(f.pose, {n, bodies, 3});
-    d["velocity"] = array(f.velocity, {n, bodies, 3});
-    d["hinge"] = array(f.hinge, {n, hinges, static_cast<size_t>(hinge_columns)});
-    d["summary"] = array(f.summary, {n, hinges, static_cast<size_t>(summary_columns)});
-    d["energy"] = array(f.energy, {n, 6});
-    d["residual"] = array(f.residual, {n});
-    d["lost"] = array(f.lost, {n});
-    d["outcome"] = f.outcome;
-    d["steps"] = f.steps;
+    d["time"] = to_array(f.time, {n});
+    d["q"] = to_array(f.q, {n, dofs});
+    d["w"] = to_array(f.w, {n, dofs});
+    d["pose"] = to_array(f.pose, {n, bodies, 3});
+    d["velocity"] = to_array(f.velocity, {n, bodies, 3});
+    d["hinge"] = to_array(f.hinge, {n, hinges, static_cast<size_t>(hinge_columns)});
+    d["summary"] = to_array(f.summary, {n, hinges, static_cast<size_t>(summary_columns)});
+    d["energy"] = to_array(f.energy, {n, 6});
+    d["residual"] = to_array(f.residual, {n});
+    d["lost"] = to_array(f.lost, {n});
+    d["outcome"] = to_array(f.outcome, {n});
+    d["steps"] = to_array(f.steps, {n});
     return d;
 }
 
-nb::dict solve(const std::vector<const Model*>& models, const Integers& model_of, double end, const Rows& velocity,
+nb::dict solve(const std::vector<const Model*>& models, const InNumbers& model_of, double end, const Rows& velocity,
                const Rows& impulse, const Rows& capacity_scale, const Rows& load_scale, const Rows& bodies,
                const Rows& gravity, double accuracy, double minimum_step, double maximum_step, int threads,
                nb::object poll) {
@@ -75,18 +63,8 @@ nb::dict solve(const std::vector<const Model*>& models, const Integers& model_of
     v.load_scale = rows(load_scale, v.count, first.loads.size(), "load_scale must have shape (variants, loads)");
     v.bodies = rows(bodies, v.count, 4 * n, "bodies must have shape (variants, bodies, 4)");
     v.gravity = rows(gravity, v.count, 2, "gravity must have shape (variants, 2)");
-    std::function<bool(double)> ask;
-    if (!poll.is_none()) {
-        ask = [&poll](double share) {
-            nb::gil_scoped_acquire locked;
-            return nb::cast<bool>(poll(share));
-        };
-    }
-    Finals finals;
-    {
-        nb::gil_scoped_release released;
-        finals = solve_many(v, end, make_settings(accuracy, minimum_step, maximum_step), threads, ask);
-    }
+    const Settings settings = make_settings(accuracy, minimum_step, maximum_step);
+    const Finals finals = unlocked(poll, [&](const auto& ask) { return solve_many(v, end, settings, threads, ask); });
     return to_dict(finals, first, v.count);
 }
 

@@ -1,22 +1,18 @@
 // A hinge from the plain values that Python hands over.
 #pragma once
 
-#include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include <vector>
 
+#include "binding.hpp"
 #include "multibody/hinge.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {
 
 using Doubles = std::vector<double>;
-
-inline void require(bool ok, const char* what) {
-    if (!ok) throw nanobind::value_error(what);
-}
 
 inline Curve make_curve(const Doubles& x, const Doubles& y) {
     require(!x.empty() && x.size() == y.size(), "a curve needs as many values as places, at least one");

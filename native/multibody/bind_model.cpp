@@ -4,15 +4,13 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include <cstring>
-
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
 // bodies: columns anchor x, y, centre x, y, mass, inertia
-Tree make_tree(const Integers& parent, const Integers& joint, const Array& bodies) {
+Tree make_tree(const InNumbers& parent, const InNumbers& joint, const In& bodies) {
     require(bodies.ndim() == 2 && bodies.shape(1) == 6, "bodies must have shape (n, 6)");
     const size_t n = bodies.shape(0);
     require(parent.shape(0) == n && joint.shape(0) == n, "parent and joint must have one entry per body");
@@ -58,7 +56,7 @@ Weld make_weld(const nb::tuple& t) {
     return {nb::cast<int>(t[0]), nb::cast<int>(t[1]), {a.at(0), a.at(1)}, {b.at(0), b.at(1)}};
 }
 
-Model make_model(const Integers& parent, const Integers& joint, const Array& bodies, const Doubles& q0,
+Model make_model(const InNumbers& parent, const InNumbers& joint, const In& bodies, const Doubles& q0,
                  const nb::list& hinges, const nb::list& loads, const nb::list& drives, const nb::list& holds,
                  const nb::list& welds, const Doubles& gravity, double length) {
     Model model{make_tree(parent, joint, bodies), {}, {}, {}, {}, {}, {gravity.at(0), gravity.at(1)}, {q0.begin(), q0.end()}, length};
@@ -81,13 +79,6 @@ Model make_model(const Integers& parent, const Integers& joint, const Array& bod
 
 }  // namespace
 
-nb::object array(const Doubles& v, std::initializer_list<size_t> shape) {
-    auto* data = new double[v.empty() ? 1 : v.size()];
-    if (!v.empty()) std::memcpy(data, v.data(), v.size() * sizeof(double));
-    nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<double*>(p); });
-    return nb::cast(nb::ndarray<nb::numpy, double>(data, shape.size(), shape.begin(), owner));
-}
-
 Settings make_settings(double accuracy, double minimum_step, double maximum_step) {
     Settings settings;
     settings.accuracy = accuracy;
@@ -99,7 +90,7 @@ Settings make_settings(double accuracy, double minimum_step, double maximum_step
 void bind_model(nb::module_& m) {
     nb::class_<Model>(m, "Model", "Constants of a planar tree of bodies.")
         .def("__init__",
-             [](Model* self, const Integers& parent, const Integers& joint, const Array& bodies, const Doubles& q0,
+             [](Model* self, const InNumbers& parent, const InNumbers& joint, const In& bodies, const Doubles& q0,
                 const nb::list& hinges, const nb::list& loads, const nb::list& drives, const nb::list& holds,
                 const nb::list& welds, const Doubles& gravity, double length) {
                  new (self) Model(make_model(parent, joint, bodies, q0, hinges, loads, drives, holds, welds, gravity, length));

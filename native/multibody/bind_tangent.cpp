@@ -12,7 +12,7 @@ inline namespace CRUMPLE_ARITHMETIC {
 namespace {
 
 // values of one variant, (bodies, 3), with their derivatives, (directions, bodies, 3)
-std::vector<Twist> twists(const Array& values, const Array& slopes, int bodies, size_t count) {
+std::vector<Twist> twists(const In& values, const In& slopes, int bodies, size_t count) {
     const auto n = static_cast<size_t>(3 * bodies);
     require(values.size() == n && slopes.size() == count * n, "velocities and impulses must have shape (bodies, 3)");
     std::vector<Twist> out(static_cast<size_t>(bodies));
@@ -26,17 +26,17 @@ std::vector<Twist> twists(const Array& values, const Array& slopes, int bodies, 
 }
 
 // values in the first row, derivatives in those that follow
-nb::object rows(const std::vector<Real>& values, size_t count) {
+Array rows(const std::vector<Real>& values, size_t count) {
     Doubles out;
     for (const Real& x : values) out.push_back(x.v);
     for (size_t k = 0; k < count; k++) {
         for (const Real& x : values) out.push_back(x.d[k]);
     }
-    return array(out, {count + 1, values.size()});
+    return to_array(out, {count + 1, values.size()});
 }
 
 nb::dict solve(Model& given, const std::vector<Model*>& up, const std::vector<Model*>& down, const Doubles& width,
-               const Array& velocity, const Array& velocity_slopes, const Array& impulse, const Array& impulse_slopes,
+               const In& velocity, const In& velocity_slopes, const In& impulse, const In& impulse_slopes,
                double end, double accuracy, double minimum_step, double maximum_step, nb::object poll) {
     const size_t count = width.size();
     require(count <= directions && up.size() == count && down.size() == count, "too many directions at a time");
@@ -47,18 +47,7 @@ nb::dict solve(Model& given, const std::vector<Model*>& up, const std::vector<Mo
     const std::vector<Twist> blow = twists(impulse, impulse_slopes, bodies, count);
     Simulation simulation(std::move(model), make_settings(accuracy, minimum_step, maximum_step));
     simulation.set_motion(v.data(), blow.data());
-    std::function<bool(double)> ask;
-    if (!poll.is_none()) {
-        ask = [&poll](double t) {
-            nb::gil_scoped_acquire locked;
-            return nb::cast<bool>(poll(t));
-        };
-    }
-    Record record;
-    {
-        nb::gil_scoped_release released;
-        record = simulation.run({end}, ask);
-    }
+    const Record record = unlocked(poll, [&](const auto& ask) { return simulation.run({end}, ask); });
     const Record last = simulation.present();
     nb::dict d;
     d["q"] = rows(last.q, count);

@@ -6,7 +6,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "bind_arrays.hpp"
+#include "binding.hpp"
 #include "simulation.hpp"
 
 namespace nb = nanobind;

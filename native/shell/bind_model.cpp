@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "bind_arrays.hpp"
+#include "binding.hpp"
 #include "model.hpp"
 
 namespace nb = nanobind;

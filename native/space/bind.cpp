@@ -1,13 +1,10 @@
 // Python face of the spatial kernel.  Plain values come in; nothing here decides physics.
-#include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "multibody/bind_hinge.hpp"
 #include "space/bind_contact.hpp"
@@ -23,8 +20,6 @@ namespace {
 
 using multibody::Doubles;
 using multibody::make_curve;
-using multibody::require;
-using Array = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
 
 Vec3 vector(const double* v) { return {v[0], v[1], v[2]}; }
 
@@ -42,7 +37,7 @@ void require_body(const Model& model, int body, bool ground) {
 }
 
 void add_bodies(Model& model, const nb::dict& d) {
-    const auto mass = nb::cast<Array>(d["mass"]), inertia = nb::cast<Array>(d["inertia"]), place = nb::cast<Array>(d["centre"]);
+    const auto mass = nb::cast<In>(d["mass"]), inertia = nb::cast<In>(d["inertia"]), place = nb::cast<In>(d["centre"]);
     const size_t n = mass.size();
     require(inertia.size() == 9 * n && place.size() == 3 * n, "every body has a mass, an inertia (3, 3) and a centre (3)");
     for (size_t i = 0; i < n; i++) {
@@ -242,40 +237,33 @@ std::vector<bool> chosen(const std::vector<int>& indices, size_t n, const char* 
 
 namespace {
 
-std::vector<Twist> to_twists(const Array& a, size_t bodies) {
+std::vector<Twist> to_twists(const In& a, size_t bodies) {
     require(a.ndim() == 2 && a.shape(0) == bodies && a.shape(1) == 6, "motions must have shape (bodies, 6)");
     std::vector<Twist> out;
     for (size_t i = 0; i < bodies; i++) out.push_back({vector(a.data() + 6 * i), vector(a.data() + 6 * i + 3)});
     return out;
 }
 
-nb::object array(const Doubles& v, std::initializer_list<size_t> shape) {
-    auto* data = new double[v.empty() ? 1 : v.size()];
-    if (!v.empty()) std::memcpy(data, v.data(), v.size() * sizeof(double));
-    nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<double*>(p); });
-    return nb::cast(nb::ndarray<nb::numpy, double>(data, shape.size(), shape.begin(), owner));
-}
-
 nb::dict to_dict(const Simulation& sim, const Record& r) {
     const Model& m = sim.model();
     const size_t n = r.time.size(), bodies = m.bodies.size(), c = sim.peaks().size() / 2;
     nb::dict d;
-    d["time"] = array(r.time, {n});
-    d["centre"] = array(r.centre, {n, bodies, 3});
-    d["rotation"] = array(r.rotation, {n, bodies, 4});
-    d["velocity"] = array(r.velocity, {n, bodies, 6});
-    d["acceleration"] = array(r.acceleration, {n, bodies, 6});
-    d["hinge_rotation"] = array(r.hinge_rotation, {n, c});
-    d["hinge_rate"] = array(r.hinge_rate, {n, c});
-    d["hinge_plastic"] = array(r.hinge_plastic, {n, c});
-    d["hinge_moment"] = array(r.hinge_moment, {n, c});
-    d["hinge_capacity"] = array(r.hinge_capacity, {n, c});
-    d["hinge_energy"] = array(r.hinge_energy, {n, m.hinges.size(), 3});
-    d["joint_force"] = array(r.joint_force, {n, m.joints.size(), 6});
-    d["obstacle_force"] = array(r.obstacle_force, {n, m.contact.obstacles.size(), 3});
-    d["energy"] = array(r.energy, {n, static_cast<size_t>(energy_columns)});
-    d["summary"] = array(sim.summary(), {m.hinges.size(), static_cast<size_t>(summary_columns)});
-    d["peaks"] = array(sim.peaks(), {c, 2});
+    d["time"] = to_array(r.time, {n});
+    d["centre"] = to_array(r.centre, {n, bodies, 3});
+    d["rotation"] = to_array(r.rotation, {n, bodies, 4});
+    d["velocity"] = to_array(r.velocity, {n, bodies, 6});
+    d["acceleration"] = to_array(r.acceleration, {n, bodies, 6});
+    d["hinge_rotation"] = to_array(r.hinge_rotation, {n, c});
+    d["hinge_rate"] = to_array(r.hinge_rate, {n, c});
+    d["hinge_plastic"] = to_array(r.hinge_plastic, {n, c});
+    d["hinge_moment"] = to_array(r.hinge_moment, {n, c});
+    d["hinge_capacity"] = to_array(r.hinge_capacity, {n, c});
+    d["hinge_energy"] = to_array(r.hinge_energy, {n, m.hinges.size(), 3});
+    d["joint_force"] = to_array(r.joint_force, {n, m.joints.size(), 6});
+    d["obstacle_force"] = to_array(r.obstacle_force, {n, m.contact.obstacles.size(), 3});
+    d["energy"] = to_array(r.energy, {n, static_cast<size_t>(energy_columns)});
+    d["summary"] = to_array(sim.summary(), {m.hinges.size(), static_cast<size_t>(summary_columns)});
+    d["peaks"] = to_array(sim.peaks(), {c, 2});
     d["outcome"] = static_cast<int>(r.outcome);
     d["reason"] = r.reason;
     d["ended_by"] = r.ended_by;
@@ -299,19 +287,7 @@ void stage(Simulation& sim, bool quasi_static, const std::vector<int>& drives, c
 
 nb::dict run(Simulation& sim, const Doubles& times, nb::object poll) {
     require(!times.empty(), "at least one output time is needed");
-    std::function<bool(double)> ask;
-    if (!poll.is_none()) {
-        ask = [&poll](double t) {
-            nb::gil_scoped_acquire locked;
-            return nb::cast<bool>(poll(t));
-        };
-    }
-    Record record;
-    {
-        nb::gil_scoped_release released;
-        record = sim.run(times, ask);
-    }
-    return to_dict(sim, record);
+    return to_dict(sim, unlocked(poll, [&](const auto& ask) { return sim.run(times, ask); }));
 }
 
 }  // namespace
@@ -327,7 +303,7 @@ void bind(nb::module_& m) {
                  new (self) Simulation(make_model(model), settings);
              })
         .def("set_motion",
-             [](Simulation& s, const Array& velocity, const Array& impulse) {
+             [](Simulation& s, const In& velocity, const In& impulse) {
                  const size_t n = s.model().bodies.size();
                  return s.set_motion(to_twists(velocity, n).data(), to_twists(impulse, n).data());
              })

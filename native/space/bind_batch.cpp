@@ -1,11 +1,8 @@
 // Python face of `solve_many`, and of a run with its followers.
-#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include <optional>
-
-#include "multibody/bind_model.hpp"
+#include "binding.hpp"
 #include "space/batch.hpp"
 #include "space/bind_model.hpp"
 
@@ -14,12 +11,6 @@ namespace nb = nanobind;
 namespace crumple::space {
 
 namespace {
-
-using multibody::array;
-using multibody::Array;
-using multibody::Integers;
-using multibody::require;
-using Rows = std::optional<Array>;
 
 void add_stage(Case& of, double duration, bool quasi_static, const std::vector<int>& drives, const std::vector<int>& obstacles,
                const nb::list& until) {
@@ -33,37 +24,30 @@ void add_stage(Case& of, double duration, bool quasi_static, const std::vector<i
     of.stages.push_back(stage);
 }
 
-// rows of a variant's values, (count, ...) in all, or null
-const double* rows(const Rows& given, size_t count, size_t each, const char* what) {
-    if (!given) return nullptr;
-    require(given->size() == count * each && given->ndim() > 0 && given->shape(0) == count, what);
-    return given->data();
-}
-
 nb::dict to_dict(const Finals& f, const Case& of, size_t n) {
     const size_t bodies = of.model.bodies.size(), hinges = of.model.hinges.size(), components = n > 0 ? f.hinge_rate.size() / n : 0;
     nb::dict d;
-    d["time"] = array(f.time, {n});
-    d["start"] = array(f.start, {n, bodies, 3});
-    d["centre"] = array(f.centre, {n, bodies, 3});
-    d["rotation"] = array(f.rotation, {n, bodies, 4});
-    d["velocity"] = array(f.velocity, {n, bodies, 6});
-    d["hinge_rotation"] = array(f.hinge_rotation, {n, components});
-    d["hinge_rate"] = array(f.hinge_rate, {n, components});
-    d["hinge_plastic"] = array(f.hinge_plastic, {n, components});
-    d["hinge_moment"] = array(f.hinge_moment, {n, components});
-    d["hinge_capacity"] = array(f.hinge_capacity, {n, components});
-    d["hinge_energy"] = array(f.hinge_energy, {n, hinges, 3});
-    d["summary"] = array(f.summary, {n, hinges, static_cast<size_t>(summary_columns)});
-    d["energy"] = array(f.energy, {n, static_cast<size_t>(energy_columns)});
-    d["residual"] = array(f.residual, {n});
-    d["lost"] = array(f.lost, {n});
-    d["outcome"] = f.outcome;
-    d["steps"] = f.steps;
+    d["time"] = to_array(f.time, {n});
+    d["start"] = to_array(f.start, {n, bodies, 3});
+    d["centre"] = to_array(f.centre, {n, bodies, 3});
+    d["rotation"] = to_array(f.rotation, {n, bodies, 4});
+    d["velocity"] = to_array(f.velocity, {n, bodies, 6});
+    d["hinge_rotation"] = to_array(f.hinge_rotation, {n, components});
+    d["hinge_rate"] = to_array(f.hinge_rate, {n, components});
+    d["hinge_plastic"] = to_array(f.hinge_plastic, {n, components});
+    d["hinge_moment"] = to_array(f.hinge_moment, {n, components});
+    d["hinge_capacity"] = to_array(f.hinge_capacity, {n, components});
+    d["hinge_energy"] = to_array(f.hinge_energy, {n, hinges, 3});
+    d["summary"] = to_array(f.summary, {n, hinges, static_cast<size_t>(summary_columns)});
+    d["energy"] = to_array(f.energy, {n, static_cast<size_t>(energy_columns)});
+    d["residual"] = to_array(f.residual, {n});
+    d["lost"] = to_array(f.lost, {n});
+    d["outcome"] = to_array(f.outcome, {n});
+    d["steps"] = to_array(f.steps, {n});
     return d;
 }
 
-nb::dict solve(const std::vector<const Case*>& cases, const Integers& case_of, const Rows& velocity, const Rows& impulse,
+nb::dict solve(const std::vector<const Case*>& cases, const InNumbers& case_of, const Rows& velocity, const Rows& impulse,
                const Rows& capacity_scale, const Rows& load_scale, const Rows& bodies, const Rows& gravity, double accuracy,
                double minimum_step, double maximum_step, int threads, nb::object poll,
                bool led) {
@@ -87,22 +71,12 @@ nb::dict solve(const std::vector<const Case*>& cases, const Integers& case_of, c
     v.load_scale = rows(load_scale, v.count, first.model.loads.size(), "load_scale must have shape (variants, loads)");
     v.bodies = rows(bodies, v.count, body_columns * n, "bodies must have shape (variants, bodies, 13)");
     v.gravity = rows(gravity, v.count, 3, "gravity must have shape (variants, 3)");
-    std::function<bool(double)> ask;
-    if (!poll.is_none()) {
-        ask = [&poll](double share) {
-            nb::gil_scoped_acquire locked;
-            return nb::cast<bool>(poll(share));
-        };
-    }
     Settings settings;
     settings.accuracy = accuracy;
     settings.minimum_step = minimum_step;
     settings.maximum_step = maximum_step;
-    Finals finals;
-    {
-        nb::gil_scoped_release released;
-        finals = led ? solve_led(v, settings, threads, ask) : solve_many(v, settings, threads, ask);
-    }
+    const auto solver = led ? solve_led : solve_many;
+    const Finals finals = unlocked(poll, [&](const auto& ask) { return solver(v, settings, threads, ask); });
     return to_dict(finals, first, v.count);
 }
 

@@ -13,7 +13,6 @@ namespace crumple::space {
 namespace {
 
 using multibody::Doubles;
-using multibody::require;
 
 // One hinge that is led along given rates.
 struct Element {

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,25 +92,25 @@ def solve_many(
     ``poll(share)`` is asked now and then with the share done and returns False to cancel; variants that were
     not begun then have the outcome CANCELLED.
     """
-    out: dict[str, Any] = _kernels.multibody.solve_many(
+    out = _kernels.multibody.solve_many(
         [kernel_model(model) for model in variants.models],
         np.ascontiguousarray(variants.model_of, dtype=np.int64),
         end,
-        _rows(variants.velocity),
-        _rows(variants.impulse),
-        _rows(variants.capacity_scale),
-        _rows(variants.load_scale),
-        _rows(variants.bodies),
-        _rows(variants.gravity),
+        as_rows(variants.velocity),
+        as_rows(variants.impulse),
+        as_rows(variants.capacity_scale),
+        as_rows(variants.load_scale),
+        as_rows(variants.bodies),
+        as_rows(variants.gravity),
         accuracy,
         minimum_step,
         maximum_step,
         threads,
         poll,
     )
-    out |= {name: np.array(out[name], dtype=np.int64) for name in ("outcome", "steps")}
     return TreeFinals(**out)
 
 
-def _rows(given: Floats | None) -> Floats | None:
+def as_rows(given: Floats | None) -> Floats | None:
+    """What varies as the kernels take it."""
     return None if given is None else np.ascontiguousarray(given, dtype=float)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from crumple._core import _kernels
+from crumple._core.batch import as_rows
 from crumple._core.space import MINIMUM_STEP, SpaceUntil, as_dict, as_until
 from crumple._core.space_model import Floats, SpaceModel
 
@@ -127,15 +127,15 @@ def solve_many(
     Newton's method the first Newton step from the leader's: half the difference of two of them that lie close
     above and below the leader is the derivative of the run, see docs/theory/sensitivities.md.
     """
-    out: dict[str, Any] = _kernels.space.solve_many(
+    out = _kernels.space.solve_many(
         [kernel_case(case) for case in variants.cases],
         np.ascontiguousarray(variants.case_of, dtype=np.int64),
-        _rows(variants.velocity),
-        _rows(variants.impulse),
-        _rows(variants.capacity_scale),
-        _rows(variants.load_scale),
-        _rows(variants.bodies),
-        _rows(variants.gravity),
+        as_rows(variants.velocity),
+        as_rows(variants.impulse),
+        as_rows(variants.capacity_scale),
+        as_rows(variants.load_scale),
+        as_rows(variants.bodies),
+        as_rows(variants.gravity),
         accuracy,
         minimum_step,
         maximum_step,
@@ -143,7 +143,7 @@ def solve_many(
         poll,
         led,
     )
-    return SpaceFinals(**out | {name: np.array(out[name], dtype=np.int64) for name in ("outcome", "steps")})
+    return SpaceFinals(**out)
 
 
 def kernel_case(case: SpaceCase) -> _kernels._Space.Case:
@@ -159,7 +159,3 @@ def kernel_case(case: SpaceCase) -> _kernels._Space.Case:
             [as_until(condition) for condition in stage.until],
         )
     return kernel
-
-
-def _rows(given: Floats | None) -> Floats | None:
-    return None if given is None else np.ascontiguousarray(given, dtype=float)
