@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -34,18 +35,25 @@ void share_out(std::size_t count, std::size_t share, int threads,
     };
     std::mutex mutex;
     std::condition_variable ended;
-    int working = std::max(1, threads);
-    std::vector<std::thread> team;
-    for (int i = working; i > 0; i--) {
-        team.emplace_back([&] {
-            work();
-            const std::lock_guard<std::mutex> lock(mutex);
-            working--;
-            ended.notify_one();
-        });
-    }
-    std::exception_ptr failed;
     std::unique_lock<std::mutex> lock(mutex);
+    std::size_t working = 0;
+    auto member = [&] {
+        work();
+        const std::lock_guard<std::mutex> lock(mutex);
+        working--;
+        ended.notify_one();
+    };
+    const std::size_t useful = std::min((count + share - 1) / share, static_cast<std::size_t>(std::max(1, threads)));
+    std::vector<std::thread> team;
+    team.reserve(useful);
+    try {
+        while (team.size() < useful) team.emplace_back(member);
+    } catch (const std::system_error&) {
+        // the machine gives no more threads: those that came do the work
+        if (team.empty()) throw;
+    }
+    working = team.size();
+    std::exception_ptr failed;
     while (!ended.wait_for(lock, poll_pause, [&] { return working == 0; })) {
         try {
             if (poll && !poll(static_cast<double>(done) / static_cast<double>(count))) cancelled = true;

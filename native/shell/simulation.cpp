@@ -232,7 +232,7 @@ End Simulation::advance(double until, double seconds, std::int64_t steps, int th
     const auto start = std::chrono::steady_clock::now();
     const std::int64_t last_step = steps_ + std::min(steps, std::numeric_limits<std::int64_t>::max() - steps_);
     const std::size_t useful = std::max<std::size_t>(1, model_->elements() / elements_per_thread);
-    const int members = int(std::min<std::size_t>(useful, std::size_t(std::max(threads, 1))));
+    const int members = team_.gather(int(std::min<std::size_t>(useful, std::size_t(std::max(threads, 1)))));
     std::vector<ElementReport> reports;
     reports.resize(std::size_t(members));
     std::vector<double> ways(reports.size(), 0.0);
@@ -244,7 +244,7 @@ End Simulation::advance(double until, double seconds, std::int64_t steps, int th
             go = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < seconds;
     };
     decide();
-    team_.run(members, [&](const Member& member) {
+    team_.run([&](const Member& member) {
         aligned_vector<double> corner = chunk_corners();
         while (go) {
             // nodes: forces of the last step move them

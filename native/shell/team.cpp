@@ -3,6 +3,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <system_error>
 #if defined(__unix__) || defined(__APPLE__)
 #include <unistd.h>
 #endif
@@ -26,8 +27,13 @@ long this_process() {
 
 // The members beside the caller.
 struct Team::Crew {
-    explicit Crew(int others) {
-        for (int i = 1; i <= others; i++) threads.emplace_back([this, i] { serve(i); });
+    explicit Crew(int others) : asked(others) {
+        threads.reserve(std::size_t(others));
+        try {
+            for (int i = 1; i <= others; i++) threads.emplace_back([this, i] { serve(i); });
+        } catch (const std::system_error&) {
+            // the machine gives no more: those that came do the work
+        }
     }
     ~Crew() {
         tell(nullptr);
@@ -73,6 +79,7 @@ struct Team::Crew {
         }
     }
 
+    const int asked;                             // as many as were to come
     std::mutex mutex;
     std::condition_variable called;
     alignas(64) std::atomic<unsigned> calls{0};
@@ -90,13 +97,18 @@ void Team::dismiss() {
     crew_.reset();
 }
 
-void Team::call(int members, const std::function<void(int)>& task) {
-    if (members == 1) return task(0);
-    if (!crew_ || process_ != this_process() || crew_->threads.size() != std::size_t(members - 1)) {
+int Team::gather(int members) {
+    if (members == 1) return members_ = 1;
+    if (!crew_ || process_ != this_process() || crew_->asked != members - 1) {
         dismiss();
         process_ = this_process();
         crew_ = std::make_unique<Crew>(members - 1);
     }
+    return members_ = int(crew_->threads.size()) + 1;
+}
+
+void Team::call(const std::function<void(int)>& task) {
+    if (members_ == 1) return task(0);
     crew_->tell(&task);
     task(0);
     crew_->await_end();

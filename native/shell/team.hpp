@@ -113,18 +113,21 @@ class Team {
 public:
     Team();
     ~Team();
-    // Runs work(member) on so many members; the caller is the first.
-    template <class Work> void run(int members, Work work) {
-        Barrier barrier(members);
-        call(members, [&](int index) { work(Member{index, members, &barrier}); });
+    // Calls so many members together, the caller the first; gives how many came: fewer where the machine has no more threads.
+    int gather(int members);
+    // Runs work(member) on those that came.
+    template <class Work> void run(Work work) {
+        Barrier barrier(members_);
+        call([&](int index) { work(Member{index, members_, &barrier}); });
     }
 
 private:
     struct Crew;
-    void call(int members, const std::function<void(int)>& task);
+    void call(const std::function<void(int)>& task);
     void dismiss();
 
     std::unique_ptr<Crew> crew_;
+    int members_ = 1;
     long process_ = 0;               // that started the crew: one forked off has none, and must not wait for it
 };
 
