@@ -57,6 +57,8 @@ nb::dict solve(const std::vector<const Case*>& cases, const InNumbers& case_of, 
     for (const Case* other : cases) {
         require(alike(first, *other), "all models of a batch must have the same bodies, hinges, loads, drives and stages");
     }
+    const ContactModel& contact = first.model.contact;
+    require(!led || (contact.obstacles.empty() && contact.pairs.empty()), "runs with contact have no followers");
     const size_t n = first.model.bodies.size(), motions = 6 * n * first.stages.size();
     Variations v;
     v.count = case_of.shape(0);

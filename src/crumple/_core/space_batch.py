@@ -125,7 +125,8 @@ def solve_many(
 
     `led`: the first variant alone is solved so.  The others take its steps, and in place of every solution of
     Newton's method the first Newton step from the leader's: half the difference of two of them that lie close
-    above and below the leader is the derivative of the run, see docs/theory/sensitivities.md.
+    above and below the leader is the derivative of the run, see docs/theory/sensitivities.md.  Runs with
+    contact have no followers.
     """
     out = _kernels.space.solve_many(
         [kernel_case(case) for case in variants.cases],

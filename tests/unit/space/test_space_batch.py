@@ -4,11 +4,12 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
+from tests.verification.contact_models import ball_shape, plane, sphere
 from tests.verification.space_models import m4_parts
 
 from crumple._core.space import SpaceSimulation, SpaceUntil, Until
 from crumple._core.space_batch import SpaceCase, SpaceStage, SpaceVariants, solve_many
-from crumple._core.space_model import SpaceLoad
+from crumple._core.space_model import SpaceLoad, SpaceModel
 from crumple._core.tree import Outcome
 
 COUNT, BODIES, HINGES, END = 9, 8, 12, 0.01
@@ -218,6 +219,15 @@ def test_an_error_in_poll_comes_through(variants):
 def test_arrays_of_other_shapes_are_refused(variants, change, message):
     with pytest.raises(ValueError, match=message):
         solve_many(replace(variants, **change))
+
+
+def test_followers_of_runs_with_contact_are_refused():
+    """Theirs would close at other times than the leader's, whose rates do not fit them then."""
+    model = SpaceModel((sphere((0, 0, 0.3)),), capsules=(ball_shape(0, (0, 0, 0.3)),), obstacles=(plane(),))
+    two = SpaceVariants((SpaceCase(model, (SpaceStage(0.1),)),), np.zeros(2, np.int64))
+    assert set(solve_many(two).outcome) == {Outcome.COMPLETE}
+    with pytest.raises(ValueError, match="contact"):
+        solve_many(two, led=True)
 
 
 def test_models_that_differ_in_kind_are_refused(variants):
