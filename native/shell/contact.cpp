@@ -103,6 +103,7 @@ void Contact::prepare(double way2) {
     all_ |= !(way2 < 0.25 * margin_ * margin_);
     chunks_ = (items() + items_at_once - 1) / items_at_once;
     if (found_.size() < chunks_) found_.resize(chunks_);
+    next_.store(0, std::memory_order_relaxed);
 }
 
 void Contact::evaluate(const Motions& m, const Member& member) {
@@ -127,7 +128,6 @@ void Contact::evaluate(const Motions& m, const Member& member) {
 void Contact::turn_over(const Motions& m) {
     std::swap(now_, before_);
     obstacles_.commit(m, now_);  // each obstacle keeps its own depth
-    next_.store(0, std::memory_order_relaxed);
 }
 
 void Contact::sum(const Motions& m, const Member& member) {

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from sheets import ELASTIC, STEEL, bits, grid, model
 
-from crumple._core.shell import RigidObstacle, Shape, ShellState, SpotWeld
+from crumple._core.shell import PrescribedVelocity, RigidObstacle, Shape, ShellState, SpotWeld
+from crumple.errors import Status
 
 T = 2e-3
 
@@ -149,6 +150,33 @@ def test_team_may_change_and_rest_between_calls():
         time.sleep(0.005)
     alone.advance(1.0, steps=180)
     assert bits(state) == bits(alone)
+
+
+def test_a_checkpoint_restores_what_has_failed_since():
+    """Plates in contact and, far away, an element that a drive turns over: no later touch is known."""
+    m, _ = two_plates(0.0021, 30.0)
+    far, quad = grid(1, 1, 0.01, 0.01)
+    far[:, 0] += 1.0
+    corner = len(m.position)
+    fixed = np.zeros((corner + 4, 6), dtype=bool)
+    fixed[corner + 1 :] = True
+    m = replace(
+        m,
+        position=np.concatenate([m.position, far]),
+        elements=np.concatenate([m.elements, quad + corner]),
+        velocity=np.concatenate([m.velocity, np.zeros((4, 3))]),
+        fixed=fixed,
+        motions=[PrescribedVelocity(corner, dof, [0.0], [150.0]) for dof in ("x", "y")],
+    )
+    failed, other = ShellState(m), ShellState(m)
+    failed.advance(1.0, steps=10)
+    assert failed.touching_nodes > 0
+    saved = failed.checkpoint()
+    assert failed.advance(1.0) is Status.INVERTED
+    for state in (failed, other):
+        state.restore(saved)
+        assert state.advance(1.0, steps=10) is Status.COMPLETE
+    assert bits(failed) == bits(other)
 
 
 def crossing_strips(height, **settings):
