@@ -56,7 +56,7 @@ void bind(nb::module_& m) {
     nb::class_<Simulation>(m, "Simulation", "One run: a frozen model, its state, and the adaptive stepper.")
         .def("__init__",
              [](Simulation* self, const Model& model, double accuracy, double minimum_step, double maximum_step) {
-                 new (self) Simulation(model, make_settings(accuracy, minimum_step, maximum_step));
+                 new (self) Simulation(model, {accuracy, minimum_step, maximum_step});
              },
              nb::arg("model"), nb::arg("accuracy"), nb::arg("minimum_step"), nb::arg("maximum_step"))
         .def("set_motion",

@@ -63,7 +63,7 @@ nb::dict solve(const std::vector<const Model*>& models, const InNumbers& model_o
     v.load_scale = rows(load_scale, v.count, first.loads.size(), "load_scale must have shape (variants, loads)");
     v.bodies = rows(bodies, v.count, 4 * n, "bodies must have shape (variants, bodies, 4)");
     v.gravity = rows(gravity, v.count, 2, "gravity must have shape (variants, 2)");
-    const Settings settings = make_settings(accuracy, minimum_step, maximum_step);
+    const Settings settings{accuracy, minimum_step, maximum_step};
     const Finals finals = unlocked(poll, [&](const auto& ask) { return solve_many(v, end, settings, threads, ask); });
     return to_dict(finals, first, v.count);
 }

@@ -79,14 +79,6 @@ Model make_model(const InNumbers& parent, const InNumbers& joint, const In& bodi
 
 }  // namespace
 
-Settings make_settings(double accuracy, double minimum_step, double maximum_step) {
-    Settings settings;
-    settings.accuracy = accuracy;
-    settings.minimum_step = minimum_step;
-    settings.maximum_step = maximum_step;
-    return settings;
-}
-
 void bind_model(nb::module_& m) {
     nb::class_<Model>(m, "Model", "Constants of a planar tree of bodies.")
         .def("__init__",

@@ -1,4 +1,4 @@
-// What the bindings of the multibody kernels share: the model and settings from plain Python data.
+// What the bindings of the multibody kernels share: the model from plain Python data.
 #pragma once
 
 #include "multibody/bind_hinge.hpp"
@@ -9,7 +9,6 @@ inline namespace CRUMPLE_ARITHMETIC {
 
 namespace nb = nanobind;
 
-Settings make_settings(double accuracy, double minimum_step, double maximum_step);
 void bind_model(nb::module_& m);
 
 }  // namespace CRUMPLE_ARITHMETIC

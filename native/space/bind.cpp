@@ -296,11 +296,7 @@ void bind(nb::module_& m) {
     nb::class_<Simulation>(m, "Simulation", "One run: a frozen model, its state, and the adaptive stepper.")
         .def("__init__",
              [](Simulation* self, const nb::dict& model, double accuracy, double minimum_step, double maximum_step) {
-                 Settings settings;
-                 settings.accuracy = accuracy;
-                 settings.minimum_step = minimum_step;
-                 settings.maximum_step = maximum_step;
-                 new (self) Simulation(make_model(model), settings);
+                 new (self) Simulation(make_model(model), {accuracy, minimum_step, maximum_step});
              })
         .def("set_motion",
              [](Simulation& s, const In& velocity, const In& impulse) {
