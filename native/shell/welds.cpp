@@ -214,10 +214,14 @@ void SpotWelds::restore(const double*& in) {
     }
 }
 
-// Tied nodes as they move, in the order of the welds' list.
+// Tied nodes as they move, in the order of the welds' list.  Nodes of failed welds are left out: other threads move them meanwhile.
 std::vector<SpotWelds::Motion6> Simulation::weld_motion() const {
-    std::vector<SpotWelds::Motion6> motion;
-    for (Index n : welds_->nodes()) motion.push_back({read3(&velocity_[velocity_record * n]), read3(&velocity_[velocity_record * n + 4])});
+    std::vector<SpotWelds::Motion6> motion(welds_->nodes().size());
+    for (std::size_t i = 0; i < motion.size(); i++) {
+        const Index n = welds_->nodes()[i];
+        if (kind_[n] != tied_node) continue;
+        motion[i] = {read3(&velocity_[velocity_record * n]), read3(&velocity_[velocity_record * n + 4])};
+    }
     return motion;
 }
 
