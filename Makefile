@@ -12,10 +12,13 @@ PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 pytho
 	$(shell $(p) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
 BIN := $(VENV)/bin
 NATIVE := $(shell find native -type f -name '*.[ch]pp') CMakeLists.txt pyproject.toml
+KERNEL_TESTS := tests/unit/multibody tests/unit/space tests/unit/shell
 DEMO := out/demo
 # AXIS=strong turns the section of the tube upright
 TUBE := $(if $(filter strong,$(AXIS)),out/tube_upright.yaml,examples/01_tube_bending.yaml)
 SANITIZED := build/sanitized
+SANITIZERS_address := address,undefined
+SANITIZERS_thread := thread
 
 .PHONY: demo test check verify bench clean install
 
@@ -37,11 +40,12 @@ check: $(VENV)/installed-test $(VENV)/installed-check
 	$(BIN)/lint-imports
 	$(BIN)/python tools/sizes.py
 
-verify: $(VENV)/installed-test $(SANITIZED)/installed
+verify: $(VENV)/installed-test $(SANITIZED)/address/installed $(SANITIZED)/thread/installed
 	mkdir -p out
 	$(BIN)/python -m pytest --figures out/figures.json
 	$(BIN)/python tools/verification_table.py out/figures.json docs/verification.md
-	tools/sanitized.sh $(SANITIZED)/bin/python -m pytest tests/verification $(wildcard tests/unit/multibody tests/unit/space tests/unit/shell) -m "not slow"
+	tools/sanitized.sh address $(SANITIZED)/address/bin/python -m pytest tests/verification $(KERNEL_TESTS) -m "not slow" --capture=sys
+	tools/sanitized.sh thread $(SANITIZED)/thread/bin/python -m pytest $(KERNEL_TESTS) -k "threads or team" --capture=sys
 
 bench: $(VENV)/installed-test
 	@set -e; for script in tests/benchmark/*.py; do echo "== $$script"; $(BIN)/python $$script; done
@@ -65,12 +69,12 @@ $(VENV)/installed-%: tools/extra.py $(VENV)/installed
 	$(BIN)/python -m pip install --quiet --requirement $(VENV)/$*.txt
 	@touch $@
 
-# a second environment that borrows the packages of the first, but not its editable Crumple
-$(SANITIZED)/installed: $(VENV)/installed-test $(NATIVE) $(shell find src -name '*.py')
-	$(BIN)/python -m venv $(SANITIZED)
-	$(BIN)/python tools/borrow.py $(SANITIZED)
-	$(SANITIZED)/bin/python -m pip install --quiet --no-deps --force-reinstall . \
-		--config-settings=build-dir=build/sanitized-kernels \
+# environments that borrow the packages of the first, but not its editable Crumple
+$(SANITIZED)/%/installed: $(VENV)/installed-test $(NATIVE) $(shell find src -name '*.py')
+	$(BIN)/python -m venv $(@D)
+	$(BIN)/python tools/borrow.py $(@D)
+	$(@D)/bin/python -m pip install --quiet --no-deps --force-reinstall . \
+		--config-settings=build-dir=build/sanitized-kernels/$* \
 		--config-settings=cmake.build-type=RelWithDebInfo \
-		--config-settings=cmake.define.CRUMPLE_SANITIZE=ON
+		--config-settings=cmake.define.CRUMPLE_SANITIZE=$(SANITIZERS_$*)
 	@touch $@
