@@ -1,6 +1,6 @@
-"""Where the machine gives fewer threads than are asked for, those that came do the work, to the same bits.
+"""Teams of threads where the machine gives fewer than asked for, and where a process forks: the same bits.
 
-A process of its own lowers its limit of address space so far that only some of the threads' stacks find room.
+Processes of their own lower their limit of address space until only some of the threads find room for stacks.
 """
 
 import subprocess
@@ -41,6 +41,23 @@ limit()
 many = solve_many(variants, 0.01, threads=16)
 assert np.array_equal(one.pose, many.pose) and np.array_equal(one.outcome, many.outcome)
 """
+FORK = """
+import os
+import signal
+from crumple._core.shell import ShellState
+from tests.unit.shell.sheets import bits, grid, model
+sheet = model(*grid(60, 60))
+one, many = ShellState(sheet), ShellState(sheet)
+one.advance(1.0, steps=3)
+many.advance(1.0, steps=3, threads=3)
+child = os.fork()
+if child == 0:
+    signal.alarm(60)  # waits for ever where it should not
+one.advance(1.0, steps=3)
+many.advance(1.0, steps=3, threads=3)
+assert bits(one) == bits(many)
+assert child == 0 or os.waitpid(child, 0)[1] == 0
+"""
 
 
 def own_stacks() -> None:
@@ -49,10 +66,9 @@ def own_stacks() -> None:
     resource.setrlimit(resource.RLIMIT_STACK, (STACK, resource.getrlimit(resource.RLIMIT_STACK)[1]))
 
 
-@pytest.mark.parametrize("script", [SHELL, BATCH], ids=["shell", "batch"])
-def test_those_that_came_do_the_work(script):
+def run(script: str) -> None:
     done = subprocess.run(
-        [sys.executable, "-c", LIMIT + script],
+        [sys.executable, "-c", script],
         cwd=ROOT,
         env={"MALLOC_ARENA_MAX": "1", "PYTHONPATH": str(ROOT)},
         preexec_fn=own_stacks,  # a thread's stack is as large as this limit
@@ -61,3 +77,12 @@ def test_those_that_came_do_the_work(script):
         check=False,
     )
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("script", [SHELL, BATCH], ids=["shell", "batch"])
+def test_those_that_came_do_the_work(script):
+    run(LIMIT + script)
+
+
+def test_a_forked_process_has_a_team_of_its_own():
+    run(FORK)
