@@ -9,7 +9,7 @@ import typer
 
 if TYPE_CHECKING:
     from crumple.analysis import Analysis
-    from crumple.comparison import Comparison, CurveFile
+    from crumple.comparison import Comparison
     from crumple.report import ReportInput
 
 MOST_HINGES = 8
@@ -54,6 +54,7 @@ def compare(
 ) -> None:
     """Solve with both engines and compare. Writes multibody/, shell/ and report.html to a folder."""
     from crumple.analysis import load, with_lines
+    from crumple.cli.curves import curves_of
     from crumple.cli.folder import results_errors, results_folder
     from crumple.cli.progress import progress_bar, stop_on_interrupt
     from crumple.cli.shell_run import available_threads, long_run_of
@@ -62,7 +63,7 @@ def compare(
     from crumple.report import write_comparison
 
     analysis = load(file)
-    curves = [_curve(text, pair or []) for text in curve or []]
+    curves = curves_of(curve or [], pair or [])
     if second_mesh is not None:
         # refused before the folder is made
         with_mesh(analysis, second_mesh)
@@ -113,22 +114,6 @@ def write_both(found: Comparison, analysis: Analysis, file: Path, folder: Path) 
     return source
 
 
-def _curve(text: str, pairs: list[str]) -> CurveFile:
-    """A curve file from ``name=file.csv``."""
-    from crumple.comparison import read_curves
-
-    name, equals, path = text.partition("=")
-    if not equals or not name.strip() or not path.strip():
-        raise typer.BadParameter(f"'{text}' is not name=file.csv", param_hint="--curve")
-    renamed = {}
-    for entry in pairs:
-        column, equals, history = entry.partition("=")
-        if not equals or not column.strip() or not history.strip():
-            raise typer.BadParameter(f"'{entry}' is not column=history", param_hint="--pair")
-        renamed[column.strip()] = history.strip()
-    return read_curves(path.strip(), name.strip(), renamed)
-
-
 def _show(found: Comparison, folder: Path) -> None:
     """Print the verdict, a table of hinges, cautions, times, and where the files are."""
     import math
@@ -138,6 +123,7 @@ def _show(found: Comparison, folder: Path) -> None:
     from rich.table import Table
     from rich.text import Text
 
+    from crumple.report import curve_notes
     from crumple.report.comparison_wording import busy_note
     from crumple.units import format_quantity
 
@@ -177,6 +163,8 @@ def _show(found: Comparison, folder: Path) -> None:
         alone = found.times_faster(timing.stepping)
         also = f"; stepping alone {alone:.3g} times" if alone else ""
         console.print(f"Solved again, its laws known, {first} took {said}{also}")
+    for curve, compared in curve_notes(found):
+        console.print(Text(f"Curve {curve}", style="" if compared else "yellow"))
     for caution in found.trust.cautions:
         console.print(Text(f"Caution: {caution}", style="yellow"))
     console.print(Text(f"Results: {folder}  (open {folder / 'report.html'})"), soft_wrap=True)

@@ -16,9 +16,11 @@ from crumple.comparison.solving import (
     with_pictures,
 )
 from crumple.comparison.trust import Trust, energy_put_in
+from crumple.comparison.variant import MODEL_NAMES
 
 __all__ = [
     "EDITION",
+    "MODEL_NAMES",
     "SAMPLING_RATE",
     "Comparison",
     "CurveFile",

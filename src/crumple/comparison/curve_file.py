@@ -22,6 +22,8 @@ from crumple.units import QuantityError, unit_factor
 
 LARGEST_FILE = 50_000_000
 """Bytes; a history of some hundred thousand times and a dozen columns."""
+LARGEST = 1e100
+"""Magnitude of a number above which squares of it leave the range of the machine: no measurement is."""
 SHOWN = 10
 """Bad lines that are reported."""
 SUFFIXES = {
@@ -48,12 +50,15 @@ class CurveFile:
         By the name of the column, or of the channel that it was paired with.
     left_out
         Columns without a unit.
+    columns
+        Every column with a unit but that of time, as the file calls it.
     """
 
     name: str
     file: str
     signals: dict[str, Signal]
     left_out: tuple[str, ...] = ()
+    columns: tuple[str, ...] = ()
 
 
 def read_curves(path: Path | str, name: str = "", pairs: Mapping[str, str] | None = None) -> CurveFile:
@@ -74,7 +79,7 @@ def read_curves(path: Path | str, name: str = "", pairs: Mapping[str, str] | Non
     ------
     InputError
         With file and line: no such file, no column of time, nothing with a unit, an unknown unit, a number
-        missing, times that do not increase.
+        missing, times that do not increase, two columns of one name.
     """
     place = Path(path)
     text = _text(place)
@@ -107,15 +112,20 @@ def read_curves(path: Path | str, name: str = "", pairs: Mapping[str, str] | Non
             "the times do not increase", place, line, "", "at least two rows, each later than the last"
         )
     renamed = dict(pairs or {})
-    signals = {}
+    signals: dict[str, Signal] = {}
     for i, (title, _, unit) in columns.items():
-        if i != times[0]:
-            called = renamed.get(title, title)
-            side = -1.0 if called.startswith("-") else 1.0
-            signals[called.removeprefix("-")] = Signal(called.removeprefix("-"), unit, time, side * scaled[i])
+        if i == times[0]:
+            continue
+        called = renamed.get(title, title)
+        side, called = (-1.0 if called.startswith("-") else 1.0), called.removeprefix("-")
+        if called in signals:
+            todo = "leave one of them out, or give it another name"
+            raise _refused("two columns are one history", place, head_line, called, "", todo=todo)
+        signals[called] = Signal(called, unit, time, side * scaled[i])
     titles = next(csv.reader([head], delimiter=separator))
     left = tuple(title.strip() for i, title in enumerate(titles) if i not in columns)
-    return CurveFile(name or place.stem, str(place), signals, left)
+    named = tuple(title for i, (title, _, _) in columns.items() if i != times[0])
+    return CurveFile(name or place.stem, str(place), signals, left, named)
 
 
 def _text(place: Path) -> str:
@@ -128,7 +138,8 @@ def _text(place: Path) -> str:
             )
         return place.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
-        raise _refused("the file is not a text in UTF-8", place, 0, "", "a CSV file") from None
+        todo = "save it as CSV in UTF-8, which spreadsheets offer beside their own"
+        raise _refused("the file is not a text in UTF-8", place, 0, "", "a CSV file", todo=todo) from None
     except OSError as error:
         raise _refused(f"the file cannot be read: {error.strerror}", place) from None
 
@@ -180,10 +191,10 @@ def _numbers(rows: list[tuple[int, str]], separator: str, wanted: list[int], pla
     """Numbers of the wanted columns, (rows, columns)."""
     table, problems = [], []
     for line, text in rows:
-        cells = text.split(separator)
+        cells = next(csv.reader([text], delimiter=separator))
         values = [_number(cells[i]) if i < len(cells) else math.nan for i in wanted]
         table.append(values)
-        if not all(map(math.isfinite, values)):
+        if not all(abs(value) <= LARGEST for value in values):
             todo = "write plain numbers with a decimal point in every column that has a unit"
             problems.append(
                 Problem("this is not a row of numbers", text[:60], "", todo, "", str(place), line)

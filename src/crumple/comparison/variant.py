@@ -17,6 +17,8 @@ from crumple.structure.member import Bars, Hinge
 
 ELASTIC = "elastic-plastic"
 ELASTIC_HINGES, ELASTIC_MEMBERS, SHELL_LAWS = "elastic hinges", "elastic members", "laws of the shells"
+MODEL_NAMES = ("multibody", "shell", ELASTIC_HINGES, ELASTIC_MEMBERS, SHELL_LAWS)
+"""What a comparison calls its own results."""
 """What a comparison calls the further models."""
 LEAST_TURN = np.radians(2.0)
 """Plastic rotation [rad] from which a law can be read off."""

@@ -1,12 +1,14 @@
 """The report room: figures, tables and one self-contained page."""
 
 from crumple.report.comparison_page import write_comparison
+from crumple.report.curve_wording import curve_notes
 from crumple.report.layouts import Layout, layout_table, write_layouts
 from crumple.report.report import ReportInput, write_report
 
 __all__ = [
     "Layout",
     "ReportInput",
+    "curve_notes",
     "layout_table",
     "write_comparison",
     "write_layouts",

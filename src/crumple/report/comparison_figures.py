@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 
 import numpy as np
@@ -17,6 +18,8 @@ _HEAD, _FOOT = 0.26, 0.34
 _LEFT, _RIGHT = 0.42, 0.95
 _ORDER = (1, 0, 2, 3, 4, 5)
 """Colours of reference, candidate and further models, so that the first two keep theirs."""
+MOST_CHANNELS = 4
+"""Histories of curve files with a figure of their own."""
 SAMPLES = 400
 """Points at which two curves are held against each other to find a shift."""
 
@@ -60,6 +63,46 @@ def _measures(comparison: Comparison, name: str) -> list[tuple[str, Floats, Floa
                     values = motion.sense * signal.values
                     lines.append((curve.name, signal.time, values, np.gradient(values, signal.time)))
     return lines
+
+
+def drawn_channels(comparison: Comparison) -> list[str]:
+    """Histories of curve files that a result has too and no other figure shows, `MOST_CHANNELS` at most."""
+    elsewhere = re.compile(r"hinge\..+\.rotation|member\..+\.chord_rotation")
+    names = dict.fromkeys(name for curve in comparison.curves for name in curve.signals)
+    return [
+        name
+        for name in names
+        if not elsewhere.fullmatch(name)
+        and any(p.channel == name and p.reference in _files(comparison) for p in comparison.pairs)
+    ][:MOST_CHANNELS]
+
+
+def _files(comparison: Comparison) -> set[str]:
+    return {curve.name for curve in comparison.curves}
+
+
+def history(comparison: Comparison, channel: str, figure_name: str) -> str:
+    """One history against time in both results and every curve file that has it, as SVG."""
+    sources = [(s.name, s.signals.get(channel)) for s in (comparison.candidate, comparison.reference)]
+    curves = [(c.name, c.signals.get(channel)) for c in comparison.curves]
+    unit_of_all = next(s.unit for _, s in curves if s is not None)
+    found = [
+        (name, s, i)
+        for i, (name, s) in enumerate(sources + curves)
+        if s is not None and s.unit == unit_of_all
+    ]
+    time = _time_factor(comparison)
+    unit, factor = display_unit(unit_of_all, largest([s.values for _, s, _ in found]))
+    # a curve that goes on after the runs is drawn as far as they went
+    end = max(float(s.result.time[-1]) for s in (comparison.candidate, comparison.reference)) * (1.0 + 1e-9)
+    lines = [
+        Line(name, s.time[s.time <= end] / time, s.values[s.time <= end] / factor, index)
+        for name, s, index in found
+    ]
+    figure = new_figure(HALF, _HEAD + _PANEL + _FOOT)
+    axes = add_axes(figure, _LEFT, _FOOT, HALF - _LEFT - _RIGHT, _PANEL)
+    _draw(axes, [line for line in lines if len(line.x)], _time_name(comparison), unit, labels=True)
+    return to_svg(figure, figure_name, f"{channel} against time.")
 
 
 def energy_as_drawn_once(comparison: Comparison, name: str, figure_name: str) -> tuple[str, str] | None:

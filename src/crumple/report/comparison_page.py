@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from crumple.comparison import Comparison
+from crumple.report.curve_wording import curve_notes
 from crumple.report.report import MAX_INPUT, ReportInput, embedded, write_figures
 from crumple.result.files import write_text
 
@@ -92,6 +93,9 @@ def _draw(comparison: Comparison, pictures: Sequence[float]) -> list[tuple[str, 
             clean = figures.energy_cleanly(comparison, name, f"plastic-{i}")
             caption = f"Hinge {name}, cleanly: plastic work against plastic rotation, rotation less M/k."
             found.append((f"plastic_{i}", clean, caption))
+        for i, channel in enumerate(figures.drawn_channels(comparison), 1):
+            caption = f"{channel} against time, with the curves from files."
+            found.append((f"curve_{i}", figures.history(comparison, channel, f"curve-{i}"), caption))
         if comparison.variants and comparison.hinges:
             svg = figures.variants_over_rotation(comparison, ranked(comparison)[0].name)
             caption = "Total energy against the rotation at the far end, nothing shifted, for every model."
@@ -146,6 +150,7 @@ def _render(comparison: Comparison, source: ReportInput, drawn: list[tuple[str, 
         names=(comparison.candidate.name, comparison.reference.name),
         key_figures=wording.key_figures(comparison),
         figures=figures,
+        curve_figures=[figure for name, figure in figures.items() if name.startswith("curve_")],
         hinge_figures=hinges,
         hinge_tables=wording.hinge_tables(comparison),
         omitted=max(len(comparison.hinges) - wording.MOST_HINGES, 0),
@@ -153,27 +158,12 @@ def _render(comparison: Comparison, source: ReportInput, drawn: list[tuple[str, 
         opening_table=wording.opening_table(comparison),
         model_table=wording.model_table(comparison),
         speed_table=wording.speed_table(comparison),
-        curves=_curves(comparison),
+        curves=[text for text, _ in curve_notes(comparison)],
         notes=_notes(comparison),
         input_text=text[:MAX_INPUT],
         input_cut=MAX_INPUT if len(text) > MAX_INPUT else 0,
         input_name=source.name,
     )
-
-
-def _curves(comparison: Comparison) -> list[str]:
-    """What became of every curve file, in sentences."""
-    said = []
-    for curve in comparison.curves:
-        unpaired = comparison.unpaired.get(curve.name, ())
-        paired = [name for name in curve.signals if name not in unpaired]
-        text = f"{curve.name} ({Path(curve.file).name}): compared {', '.join(paired) or 'nothing'}."
-        if unpaired:
-            text += f" No history of the results is called {', '.join(unpaired)}."
-        if curve.left_out:
-            text += f" Without a unit, and so left out: {', '.join(curve.left_out)}."
-        said.append(text)
-    return said
 
 
 def _notes(comparison: Comparison) -> list[tuple[str, tuple[str, ...], tuple[str, ...]]]:

@@ -11,7 +11,10 @@ from tests.unit.cli.test_shell_run import coarse, crumple
 
 def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
     measured = tmp_path / "test.csv"
-    measured.write_text("time [ms],tip [deg],M2\n0,0,1\n6,5,2\n12,9,3\n")
+    measured.write_text(
+        "time [ms],tip [deg],M2,node.tip.displacement.z [mm],hinge.root.moment [mm]\n"
+        "0,0,1,0,1\n6,5,2,90,1\n12,9,3,160,1\n"
+    )
     run = crumple(
         "compare", coarse(tmp_path, 12), "--out", tmp_path / "out", "--threads", 1,
         "--curve", f"bench={measured}", "--pair", "tip=-member.tube.chord_rotation", "--second-mesh", 1.5,
@@ -20,6 +23,9 @@ def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
     assert "times faster" in run.stdout
     assert "Solved again, its laws known, multibody took" in run.stdout
     assert "Caution" in run.stdout
+    said = " ".join(run.stdout.split())
+    assert "Curve bench (test.csv): member.tube.chord_rotation rated 0." in said
+    assert "hinge.root.moment is in m, in the results in N*m: not compared" in said
     for name in ("multibody", "shell"):
         summary = json.loads((tmp_path / "out" / name / "summary.json").read_text())
         assert summary["fidelity"] == name
@@ -35,6 +41,7 @@ def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
         "laws of the shells",
         "elastic members",
         "left out: M2",
+        "node.tip.displacement.z against time, with the curves from files.",
         'id="player"',
         "shell, 30 mm",
         "Solved again",
@@ -60,6 +67,9 @@ def test_run_with_both_fidelities(tmp_path: Path) -> None:
         (("--curve", "nothing"), "is not name=file.csv"),
         (("--curve", "a=missing.csv"), "there is no such file"),
         (("--curve", "a=missing.csv", "--pair", "x"), "is not column=history"),
+        (("--pair", "tip=node.tip.displacement.z"), "no curve file has a column"),
+        (("--pair", "x=y", "--pair", "x=z"), "is paired twice"),
+        (("--curve", "shell=missing.csv"), "is that of a result"),
         (("--second-mesh", "1"), "this is no other mesh"),
         (("--second-mesh", "nan"), "this is no other mesh"),
     ],

@@ -56,6 +56,8 @@ def test_columns_are_renamed_and_turned_round(tmp_path):
         ("time [s],x [rad]\n0,1\n0.1,oops\n", "not a row of numbers", 3),
         ("time [s],x [rad]\n0,1\n0.1,nan\n", "not a row of numbers", 3),
         ("time [s],x [rad]\n0,1\n0.1,1\n0.1,2\n", "the times do not increase", 4),
+        ("time [s],x [rad]\n0,1\n0.1,1e200\n", "not a row of numbers", 3),
+        ("time [s],x [rad],x [deg]\n0,1,2\n0.1,1,2\n", "two columns are one history", 1),
         (b"time [s],x [rad]\n0,\xff\xfe\n", "not a text in UTF-8", 0),
     ],
 )
@@ -67,6 +69,18 @@ def test_what_is_wrong_is_said_with_its_line(tmp_path, text, says, line):
     assert says in problem.what
     assert problem.file == str(path)
     assert problem.line == line
+
+
+def test_quoted_numbers_are_numbers(tmp_path):
+    file = read_curves(written(tmp_path, '"time [s]","x [rad]"\n"0","1.5"\n"0.1","-2"\n'))
+    assert file.signals["x"].values == pytest.approx([1.5, -2.0])
+
+
+def test_two_columns_cannot_be_paired_with_one_history(tmp_path):
+    path = written(tmp_path, "time_s,a_rad,b_rad\n0,1,2\n0.1,3,4\n")
+    assert read_curves(path).columns == ("a", "b")
+    with pytest.raises(InputError, match="two columns are one history"):
+        read_curves(path, pairs={"a": "-b"})
 
 
 def test_a_missing_file_is_said(tmp_path):
