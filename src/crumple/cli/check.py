@@ -2,25 +2,54 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from crumple.cli.fidelity import Fidelity
 
-def check(file: Annotated[Path, typer.Argument(help="Input file (YAML).", show_default=False)]) -> None:
-    """Report every mistake in an input file, and tell what of the structure is free or held twice."""
+if TYPE_CHECKING:
+    from crumple.analysis import Analysis
+
+
+def check(
+    file: Annotated[Path, typer.Argument(help="Input file (YAML).", show_default=False)],
+    *,
+    fidelity: Annotated[Fidelity, typer.Option(help="Which solver is asked.")] = Fidelity.MULTIBODY,
+) -> None:
+    """Report every mistake in an input file, and what a solver says of the structure before it steps."""
     from crumple.analysis import check as problems_of
     from crumple.analysis import load
     from crumple.errors import InputError
-    from crumple.multibody import infinitesimal, link, notes, unheld_notes
 
-    problems = problems_of(file)
-    if problems:
-        raise InputError(problems)
+    # what every solver refuses is told once
+    found = {str(p): p for solver in fidelity.solvers for p in problems_of(file, solver.value)}
+    if found:
+        raise InputError(list(found.values()))
     typer.echo(f"{file}: no mistakes found")
     analysis = load(file)
+    for solver in fidelity.solvers:
+        notes = _shell_notes(analysis) if solver is Fidelity.SHELL else _multibody_notes(analysis)
+        for note in notes:
+            typer.echo(f"  {note}")
+
+
+def _multibody_notes(analysis: Analysis) -> Iterator[str]:
+    """What of the structure is free or held twice."""
+    from crumple.multibody import infinitesimal, link, notes, unheld_notes
+
     linkage = link(analysis.structure)
     loose = unheld_notes(analysis.structure, linkage, analysis.stages)
-    for note in filter(None, (*notes(linkage), infinitesimal(linkage), *loose)):
-        typer.echo(f"  {note}")
+    yield from filter(None, (*notes(linkage), infinitesimal(linkage), *loose))
+
+
+def _shell_notes(analysis: Analysis) -> Iterator[str]:
+    """Mesh and warnings."""
+    from crumple.cli.shell_run import shell_notes
+
+    mesh, *warnings = shell_notes(analysis)
+    yield mesh
+    for warning in warnings:
+        yield f"Warning: {warning}"

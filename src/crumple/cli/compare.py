@@ -65,10 +65,11 @@ def compare(
     analysis = load(file)
     curves = curves_of(curve or [], pair or [])
     if second_mesh is not None:
-        # refused before the folder is made
-        with_mesh(analysis, second_mesh)
+        # refused before the folder is made, and before the first mesh is solved
+        _refuse_mesh(with_mesh(analysis, second_mesh), second_mesh)
     folder = results_folder(out, file)
-    results_folder(str(folder / "shell"), file)
+    for name in ("multibody", "shell"):
+        results_folder(str(folder / name), file)
     with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
         try:
             found = solve_and_compare(
@@ -89,6 +90,21 @@ def compare(
     _show(found, folder)
     if not all(s.result.status.ok for s in (found.candidate, found.reference)):
         raise typer.Exit(1)
+
+
+def _refuse_mesh(analysis: Analysis, factor: float) -> None:
+    """Refuse a second mesh that the shell solver would refuse."""
+    from dataclasses import replace
+
+    from crumple.cli.shell_run import shell_notes
+    from crumple.errors import InputError
+
+    try:
+        shell_notes(analysis)
+    except InputError as error:
+        asked = f"--second-mesh {factor:g}"
+        problems = [replace(p, what=f"{p.what}, with {asked}", where=asked) for p in error.problems]
+        raise InputError(problems) from None
 
 
 def write_both(found: Comparison, analysis: Analysis, file: Path, folder: Path) -> ReportInput:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+
+from crumple.cli.fidelity import Fidelity
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -16,14 +17,6 @@ if TYPE_CHECKING:
 
 MOST_HINGES = 20
 """Hinges that the table shows; the files hold all."""
-
-
-class Fidelity(StrEnum):
-    """Solvers by name."""
-
-    MULTIBODY = "multibody"
-    SHELL = "shell"
-    BOTH = "both"
 
 
 def run(
@@ -57,7 +50,7 @@ def run(
     folder = results_folder(out, file)
     both = fidelity is Fidelity.BOTH
     summaries, good = {}, True
-    for one in (Fidelity.MULTIBODY, Fidelity.SHELL) if both else (fidelity,):
+    for one in fidelity.solvers:
         place = results_folder(str(folder / one.value), file) if both else folder
         result = _solve(analysis, file, place, (one, threads, restart))
         good = good and result.status.ok

@@ -1,4 +1,4 @@
-"""What `crumple run --fidelity shell` needs beside: threads, restart files, and news while it runs."""
+"""What `crumple run --fidelity shell` needs beside: threads, restart files, news, and notes before it."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from crumple.analysis import Analysis
     from crumple.cli.progress import Bar
     from crumple.shell import LongRun, Moment
 
@@ -25,6 +26,26 @@ def available_threads() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
+
+
+def shell_notes(analysis: Analysis) -> tuple[str, ...]:
+    """What the shell solver says of an analysis before its first step: mesh and warnings.
+
+    Raises
+    ------
+    InputError
+        If it cannot take the structure, or a setting does not fit its mesh.
+    """
+    from crumple.shell import ShellRun, start_notes
+
+    run = ShellRun(
+        duration=analysis.duration,
+        every=analysis.output_interval,
+        settings=analysis.shell,
+        outputs=analysis.outputs,
+        stages=analysis.stages,
+    )
+    return start_notes(analysis.structure, run)
 
 
 def long_run_of(folder: Path, restart: Path | None, bar: Bar) -> LongRun:

@@ -7,7 +7,7 @@ structure becomes, `report_of` what the mesh is like.
 from crumple.shell.mesh import Mesh, Tube, mesh_of
 from crumple.shell.model import Lowered, lower
 from crumple.shell.quality import MeshReport, report_of
-from crumple.shell.solve import solve_shell
+from crumple.shell.solve import solve_shell, start_notes
 from crumple.shell.stepping import LongRun, Moment, ShellRun
 
 __all__ = [
@@ -22,4 +22,5 @@ __all__ = [
     "mesh_of",
     "report_of",
     "solve_shell",
+    "start_notes",
 ]

@@ -14,7 +14,7 @@ from crumple.shell import trust
 from crumple.shell.contour import Floats
 from crumple.shell.histories import channels_of, summaries
 from crumple.shell.model import Lowered, lower
-from crumple.shell.record import ENERGIES, Record
+from crumple.shell.record import ENERGIES, Record, Sampler
 from crumple.shell.refusals import refuse_steps
 from crumple.shell.shapes import states_of
 from crumple.shell.stepping import Cancel, Hooks, LongRun, Progress, ShellRun, Stepping, with_place
@@ -58,17 +58,43 @@ def solve_shell(
     docs/theory/shell_lowering.md.  Verified in tests/verification/test_shell_tube_reference.py.
     """
     begin = time.perf_counter()
+    lowered, state = _started(structure, run)
+    hooks = Hooks(begin, progress, cancel, long_run or LongRun())
+    stepping = Stepping(structure, run, lowered, state, hooks)
+    status, reason = stepping.run_to_end()
+    return _result(structure, run, stepping, status, reason)
+
+
+def start_notes(structure: Structure, run: ShellRun) -> tuple[str, ...]:
+    """What a shell run would say before its first step: its mesh, then its warnings.
+
+    Parameters
+    ----------
+    structure, run
+        As `solve_shell` takes them.
+
+    Raises
+    ------
+    InputError
+        As `solve_shell` does.
+    """
+    lowered, state = _started(structure, run)
+    record = Record()
+    record.add({"at": np.array(0.0), **Sampler.of(lowered, run.outputs).sample(state)})
+    steps = sum(stage.duration for stage in run.sequence) / state.first_time_step
+    mesh = f"Shells: {lowered.report}, some {steps:.2g} steps."
+    return (mesh, *trust.warnings(structure, lowered, record, state))
+
+
+def _started(structure: Structure, run: ShellRun) -> tuple[Lowered, ShellState]:
+    """Model and state before the first step, once every setting has been found to fit."""
     lowered = lower(structure, run.settings, run.outputs, stage=run.sequence[0])
     try:
         state = ShellState(lowered.model)
     except InputError as error:
         raise _named(error, lowered) from error
     refuse_steps(run.settings, run.sequence, state.first_time_step)
-    lowered = replace(lowered, report=replace(lowered.report, time_step=state.first_time_step))
-    hooks = Hooks(begin, progress, cancel, long_run or LongRun())
-    stepping = Stepping(structure, run, lowered, state, hooks)
-    status, reason = stepping.run_to_end()
-    return _result(structure, run, stepping, status, reason)
+    return replace(lowered, report=replace(lowered.report, time_step=state.first_time_step)), state
 
 
 def _result(structure: Structure, run: ShellRun, stepping: Stepping, status: Status, reason: str) -> Result:

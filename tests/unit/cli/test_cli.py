@@ -139,6 +139,38 @@ def test_check(run_command, tmp_path: Path) -> None:
     assert "problems" in err
 
 
+def test_check_asks_the_solver_that_is_named(run_command, tmp_path: Path) -> None:
+    code, out, err = run_command("check", EXAMPLE, "--fidelity", "both")
+    assert (code, err) == (0, "")
+    assert "Shells: " in out
+    assert "time step" in out
+    # one flat wall: the multibody solver takes it, and the shells say that its rotations mean nothing
+    flat = tmp_path / "flat.yaml"
+    flat.write_text(
+        "crumple: 1\nmaterials: {steel: {grade: S355}}\nnodes: {a: [0, 0, 0], b: [0.1 m, 0, 0]}\n"
+        "sections: {sheet: {type: walls,\n"
+        "  walls: [{points: [[-20 mm, 0 mm], [20 mm, 0 mm]], thickness: 2 mm}]}}\n"
+        "members: {strip: {nodes: [a, b], section: sheet, material: steel,\n"
+        "  hinges: [{name: h, at: 30 mm, axis: y, law: {type: constant, moment: 10 N*m}}]}}\n"
+        "supports: {clamp: {node: a, fix: all}}\ninitial_velocity: [{rotation: 5 rad/s, axis: [0, 1, 0]}]\n"
+        "analysis: {duration: 1 ms, shell: {element_size: 10 mm}}\n"
+    )
+    assert "one flat wall" not in run_command("check", flat)[1]
+    code, out, err = run_command("check", flat, "--fidelity", "shell")
+    assert code == 0, err
+    assert "Warning: Member strip is one flat wall" in out
+    bad = tmp_path / "bad.yaml"
+    bad.write_text(
+        EXAMPLE.read_text().replace("duration: 100 ms", "duration: 100 ms\n  shell: {element_size: 90 mm}")
+    )
+    assert run_command("check", bad)[0] == 0
+    for fidelity in ("shell", "both"):
+        code, out, err = run_command("check", bad, "--fidelity", fidelity)
+        assert (code, out) == (2, "")
+        assert err.count("the elements are longer than the section of member tube is wide") == 1
+        assert "bad.yaml:38" in err
+
+
 @pytest.mark.parametrize("verb", ["run", "compare", "check"])
 @pytest.mark.parametrize(
     "content",

@@ -72,6 +72,7 @@ def test_run_with_both_fidelities(tmp_path: Path) -> None:
         (("--curve", "shell=missing.csv"), "is that of a result"),
         (("--second-mesh", "1"), "this is no other mesh"),
         (("--second-mesh", "nan"), "this is no other mesh"),
+        (("--second-mesh", "9"), "is wide, with --second-mesh 9"),
     ],
 )
 def test_bad_requests_are_refused_before_anything_is_solved(tmp_path: Path, arguments, says) -> None:
@@ -80,3 +81,15 @@ def test_bad_requests_are_refused_before_anything_is_solved(tmp_path: Path, argu
     assert says in run.stderr
     assert "Traceback" not in run.stderr
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("name", ["multibody", "shell"])
+def test_what_is_in_the_way_is_told_before_anything_is_solved(tmp_path: Path, name: str) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / name).write_text("in the way")
+    run = crumple("compare", coarse(tmp_path, 12), "--out", out, "--threads", 1)
+    assert run.returncode == 2
+    assert "a file of this name, or above it, is in the way" in run.stderr
+    assert not (out / "shell" / "summary.json").exists()
+    assert f"{out / name}: a file" in " ".join(run.stderr.split())
