@@ -158,7 +158,7 @@ def test_the_page_says_what_was_found(page, found):
     assert len(text) < LARGEST_PAGE
     for expected in (
         "multibody against shell", "ISO/TS 18571:2014", "10 kHz", "elastic hinges", "Stepping alone",
-        "is shifted by", "Without a unit, and so left out: M2", "&lt;script&gt;alert(1)",
+        "is shifted by", "without a unit, and so left out: M2", "&lt;script&gt;alert(1)",
     ):  # fmt: skip
         assert expected in text, expected
     assert "<script>alert(1)" not in text
