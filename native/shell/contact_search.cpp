@@ -10,19 +10,22 @@ PointGrid::PointGrid(const double* points, int stride, std::size_t count, double
     double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300};
     for (std::size_t n = 0; n < count; n++)
         for (int i = 0; i < 3; i++) {
+            if (!std::isfinite(point(n)[i])) continue;
             low[i] = std::min(low[i], point(n)[i]);
             high[i] = std::max(high[i], point(n)[i]);
         }
+    double size[3];
+    for (int i = 0; i < 3; i++) size[i] = std::max(high[i] - low[i], 0.0);
     // at most about eight cells per point, so that a far-flung node cannot exhaust the memory
     for (;; cell *= 1.3) {
         double cells = 1.0;
-        for (int i = 0; i < 3; i++) cells *= std::floor((high[i] - low[i]) / cell) + 1.0;
+        for (int i = 0; i < 3; i++) cells *= std::floor(size[i] / cell) + 1.0;
         if (!(cells > 8.0 * double(count) + 64.0)) break;
     }
     inverse_ = 1.0 / cell;
     for (int i = 0; i < 3; i++) {
         origin_[i] = low[i];
-        count_[i] = long((high[i] - low[i]) / cell) + 1;
+        count_[i] = long(size[i] / cell) + 1;
     }
     // points by cell, counted and then placed
     std::vector<Index> cell_of(count);

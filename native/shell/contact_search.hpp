@@ -57,7 +57,9 @@ public:
 
 private:
     long along(int axis, double x) const {
-        return long(std::clamp((x - origin_[axis]) * inverse_, 0.0, double(count_[axis] - 1)));
+        const double cell = (x - origin_[axis]) * inverse_;
+        // what is no number goes to the first
+        return cell > 0.0 ? long(std::min(cell, double(count_[axis] - 1))) : 0;
     }
 
     double origin_[3] = {0.0, 0.0, 0.0}, inverse_ = 0.0;

@@ -7,7 +7,15 @@ import numpy as np
 import pytest
 from sheets import ELASTIC, STEEL, bits, grid, model
 
-from crumple._core.shell import PrescribedVelocity, RigidObstacle, Shape, ShellState, SpotWeld
+from crumple._core.shell import (
+    PrescribedVelocity,
+    RigidObstacle,
+    RigidSet,
+    Shape,
+    Sheet,
+    ShellState,
+    SpotWeld,
+)
 from crumple.errors import Status
 
 T = 2e-3
@@ -177,6 +185,32 @@ def test_a_checkpoint_restores_what_has_failed_since():
         state.restore(saved)
         assert state.advance(1.0, steps=10) is Status.COMPLETE
     assert bits(failed) == bits(other)
+
+
+@pytest.mark.parametrize("speed", [np.nan, np.inf])
+def test_a_rigid_set_that_is_nowhere_leaves_the_search_to_the_others(speed):
+    """A rigid sheet far away is driven out of all numbers; the plates meet as without it."""
+    m, _ = two_plates(0.0021, 30.0)
+    far, quads = grid(2, 2, 0.02, 0.02)
+    far[:, 0] += 0.3
+    nodes = np.arange(len(far)) + len(m.position)
+    with_set = replace(
+        m,
+        position=np.concatenate([m.position, far]),
+        elements=np.concatenate([m.elements, quads + nodes[0]]),
+        velocity=np.concatenate([m.velocity, np.zeros((9, 3))]),
+        materials=[ELASTIC, replace(STEEL, rigid=True)],
+        sheets=[m.sheets[0], Sheet(1)],
+        sheet=np.repeat([0, 1], [len(m.elements), 4]),
+        rigid_sets=[RigidSet(nodes)],
+        motions=[PrescribedVelocity(0, "x", [0.0], [speed], rigid_set=True)],
+    )
+    state, alone = ShellState(with_set), ShellState(m)
+    for each in (state, alone):
+        each.advance(1.0, steps=40)
+    assert not np.isfinite(state.position[nodes]).all()
+    assert state.contact_searches > alone.contact_searches
+    np.testing.assert_allclose(state.position[: nodes[0]], alone.position, rtol=0, atol=1e-15)
 
 
 def crossing_strips(height, **settings):
