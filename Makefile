@@ -17,7 +17,7 @@ DEMO := out/demo
 # AXIS=strong turns the section of the tube upright
 TUBE := $(if $(filter strong,$(AXIS)),out/tube_upright.yaml,examples/01_tube_bending.yaml)
 SANITIZED := build/sanitized
-SANITIZERS_address := address,undefined
+SANITIZERS_address := address,undefined,float-cast-overflow
 SANITIZERS_thread := thread
 
 .PHONY: demo test check verify bench clean install
