@@ -13,6 +13,8 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 // Rows of a node, at most: six of a joint.
 constexpr int most_block = 6;
+// Share of the diagonal below which a difference is no number; where a pivot is put up to it, refinement has to mend.
+constexpr double rounding = 2.2e-16;
 
 // Sizes known to the compiler for the commonest block, six rows.
 template <int N>
@@ -86,6 +88,7 @@ void BlockCholesky::analyse(const std::vector<int>& size, const std::vector<std:
     eliminate(size, near);
     values_.assign(values_.size(), 0.0);
     inverse_.assign(at(start_.back()), 0.0);
+    redundant_.assign(at(start_.back()), 0);
 }
 
 // Minimum degree with the graph of the factor kept explicitly: `near` holds the neighbours that are not yet eliminated.
@@ -156,20 +159,21 @@ size_t BlockCholesky::block(int a, int b) const {
 
 void BlockCholesky::clear() { std::fill(values_.begin(), values_.end(), 0.0); }
 
-// Lower triangle in place; returns the number of redundant rows.
-int BlockCholesky::factor_diagonal(int node, double threshold, const double* floor) {
+// Lower triangle in place.
+void BlockCholesky::factor_diagonal(int node, double threshold, const double* floor, const char* known) {
     const int n = size_[at(node)];
     double* a = &values_[diagonal_[at(node)]];
     double* reciprocal = &inverse_[at(start_[at(node)])];
-    int weak = 0;
     for (int j = 0; j < n; j++) {
         double pivot = a[j * n + j];
         for (int k = 0; k < j; k++) pivot -= a[j * n + k] * a[j * n + k];
         // `reciprocal` held the diagonal before elimination
         if (floor[j] > 0) {
             if (!(pivot > floor[j])) pivot = floor[j];
-        } else if (!(pivot > threshold * reciprocal[j])) {
-            weak++;
+        } else if (known && !known[j]) {
+            pivot = std::max(pivot, rounding * reciprocal[j]);
+        } else if (known || !(pivot > threshold * reciprocal[j])) {
+            redundant_[at(start_[at(node)] + j)] = 1;
             a[j * n + j] = 0;
             reciprocal[j] = 0;
             for (int i = j + 1; i < n; i++) a[i * n + j] = 0;
@@ -183,20 +187,18 @@ int BlockCholesky::factor_diagonal(int node, double threshold, const double* flo
             a[i * n + j] = s * reciprocal[j];
         }
     }
-    return weak;
 }
 
-int BlockCholesky::factor(double threshold, const std::vector<double>& floor, std::vector<int>* redundant) {
+void BlockCholesky::factor(double threshold, const std::vector<double>& floor, const std::vector<char>* known) {
+    std::fill(redundant_.begin(), redundant_.end(), 0);
     for (size_t node = 0; node < size_.size(); node++) {
         const int n = size_[node];
         for (int i = 0; i < n; i++) inverse_[at(start_[node] + i)] = values_[diagonal_[node] + at(i * n + i)];
     }
-    int weak = 0;
     for (size_t k = 0; k < order_.size(); k++) {
         const int node = order_[k], n = size_[at(node)];
-        const int found = factor_diagonal(node, threshold, &floor[at(start_[at(node)])]);
-        weak += found;
-        if (redundant) (*redundant)[at(node)] = found;
+        const size_t first = at(start_[at(node)]);
+        factor_diagonal(node, threshold, &floor[first], known ? &(*known)[first] : nullptr);
         const double *lower = &values_[diagonal_[at(node)]], *reciprocal = &inverse_[at(start_[at(node)])];
         for (size_t p = first_[k]; p < first_[k + 1]; p++) {
             double* b = &values_[below_[p].block];
@@ -217,7 +219,6 @@ int BlockCholesky::factor(double threshold, const std::vector<double>& floor, st
             }
         }
     }
-    return weak;
 }
 
 void BlockCholesky::solve(double* x) const {

@@ -57,16 +57,16 @@ Stepper::Stepper(const Model& model) : model_(model), contacts_(model.contact), 
     // redundancy of the held rows, hinges free
     inertia_.resize(bodies);
     const State s = start();
-    std::vector<int> found(connections_.size());
     locate_all(s, s.pose, 0, rows_, error_.data());
     hold_rows();
     // a matter of geometry: the same mass for all bodies
     const double turns = 1 / (model.length * model.length);
     for (size_t i = 0; i < bodies; i++) system_.set_body(i, 1, {{turns * axis(0), turns * axis(1), turns * axis(2)}});
-    redundant_ = system_.factor(&found);
+    system_.factor();
+    redundant_ = system_.redundant();
     redundant_rows_.assign(model.joints.size(), 0);
     for (size_t c = 0; c < connections_.size(); c++) {
-        if (is(c, Kind::joint)) redundant_rows_[at(connections_[c].index)] = found[c];
+        if (is(c, Kind::joint)) redundant_rows_[at(connections_[c].index)] = system_.redundant(c);
     }
 }
 
@@ -352,7 +352,7 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
     for (int pass = guess ? 1 : 0; pass < passes || (!settled && pass < most_passes); pass++) {
         // positions, free-flight velocities and loads at the predicted middle
         predict(s, h, guess_);
-        if (redundant_ > 0) mend_middle(s, s.t + h / 2);
+        if (redundant_ > 0 || system_.redundant() > 0) mend_middle(s, s.t + h / 2);
         set_mobilities(middle_);
         set_free(s);
         // directions there, and the rates they must have

@@ -6,7 +6,7 @@ namespace crumple::space {
 
 namespace {
 
-// A held row whose pivot is below this share of its diagonal is redundant: four digits above rounding.
+// A held row whose pivot, laws free, is below this share of its diagonal is redundant: four digits above rounding.
 constexpr double redundancy = 1e-12;
 constexpr int refinements = 4;
 // Unknowns of laws are refined to this share of themselves.
@@ -61,13 +61,16 @@ void System::analyse(size_t bodies, const std::vector<Link>& links) {
     const size_t n = at(matrix_.rows());
     rows_.resize(n);
     sides_.resize(2 * links.size());
+    redundant_.assign(n, 0);
+    known_ = false;
     for (auto* v : {&residual_, &correction_, &diagonal_, &rhs_, &floor_}) v->assign(n, 0.0);
     for (size_t c = 0; c < links.size(); c++) {
         for (int i = links[c].held; i < links[c].rows(); i++) floor_[at(start(c) + i)] = 1;
     }
 }
 
-void System::assemble() {
+// with `laws` false the laws give nothing
+void System::assemble(bool laws) {
     for (size_t c = 0; c < links_.size(); c++) {
         const Link& link = links_[c];
         const Row* row = &rows_[at(start(c))];
@@ -76,7 +79,8 @@ void System::assemble() {
             const Mobility& body = bodies_[at(link.body[side])];
             Side& s = sides_[2 * c + at(side)];
             for (int i = 0; i < link.rows(); i++) {
-                const Vec3 t = row[i].t, m = side == 0 ? row[i].ma : row[i].mb;
+                const Row own_row = laws || i < link.held ? row[i] : Row{};
+                const Vec3 t = own_row.t, m = side == 0 ? own_row.ma : own_row.mb;
                 const Vec3 u = body.inverse_mass * t, w = body.inverse_inertia * m;
                 const double own[6] = {t.x, t.y, t.z, m.x, m.y, m.z}, pushed[6] = {u.x, u.y, u.z, w.x, w.y, w.z};
                 for (int k = 0; k < 6; k++) {
@@ -108,9 +112,23 @@ void System::assemble() {
     }
 }
 
-int System::factor(std::vector<int>* redundant) {
-    assemble();
-    return matrix_.factor(redundancy, floor_, redundant);
+void System::factor() {
+    assemble(true);
+    matrix_.factor(redundancy, floor_, known_ ? &redundant_ : nullptr);
+    if (known_ || matrix_.redundant() == redundant_) return;
+    assemble(false);
+    matrix_.factor(redundancy, floor_, nullptr);
+    redundant_ = matrix_.redundant();
+    known_ = true;
+    assemble(true);
+    matrix_.factor(redundancy, floor_, &redundant_);
+}
+
+int System::redundant() const { return static_cast<int>(std::count(redundant_.begin(), redundant_.end(), 1)); }
+
+int System::redundant(size_t link) const {
+    const auto first = redundant_.begin() + start(link);
+    return static_cast<int>(std::count(first, first + links_[link].rows(), 1));
 }
 
 void System::solve(double* x, double tolerance) {

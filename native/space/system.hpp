@@ -5,6 +5,10 @@
 // Held rows have nothing on the diagonal; those that others make redundant get no impulse, and are met because they are
 // consistent.  Rows of a law come with the root of its tangent, J^ = L^T J with D = L L^T, and 1 on the diagonal:
 // well conditioned from a free (D = 0) to a locked hinge (D huge).  Refinement takes rounding out.
+//
+// Redundant is a matter of the held rows alone.  Hinges that lock a loop leave a held row a pivot of 1/D beside the mobility,
+// as small as a redundant one's but for the digits by which it tells the moments in the loop.  So where other rows look redundant
+// than when laws were last free, they are looked for anew without the laws, once per place.
 #pragma once
 
 #include <vector>
@@ -27,9 +31,15 @@ public:
     int start(size_t link) const { return matrix_.start(static_cast<int>(link)); }
     int rows() const { return matrix_.rows(); }
     Row& row(int k) { return rows_[static_cast<size_t>(k)]; }
-    void set_body(size_t i, double inverse_mass, const Mat3& inverse_inertia) { bodies_[i] = {inverse_mass, inverse_inertia}; }
-    // assembles and factors; returns the number of redundant held rows, and per link if sought
-    int factor(std::vector<int>* redundant = nullptr);
+    void set_body(size_t i, double inverse_mass, const Mat3& inverse_inertia) {
+        bodies_[i] = {inverse_mass, inverse_inertia};
+        known_ = false;
+    }
+    // assembles and factors
+    void factor();
+    // number of redundant held rows as of the last factor
+    int redundant() const;
+    int redundant(size_t link) const;
     // x: right-hand side in, impulses out, refined until the held rows are met within `tolerance`
     void solve(double* x, double tolerance);
     // rates along the rows, and what impulses along the rows take from the velocities
@@ -58,7 +68,7 @@ private:
         size_t block;
         bool negative;
     };
-    void assemble();
+    void assemble(bool laws);
 
     std::vector<Link> links_;
     std::vector<Mobility> bodies_;
@@ -66,6 +76,8 @@ private:
     std::vector<Side> sides_;
     std::vector<Pair> pairs_;
     BlockCholesky matrix_;
+    std::vector<char> redundant_;  // per row, laws free
+    bool known_ = false;           // at the present place
     std::vector<double> residual_, correction_, diagonal_, rhs_, floor_;
     std::vector<Twist> impulse_, impulse_sum_;
 };

@@ -86,8 +86,8 @@ def test_portal_follows_its_equilibrium_beyond_the_limit_load(form, record_figur
 
 @pytest.mark.parametrize(
     ("structure", "form"),
-    [(portal, "set-valued"), (portal, "elastic-plastic"), (beam, "elastic-plastic")],
-    ids=["portal, set-valued", "portal, elastic-plastic", "beam, elastic-plastic"],
+    [(structure, form) for structure in (portal, beam) for form in ("set-valued", "elastic-plastic")],
+    ids=lambda value: value if isinstance(value, str) else value.__name__,
 )
 def test_loss_of_equilibrium_names_the_limit_load(structure, form, record_figure):
     whole, _ = structure({**SOFT, "form": form})
