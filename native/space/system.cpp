@@ -71,6 +71,7 @@ void System::analyse(size_t bodies, const std::vector<Link>& links) {
 
 // with `laws` false the laws give nothing
 void System::assemble(bool laws) {
+    const Row none;
     for (size_t c = 0; c < links_.size(); c++) {
         const Link& link = links_[c];
         const Row* row = &rows_[at(start(c))];
@@ -79,8 +80,8 @@ void System::assemble(bool laws) {
             const Mobility& body = bodies_[at(link.body[side])];
             Side& s = sides_[2 * c + at(side)];
             for (int i = 0; i < link.rows(); i++) {
-                const Row own_row = laws || i < link.held ? row[i] : Row{};
-                const Vec3 t = own_row.t, m = side == 0 ? own_row.ma : own_row.mb;
+                const Row& used = laws || i < link.held ? row[i] : none;
+                const Vec3 t = used.t, m = side == 0 ? used.ma : used.mb;
                 const Vec3 u = body.inverse_mass * t, w = body.inverse_inertia * m;
                 const double own[6] = {t.x, t.y, t.z, m.x, m.y, m.z}, pushed[6] = {u.x, u.y, u.z, w.x, w.y, w.z};
                 for (int k = 0; k < 6; k++) {
