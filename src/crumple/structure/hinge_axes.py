@@ -119,6 +119,38 @@ class HingeAxes(Spec):
             refuse("'twist' needs x among the axes", key="twist", todo="add x to the axes, or remove it")
         return self
 
+    @model_validator(mode="after")
+    def _keys_act(self) -> HingeAxes:
+        """Keys that would change nothing."""
+        if self.coupling is not None and self.single:
+            refuse(
+                "'coupling' joins the axes of a hinge, and this one has a single axis",
+                key="coupling",
+                todo="remove it, or name more under 'axes' (as [y, z]), or add 'axial'",
+            )
+        about: tuple[BendingAxis, ...] = self.bending or ((self.axis,) if self.axis is not None else ())
+        if self.laws is None or not about:
+            return self
+        for axis in ("y", "z"):
+            if axis not in about and getattr(self.laws, axis) is not None:
+                refuse(
+                    f"a law about {axis}, and the hinge does not turn about {axis}",
+                    key="laws",
+                    todo=f"remove it, or turn the hinge about {axis}",
+                )
+        if self.law is not None and all(getattr(self.laws, axis) is not None for axis in about):
+            refuse(
+                "'law' acts about axes without a law under 'laws', and there is none",
+                key="law",
+                todo="remove it, or one of 'laws'",
+            )
+        return self
+
+    @property
+    def single(self) -> bool:
+        """Whether it has one component alone."""
+        return len(self.axes or ()) < 2 and self.axial is None
+
     @property
     def bending(self) -> tuple[BendingAxis, ...]:
         """Bending axes among `axes`, in their order."""
@@ -127,7 +159,7 @@ class HingeAxes(Spec):
     @property
     def plain(self) -> bool:
         """Whether it bends about one axis and does nothing else."""
-        return len(self.axes or ()) < 2 and self.axial is None and self.fracture is None
+        return self.single and self.fracture is None
 
     def law_about(self, axis: BendingAxis) -> LawReference | None:
         """Law of a bending axis as the input refers to it."""
