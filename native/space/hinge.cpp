@@ -287,8 +287,10 @@ void commit(const SpaceHinge& hinge, const FrozenSpaceHinge& f, SpaceHingeState&
             const double* w1, double* turn) {
     const int n = size(hinge);
     const bool elastic = form_of(hinge) == Form::elastic_plastic, apart = !coupled(hinge);
-    double impulse[most], flow[most], before[most], e[most], q1[most];
+    double impulse[most], flow[most], before[most], e[most], q1[most], carried[most];
     law(hinge, f, w1, impulse, nullptr, nullptr);
+    // before it opened in this step
+    for (int k = 0; k < n; k++) carried[k] = !elastic && f.intact > 0 ? impulse[k] / (f.intact * f.h) : f.tau0[k];
     const double held = elastic_energy(hinge, s);
     bool stopped = false;
     for (int k = 0; k < n; k++) stopped = stopped || multibody::stop_response(law_of(hinge, k), f.component[k], w1[k]).impulse != 0;
@@ -328,6 +330,7 @@ void commit(const SpaceHinge& hinge, const FrozenSpaceHinge& f, SpaceHingeState&
     if (s.fracture_time < 0 && length_of_rotation(hinge, e) >= hinge.fracture) {
         s.fracture_time = t0 + f.intact * f.h;
         s.fracture_energy = elastic ? held : 0;
+        s.fracture_moment = length_of_rotation(hinge, carried);
     }
 }
 

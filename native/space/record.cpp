@@ -82,7 +82,7 @@ std::vector<double> Simulation::summary() const {
         }
         out.insert(out.end(), {s.rotation_max, moment, s.opening_time < 0 ? none : s.opening_time, s.rest_time,
                                turning(hinge, s) ? 1.0 : 0.0, dissipated(hinge, s) + damped(hinge, s) + stop_dissipated(hinge, s),
-                               s.fracture_time < 0 ? none : s.fracture_time});
+                               s.fracture_time < 0 ? none : s.fracture_time, s.fracture_time < 0 ? none : s.fracture_moment});
     }
     return out;
 }

@@ -42,7 +42,7 @@ struct Record {
     long steps = 0, rejected = 0, forced = 0, solves = 0;
 };
 
-constexpr int energy_columns = 10, summary_columns = 7;
+constexpr int energy_columns = 10, summary_columns = 8;
 
 class Simulation {
 public:

@@ -92,8 +92,8 @@ class SpaceRecord:
         what quasi-static stages took out of the motion [J].
     summary
         Per hinge: largest rotation (length of the rotation vector), largest moment, time of first flow
-        (NaN: none), time of rest, 1 if still turning, dissipated energy, time of fracture (NaN: whole),
-        (hinges, 7).
+        (NaN: none), time of rest, 1 if still turning, dissipated energy, time of fracture and moment carried
+        until then (NaN: whole), (hinges, 8).
     peaks
         Per component: largest absolute rotation, moment, (c, 2).
     ended_by

@@ -59,7 +59,8 @@ def collapse_log(hinges: Sequence[HingeHistory], time: np.ndarray) -> tuple[tupl
         share = 1.0 if i == 0 else float((threshold - values[i - 1]) / (values[i] - values[i - 1]))
         when = float(time[i]) if i == 0 else float(time[i - 1] + share * (time[i] - time[i - 1]))
         final = float(history.values("plastic_rotation")[-1])
-        openings.append(Opening(history.hinge.name, when, final, history.energy))
+        broke = history.fracture[0] if history.fracture else None
+        openings.append(Opening(history.hinge.name, when, final, history.energy, broke))
     return tuple(sorted(openings, key=lambda opening: opening.time)), threshold
 
 

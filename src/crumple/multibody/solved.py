@@ -35,6 +35,8 @@ class HingeHistory:
         After which its plastic rotation no longer changed [s]; None: still turning.
     energy
         Absorbed [J].
+    fracture
+        When it broke [s], and the moment that it carried until then [N m]; None: it is whole.
     """
 
     hinge: PlacedHinge
@@ -43,6 +45,7 @@ class HingeHistory:
     moment_max: float
     time_of_rest: float | None
     energy: float
+    fracture: tuple[float, float] | None = None
 
     def values(self, name: str) -> Floats:
         """One of its columns, (n,)."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterator
 from dataclasses import replace
@@ -169,9 +170,16 @@ class SpaceSolver:
     def _hinge_histories(self, record: SpaceRecord) -> Iterator[HingeHistory]:
         offsets = self._touching.model.component_offsets
         for k, (hinge, columns) in enumerate(hinge_columns(self.linkage, offsets, record)):
-            largest, moment_max, _, rest, turning, energy, _ = record.summary[k]
-            at_rest = None if turning else float(rest)
-            yield HingeHistory(hinge, columns, float(largest), float(moment_max), at_rest, float(energy))
+            largest, moment_max, _, rest, turning, energy, broke, carried = map(float, record.summary[k])
+            yield HingeHistory(
+                hinge,
+                columns,
+                rotation_max=largest,
+                moment_max=moment_max,
+                time_of_rest=None if turning else rest,
+                energy=energy,
+                fracture=None if math.isnan(broke) else (broke, carried),
+            )
 
     def _obstacle_channels(self, record: SpaceRecord) -> Iterator[Channel]:
         first = len(self.linkage.connections)

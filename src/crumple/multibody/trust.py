@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from crumple.hinge import Form, Freedom, SofteningVariable, tributary_stiffness
+from crumple.multibody.broken import broken_warnings
 from crumple.multibody.crushing import crushing_warnings
 from crumple.multibody.held_parts import held_part_warnings
 from crumple.multibody.linkage import link
@@ -114,6 +115,7 @@ def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solv
     for text, names in by_text.items():
         turned = _span([math.degrees(hinges[name].rotation_max) for name in names], 3)
         found.append(f"{_named(names)}: {text.format(turned=turned)}")
+    found += broken_warnings(solved.hinges)
     found += overlap_warnings(structure, tuple(placed))
     found += held_part_warnings(structure, solved)
     found += _inaccurate(hinges, largest)

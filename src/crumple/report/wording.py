@@ -182,16 +182,20 @@ def collapse_table(result: Result) -> Table:
     time_unit, times = column([opening.time for opening in openings], "s")
     energy_unit, energies = column([opening.energy for opening in openings], "J")
     _, turned = column([opening.rotation * _DEGREES for opening in openings], "1")
-    heads = (
+    heads: tuple[str, ...] = (
         "",
         "Hinge",
         f"Opened at, {time_unit}",
         "Plastic rotation at the end, deg",
         f"Energy, {energy_unit}",
     )
+    columns = [times, turned, energies]
+    if any(opening.broke is not None for opening in openings):
+        unit, broke = column([math.nan if o.broke is None else o.broke for o in openings], "s")
+        heads, columns = (*heads, f"Broke at, {unit}"), [*columns, broke]
     rows = [
         (str(i), opening.hinge, *cells)
-        for i, (opening, *cells) in enumerate(zip(openings, times, turned, energies, strict=True), 1)
+        for i, (opening, *cells) in enumerate(zip(openings, *columns, strict=True), 1)
     ]
     caption = (
         "How it collapsed: hinges in the order in which they opened, that is passed "

@@ -79,6 +79,8 @@ class HingeSummary:
         Capacity used: dict with "rotation" [rad], "positive" and "negative" [N m] arrays.
     position
         Where it lies at the start [m], shape (3,).
+    fracture_time, fracture_moment
+        When it broke [s], and the moment that it carried until then [N m]; None: it is whole.
     """
 
     rotation_max: float
@@ -94,6 +96,8 @@ class HingeSummary:
     validity_basis: str = ""
     envelope: Mapping[str, Floats] = field(default_factory=dict)
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    fracture_time: float | None = None
+    fracture_moment: float | None = None
 
 
 @dataclass(frozen=True)
@@ -110,12 +114,15 @@ class Opening:
         Plastic rotation at the end [rad], signed; of a hinge about several axes the length of the vector.
     energy
         Absorbed until the end [J].
+    broke
+        When it broke [s]; None: it is whole.
     """
 
     hinge: str
     time: float
     rotation: float
     energy: float
+    broke: float | None = None
 
 
 @dataclass(frozen=True)

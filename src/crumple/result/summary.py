@@ -13,6 +13,7 @@ from crumple.result.result import Result
 _HINGE_KEYS = (
     "rotation_max", "rotation_final", "time_of_rest", "energy", "moment_max", "rotation_error",
     "law", "source", "form", "validity_rotation", "validity_basis", "position",
+    "fracture_time", "fracture_moment",
 )  # fmt: skip
 
 

@@ -1,0 +1,55 @@
+"""Hinges that broke: when, under which moment, and what is left of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+from crumple.hinge import Freedom
+from crumple.multibody.solved import HingeHistory
+from crumple.units import format_quantity
+
+SHOWN = 6
+"""Hinges told one by one, the first that broke."""
+
+
+def broken_warnings(hinges: Iterable[HingeHistory]) -> list[str]:
+    """A sentence for each of the first hinges that broke, one for all others, one on what that means.
+
+    Parameters
+    ----------
+    hinges
+        Histories of one run.
+    """
+    broke = [(*history.fracture, history) for history in hinges if history.fracture]
+    broke.sort(key=lambda item: item[0])
+    found = [_told(when, moment, history) for when, moment, history in broke[:SHOWN]]
+    if len(broke) > SHOWN:
+        found.append(f"{len(broke) - SHOWN} further hinges broke; their times are in the collapse log.")
+    if broke:
+        found.append(
+            "What follows a break is a guess: the cracked walls are not modelled, and parts that come apart, "
+            "with what they then hit, need another model."
+        )
+    return found
+
+
+def _told(when: float, moment: float, history: HingeHistory) -> str:
+    spatial = history.hinge.spatial
+    assert spatial is not None, "only these break"
+    angle = math.degrees(spatial.fracture)
+    axes = [freedom.label for freedom in spatial.freedoms if freedom is not Freedom.AXIAL]
+    free = f"turns freely about {_joined(axes)}"
+    if Freedom.AXIAL in spatial.freedoms:
+        free += " and slips freely along the member"
+    records = [component.record for component in spatial.components]
+    stops = any(record.stop_positive or record.stop_negative for record in records)
+    return (
+        f"Hinge {history.hinge.name} broke at {format_quantity(when, 's')}, where its plastic rotation "
+        f"reached {angle:.4g} deg under {format_quantity(moment, 'N*m')}. Since then it {free}"
+        f"{', up to its stops' if stops else ''}, and does not come apart."
+    )
+
+
+def _joined(names: list[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
