@@ -10,6 +10,7 @@ from crumple.errors import Problem
 from crumple.structure.problems import one_of, outside, unknown
 from crumple.structure.spot_welds import MOST_SPOTS
 from crumple.structure.structure import Structure
+from crumple.structure.weld_room import spot_places, widest_spot
 
 
 def spot_weld_problems(structure: Structure, known: Mapping[str, set[str]]) -> Iterator[Problem]:
@@ -33,11 +34,14 @@ def spot_weld_problems(structure: Structure, known: Mapping[str, set[str]]) -> I
             yield Problem(what, came, allowed, todo, f"{where}.pitch")
         else:
             yield from _crowded(structure, name)
+            if _placed(structure, name):
+                yield from _too_wide(structure, name)
         if len(welds.members) == 1 and has_weld_lines(structure, first) is False:
             what = f"the section of member '{first}' has no lines of spot welds"
             welded = [other for other in structure.members if has_weld_lines(structure, other)]
             todo = "name the member that it is welded to as well, or give its section 'welds'"
             yield Problem(what, structure.members[first].section, one_of(welded), todo, f"{where}.members")
+    yield from _twice_welded(structure)
 
 
 def _crowded(structure: Structure, name: str) -> Iterator[Problem]:
@@ -59,6 +63,52 @@ def _crowded(structure: Structure, name: str) -> Iterator[Problem]:
             break
     if came:
         yield Problem("spots lie nearer than two can", came, allowed, todo, f"spot_welds.{name}.{key}")
+
+
+def _too_wide(structure: Structure, name: str) -> Iterator[Problem]:
+    """A diameter that the walls have no room for."""
+    welds = structure.spot_welds[name]
+    if not welds.diameter:
+        return
+    widest, member = widest_spot(structure, name)
+    # a spot that reaches an edge, or a bend drawn sharp, still lies on its wall
+    if welds.diameter > widest + structure.section_of(member).thickness:
+        what, came = "the spots are wider than the wall on which they lie", f"{1e3 * welds.diameter:.4g} mm"
+        allowed = (
+            f"at most {1e3 * widest:.3g} mm, twice the way to the nearer edge of a wall of member '{member}'"
+        )
+        todo = "give the diameter of a spot, or place the spots farther inside"
+        yield Problem(what, came, allowed, todo, f"spot_welds.{name}.diameter")
+
+
+def _placed(structure: Structure, name: str) -> bool:
+    """Whether the spots of an entry have places: its members, their sections and weld lines are there."""
+    members = structure.spot_welds[name].members
+    if not all(structure.has_line(member) for member in members):
+        return False
+    lines = [has_weld_lines(structure, member) for member in members]
+    return None not in lines and (len(members) > 1 or lines[0] is True)
+
+
+def _twice_welded(structure: Structure) -> Iterator[Problem]:
+    """Spots of two entries that tie the same walls at one place."""
+    entries = [(name, welds) for name, welds in structure.spot_welds.items() if _placed(structure, name)]
+    places = {name: spot_places(structure, name) for name, _ in entries}
+    for i, (name, welds) in enumerate(entries):
+        least = min(structure.section_of(member).thickness for member in welds.members)
+        for other, others in entries[:i]:
+            if set(welds.members) != set(others.members):
+                continue
+            apart = [float(np.linalg.norm(places[other] - place, axis=1).min()) for place in places[name]]
+            near = [k for k, distance in enumerate(apart) if distance < least]
+            if not near:
+                continue
+            x, y, z = 1e3 * places[name][near[0]]
+            many = f"{len(near)} of its {len(apart)} spots lie"
+            what = f"{many} where spots of '{other}' tie the same members already"
+            came = f"{1e3 * apart[near[0]]:.3g} mm apart at ({x:.6g}, {y:.6g}, {z:.6g}) mm"
+            allowed = f"at least {1e3 * least:.3g} mm apart, the thickness of the wall"
+            yield Problem(what, came, allowed, "leave one of them out", f"spot_welds.{name}")
 
 
 def pitch_problems(structure: Structure) -> Iterator[Problem]:

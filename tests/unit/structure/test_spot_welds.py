@@ -7,6 +7,7 @@ from tests.unit.multibody.parts import STEEL, TUBE, member
 from crumple.analysis import Analysis
 from crumple.errors import InputError
 from crumple.structure import ShellSettings, SpotWelds, Structure
+from crumple.structure.weld_room import widest_spot
 
 HAT = {"type": "closed_hat", "width": 0.06, "depth": 0.04, "thickness": 1.5e-3, "flange": 0.02}
 STACK = {"up": {"members": ("low", "top"), "at": (0.0, 0.0125), "pitch": 0.1}}
@@ -76,6 +77,59 @@ def test_welds_that_cannot_be_are_refused(keys, words):
     with pytest.raises(InputError) as caught:
         welded({"up": keys})
     assert words in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("keys", "member", "widest"),
+    [
+        # flange of 20 mm: flat from the web's mid-line, 30 - 0.75 mm, or the bend, to 50 mm
+        ({"members": ("hat",), "pitch": 0.1}, "hat", 20.0),
+        # in the middle of walls 25 mm deep and 50 mm wide, and 10 mm beside it
+        ({"members": ("low", "top"), "at": (0.0, 0.0125), "pitch": 0.1}, "low", 47.35),
+        ({"members": ("low", "top"), "at": (0.01, 0.0125), "pitch": 0.1}, "low", 27.35),
+        ({"members": ("low", "top"), "points": [(0.6, 0.0, 0.0125), (0.7, 0.02, 0.0125)]}, "low", 7.35),
+    ],
+)
+def test_a_spot_cannot_be_wider_than_its_wall(keys, member, widest):
+    structure = welded({"up": {**keys, "diameter": 1e-3 * widest}})
+    found, least = widest_spot(structure, "up")
+    assert 1e3 * found == pytest.approx(widest, abs=0.8)
+    assert least == member
+    with pytest.raises(InputError, match="the spots are wider than the wall") as caught:
+        welded({"up": {**keys, "diameter": 0.5}})
+    (problem,) = caught.value.problems
+    assert (problem.came, problem.where) == ("500 mm", "spot_welds.up.diameter")
+
+
+def test_a_round_tube_has_room_as_far_as_it_is_flat():
+    tube = {"type": "circular_tube", "diameter": 0.1, "thickness": 2e-3}
+    keys = {"members": ("low", "top"), "at": (0.0, 0.05), "pitch": 0.1}
+    nodes = {"a": (0, 0, 0), "b": (1, 0, 0), "c": (0, 0, 0.1), "d": (1, 0, 0.1)}
+    structure = Structure(
+        materials={"steel": STEEL},
+        sections={"tube": tube},
+        nodes=nodes,
+        members={"low": member("a", "b"), "top": member("c", "d")},
+        supports={"clamp": {"node": "a", "fix": "all"}},
+        spot_welds={"up": keys},
+    )
+    # 30 deg to both sides of a mid-line of 49 mm, to a side of the polygon
+    assert widest_spot(structure, "up")[0] == pytest.approx(2 * 0.049 * np.radians(30.0), rel=0.2)
+
+
+def test_two_entries_cannot_tie_one_place_twice():
+    more = {**STACK, "again": {"members": ("top", "low"), "points": [(0.30, 0.0, 0.0125), (0.55, 0, 0.0125)]}}
+    with pytest.raises(InputError) as caught:
+        welded(more)
+    (problem,) = caught.value.problems
+    assert problem.what == "1 of its 2 spots lie where spots of 'up' tie the same members already"
+    assert problem.came == "0 mm apart at (550, 0, 12.5) mm"
+    assert problem.where == "spot_welds.again"
+    # the same line twice in a section; and its two halves
+    half = {"members": ("hat",), "pitch": 0.1, "to": 0.5}
+    with pytest.raises(InputError, match="10 of its 10 spots lie"):
+        welded({"left": half, "right": half})
+    welded({"left": half, "right": {"members": ("hat",), "pitch": 0.1, "from": 0.5}})
 
 
 @pytest.mark.parametrize("entry", [{}, {"own": {"members": ("hat",), "pitch": 0.1}}])
