@@ -12,6 +12,7 @@ import numpy as np
 
 from crumple.comparison.metrics import percent
 from crumple.comparison.motion import REACH, HingeMotion, largest_side
+from crumple.comparison.runs import said_of_runs
 from crumple.comparison.sections import Floats
 from crumple.comparison.shortfall import shortfall
 from crumple.comparison.verdict import SMALL, agreement, verdict
@@ -70,6 +71,7 @@ def trust_of(comparison: Comparison, structure: Structure) -> Trust:
         *_contact(comparison, bool(structure.obstacles)),
         *_reference(comparison.reference),
         *shortfall(comparison),
+        *said_of_runs(comparison),
     ):
         (cautions if serious else facts).append(text)
     level, headline = verdict(comparison, _missed(comparison, structure, hinges), bool(cautions))

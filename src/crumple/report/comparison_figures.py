@@ -10,7 +10,18 @@ import numpy as np
 
 from crumple.comparison import Comparison, Source
 from crumple.report.scales import Floats, display_unit, largest, spread, time_unit
-from crumple.report.style import HALF, RULE, WIDTH, Line, add_axes, draw_lines, name_axes, new_figure, to_svg
+from crumple.report.style import (
+    HALF,
+    RULE,
+    WIDTH,
+    Line,
+    add_axes,
+    draw_lines,
+    label_room,
+    name_axes,
+    new_figure,
+    to_svg,
+)
 
 _DEGREES = math.degrees(1.0)
 _PANEL = 1.9  # height of the axes [in]
@@ -125,9 +136,10 @@ def energy_as_drawn_once(comparison: Comparison, name: str, figure_name: str) ->
     lines = [Line(label, x * _DEGREES, y / factor, index) for label, x, y, index in theirs]
     lines.append(Line(f"{first.name}, shifted", (mine[0] + shifts[0]) * _DEGREES, mine[1] / factor, 0))
     svg = _energy_figure(lines, "rotation, deg", f"Total energy, {unit}", figure_name, name)
+    by, near = (f"{shift * _DEGREES:.1f}°".replace("-", "−") for shift in shifts)
     words = (
-        f"The {first.name} curve is shifted by {shifts[0] * _DEGREES:.1f}° against the far end "
-        f"({shifts[1] * _DEGREES:.1f}° would fit the rotation near the hinge): a drawing aid that stands "
+        f"The {first.name} curve is shifted by {by} against the far end "
+        f"({near} would fit the rotation near the hinge): a drawing aid that stands "
         "for the elastic "
         "bending which rigid bars lack, not a result."
     )
@@ -209,7 +221,8 @@ def _reached(x: Floats, y: Floats, heights: Floats) -> Floats:
 
 def _energy_figure(lines: Sequence[Line], x: str, y: str, figure_name: str, hinge: str) -> str:
     figure = new_figure(HALF, _HEAD + _PANEL + _FOOT)
-    axes = add_axes(figure, _LEFT, _FOOT, HALF - _LEFT - _RIGHT, _PANEL)
+    right = max(_RIGHT, label_room([line.name for line in lines]))
+    axes = add_axes(figure, _LEFT, _FOOT, HALF - _LEFT - right, _PANEL)
     _draw(axes, lines, x, y, labels=True)
     return to_svg(
         figure, figure_name, f"{y.partition(',')[0]} against {x.partition(',')[0]} of hinge {hinge}."

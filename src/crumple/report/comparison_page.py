@@ -67,6 +67,7 @@ def _draw(comparison: Comparison, pictures: Sequence[float]) -> list[tuple[str, 
     from crumple.report.comparison_shapes import shapes_side_by_side  # noqa: PLC0415
     from crumple.report.comparison_wording import ranked  # noqa: PLC0415
     from crumple.report.style import drawing  # noqa: PLC0415
+    from crumple.report.welds import weld_loads  # noqa: PLC0415
 
     times = pictures or tuple(np.linspace(0.0, float(comparison.reference.result.time[-1]), 6))
     first, second = comparison.candidate.name, comparison.reference.name
@@ -93,6 +94,9 @@ def _draw(comparison: Comparison, pictures: Sequence[float]) -> list[tuple[str, 
             clean = figures.energy_cleanly(comparison, name, f"plastic-{i}")
             caption = f"Hinge {name}, cleanly: plastic work against plastic rotation, rotation less M/k."
             found.append((f"plastic_{i}", clean, caption))
+        loads = weld_loads(comparison.reference.result)
+        if loads is not None:
+            found.append(("welds", *loads))
         for i, channel in enumerate(figures.drawn_channels(comparison), 1):
             caption = f"{channel} against time, with the curves from files."
             found.append((f"curve_{i}", figures.history(comparison, channel, f"curve-{i}"), caption))

@@ -133,7 +133,9 @@ def _times(name: str, a: HingeMetrics | None, b: HingeMetrics | None, key: str) 
     values = [None if m is None else getattr(m, key) for m in (a, b)]
     difference = "—"
     if values[0] is not None and values[1] is not None:
-        difference = f"{1e3 * (values[0] - values[1]):+.2f} ms".replace("-", "−")
+        # zero has no sign
+        late = round(1e3 * (values[0] - values[1]), 2) + 0.0
+        difference = f"{late:+.2f} ms".replace("-", "−") if late else "0.00 ms"
     return (name, _value(values[0], "s"), _value(values[1], "s"), difference)
 
 

@@ -99,10 +99,11 @@ def write_figures(folder: Path, drawn: Sequence[tuple[str, str, str]]) -> None:
 
 def _draw(result: Result, bound: float | None) -> list[tuple[str, str, str]]:
     """Every figure that the result has something for: file name, SVG, caption."""
-    from crumple.report import curves, fold, moment, shape  # noqa: PLC0415  (matplotlib takes a third of a second)
+    from crumple.report import curves, fold, moment, shape, welds  # noqa: PLC0415  (matplotlib takes a third of a second)
     from crumple.report.style import drawing  # noqa: PLC0415
 
     with drawing():
+        loads = welds.weld_loads(result)
         figures = [
             (
                 "deformation",
@@ -123,6 +124,7 @@ def _draw(result: Result, bound: float | None) -> list[tuple[str, str, str]]:
                 "positive in the sense in which it turned farthest." + _named(result, curves.NAMED),
             ),
             *_moment_figures(result, moment.moment_over_rotation),
+            *([] if loads is None else [("welds", *loads)]),
             ("energy", curves.ledger(result, bound), _ledger_caption(result)),
             ("outputs", curves.outputs(result), "Requested outputs against time."),
         ]
@@ -192,7 +194,7 @@ def _render(
     )
     style = (here / "page.css").read_text(encoding="utf-8")
     text = embedded(source)
-    named = ("deformation", "rotation", "energy_rotation", "energy", "outputs")
+    named = ("deformation", "rotation", "energy_rotation", "welds", "energy", "outputs")
     return environment.get_template("page.html.jinja").render(
         version=result.provenance.version,
         title=source.title or result.title or "Crash analysis",

@@ -199,3 +199,33 @@ def test_many_hinges_and_a_long_order_are_cut():
     assert wrong
     assert order.startswith("After the first 3, the same in both, hinges open in another order: hinge 3,")
     assert order.count("and 3 more") == 2
+
+
+def test_welds_that_failed_are_a_caution(case, multibody):
+    shell = folded_result(largest=0.545)
+    share = np.where(shell.time < 0.03, 0.0, 0.25)
+    failed = {"weld.seam.failed": Channel("weld.seam.failed", "1", share)}
+    trust = compare(multibody, replace(shell, channels={**shell.channels, **failed}), case.structure).trust
+    assert any(
+        "25.0 % of the spot welds seam failed in the shell result, by 30 ms" in text
+        for text in trust.cautions
+    )
+    none = {"weld.seam.failed": Channel("weld.seam.failed", "1", 0.0 * share)}
+    trust = compare(multibody, replace(shell, channels={**shell.channels, **none}), case.structure).trust
+    assert not any("spot welds" in text for text in (*trust.cautions, *trust.facts))
+
+
+def test_a_run_that_ends_before_the_peak_is_a_caution(case, multibody):
+    whole = folded_result(largest=0.545)
+    early = compare(shortened(multibody, 0.04), shortened(whole, 0.04), case.structure).trust
+    (said,) = (text for text in early.cautions if "Still turning" in text)
+    assert "ends at 40 ms: root (multibody); root (shell)" in said
+    assert not any(
+        "Still turning" in text for text in compare(multibody, whole, case.structure).trust.cautions
+    )
+
+
+def test_warnings_of_the_runs_are_pointed_at(case, multibody):
+    shell = replace(folded_result(largest=0.545), warnings=("something", "else"))
+    facts = compare(multibody, shell, case.structure).trust.facts
+    assert any("2 of the shell run" in text for text in facts)

@@ -1,0 +1,87 @@
+"""What both runs say of themselves that a comparison must not hide: failed welds, open ends, own warnings."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from crumple.comparison.metrics import percent
+
+if TYPE_CHECKING:
+    from crumple.comparison.comparison import Comparison
+
+AT_END = 0.01
+"""Share of what is compared within whose last part a largest rotation is that of the end."""
+STILL = 0.02
+"""Rate of rotation over the largest one up to which a hinge has come to rest."""
+MOST_NAMED = 4
+"""Hinges that one sentence names."""
+
+_FAILED = re.compile(r"weld\.(.+)\.failed")
+
+
+def said_of_runs(comparison: Comparison) -> Iterator[tuple[str, bool]]:
+    """Sentences, and whether each is a caution."""
+    yield from _welds(comparison)
+    yield from _still_turning(comparison)
+    yield from _warnings(comparison)
+
+
+def _welds(comparison: Comparison) -> Iterator[tuple[str, bool]]:
+    """Spot welds that failed in the reference: those of rigid bars hold."""
+    first, second = comparison.candidate.name, comparison.reference
+    for name, channel in second.result.channels.items():
+        match = _FAILED.fullmatch(name)
+        share = float(channel.values[-1]) if match and channel.values.size else 0.0
+        if match is None or not share > 0.0:
+            continue
+        begin = float(second.result.time[int(np.argmax(channel.values > 0.0))])
+        yield (
+            f"{percent(share)} of the spot welds {match[1]} failed in the {second.name} result, by "
+            f"{1e3 * begin:.4g} ms the first: in the {first} model welds hold and sections stay whole.",
+            True,
+        )
+
+
+def _still_turning(comparison: Comparison) -> Iterator[tuple[str, bool]]:
+    """Hinges whose largest rotation is no peak, because the run ended first."""
+    found = []
+    for source in (comparison.candidate, comparison.reference):
+        names = []
+        for motion in source.hinges:
+            own = motion.until(comparison.until)
+            if own.time.size < 2 or not own.fold:
+                continue
+            turned, rate = own.sense * own.rotation, own.sense * own.rotation_rate
+            peak = float(own.time[int(np.argmax(turned))])
+            late = peak >= (1.0 - AT_END) * float(own.time[-1])
+            if late and rate[-1] > STILL * float(np.abs(rate).max()):
+                names.append(motion.name)
+        if names:
+            more = " and others" if len(names) > MOST_NAMED else ""
+            found.append(f"{', '.join(names[:MOST_NAMED])}{more} ({source.name})")
+    if found:
+        end = math.nan if math.isinf(comparison.until) else 1e3 * comparison.until
+        yield (
+            f"Still turning when the comparison ends at {end:.4g} ms: {'; '.join(found)}. Largest rotations "
+            "there are those of the end, no peaks: give the run a longer duration.",
+            True,
+        )
+
+
+def _warnings(comparison: Comparison) -> Iterator[tuple[str, bool]]:
+    """That the runs warn of something themselves, further down on the page."""
+    counts = [
+        f"{len(s.result.warnings)} of the {s.name} run"
+        for s in (comparison.candidate, comparison.reference)
+        if s.result.warnings
+    ]
+    if counts:
+        yield (
+            f"Warnings that the runs give themselves ({', '.join(counts)}) stand at the end of the page.",
+            False,
+        )
