@@ -51,13 +51,19 @@ def compare(
     variants: Annotated[
         bool, typer.Option(help="Solve also multibody models with elastic hinges and members.")
     ] = True,
+    restart: Annotated[
+        Path | None,
+        typer.Option(
+            help="Go on from the restart file of an interrupted comparison's shell run.", show_default=False
+        ),
+    ] = None,
 ) -> None:
     """Solve with both engines and compare. Writes multibody/, shell/ and report.html to a folder."""
     from crumple.analysis import load, with_lines
     from crumple.cli.curves import curves_of
     from crumple.cli.folder import results_errors, results_folder
     from crumple.cli.progress import progress_bar, stop_on_interrupt
-    from crumple.cli.shell_run import available_threads, long_run_of
+    from crumple.cli.shell_run import RESTART, available_threads, long_run_of
     from crumple.comparison import picture_times, solve_and_compare, with_mesh
     from crumple.errors import InputError
     from crumple.report import write_comparison
@@ -80,7 +86,7 @@ def compare(
                 second_mesh=second_mesh,
                 progress=progress,
                 cancel=cancel,
-                long_run=long_run_of(folder / "shell", None, progress),
+                long_run=long_run_of(folder / "shell", restart, progress),
             )
         except InputError as error:
             raise with_lines(error, file, analysis.structure) from None
@@ -88,6 +94,8 @@ def compare(
         source = write_both(found, analysis, file, folder)
         write_comparison(found, source, folder, pictures=picture_times(analysis))
     _show(found, folder)
+    if (folder / "shell" / RESTART).exists():
+        typer.echo(f"Go on with the same command and --restart {folder / 'shell' / RESTART}")
     if not all(s.result.status.ok for s in (found.candidate, found.reference)):
         raise typer.Exit(1)
 

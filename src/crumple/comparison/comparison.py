@@ -6,15 +6,21 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
 from crumple.comparison.curve_file import CurveFile
 from crumple.comparison.metrics import HingeComparison, compared, metrics_of
 from crumple.comparison.motion import HingeMotion, Measured, channel_motions, measured, member_sections
 from crumple.comparison.pairing import TELLING, Pair, pairs_of
+from crumple.comparison.sections import at_times
 from crumple.comparison.signal import Signal, member_signals, signals_of
 from crumple.comparison.trust import Trust, trust_of
 from crumple.errors import InputError, Problem
 from crumple.result import Result
 from crumple.structure import PlacedHinge, Structure, placed_hinges
+
+SAME_TIME = 1e-9
+"""Share of the run below which two shapes are of one time: rounding, far below any output interval."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -228,6 +234,7 @@ def _names(candidate: Result, reference: Result, variants: Mapping[str, Result])
 
 
 def _source(name: str, result: Result, structure: Structure, hinges: Sequence[PlacedHinge]) -> Source:
+    result = _distinct(result)
     if not result.time.size:
         what = f"the {name} result holds no histories"
         raise InputError(Problem(what, result.status.value, "a run that got past its start", result.reason))
@@ -239,6 +246,15 @@ def _source(name: str, result: Result, structure: Structure, hinges: Sequence[Pl
     members = member_signals(structure, seen.sections)
     signals = signals_of(result, seen.hinges, members)
     return Source(name, result, seen.hinges, seen.extra, signals)
+
+
+def _distinct(result: Result) -> Result:
+    """The same result with one shape for each time: two that rounding alone tells apart have no rate."""
+    times = np.zeros(0) if result.states is None else result.states.times
+    if result.states is None or times.size < 2:
+        return result
+    apart = np.diff(times, prepend=-np.inf) > SAME_TIME * float(times[-1] - times[0])
+    return result if apart.all() else replace(result, states=at_times(result.states, times[apart]))
 
 
 def _until(source: Source, end: float) -> Source:

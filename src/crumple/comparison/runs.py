@@ -21,12 +21,17 @@ STILL = 0.02
 MOST_NAMED = 4
 """Hinges that one sentence names."""
 
+LEAST_CRUSH = 1e-3
+"""Shortening of a hinge [m] that is worth a word: a millimetre, a share of any fold."""
+
+_SLIP = re.compile(r"hinge\.(.+)\.slip\.x\.plastic_rotation")
 _FAILED = re.compile(r"weld\.(.+)\.failed")
 
 
 def said_of_runs(comparison: Comparison) -> Iterator[tuple[str, bool]]:
     """Sentences, and whether each is a caution."""
     yield from _welds(comparison)
+    yield from _crushed(comparison)
     yield from _still_turning(comparison)
     yield from _warnings(comparison)
 
@@ -43,6 +48,22 @@ def _welds(comparison: Comparison) -> Iterator[tuple[str, bool]]:
         yield (
             f"{percent(share)} of the spot welds {match[1]} failed in the {second.name} result, by "
             f"{1e3 * begin:.4g} ms the first: in the {first} model welds hold and sections stay whole.",
+            True,
+        )
+
+
+def _crushed(comparison: Comparison) -> Iterator[tuple[str, bool]]:
+    """Hinges that fold along the member's axis: only rotations are measured in shapes."""
+    first, second = comparison.candidate, comparison.reference.name
+    for name, channel in first.result.channels.items():
+        match = _SLIP.fullmatch(name)
+        most = float(np.nanmax(np.abs(channel.values), initial=0.0))
+        if match is None or most < LEAST_CRUSH:
+            continue
+        yield (
+            f"Hinge {match[1]} is crushed by {1e3 * most:.3g} mm along its member in the {first.name} "
+            f"result, which its plastic energy holds; of the {second} result rotations alone are "
+            "measured. Compare the crushing by displacements of nodes, or another code's curve.",
             True,
         )
 

@@ -25,6 +25,9 @@ BUSY = 0.8
 LONG = 5.0
 """Solve time [s] from which that is worth telling: before and after the stepping one thread works alone."""
 
+NO_ROTATION = 1e-9
+"""Rotation [rad] that is rounding."""
+
 _PARTS = ("corridor", "phase", "magnitude", "slope")
 
 
@@ -142,6 +145,8 @@ def _times(name: str, a: HingeMetrics | None, b: HingeMetrics | None, key: str) 
 def _value(value: float | None, unit: str) -> str:
     if value is None or not math.isfinite(value):
         return "—"
+    if unit == "rad" and abs(value) < NO_ROTATION:
+        return "0°"
     if unit == "rad":
         return f"{degrees(value)}° ({number(value)} rad)"
     if unit == "s":

@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import sys
 from pathlib import Path
 
 import pytest
 from tests.unit.cli.test_shell_run import coarse, crumple
+
+from crumple.cli.main import main
+from crumple.shell import Moment
 
 
 def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
@@ -93,3 +99,34 @@ def test_what_is_in_the_way_is_told_before_anything_is_solved(tmp_path: Path, na
     assert "a file of this name, or above it, is in the way" in run.stderr
     assert not (out / "shell" / "summary.json").exists()
     assert f"{out / name}: a file" in " ".join(run.stderr.split())
+
+
+def test_an_interrupted_comparison_goes_on(tmp_path: Path, monkeypatch, capsys) -> None:
+    file, parts, whole = coarse(tmp_path, 60), tmp_path / "parts", tmp_path / "whole"
+
+    def end(moment: Moment) -> str:
+        if moment.time > 0.02:
+            os.kill(os.getpid(), signal.SIGTERM)
+        return ""
+
+    with monkeypatch.context() as patch:
+        patch.setattr("crumple.cli.shell_run.news", end)
+        patch.setattr("crumple.cli.shell_run.NEWS_EVERY", -1.0)
+        patch.setattr("crumple.shell.stepping.WATCH_EVERY", 0.0)
+        words = ["crumple", "compare", file, "--out", parts, "--threads", 1, "--no-variants"]
+        patch.setattr(sys, "argv", [str(word) for word in words])
+        with pytest.raises(SystemExit) as ended:
+            main()
+    assert ended.value.code == 1
+    said = " ".join(capsys.readouterr().out.split())
+    saved = parts / "shell" / "restart.npz"
+    assert f"Go on with the same command and --restart {saved}" in said
+    assert "ms that both have are compared" in said
+    assert (parts / "report.html").is_file()
+    words = ["compare", file, "--threads", 1, "--no-variants", "--out"]
+    assert crumple(*words, whole, "--restart", tmp_path / "none.npz").returncode == 2
+    assert crumple(*words, parts, "--restart", saved).returncode == 0
+    assert not saved.exists()
+    assert crumple(*words, whole).returncode == 0
+    histories = Path("shell") / "histories.csv"
+    assert (parts / histories).read_bytes() == (whole / histories).read_bytes()

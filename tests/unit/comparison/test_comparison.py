@@ -254,6 +254,19 @@ def test_a_run_that_failed_is_compared_and_said(case, multibody):
     assert found.trust.headline == "A run did not end well: read what follows with that in mind."
 
 
+def test_shapes_that_rounding_alone_tells_apart_are_one(case, multibody):
+    states = multibody.states
+    rows = np.array([*range(5), 4, *range(5, len(states.times))])
+    times = states.times[rows].copy()
+    times[5] += 1e-18
+    cells = {name: values[rows] for name, values in states.cell_data.items()}
+    twice = replace(states, times=times, displacement=states.displacement[rows], cell_data=cells)
+    found = compare(replace(multibody, states=twice), folded_result(), case.structure)
+    (rated,) = (p.rating for p in found.pairs if p.channel == "hinge.root.rotation_rate")
+    once = compare(multibody, folded_result(), case.structure)
+    assert rated == next(p.rating for p in once.pairs if p.channel == "hinge.root.rotation_rate")
+
+
 def test_a_result_without_histories_is_refused(case, multibody):
     empty = replace(folded_result(), time=np.zeros(0), channels={})
     with pytest.raises(InputError, match="holds no histories"):

@@ -229,3 +229,12 @@ def test_warnings_of_the_runs_are_pointed_at(case, multibody):
     shell = replace(folded_result(largest=0.545), warnings=("something", "else"))
     facts = compare(multibody, shell, case.structure).trust.facts
     assert any("2 of the shell run" in text for text in facts)
+
+
+def test_a_hinge_that_is_crushed_is_a_caution(case, multibody):
+    crushed = Channel("hinge.root.slip.x.plastic_rotation", "m", np.linspace(0.0, -0.08, multibody.time.size))
+    channels = {**multibody.channels, crushed.name: crushed}
+    shell = folded_result(largest=0.545)
+    trust = compare(replace(multibody, channels=channels), shell, case.structure).trust
+    assert any("Hinge root is crushed by 80 mm along its member" in text for text in trust.cautions)
+    assert not any("is crushed" in text for text in compare(multibody, shell, case.structure).trust.cautions)
