@@ -3,7 +3,7 @@
 from crumple.comparison.comparison import Comparison, Opening, Source, Timing, compare
 from crumple.comparison.curve_file import CurveFile, read_curves
 from crumple.comparison.metrics import HingeComparison, HingeMetrics
-from crumple.comparison.motion import HingeMotion
+from crumple.comparison.motion import HingeMotion, rate_of
 from crumple.comparison.pairing import Pair
 from crumple.comparison.rating import EDITION, SAMPLING_RATE, Rating, rating
 from crumple.comparison.sections import at_times
@@ -38,6 +38,7 @@ __all__ = [
     "compare",
     "energy_put_in",
     "picture_times",
+    "rate_of",
     "rating",
     "read_curves",
     "solve_and_compare",

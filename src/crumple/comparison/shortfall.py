@@ -75,7 +75,8 @@ def _laws(comparison: Comparison, hinge: HingeComparison) -> Iterator[tuple[str,
         text += f", ratings {known[0]:.2f} (rotation) and {known[1]:.2f} (velocity)"
     right = abs(rotation) <= CLOSE and energy <= CLOSE and min(known, default=1.0) >= FOLLOWS
     rest = (
-        "the laws and the bending of the bars are what the multibody answer lacks, the method lacks nothing."
+        "the laws and the bending of the bars explain what the multibody answer lacks. (Moments of this very "
+        "run: an explanation, no prediction.)"
         if right
         else "something besides the laws and the bending of the bars is missing too."
     )

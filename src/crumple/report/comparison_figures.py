@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from crumple.comparison import Comparison, Source
+from crumple.comparison import Comparison, Source, rate_of
 from crumple.report.scales import Floats, display_unit, largest, spread, time_unit
 from crumple.report.style import (
     HALF,
@@ -64,7 +64,7 @@ def _measures(comparison: Comparison, name: str) -> list[tuple[str, Floats, Floa
         lines.append((f"{second.name}, near", b.time, b.sense * b.rotation, b.sense * b.rotation_rate))
         if b.far is not None:
             far = b.sense * b.far
-            lines.append((f"{second.name}, far end", b.time, far, np.gradient(far, b.time)))
+            lines.append((f"{second.name}, far end", b.time, far, rate_of(far, b.time)))
     motion = b or a
     if motion is not None:
         for curve in comparison.curves:
@@ -72,7 +72,7 @@ def _measures(comparison: Comparison, name: str) -> list[tuple[str, Floats, Floa
                 signal = curve.signals.get(key)
                 if signal is not None:
                     values = motion.sense * signal.values
-                    lines.append((curve.name, signal.time, values, np.gradient(values, signal.time)))
+                    lines.append((curve.name, signal.time, values, rate_of(values, signal.time)))
     return lines
 
 

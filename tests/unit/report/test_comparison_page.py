@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.unit.comparison.folded_tube import analysis, angle_over_time, folded_result, folded_states
+from tests.unit.comparison.test_trust import shortened
 from tests.unit.report.browser import Browser, find_browser
 
 import crumple.report
@@ -154,6 +155,17 @@ def test_nothing_is_wider_than_the_window(browser, page, width):
     # a table may be wider and scroll, what it is about is read without
     captions = "[...document.querySelectorAll('caption')].map(c => c.getBoundingClientRect().right)"
     assert max(browser.evaluate(captions)) <= width
+
+
+@pytest.mark.parametrize("shapes", [1, 2])
+def test_a_run_that_ended_at_once_has_a_page(tmp_path, shapes):
+    case, whole = analysis(), folded_result()
+    end = float(whole.states.times[shapes - 1])
+    stopped = shortened(whole, end)
+    for first, second in ((solve(with_frames(case, 41)), stopped), (stopped, whole)):
+        found = compare(first, second, case.structure)
+        page = write_comparison(found, ReportInput(), tmp_path).read_text(encoding="utf-8")
+        assert f"only the {1e3 * end:.4g} ms that both have are compared" in page
 
 
 def test_the_page_says_what_was_found(page, found):
