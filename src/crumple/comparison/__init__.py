@@ -2,6 +2,7 @@
 
 from crumple.comparison.comparison import Comparison, Opening, Source, Timing, compare
 from crumple.comparison.curve_file import CurveFile, read_curves
+from crumple.comparison.energy import energy_put_in
 from crumple.comparison.metrics import HingeComparison, HingeMetrics
 from crumple.comparison.motion import HingeMotion, rate_of
 from crumple.comparison.pairing import Pair
@@ -15,7 +16,7 @@ from crumple.comparison.solving import (
     with_mesh,
     with_pictures,
 )
-from crumple.comparison.trust import Trust, energy_put_in
+from crumple.comparison.trust import Trust
 from crumple.comparison.variant import MODEL_NAMES
 
 __all__ = [

@@ -9,11 +9,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from crumple.comparison.energy import energy_put_in
 from crumple.comparison.metrics import percent
 
 if TYPE_CHECKING:
     from crumple.comparison.comparison import Comparison
 
+LEAST_WORK = 0.05
+"""Plastic work over the energy put in below which a run is as good as elastic."""
+OUTSIDE = 0.2
+"""Share of plastic work outside folds that is worth a caution: a fold's ends, and long stretches that just
+yield, hold up to a tenth in structures that bend."""
 AT_END = 0.01
 """Share of what is compared within whose last part a largest rotation is that of the end."""
 STILL = 0.02
@@ -30,10 +36,36 @@ _FAILED = re.compile(r"weld\.(.+)\.failed")
 
 def said_of_runs(comparison: Comparison) -> Iterator[tuple[str, bool]]:
     """Sentences, and whether each is a caution."""
+    yield from _outside(comparison)
     yield from _welds(comparison)
     yield from _crushed(comparison)
     yield from _still_turning(comparison)
     yield from _warnings(comparison)
+
+
+def outside_folds(comparison: Comparison) -> float:
+    """Share of the reference's plastic work in no fold; 0 where it did next to none, or has no shapes."""
+    source = comparison.reference
+    if source.result.states is None or "energy.dissipated" not in source.result.channels:
+        return 0.0
+    until = min(comparison.until, float(source.result.time[-1]))
+    work = float(np.interp(until, source.result.time, source.result["energy.dissipated"]))
+    if not work > LEAST_WORK * energy_put_in(source.result):
+        return 0.0
+    own = [motion.until(until).plastic_work for motion in (*source.hinges, *source.extra)]
+    return max(1.0 - sum(float(one[-1]) for one in own if one.size) / work, 0.0)
+
+
+def _outside(comparison: Comparison) -> Iterator[tuple[str, bool]]:
+    """Plastic work where no section turns, as in walls that are crushed along a member or dented."""
+    share = outside_folds(comparison)
+    if share > OUTSIDE:
+        yield (
+            f"{percent(share)} of the plastic work of the {comparison.reference.name} run lies outside its "
+            "folds: walls yield, are dented, or are crushed along their member where sections do not turn, "
+            f"and hinges of the {comparison.candidate.name} model that only bend cannot stand for that.",
+            True,
+        )
 
 
 def _welds(comparison: Comparison) -> Iterator[tuple[str, bool]]:

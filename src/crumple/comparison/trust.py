@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from crumple.comparison.energy import energy_put_in, largest_of
 from crumple.comparison.metrics import percent
 from crumple.comparison.motion import REACH, HingeMotion, largest_side
 from crumple.comparison.runs import said_of_runs
@@ -17,7 +18,6 @@ from crumple.comparison.sections import Floats
 from crumple.comparison.shortfall import shortfall
 from crumple.comparison.verdict import SMALL, agreement, verdict
 from crumple.hinge import Form
-from crumple.result import Result
 from crumple.structure import PlacedHinge, Structure, placed_hinges
 
 if TYPE_CHECKING:
@@ -257,7 +257,7 @@ def _listed(names: list[str]) -> str:
 def _elastic(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator[tuple[str, bool]]:
     """Share of elastic energy, and whether the candidate can hold any."""
     stored, put_in = (
-        _largest(comparison.reference.result, "energy.elastic"),
+        largest_of(comparison.reference.result, "energy.elastic"),
         energy_put_in(comparison.reference.result),
     )
     if stored is None or not put_in > 0.0:
@@ -322,7 +322,7 @@ def swings_of(values: Floats, least: float) -> list[float]:
 def _contact(comparison: Comparison, obstacles: bool) -> Iterator[tuple[str, bool]]:
     """Whether walls touched, which laws up to jamming know nothing of."""
     touched, put_in = (
-        _largest(comparison.reference.result, "energy.contact"),
+        largest_of(comparison.reference.result, "energy.contact"),
         energy_put_in(comparison.reference.result),
     )
     if touched is None or not put_in > 0.0 or not touched > TOUCHED * put_in:
@@ -349,30 +349,16 @@ def _reference(source: Source) -> Iterator[tuple[str, bool]]:
         return
     internal = sum(
         float(v)
-        for v in (_largest(source.result, f"energy.{n}") for n in ("elastic", "dissipated"))
+        for v in (largest_of(source.result, f"energy.{n}") for n in ("elastic", "dissipated"))
         if v is not None
     )
-    hourglass = _largest(source.result, "energy.hourglass")
+    hourglass = largest_of(source.result, "energy.hourglass")
     if hourglass is not None and internal > 0.0 and hourglass > HOURGLASS * internal:
         yield (
             f"Hourglass energy is {percent(hourglass / internal)} of the internal energy: the mesh is no "
             "reference.",
             True,
         )
-
-
-def energy_put_in(result: Result) -> float:
-    """Energy at the start and the largest external work [J]."""
-    start = sum(
-        float(result[name][0]) for name in ("energy.kinetic", "energy.elastic") if name in result.channels
-    )
-    return start + (_largest(result, "energy.external_work") or 0.0)
-
-
-def _largest(result: Result, channel: str) -> float | None:
-    if channel not in result.channels:
-        return None
-    return float(np.nanmax(np.abs(result[channel]), initial=0.0))
 
 
 def _most(motion: HingeMotion) -> float:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from crumple.comparison.metrics import HingeComparison, percent, signed
+from crumple.comparison.runs import outside_folds
 
 if TYPE_CHECKING:
     from crumple.comparison.comparison import Comparison
@@ -17,6 +18,8 @@ FAR_OFF = 0.25
 """The same from which it does not."""
 SMALL = 0.1
 """Share of the largest plastic energy, in either result, below which a hinge's own errors decide nothing."""
+MOSTLY = 0.5
+"""Share of plastic work outside folds from which a comparison without any says so first."""
 MOST_TOLD = 8
 """Hinges whose errors are told one by one, the farthest off first."""
 
@@ -53,6 +56,13 @@ def _by_errors(comparison: Comparison, doubtful: bool) -> tuple[str, str]:
     """Level and headline where both fold at the same hinges."""
     first, second = comparison.candidate.name, comparison.reference.name
     off = _worst(comparison)
+    outside = outside_folds(comparison)
+    if off is None and outside > MOSTLY:
+        return (
+            "bad",
+            f"The {second} run takes up its energy where nothing bends: {percent(outside)} of its plastic "
+            "work lies outside folds.",
+        )
     if off is None:
         return "caution", f"Nothing folds in the {second} run: there is no plastic rotation to compare."
     said = (

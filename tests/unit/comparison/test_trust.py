@@ -238,3 +238,23 @@ def test_a_hinge_that_is_crushed_is_a_caution(case, multibody):
     trust = compare(replace(multibody, channels=channels), shell, case.structure).trust
     assert any("Hinge root is crushed by 80 mm along its member" in text for text in trust.cautions)
     assert not any("is crushed" in text for text in compare(multibody, shell, case.structure).trust.cautions)
+
+
+def test_plastic_work_outside_folds_is_told(case, multibody):
+    still = folded_result([(0.01, 0.04, 0.0 * TIMES)])
+    # crushed along itself: work and strain, and no section turns
+    work = replace(still.channels["energy.dissipated"], values=300.0 * still.time / still.time[-1])
+    start = replace(still.channels["energy.kinetic"], values=300.0 - work.values)
+    strain = np.zeros_like(still.states.cell_data["plastic_strain"])
+    strain[:, :20] = np.linspace(0.0, 0.4, len(strain))[:, None]
+    shapes = replace(still.states, cell_data={"plastic_strain": strain})
+    channels = {**still.channels, "energy.dissipated": work, "energy.kinetic": start}
+    crushed = replace(still, channels=channels, states=shapes)
+    trust = compare(still, crushed, case.structure).trust
+    assert trust.level == "bad"
+    assert "100.0 % of its plastic work lies outside folds" in trust.headline
+    assert any("where sections do not turn" in text for text in trust.cautions)
+    assert not any(
+        "outside its folds" in text
+        for text in compare(multibody, folded_result(), case.structure).trust.cautions
+    )
