@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from crumple.report import ReportInput
 
 MOST_HINGES = 8
-"""Hinges that the table shows; the page holds more."""
+"""Hinges that the table shows, those that absorbed most; the page holds more."""
 
 
 def compare(
@@ -148,7 +148,7 @@ def _show(found: Comparison, folder: Path) -> None:
     from rich.text import Text
 
     from crumple.report import curve_notes
-    from crumple.report.comparison_wording import busy_note
+    from crumple.report.comparison_wording import busy_note, ranked
     from crumple.units import format_quantity
 
     console = Console(highlight=False)
@@ -157,10 +157,10 @@ def _show(found: Comparison, folder: Path) -> None:
     console.print(Text(found.trust.headline, style=style))
     first, second = found.candidate.name, found.reference.name
     table = Table()
-    table.add_column("Hinge")
+    table.add_column("Hinge", overflow="fold")
     for head in (f"{first}, deg", f"{second}, deg", "Differs", "Energy differs", "Rating"):
         table.add_column(head, justify="right")
-    for hinge in found.hinges[:MOST_HINGES]:
+    for hinge in ranked(found)[:MOST_HINGES]:
         error = hinge.error("rotation_max")
         energy = max((abs(e) for e in hinge.energy_errors() if e is not None), default=None)
         channel = f"hinge.{hinge.name}.rotation"
@@ -173,6 +173,8 @@ def _show(found: Comparison, folder: Path) -> None:
             "-" if rated is None else f"{rated.overall:.2f}",
         )
     console.print(table)
+    if len(found.hinges) > MOST_HINGES:
+        console.print(f"{MOST_HINGES} of {len(found.hinges)} hinges, those that absorbed most")
     times = [
         f"{format_quantity(source.result.solve_seconds, 's', 3)} ({source.with_threads})"
         for source in (found.candidate, found.reference)

@@ -43,6 +43,7 @@ def run(
     """Solve an input file and report. Writes summary, histories, shapes, figures and a page to a folder."""
     from crumple.analysis import load
     from crumple.cli.folder import results_folder
+    from crumple.errors import Status
 
     analysis = load(file)
     if restart is not None and fidelity is not Fidelity.SHELL:
@@ -59,6 +60,9 @@ def run(
         else:
             _show(result, place)
             _show_restart(file, place)
+        if result.status is Status.CANCELLED:
+            # whoever stops the first does not wish the second to begin
+            break
     if as_json:
         import json
 

@@ -7,11 +7,20 @@ import os
 import signal
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
+import typer
 from tests.unit.cli.test_shell_run import coarse, crumple
+from tests.unit.comparison.folded_tube import analysis, angle_over_time, folded_result
 
+from crumple.cli.compare import _show
+from crumple.cli.fidelity import Fidelity
 from crumple.cli.main import main
+from crumple.cli.run import run
+from crumple.comparison import compare
+from crumple.errors import Status
 from crumple.shell import Moment
 
 
@@ -65,6 +74,21 @@ def test_run_with_both_fidelities(tmp_path: Path) -> None:
         "shell": "shell",
     }
     assert not (tmp_path / "report.html").exists()
+
+
+@pytest.mark.parametrize(("status", "begun"), [(Status.CANCELLED, 1), (Status.NOT_FINITE, 2)])
+def test_a_stopped_first_run_keeps_the_second_away(tmp_path: Path, monkeypatch, status, begun) -> None:
+    runs = []
+
+    def solved(*given) -> object:
+        runs.append(given)
+        return SimpleNamespace(status=status)
+
+    for name, stand_in in (("_solve", solved), ("_show", lambda *_: None)):
+        monkeypatch.setattr(f"crumple.cli.run.{name}", stand_in)
+    with pytest.raises(typer.Exit):
+        run(coarse(tmp_path, 12), out=str(tmp_path / "out"), fidelity=Fidelity.BOTH)
+    assert len(runs) == begun
 
 
 @pytest.mark.parametrize(
@@ -130,3 +154,16 @@ def test_an_interrupted_comparison_goes_on(tmp_path: Path, monkeypatch, capsys) 
     assert crumple(*words, whole).returncode == 0
     histories = Path("shell") / "histories.csv"
     assert (parts / histories).read_bytes() == (whole / histories).read_bytes()
+
+
+def test_the_table_shows_the_hinges_that_absorbed_most(monkeypatch, capsys) -> None:
+    case, times = analysis(), np.linspace(0.0, 0.1, 101)
+    small, large = (largest * angle_over_time(times) for largest in (0.5, 1.5))
+    shell = folded_result([(0.01, 0.04, small), (0.60, 0.63, large)])
+    found = compare(shell, shell, case.structure)
+    monkeypatch.setattr("crumple.cli.compare.MOST_HINGES", 1)
+    _show(found, Path("out"))
+    said = capsys.readouterr().out
+    table = said[: said.index("1 of 2 hinges, those that absorbed most")]
+    assert "tube at" in table
+    assert "root" not in table.partition("Hinge")[2]
