@@ -222,9 +222,14 @@ void Stepper::predict(const State& s, double h, const std::vector<Twist>& end) {
     }
 }
 
-// V*: change of momentum between the true ends of the step, (I_1 w_1) - (I_0 w_0), told for the middle's inertia
+// V*: change of momentum between the true ends of the step, (I_1 w_1) - (I_0 w_0), told for the middle's inertia.  Drag has no
+// momentum: a quasi-static step gives V* the impulses alone.
 void Stepper::set_free(const State& s) {
     for (size_t i = 0; i < free_.size(); i++) {
+        if (stage_.quasi_static) {
+            free_[i] = system_.mobility(i, momentum_[i]);
+            continue;
+        }
         const Body& body = model_.bodies[i];
         const Vec3 before = world(s.pose[i].q, body.inertia) * s.velocity[i].w;
         const Vec3 after = world(end_[i].q, body.inertia) * guess_[i].w - inertia_[i] * guess_[i].w;
