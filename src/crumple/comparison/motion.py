@@ -61,6 +61,9 @@ class HingeMotion:
         Stretch of the fold [m], or None.
     planes
         Stations of the planes [m] that the rotation is measured between, or None.
+    crushed
+        Largest shortening between the planes beyond that of a bend in their middle, over their distance at
+        the start [-]; 0 where it was not measured.
     fold
         Whether a fold was found here; a multibody hinge counts once it has turned plastically.
     """
@@ -78,6 +81,7 @@ class HingeMotion:
     far: Floats | None = None
     extent: tuple[float, float] | None = None
     planes: tuple[float, float] | None = None
+    crushed: float = 0.0
     fold: bool = True
 
     @property
@@ -304,8 +308,16 @@ def _measure(result: Result, structure: Structure, own: Sections, site: _Site) -
         far=_far(own, hinge),
         extent=(fold.start, fold.end) if fold is not None else None,
         planes=(a, b),
+        crushed=_crushed(own, first, last),
         fold=fold is not None,
     )
+
+
+def _crushed(own: Sections, first: int, last: int) -> float:
+    """Largest shortening between two sections beyond that of a kink half-way, over their distance [-]."""
+    at_start = float(np.linalg.norm(own.start_centres[last] - own.start_centres[first]))
+    now = np.linalg.norm(own.centres[:, last] - own.centres[:, first], axis=1)
+    return max(float((np.cos(own.bend(first, last) / 2) - now / at_start).max()), 0.0)
 
 
 def bends_two_ways(hinge: PlacedHinge | _Where) -> bool:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crumple.comparison.energy import energy_put_in
-from crumple.comparison.metrics import percent
+from crumple.comparison.metrics import OPENED_AT, percent
 
 if TYPE_CHECKING:
     from crumple.comparison.comparison import Comparison
@@ -112,7 +112,8 @@ def _still_turning(comparison: Comparison) -> Iterator[tuple[str, bool]]:
             turned, rate = own.sense * own.rotation, own.sense * own.rotation_rate
             peak = float(own.time[int(np.argmax(turned))])
             late = peak >= (1.0 - AT_END) * float(own.time[-1])
-            if late and rate[-1] > STILL * float(np.abs(rate).max()):
+            opened = float(turned.max()) > OPENED_AT
+            if opened and late and rate[-1] > STILL * float(np.abs(rate).max()):
                 names.append(motion.name)
         if names:
             more = " and others" if len(names) > MOST_NAMED else ""

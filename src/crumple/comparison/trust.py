@@ -31,6 +31,8 @@ SWING = 0.1
 """Share of the largest bending below which a way back is no swing: noise of planes fitted to few points."""
 MOST_NAMED = 6
 """Hinges of an order that are named."""
+CRUSHED = 0.1
+"""Shortening of a fold beyond that of its bend, over its length, from which it is worth a word."""
 HOURGLASS = 0.05
 """Hourglass energy over internal energy above which a shell run is no reference."""
 TOUCHED = 0.005
@@ -151,7 +153,7 @@ def _folds(
     first, second = comparison.candidate.name, comparison.reference.name
     for motion in comparison.reference.extra:
         where = f"member {motion.member} at {_mm(motion.station)}"
-        place = f"The {second} result folds in {where} (by {_deg(_most(motion))})"
+        place = f"The {second} result folds in {where} (by {_deg(_most(motion))}{_shortened(motion)})"
         near = _across_joint(structure, motion, hinges)
         if near:
             turns = [s.hinge(near) for s in (comparison.candidate, comparison.reference)]
@@ -190,6 +192,14 @@ def _folds(
                 f"the hinge at {_mm(hinge.station)}."
             )
             yield text, abs(away) > largest_side(structure, hinge.member)
+
+
+def _shortened(motion: HingeMotion) -> str:
+    """How much shorter a fold has become, where it is crushed along its member too."""
+    if motion.planes is None or motion.crushed < CRUSHED:
+        return ""
+    a, b = motion.planes
+    return f", and shorter by {_mm(motion.crushed * (b - a))} of {_mm(b - a)}"
 
 
 def _shared(comparison: Comparison) -> Iterator[tuple[str, bool]]:

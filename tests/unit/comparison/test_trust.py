@@ -258,3 +258,19 @@ def test_plastic_work_outside_folds_is_told(case, multibody):
         "outside its folds" in text
         for text in compare(multibody, folded_result(), case.structure).trust.cautions
     )
+
+
+def test_a_fold_that_is_crushed_tells_its_shortening(case, multibody):
+    def told(shell):
+        found = compare(multibody, shell, case.structure)
+        return next(text for text in found.trust.cautions if "folds in member tube at" in text)
+
+    turned = folded_result([(0.5, 0.6, 0.2 * TIMES / TIMES[-1])])
+    assert "(by 11.5°), where no hinge was put" in told(turned)
+    # everything beyond the fold moves back by 40 mm along x, at half the angle to the fold's own line
+    states = turned.states
+    way = np.zeros_like(states.displacement)
+    beyond = np.clip((states.station - 0.5) / 0.1, 0.0, 1.0)
+    way[..., 0] = -0.04 * (states.times / states.times[-1])[:, None] * beyond
+    crushed = replace(turned, states=replace(states, displacement=states.displacement + way))
+    assert "and shorter by 39 mm of 160 mm)" in told(crushed)
