@@ -223,6 +223,15 @@ def test_a_run_that_ends_before_the_peak_is_a_caution(case, multibody):
     assert not any(
         "Still turning" in text for text in compare(multibody, whole, case.structure).trust.cautions
     )
+    # rounding that grows is no turning
+    tiny = {
+        name: replace(channel, values=1e-12 * channel.values)
+        for name, channel in multibody.channels.items()
+        if name.startswith("hinge.")
+    }
+    still = replace(multibody, channels={**multibody.channels, **tiny})
+    trust = compare(shortened(still, 0.04), shortened(whole, 0.04), case.structure).trust
+    assert any("at 40 ms: root (shell)" in text for text in trust.cautions)
 
 
 def test_warnings_of_the_runs_are_pointed_at(case, multibody):
