@@ -20,6 +20,7 @@ from crumple.report.style import (
     label_room,
     name_axes,
     new_figure,
+    short,
     to_svg,
 )
 
@@ -112,7 +113,9 @@ def history(comparison: Comparison, channel: str, figure_name: str) -> str:
     ]
     figure = new_figure(HALF, _HEAD + _PANEL + _FOOT)
     axes = add_axes(figure, _LEFT, _FOOT, HALF - _LEFT - _RIGHT, _PANEL)
-    _draw(axes, [line for line in lines if len(line.x)], _time_name(comparison), unit, labels=True)
+    _draw(
+        axes, [line for line in lines if len(line.x)], _time_name(comparison), f"{short(channel, 34)}, {unit}"
+    )
     return to_svg(figure, figure_name, f"{channel} against time.")
 
 
@@ -229,7 +232,7 @@ def _energy_figure(lines: Sequence[Line], x: str, y: str, figure_name: str, hing
     )
 
 
-def _draw(axes: object, lines: Sequence[Line], x: str, y: str, *, labels: bool) -> None:
+def _draw(axes: object, lines: Sequence[Line], x: str, y: str, *, labels: bool = True) -> None:
     from matplotlib.axes import Axes  # noqa: PLC0415
 
     assert isinstance(axes, Axes)

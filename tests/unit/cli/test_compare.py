@@ -63,6 +63,9 @@ def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
     ):
         assert expected in page
     assert (tmp_path / "out" / "figures" / "shapes.svg").is_file()
+    drawn = (tmp_path / "out" / "figures" / "curve_1.svg").read_text()
+    assert "node.tip.displacement.z, mm" in drawn
+    assert ">bench<" in drawn
 
 
 def test_run_with_both_fidelities(tmp_path: Path) -> None:
