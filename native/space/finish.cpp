@@ -12,6 +12,9 @@ namespace {
 constexpr int mending_limit = 4;
 // Share of the model's length to which held points meet: rounding.
 constexpr double closed = 1e-14;
+// The same, or angle [rad], by which they miss each other where mending has no solution.  Mending goes to rounding; a drive against
+// what cannot give way misses by all its way, however short the steps.
+constexpr double unmet = 1e-6;
 // Rates of held rows at the end of a step, relative to the speed.
 constexpr double mended = 1e-12;
 
@@ -52,11 +55,12 @@ Energies energies(const Model& model, const State& s) {
     return e;
 }
 
-void Stepper::commit(State& s, double h) {
+// False where the held rows cannot be met.
+bool Stepper::commit(State& s, double h) {
     for (size_t i = 0; i < end_.size(); i++) end_[i] = moved(s.pose[i], (h / 2) * (s.velocity[i] + velocity_[i]));
     commit_contacts(s, h);
     work_on_links(s, h);
-    mend_end(s, h);
+    if (!mend_end(s, h)) return false;
     turn_hinges(s);
     work_of_loads(s, h);
     show_forces(s, h);
@@ -67,6 +71,7 @@ void Stepper::commit(State& s, double h) {
     s.pose = end_;
     s.t += h;
     see_contacts(s, h);
+    return true;
 }
 
 // work of drives and dampers, from the impulses and mean rates of the step
@@ -131,13 +136,13 @@ void Stepper::work_of_loads(State& s, double h) {
 }
 
 // Positions and velocities back to the held rows at the end of the step, the nearest in kinetic energy with the laws'
-// tangents kept: a locked hinge stays locked.
-void Stepper::mend_end(State& s, double h) {
+// tangents kept: a locked hinge stays locked.  False where they cannot be met.
+bool Stepper::mend_end(State& s, double h) {
     const std::vector<Link>& links = system_.links();
     bool any = false;
     locate_all(s, end_, s.t + h, rows_, error_.data());
     for (size_t c = 0; c < links.size(); c++) any = any || links[c].held > 0 || overlap(c) < 0;
-    if (!any) return;
+    if (!any) return true;
     set_mobilities(end_);
     auto set_rows = [&] {
         for (size_t c = 0; c < links.size(); c++) {
@@ -173,7 +178,21 @@ void Stepper::mend_end(State& s, double h) {
         for (size_t i = 0; i < end_.size(); i++) end_[i] = moved(end_[i], direction_[i]);
         locate_all(s, end_, s.t + h, rows_, error_.data());
     }
+    if (!meets()) return false;
     if (!stage_.quasi_static) mend_rates(s, h);
+    return true;
+}
+
+// Whether the held rows are met where they were last located.
+bool Stepper::meets() const {
+    for (size_t c = 0; c < connections_.size(); c++) {
+        for (int i = 0; i < system_.links()[c].held; i++) {
+            const size_t k = at(start(c) + i);
+            const bool turns = dot(rows_[k].t, rows_[k].t) == 0;
+            if (!(std::fabs(error_[k]) <= unmet * (turns ? 1 : model_.length))) return false;
+        }
+    }
+    return true;
 }
 
 // Its impulses belong to the step: those of drives do work, at rates that are not zero.

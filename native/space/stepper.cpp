@@ -378,8 +378,7 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
         if (followed_) settled = (*followed_)[next_pass_++].settled;
         guess_ = velocity_;
     }
-    commit(s, h);
-    return true;
+    return commit(s, h);
 }
 
 }  // namespace crumple::space

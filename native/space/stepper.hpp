@@ -133,11 +133,12 @@ private:
     double step_on_path(bool together, double& least);
     void leave_path();
     // finish.cpp
-    void commit(State& s, double h);
+    bool commit(State& s, double h);
     void work_on_links(State& s, double h);
     void turn_hinges(State& s);
     void work_of_loads(State& s, double h);
-    void mend_end(State& s, double h);
+    bool mend_end(State& s, double h);
+    bool meets() const;
     void mend_rates(State& s, double h);
     void show_forces(State& s, double h);
     bool drives_obstacle(size_t joint) const;

@@ -1,16 +1,17 @@
-"""Driven obstacles that strike what cannot give way."""
+"""Driven obstacles and supports that strike or move what cannot give way."""
 
+import pytest
 from tests.verification.structures import STEEL, TUBE
 
 from crumple.errors import Status
 from crumple.multibody import Run, solve_multibody
-from crumple.structure import Structure
+from crumple.structure import Stage, Structure
 
 RAM = {"type": "plane", "point": (1.05, 0, 0), "normal": (-1, 0, 0), "velocity": (-0.1, 0, 0)}
 
 
-def pushed(ram):
-    """A bar with a hinge half-way, clamped at x = 0."""
+def pushed(ram=None, support=None, kind="dynamic"):
+    """A bar with a hinge half-way, clamped at x = 0, and what drives its tip."""
     hinge = {"name": "fold", "at": 0.5, "law": {"type": "constant", "moment": 500.0}}
     structure = Structure(
         materials={"steel": STEEL},
@@ -19,10 +20,10 @@ def pushed(ram):
         members={
             "bar": {"nodes": ("root", "tip"), "section": "tube", "material": "steel", "hinges": [hinge]}
         },
-        supports={"clamp": {"node": "root", "fix": "all"}},
-        obstacles={"ram": ram},
+        supports={"clamp": {"node": "root", "fix": "all"}, **({"push": support} if support else {})},
+        obstacles={"ram": ram} if ram else {},
     )
-    return solve_multibody(structure, Run(1.0, 0.05))
+    return solve_multibody(structure, Run(1.0, 0.05, stages=(Stage(name="push", kind=kind, duration=1.0),)))
 
 
 def test_a_ram_along_a_bar_ends_the_run_when_it_touches():
@@ -38,3 +39,30 @@ def test_a_ram_that_bends_the_bar_goes_on():
     result = pushed(across)
     assert result.status is Status.COMPLETE
     assert result["hinge.fold.rotation"][-1] > 0.05
+
+
+def test_a_ram_along_a_bar_ends_a_quasi_static_stage_when_it_touches():
+    result = pushed(RAM, kind="quasi-static")
+    assert result.status is Status.STEP_COLLAPSED
+    assert "cannot give way" in result.reason
+    assert 0.45 <= result.time[-1] <= 0.55
+
+
+@pytest.mark.parametrize("kind", ["dynamic", "quasi-static"])
+@pytest.mark.parametrize("way", [-0.05, 0.05])
+@pytest.mark.parametrize("fix", [("y", "z"), ("y", "z", "rx", "ry", "rz")])
+def test_a_support_driven_along_a_bar_ends_the_run(kind, way, fix):
+    """Its constraint is redundant, and what contradicts it must not be dropped in silence."""
+    motion = {"x": {"table": {"time": (0.0, 1.0), "value": (0.0, way)}}}
+    result = pushed(support={"node": "tip", "fix": fix, "motion": motion}, kind=kind)
+    assert result.status is Status.STEP_COLLAPSED
+    assert "cannot give way" in result.reason
+    # it may miss by a millionth of the bar: 20 us on its way
+    assert result.time[-1] < 1e-3
+
+
+def test_a_support_driven_across_a_bar_goes_on():
+    motion = {"z": {"table": {"time": (0.0, 1.0), "value": (0.0, -0.05)}}}
+    result = pushed(support={"node": "tip", "motion": motion}, kind="quasi-static")
+    assert result.status is Status.COMPLETE
+    assert abs(result["hinge.fold.rotation"][-1]) == pytest.approx(0.1, rel=1e-2)
