@@ -12,6 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from crumple._core.space_model import SpaceCapsule
+from crumple._core.tree import Outcome
 from crumple.multibody.obstacle_bodies import member_capsules
 from crumple.multibody.overlap import segment_distance
 from crumple.multibody.rigid import Floats
@@ -29,6 +30,10 @@ def held_part_warnings(structure: Structure, solved: Solved) -> list[str]:
     """A sentence for every moving obstacle that passes through held parts while it presses something."""
     channels = {channel.name: channel.values for channel in solved.further}
     found = []
+    # what presses against it may end the run as soon as the surfaces meet
+    deepest = np.full(len(solved.time), -DEPTH)
+    if solved.outcome is not Outcome.COMPLETE:
+        deepest[-1] = DEPTH
     capsules, owner = member_capsules(structure, solved.poses.pieces, held=True)
     for name, obstacle in structure.obstacles.items():
         if f"obstacle.{name}.displacement.x" not in channels or obstacle.turning is not None:
@@ -39,14 +44,18 @@ def held_part_warnings(structure: Structure, solved: Solved) -> list[str]:
         for capsule, member in zip(capsules, owner, strict=True):
             if obstacle.members is not None and member not in obstacle.members:
                 continue
-            inside = np.flatnonzero(np.fromiter(_gaps(obstacle, travel, capsule), float) < -DEPTH)
+            gaps = np.fromiter(_gaps(obstacle, travel, capsule), float)
+            inside = np.flatnonzero(gaps < deepest[: len(gaps)])
             if inside.size and force[inside[0] :].any():
                 met[member] = min(int(inside[0]), met.get(member, len(travel)))
         if met:
             since = format_quantity(float(solved.time[min(met.values())]), "s", 3)
+            parts = f"held parts of {', '.join(f'member {m}' for m in met)}"
+            last = min(met.values()) == len(travel) - 1
+            how = f"meets {parts} at {since}" if last else f"passes through {parts} from {since} on"
             found.append(
-                f"Obstacle {name} passes through held parts of {', '.join(f'member {m}' for m in met)} from "
-                f"{since} on: held parts touch nothing, so it presses what moves alone, perhaps where that "
+                f"Obstacle {name} {how}: "
+                "held parts touch nothing, so it presses what moves alone, perhaps where that "
                 "cannot give way. Use a sphere or cylinder that reaches the moving parts only, or end before."
             )
     return found

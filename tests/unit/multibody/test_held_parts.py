@@ -3,6 +3,7 @@
 import pytest
 
 from crumple.analysis import loads, solve
+from crumple.errors import Status
 
 TEXT = """
 crumple: 1
@@ -15,7 +16,7 @@ members:
     nodes: [root, tip]
     section: tube
     material: steel
-    hinges: [{{name: h, at: root, offset: 200 mm, law: {{type: constant}}}}]
+    hinges: [{{name: h, at: root, offset: 200 mm, law: {{type: constant}}{more}}}]
 supports: {{clamp: {{node: root, fix: all}}}}
 obstacles:
   ram: {{{shape}, motion: {{x: {{table: {{time: [0 s, 1 s], value: [0 m, 100 mm]}}}}}}}}
@@ -27,8 +28,8 @@ POLE = "type: cylinder, point: [-55 mm, 0 m, {height}], axis: [0, 1, 0], radius:
 BALL = "type: sphere, point: [-55 mm, 0 m, {height}], radius: 15 mm"
 
 
-def told(shape):
-    result = solve(loads(TEXT.format(shape=shape)))
+def told(shape, more=", axial: true"):
+    result = solve(loads(TEXT.format(shape=shape, more=more)))
     return [text for text in result.warnings if "held part" in text]
 
 
@@ -39,7 +40,8 @@ def test_what_reaches_the_held_part_is_told(shape):
     assert "Obstacle ram" in text
     assert "member post" in text
     if shape is PLANE:
-        assert "from 160 ms on" in text
+        # what moves is pressed at its hinge, where it cannot give way: the run ends
+        assert "meets held parts of member post at 150 ms" in text
 
 
 @pytest.mark.parametrize(
@@ -53,3 +55,12 @@ def test_what_reaches_the_held_part_is_told(shape):
 )
 def test_what_stays_clear_of_it_is_not(shape):
     assert told(shape) == []
+
+
+def test_a_ball_that_wedges_what_cannot_slip_ends_the_run():
+    """Pressed ever nearer to its hinge the post cannot give way, and no force moves it."""
+    result = solve(loads(TEXT.format(shape=BALL.format(height="230 mm"), more="")))
+    assert result.status is Status.STEP_COLLAPSED
+    assert "cannot give way" in result.reason
+    # its surface meets the round end at the hinge after 55 mm - sqrt(40^2 - 30^2) mm, between two outputs
+    assert result.time[-1] == pytest.approx(0.28)
