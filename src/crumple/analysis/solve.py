@@ -22,7 +22,7 @@ FIDELITIES = ("multibody", "shell")
 """Solvers by name."""
 UNSOLVED: dict[str, tuple[str, ...]] = {
     "multibody": (),
-    "shell": ("joints", "outputs.section_forces", "outputs.distances", "outputs.clearances"),
+    "shell": ("joints", "outputs.section_forces"),
 }
 """Parts of a description that a solver does not take."""
 
@@ -104,8 +104,6 @@ def _refuse_unsolved(analysis: Analysis, fidelity: str) -> None:
         "analysis.stages": analysis.stages,
         "joints": structure.joints,
         "outputs.section_forces": analysis.outputs.section_forces,
-        "outputs.distances": analysis.outputs.distances,
-        "outputs.clearances": analysis.outputs.clearances,
     }
     problems = [
         Problem(f"the {fidelity} solver does not take '{where}' so far", where=where, todo="take it away")

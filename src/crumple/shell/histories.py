@@ -29,8 +29,10 @@ def channels_of(structure: Structure, sampler: Sampler, record: Record, outputs:
         *cut_channels(sampler, record),
         *obstacle_channels(structure, record),
         *weld_channels(structure, sampler.lowered, record),
-        *node_channels(sampler, record),
+        *node_channels(sampler, record, outputs),
         *section_channels(structure, sampler, record, outputs),
+        *distance_channels(structure, sampler, record, outputs),
+        *clearance_channels(sampler, record),
     ]
 
 
@@ -113,10 +115,10 @@ def obstacle_channels(structure: Structure, record: Record) -> Iterator[Channel]
                 yield Channel(f"obstacle.{name}.{quantity}.{axis}", unit, np.ascontiguousarray(values[:, i]))
 
 
-def node_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
+def node_channels(sampler: Sampler, record: Record, outputs: Outputs) -> Iterator[Channel]:
     """Displacement, velocity, mean acceleration between outputs, and rotation of nodes, in global axes."""
-    for k, name in enumerate(sampler.nodes):
-        motion = record["node"][:, k]
+    for name in outputs.nodes:
+        motion = record["node"][:, sampler.nodes.index(name)]
         velocity = motion[:, 1]
         fields = (
             ("displacement", "m", motion[:, 0]),
@@ -146,6 +148,26 @@ def section_channels(
             axes.pop() if len(axes) == 1 else max(turned, key=lambda axis: float(np.abs(turned[axis]).max()))
         )
         yield Channel(name, "rad", turned[axis])
+
+
+def distance_channels(
+    structure: Structure, sampler: Sampler, record: Record, outputs: Outputs
+) -> Iterator[Channel]:
+    """Change of the distance between two nodes: negative where they come nearer."""
+    for name, asked in outputs.distances.items():
+        first, last = (
+            np.asarray(structure.nodes[node], float) + record["node"][:, sampler.nodes.index(node), 0]
+            for node in (asked.start, asked.end)
+        )
+        apart = np.linalg.norm(last - first, axis=1)
+        before = np.subtract(structure.nodes[asked.end], structure.nodes[asked.start])
+        yield Channel(name, "m", apart - float(np.linalg.norm(before)))
+
+
+def clearance_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
+    """Least distance between a space that moves with a member and the others, negative inside."""
+    for k, space in enumerate(sampler.lowered.spaces):
+        yield Channel(space.name, "m", record["clearance"][:, k].copy())
 
 
 def summaries(sampler: Sampler, record: Record) -> dict[str, HingeSummary]:

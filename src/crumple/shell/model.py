@@ -28,6 +28,7 @@ from crumple.shell.places import HingeZone, SupportCut, hinge_zones, support_cut
 from crumple.shell.quality import MeshReport, report_of, wall_metals, wall_thickness
 from crumple.shell.refusals import damping_of
 from crumple.shell.rigid_parts import rigid_elements
+from crumple.shell.spaces import Space, spaces_of
 from crumple.shell.start import Start, start_of
 from crumple.shell.welds import Spot, spots_of
 from crumple.structure import Outputs, ShellSettings, Stage, Structure
@@ -54,6 +55,8 @@ class Lowered:
         What the model's further cuts look at, by support.
     welds
         Described spot welds, in the order of the model's.
+    spaces
+        Whose clearances are asked for.
     model
         What the stepper takes in the first stage.
     """
@@ -65,6 +68,7 @@ class Lowered:
     zones: tuple[HingeZone, ...]
     supports: dict[str, SupportCut]
     welds: tuple[Spot, ...]
+    spaces: tuple[Space, ...]
     model: ShellModel
 
 
@@ -129,7 +133,8 @@ def lower(
         cuts=[*cuts, *(_cut(cut.elements, cut.nodes) for cut in held.values())],
         settings=_settings(structure, settings),
     )
-    lowered = Lowered(mesh, report, bodies, start, zones, held, welds, model)
+    spaces = spaces_of(structure, mesh, outputs)
+    lowered = Lowered(mesh, report, bodies, start, zones, held, welds, spaces, model)
     return replace(lowered, model=model_of_stage(structure, settings, lowered, stage, 0.0))
 
 

@@ -13,6 +13,7 @@ from crumple.shell.contour import Floats, Integers
 from crumple.shell.mesh import Mesh
 from crumple.shell.model import Lowered
 from crumple.shell.sections import mean_spin, section_rotation
+from crumple.shell.spaces import clearance_now
 from crumple.structure import Outputs
 
 ENERGIES = (
@@ -35,7 +36,7 @@ class Sampler:
     lowered
         What is computed.
     nodes
-        Names of the structure nodes that are followed.
+        Names of the structure nodes that are followed: those asked for, then ends of distances.
     rings
         Sections whose rotation is followed: member and ring.
     """
@@ -51,13 +52,14 @@ class Sampler:
         for asked in outputs.section_rotations.values():
             tube = lowered.mesh.tubes[asked.member]
             rings += [(asked.member, tube.ring_at(station)) for station in (asked.start, asked.end)]
-        return cls(lowered, tuple(outputs.nodes), tuple(dict.fromkeys(rings)))
+        ends = [end for asked in outputs.distances.values() for end in (asked.start, asked.end)]
+        return cls(lowered, tuple(dict.fromkeys([*outputs.nodes, *ends])), tuple(dict.fromkeys(rings)))
 
     def sample(self, state: ShellState) -> dict[str, Floats]:
         """Histories now.
 
         time (), energy (9,), zone (h,), cut (c, 9), ring (r, 3, 3), node (k, 6, 3), obstacle (o, 15),
-        weld (w, 5)
+        weld (w, 5), clearance (s,)
         """
         mesh, position = self.lowered.mesh, state.position
         velocity = state.velocity[0]
@@ -78,6 +80,9 @@ class Sampler:
             "node": np.array(motions).reshape(-1, 6, 3),
             "obstacle": state.obstacles,
             "weld": state.spot_welds,
+            "clearance": np.array(
+                [clearance_now(space, mesh.position, position) for space in self.lowered.spaces]
+            ),
         }
 
     def _motion(self, state: ShellState, name: str, position: Floats, velocity: Floats) -> Floats:

@@ -102,7 +102,7 @@ def _result(structure: Structure, run: ShellRun, stepping: Stepping, status: Sta
     if not len(record):
         record.add({"at": np.array(0.0), **stepping.sampler.sample(ShellState(lowered.model))})
     channels = channels_of(structure, stepping.sampler, record, run.outputs)
-    asked = {*run.outputs.section_rotations}
+    asked = {*run.outputs.section_rotations, *run.outputs.distances, *run.outputs.clearances}
     prefixes = tuple(f"node.{name}." for name in run.outputs.nodes)
     times = stepping.times
     return Result(

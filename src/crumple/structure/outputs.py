@@ -78,9 +78,9 @@ class Outputs(Spec):
     section_forces: Named[SectionForce] = FrozenMapping()
     """Forces and moments in sections of members, by name; multibody runs alone."""
     distances: Named[Distance] = FrozenMapping()
-    """Changes of distances of nodes, by channel name, negative if they come nearer; multibody runs alone."""
+    """Changes of distances of nodes, by channel name, negative if they come nearer."""
     clearances: Named[Clearance] = FrozenMapping()
-    """Distances between spaces that must stay free and members, by channel name; multibody runs alone."""
+    """Distances between spaces that must stay free and members, by channel name."""
     filters: Named[Filter] = FrozenMapping()
     """Filtered channels, by the name of the new channel."""
     pictures: Annotated[tuple[NonNegativeTime, ...], Field(max_length=MOST_PICTURES)] = ()

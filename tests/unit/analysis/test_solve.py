@@ -93,9 +93,9 @@ def test_a_run_that_ended_early_says_which_filters_it_lacks():
 
 def test_a_solver_refuses_what_it_would_leave_out():
     joints = "joints:\n  j: {node: root, member: tube, type: revolute, axis: [0, 1, 0]}\n"
-    distances = "  distances: {d: {from: root, to: tip}}\n"
-    text = TEXT.replace("supports:\n", joints + "supports:\n") + distances
+    forces = "  section_forces: {f: {member: tube, at: 0.5 m}}\n"
+    text = TEXT.replace("supports:\n", joints + "supports:\n") + forces
     with pytest.raises(InputError) as refused:
         solve(loads(text), "shell")
-    assert {problem.where for problem in refused.value.problems} == {"joints", "outputs.distances"}
+    assert {problem.where for problem in refused.value.problems} == {"joints", "outputs.section_forces"}
     assert solve(loads(text)).status.ok

@@ -74,6 +74,10 @@ def test_wrong_clearances_are_refused():
             loads(SWINGING.replace(old, new))
 
 
-def test_shells_refuse_clearances():
-    with pytest.raises(InputError, match=r"outputs\.clearances"):
-        solve(loads(SWINGING), "shell")
+def test_shells_measure_the_same_clearance():
+    short = SWINGING.replace("duration: 0.4 s", "duration: 40 ms, shell: {element_size: 40 mm}")
+    shells = solve(loads(short.replace("every: 10 ms", "every: 2 ms")), "shell")
+    assert shells.output_names == (*shells.output_names[:-1], "below")
+    tip = shells["node.tip.displacement.z"]
+    assert tip[-1] < -5e-3
+    np.testing.assert_allclose(shells["below"], 1.5 + tip - 0.02, atol=1e-4)

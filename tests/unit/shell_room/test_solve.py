@@ -14,6 +14,7 @@ COARSE = ShellSettings(element_size=24e-3)
 OUTPUTS = Outputs(
     nodes=("root", "tip"),
     section_rotations={"bend": {"member": "tube", "from": 0.0, "to": 1.0}},
+    distances={"apart": {"from": "tip", "to": "root"}},
     pictures=(0.0, 2e-3, 4e-3),
 )
 
@@ -58,6 +59,20 @@ def test_both_solvers_turn_the_same_way_at_first(result):
         assert 1.0 < result[name][-1] / other[name][-1] < 1.7, name
     assert np.sign(result["hinge.root.rotation"][-1]) == np.sign(other["hinge.root.rotation"][-1])
     assert np.sign(result["hinge.root.moment"][-1]) == np.sign(other["hinge.root.moment"][-1])
+
+
+def test_distance_is_that_of_its_nodes(result):
+    moved = np.stack([result[f"node.tip.displacement.{axis}"] for axis in "xyz"], axis=1)
+    apart = np.linalg.norm(np.array([1.0, 0.0, 0.0]) + moved, axis=1)
+    # both are interpolated from the steps around an output time
+    assert result["apart"] == pytest.approx(apart - 1.0, abs=2e-7)
+    assert result["apart"][-1] < -1e-4
+
+
+def test_distances_need_no_node_outputs():
+    alone = solve_shell(thrown(), run(2e-4, outputs=Outputs(distances=OUTPUTS.distances)))
+    assert alone.output_names == ("apart",)
+    assert not any(name.startswith("node.") for name in alone.channels)
 
 
 def test_times_are_those_asked_for(result):
