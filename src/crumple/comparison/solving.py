@@ -22,7 +22,7 @@ from crumple.comparison.variant import (
     with_elastic_members,
     with_measured_laws,
 )
-from crumple.errors import InputError, Problem
+from crumple.errors import InputError, Problem, Status
 from crumple.multibody import Run, least_seconds, stepping_seconds
 from crumple.result import Result
 from crumple.structure import Structure
@@ -32,6 +32,10 @@ if TYPE_CHECKING:
 
 FRAMES = 101
 """Shapes stored over the run: rotations are measured in them, and the moving picture plays them."""
+ROUNDING = 1e-9
+"""Share of the duration below which two times are one."""
+TIMED_BELOW = 1.0
+"""Solve time [s] up to which a model is solved again for its times: caches matter little to longer ones."""
 
 Progress = Callable[[float], None]
 Cancel = Callable[[], bool]
@@ -64,7 +68,8 @@ def solve_and_compare(
         Factor on the size of all elements of a further shell run, which shows how well the reference is
         known; None: no such run.
     progress, cancel, long_run
-        As `crumple.analysis.solve` takes them; progress is that of the shell run.
+        As `crumple.analysis.solve` takes them; progress is that of the shell run.  Cancelled, the further
+        models and meshes that are not yet solved are left out.
 
     Returns
     -------
@@ -83,15 +88,17 @@ def solve_and_compare(
     shell = solve(dense, "shell", threads, progress, cancel, long_run=long_run)
     busy = (time.process_time() - worked) / (threads * (time.perf_counter() - begin))
     reference = _hashed(shell, analysis)
-    models: dict[str, tuple[Structure, Result]] = {}
+    models = {candidate.fidelity: (analysis.structure, candidate)}
     if variants and reference.time.size:
-        models = _variants(dense, candidate, reference)
-    results = {name: result for name, (_, result) in models.items()}
-    if other is not None and reference.status.ok:
+        models |= _variants(dense, candidate, reference, cancel)
+    results = {name: result for name, (_, result) in models.items() if result is not candidate}
+    if other is not None and reference.status.ok and not _stopped(cancel):
         results[mesh_name(other)] = solve(other, "shell", threads, progress, cancel)
-    timings = {candidate.fidelity: _timing(dense)}
-    for name, (model, _) in models.items():
-        timings[name] = _timing(dense.model_copy(update={"structure": model}))
+    timings = {
+        name: _timing(dense.model_copy(update={"structure": model}))
+        for name, (model, result) in models.items()
+        if result.solve_seconds < TIMED_BELOW and not _stopped(cancel)
+    }
     found = compare(
         candidate,
         reference,
@@ -104,10 +111,11 @@ def solve_and_compare(
 
 def with_frames(analysis: Analysis, number: int = FRAMES) -> Analysis:
     """The same analysis with shapes at even times beside those asked for."""
+    asked = np.array([t for t in analysis.outputs.pictures if t <= analysis.duration])
     even = np.linspace(0.0, analysis.duration, number)
-    wanted = tuple(
-        float(t) for t in np.union1d(even, [t for t in analysis.outputs.pictures if t <= analysis.duration])
-    )
+    # of two times a rounding apart the one that is asked for stays
+    apart = np.abs(even[:, None] - asked).min(axis=1, initial=math.inf) > ROUNDING * analysis.duration
+    wanted = tuple(np.union1d(even[apart], asked).tolist())
     return analysis.model_copy(update={"outputs": analysis.outputs.model_copy(update={"pictures": wanted})})
 
 
@@ -148,8 +156,14 @@ def with_pictures(result: Result, times: Sequence[float]) -> Result:
     return replace(result, states=at_times(result.states, reached)) if reached.size else result
 
 
-def _variants(dense: Analysis, candidate: Result, reference: Result) -> dict[str, tuple[Structure, Result]]:
-    """Further models and their results, by name; a model that cannot be solved is left out."""
+def _stopped(cancel: Cancel | None) -> bool:
+    return cancel is not None and cancel()
+
+
+def _variants(
+    dense: Analysis, candidate: Result, reference: Result, cancel: Cancel | None
+) -> dict[str, tuple[Structure, Result]]:
+    """Further models and their results, by name; a model that is not solved is left out."""
     structure = dense.structure
     shell = compare(candidate, reference, structure).reference
     wanted = {
@@ -162,9 +176,11 @@ def _variants(dense: Analysis, candidate: Result, reference: Result) -> dict[str
         if model is None:
             continue
         try:
-            found[name] = (model, solve(dense.model_copy(update={"structure": model})))
+            result = solve(dense.model_copy(update={"structure": model}), cancel=cancel)
         except InputError:
             continue
+        if result.status is not Status.CANCELLED:
+            found[name] = (model, result)
     return found
 
 
