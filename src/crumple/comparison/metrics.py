@@ -196,3 +196,13 @@ def signed(error: float) -> str:
 def percent(share: float) -> str:
     """A share in per cent."""
     return f"{100 * share:.1f} %"
+
+
+def deg(angle: float) -> str:
+    """An angle [rad] in degrees."""
+    return f"{math.degrees(angle):.1f}°"
+
+
+def mm(length: float) -> str:
+    """A length [m] in millimetres."""
+    return f"{length * 1e3:.0f} mm"

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crumple.comparison.energy import energy_put_in, largest_of
-from crumple.comparison.metrics import percent
-from crumple.comparison.motion import REACH, HingeMotion, largest_side
+from crumple.comparison.fold_trust import across_joint, folds_said, largest_turn
+from crumple.comparison.metrics import deg, mm, percent
 from crumple.comparison.runs import said_of_runs
 from crumple.comparison.sections import Floats
 from crumple.comparison.shortfall import shortfall
@@ -31,8 +31,6 @@ SWING = 0.1
 """Share of the largest bending below which a way back is no swing: noise of planes fitted to few points."""
 MOST_NAMED = 6
 """Hinges of an order that are named."""
-CRUSHED = 0.1
-"""Shortening of a fold beyond that of its bend, over its length, from which it is worth a word."""
 HOURGLASS = 0.05
 """Hourglass energy over internal energy above which a shell run is no reference."""
 TOUCHED = 0.005
@@ -66,7 +64,7 @@ def trust_of(comparison: Comparison, structure: Structure) -> Trust:
     for text, serious in (
         *agreement(comparison),
         *_ranges(comparison, hinges),
-        *_folds(comparison, structure, hinges),
+        *folds_said(comparison, structure, hinges),
         *_order(comparison),
         *_elastic(comparison, hinges),
         *_bending(comparison),
@@ -107,9 +105,9 @@ def _missed(comparison: Comparison, structure: Structure, hinges: dict[str, Plac
     extra = [
         m
         for m in comparison.reference.extra
-        if work[m.name] > SMALL * most and not _across_joint(structure, m, hinges)
+        if work[m.name] > SMALL * most and not across_joint(structure, m, hinges)
     ]
-    return ", ".join(dict.fromkeys(f"{m.member} at {_mm(m.station)}" for m in extra))
+    return ", ".join(dict.fromkeys(f"{m.member} at {mm(m.station)}" for m in extra))
 
 
 def _ranges(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator[tuple[str, bool]]:
@@ -124,16 +122,16 @@ def _ranges(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator[
             reached = float(np.max(motion.sense * motion.rotation))
             if jams is not None and reached > jams:
                 yield (
-                    f"Hinge {name} reaches {_deg(reached)} in the {source.name} result; the walls of its "
+                    f"Hinge {name} reaches {deg(reached)} in the {source.name} result; the walls of its "
                     "law jam at "
-                    f"{_deg(jams)}, and what the law says beyond is a guess.",
+                    f"{deg(jams)}, and what the law says beyond is a guess.",
                     True,
                 )
             elif reached > limit:
                 yield (
-                    f"Hinge {name} reaches {_deg(reached)} in the {source.name} result, outside the range "
+                    f"Hinge {name} reaches {deg(reached)} in the {source.name} result, outside the range "
                     "of its law "
-                    f"({_deg(limit)}: {hinge.law.validity.basis}).",
+                    f"({deg(limit)}: {hinge.law.validity.basis}).",
                     True,
                 )
             else:
@@ -144,98 +142,6 @@ def _ranges(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator[
     if both:
         which = f"Hinge {both[0]} stays" if len(both) == 1 else f"{len(both)} of {len(hinges)} hinges stay"
         yield f"{which} inside the range of the law in both results.", False
-
-
-def _folds(
-    comparison: Comparison, structure: Structure, hinges: dict[str, PlacedHinge]
-) -> Iterator[tuple[str, bool]]:
-    """Folds without hinges, hinges without folds, folds away from their hinges."""
-    first, second = comparison.candidate.name, comparison.reference.name
-    for motion in comparison.reference.extra:
-        where = f"member {motion.member} at {_mm(motion.station)}"
-        place = f"The {second} result folds in {where} (by {_deg(_most(motion))}{_shortened(motion)})"
-        near = _across_joint(structure, motion, hinges)
-        if near:
-            turns = [s.hinge(near) for s in (comparison.candidate, comparison.reference)]
-            alone, beside = (0.0 if turn is None else _most(turn) for turn in turns)
-            yield (
-                f"{place}, at the joint beside hinge {near} of another member: both members share the "
-                f"rotation of this corner, {_deg(beside + _most(motion))} together against {_deg(alone)} "
-                f"{first}, and figures of that hinge alone cannot be compared.",
-                True,
-            )
-            continue
-        yield (
-            f"{place}, where no hinge was put: the {first} model cannot fold there, and its answer is wrong "
-            "by what "
-            "this fold takes up.",
-            True,
-        )
-    yield from _shared(comparison)
-    opened = {source: {o.name for o in found} for source, found in comparison.opened.items()}
-    for hinge in comparison.hinges:
-        if hinge.name not in hinges:
-            continue
-        here, there = hinge.name in opened[first], hinge.name in opened[second]
-        if here and not there:
-            yield (
-                f"Hinge {hinge.name} opens in the {first} result alone; the {second} result has no fold "
-                "there.",
-                True,
-            )
-        elif there and not here:
-            yield f"Hinge {hinge.name} opens in the {second} result alone.", True
-        if hinge.fold_station is not None:
-            away = hinge.fold_station - hinge.station
-            text = (
-                f"The fold of hinge {hinge.name} lies at {_mm(hinge.fold_station)} of member {hinge.member}, "
-                f"the hinge at {_mm(hinge.station)}."
-            )
-            yield text, abs(away) > largest_side(structure, hinge.member)
-
-
-def _shortened(motion: HingeMotion) -> str:
-    """How much shorter a fold has become, where it is crushed along its member too."""
-    if motion.planes is None or motion.crushed < CRUSHED:
-        return ""
-    a, b = motion.planes
-    return f", and shorter by {_mm(motion.crushed * (b - a))} of {_mm(b - a)}"
-
-
-def _shared(comparison: Comparison) -> Iterator[tuple[str, bool]]:
-    """Hinges that stand in one fold, whose parts of its rotation depend on where the planes lie."""
-    first, second = comparison.candidate.name, comparison.reference.name
-    for hinge in comparison.hinges:
-        low, high = hinge.fold_extent or (math.inf, -math.inf)
-        for other in comparison.hinges:
-            half = (other.station + hinge.station) / 2
-            if other is hinge or other.member != hinge.member or not low < half < high:
-                continue
-            names = [h.name for h in sorted((hinge, other), key=lambda h: h.station)]
-            together = [
-                sum(_most(turn) for name in names if (turn := s.hinge(name)) is not None)
-                for s in (comparison.candidate, comparison.reference)
-            ]
-            yield (
-                f"Hinges {names[0]} and {names[1]} stand in one fold of the {second} result, from "
-                f"{_mm(low)} to {_mm(high)} of member {hinge.member}: together they turn by "
-                f"{_deg(together[0])} {first} and {_deg(together[1])} {second}, and figures of one alone "
-                "cannot be compared. One hinge is enough there.",
-                True,
-            )
-
-
-def _across_joint(structure: Structure, motion: HingeMotion, hinges: dict[str, PlacedHinge]) -> str:
-    """Hinge of another member that lies beside a fold, as at a joint; empty where there is none."""
-    place = structure.frame_of(motion.member).position(motion.station)
-    reach = REACH * largest_side(structure, motion.member)
-    near = [
-        (float(np.linalg.norm(hinge.position - place)), name)
-        for name, hinge in hinges.items()
-        if hinge.member != motion.member
-    ]
-    distance, name = min(near, default=(np.inf, ""))
-    return name if distance <= reach else ""
 
 
 def _order(comparison: Comparison) -> Iterator[tuple[str, bool]]:
@@ -292,14 +198,14 @@ def _bending(comparison: Comparison) -> Iterator[tuple[str, bool]]:
         if motion.far is None or not motion.fold or motion.time.size < 5:
             continue
         bent = motion.sense * (motion.far - motion.rotation)
-        most, reach = _most(motion), float(np.max(np.abs(bent)))
+        most, reach = largest_turn(motion), float(np.max(np.abs(bent)))
         if not (most > 0.0 and reach > VIBRATES * most):
             continue
         swings = swings_of(bent, SWING * reach)
-        vibrates = f", and vibrates there by up to ±{_deg(max(swings))}" if len(swings) > 1 else ""
+        vibrates = f", and vibrates there by up to ±{deg(max(swings))}" if len(swings) > 1 else ""
         yield (
             f"Member {motion.member} bends between the fold of hinge {motion.name} and its far end by up to "
-            f"{_deg(reach)} ({percent(reach / most)} of the rotation){vibrates}: bars between hinges are "
+            f"{deg(reach)} ({percent(reach / most)} of the rotation){vibrates}: bars between hinges are "
             "rigid and cannot.",
             False,
         )
@@ -369,15 +275,3 @@ def _reference(source: Source) -> Iterator[tuple[str, bool]]:
             "reference.",
             True,
         )
-
-
-def _most(motion: HingeMotion) -> float:
-    return float(np.max(motion.sense * motion.rotation)) if motion.rotation.size else 0.0
-
-
-def _deg(angle: float) -> str:
-    return f"{math.degrees(angle):.1f}°"
-
-
-def _mm(length: float) -> str:
-    return f"{length * 1e3:.0f} mm"

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from crumple.comparison.metrics import HingeComparison, percent, signed
+from crumple.comparison.metrics import HingeComparison, deg, percent, signed
 from crumple.comparison.runs import outside_folds
 
 if TYPE_CHECKING:
@@ -136,13 +135,13 @@ def _agreement(comparison: Comparison, hinge: HingeComparison) -> str:
     assert hinge.second is not None
     assert rotation is not None
     text = (
-        f"Hinge {hinge.name}: largest rotation {_deg(hinge.first.rotation_max)} {first}, "
-        f"{_deg(hinge.second.rotation_max)} {second} ({signed(rotation)})"
+        f"Hinge {hinge.name}: largest rotation {deg(hinge.first.rotation_max)} {first}, "
+        f"{deg(hinge.second.rotation_max)} {second} ({signed(rotation)})"
     )
     if plastic is not None:
         text += (
-            f", of which plastic {_deg(hinge.first.plastic_rotation)} and "
-            f"{_deg(hinge.second.plastic_rotation)} ({signed(plastic)})"
+            f", of which plastic {deg(hinge.first.plastic_rotation)} and "
+            f"{deg(hinge.second.plastic_rotation)} ({signed(plastic)})"
         )
     energy = worst(hinge.energy_errors())
     if energy is not None:
@@ -159,7 +158,3 @@ def worst(errors: tuple[float | None, ...]) -> float | None:
     """Error of largest magnitude; None without any."""
     known = [error for error in errors if error is not None]
     return max(known, key=abs) if known else None
-
-
-def _deg(angle: float) -> str:
-    return f"{math.degrees(angle):.1f}°"

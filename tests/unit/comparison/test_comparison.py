@@ -11,10 +11,10 @@ from tests.verification.structures import STEEL, TUBE
 
 from crumple.analysis import load, solve
 from crumple.comparison import CurveFile, Signal, Timing, compare, with_frames, with_pictures
+from crumple.comparison.fold_trust import across_joint, folds_said
 from crumple.comparison.motion import HingeMotion
 from crumple.comparison.pairing import pairs_of
 from crumple.comparison.solving import mesh_name, with_mesh
-from crumple.comparison.trust import _across_joint, _folds
 from crumple.comparison.variant import (
     SHELL_LAWS,
     measured_law,
@@ -197,7 +197,7 @@ def test_a_fold_across_a_joint_is_told_from_one_without_a_hinge(station, beside)
     structure = load(EXAMPLE.parent / "06_two_bars.yaml").structure
     hinges = {hinge.name: hinge for hinge in placed_hinges(structure)}
     motion = HingeMotion("first at", "first", station, *[np.zeros(1)] * 6, how="")
-    assert _across_joint(structure, motion, hinges) == beside
+    assert across_joint(structure, motion, hinges) == beside
 
 
 def turned(name, member, station, degrees):
@@ -223,7 +223,7 @@ def test_both_members_of_a_corner_share_its_rotation():
         opened=dict.fromkeys(sources, ()),
         hinges=(),
     )
-    ((sentence, caution),) = _folds(comparison, structure, hinges)
+    ((sentence, caution),) = folds_said(comparison, structure, hinges)
     assert "folds in member first at 480 mm (by 5.5°), at the joint beside hinge knee" in sentence
     assert "9.5° together against 10.0° multibody" in sentence
     assert caution

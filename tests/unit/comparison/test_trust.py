@@ -1,15 +1,17 @@
 """What a comparison says of runs cut short, of hinges in one fold, of swings, contact and many hinges."""
 
 from dataclasses import replace
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from tests.unit.comparison.folded_tube import EXAMPLE, analysis, angle_over_time, folded_result
 
-from crumple.analysis import loads, solve
+from crumple.analysis import load, loads, solve
 from crumple.comparison import compare, with_frames
-from crumple.comparison.motion import channel_motions, measured
+from crumple.comparison.fold_trust import folds_said
+from crumple.comparison.motion import HingeMotion, channel_motions, measured
 from crumple.comparison.trust import _order, swings_of
 from crumple.comparison.verdict import agreement
 from crumple.errors import Status
@@ -109,6 +111,40 @@ def test_hinges_in_one_fold_are_told():
     (said,) = (text for text in found.trust.cautions if "stand in one fold" in text)
     assert said.startswith("Hinges root and next stand in one fold of the shell result, from 10 mm to 80 mm")
     assert "31.2° multibody and 34.4° shell" in said
+
+
+def test_hinges_on_both_sides_of_a_corner_are_told_together():
+    structure = load(EXAMPLE.parent / "08_s_rail.yaml").structure
+    hinges = {hinge.name: hinge for hinge in placed_hinges(structure)}
+    degrees = {
+        "multibody": {"middle-upper_bend": 0.3, "rear-upper_bend": 72.6},
+        "shell": {"middle-upper_bend": 48.0, "rear-upper_bend": 27.0},
+    }
+
+    def motion(source, name):
+        rotation = np.radians(degrees[source].get(name, 0.2)) * np.linspace(0.0, 1.0, 5)
+        place = hinges[name]
+        return HingeMotion(name, place.member, 0.0, np.arange(5.0), rotation, *[np.zeros(5)] * 4, how="")
+
+    comparison = SimpleNamespace(
+        **{
+            role: SimpleNamespace(name=name, extra=(), hinge=partial(motion, name))
+            for role, name in (("candidate", "multibody"), ("reference", "shell"))
+        },
+        opened={"multibody": (), "shell": ()},
+        hinges=[
+            SimpleNamespace(
+                name=name, member=hinge.member, station=0.1 * i, fold_extent=None, fold_station=None
+            )
+            for i, (name, hinge) in enumerate(hinges.items())
+        ],
+    )
+    ((said, caution),) = folds_said(comparison, structure, hinges)
+    assert said.startswith(
+        "Hinges middle-upper_bend and rear-upper_bend stand on both sides of corner upper_bend"
+    )
+    assert "together they turn by 72.9° multibody and 75.0° shell" in said
+    assert not caution
 
 
 def test_a_hinge_that_bends_two_ways_is_measured_whatever_the_axis():

@@ -1,0 +1,150 @@
+"""What folds say of hinges: folds where none was put, hinges that share one, corners, places, shortening."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from crumple.comparison.metrics import deg, mm
+from crumple.comparison.motion import REACH, HingeMotion, largest_side
+from crumple.structure import PlacedHinge, Structure
+
+if TYPE_CHECKING:
+    from crumple.comparison.comparison import Comparison
+
+CRUSHED = 0.1
+"""Shortening of a fold beyond that of its bend, over its length, from which it is worth a word."""
+BENT = math.radians(1.0)
+"""Rotation of a corner from which it is worth a word."""
+
+
+def largest_turn(motion: HingeMotion) -> float:
+    """Largest rotation in the hinge's sense [rad]."""
+    return float(np.max(motion.sense * motion.rotation)) if motion.rotation.size else 0.0
+
+
+def folds_said(
+    comparison: Comparison, structure: Structure, hinges: dict[str, PlacedHinge]
+) -> Iterator[tuple[str, bool]]:
+    """Folds without hinges, hinges without folds, folds away from their hinges."""
+    first, second = comparison.candidate.name, comparison.reference.name
+    for motion in comparison.reference.extra:
+        where = f"member {motion.member} at {mm(motion.station)}"
+        place = f"The {second} result folds in {where} (by {deg(largest_turn(motion))}{_shortened(motion)})"
+        near = across_joint(structure, motion, hinges)
+        if near:
+            turns = [s.hinge(near) for s in (comparison.candidate, comparison.reference)]
+            alone, beside = (0.0 if turn is None else largest_turn(turn) for turn in turns)
+            both = beside + largest_turn(motion)
+            yield (
+                f"{place}, at the joint beside hinge {near} of another member: both members share the "
+                f"rotation of this corner, {deg(both)} together against {deg(alone)} {first}, and figures of "
+                "that hinge alone cannot be compared.",
+                True,
+            )
+            continue
+        yield (
+            f"{place}, where no hinge was put: the {first} model cannot fold there, and its answer is wrong "
+            "by what this fold takes up.",
+            True,
+        )
+    yield from _shared(comparison)
+    yield from _corners(comparison, structure, hinges)
+    opened = {source: {o.name for o in found} for source, found in comparison.opened.items()}
+    for hinge in comparison.hinges:
+        if hinge.name not in hinges:
+            continue
+        here, there = hinge.name in opened[first], hinge.name in opened[second]
+        if here and not there:
+            yield (
+                f"Hinge {hinge.name} opens in the {first} result alone; the {second} result has no fold "
+                "there.",
+                True,
+            )
+        elif there and not here:
+            yield f"Hinge {hinge.name} opens in the {second} result alone.", True
+        if hinge.fold_station is not None:
+            away = hinge.fold_station - hinge.station
+            text = (
+                f"The fold of hinge {hinge.name} lies at {mm(hinge.fold_station)} of member {hinge.member}, "
+                f"the hinge at {mm(hinge.station)}."
+            )
+            yield text, abs(away) > largest_side(structure, hinge.member)
+
+
+def _shortened(motion: HingeMotion) -> str:
+    """How much shorter a fold has become, where it is crushed along its member too."""
+    if motion.planes is None or motion.crushed < CRUSHED:
+        return ""
+    a, b = motion.planes
+    return f", and shorter by {mm(motion.crushed * (b - a))} of {mm(b - a)}"
+
+
+def _shared(comparison: Comparison) -> Iterator[tuple[str, bool]]:
+    """Hinges that stand in one fold, whose parts of its rotation depend on where the planes lie."""
+    first, second = comparison.candidate.name, comparison.reference.name
+    for hinge in comparison.hinges:
+        low, high = hinge.fold_extent or (math.inf, -math.inf)
+        for other in comparison.hinges:
+            half = (other.station + hinge.station) / 2
+            if other is hinge or other.member != hinge.member or not low < half < high:
+                continue
+            names = [h.name for h in sorted((hinge, other), key=lambda h: h.station)]
+            together = [
+                sum(largest_turn(turn) for name in names if (turn := s.hinge(name)) is not None)
+                for s in (comparison.candidate, comparison.reference)
+            ]
+            yield (
+                f"Hinges {names[0]} and {names[1]} stand in one fold of the {second} result, from "
+                f"{mm(low)} to {mm(high)} of member {hinge.member}: together they turn by "
+                f"{deg(together[0])} {first} and {deg(together[1])} {second}, and figures of one alone "
+                "cannot be compared. One hinge is enough there.",
+                True,
+            )
+
+
+def _corners(
+    comparison: Comparison, structure: Structure, hinges: dict[str, PlacedHinge]
+) -> Iterator[tuple[str, bool]]:
+    """Hinges on both sides of a corner of two members, of which one fold of the reference may need either."""
+    for node in structure.nodes:
+        members = [name for name, member in structure.members.items() if node in member.nodes]
+        beside = [
+            hinge.name
+            for hinge in comparison.hinges
+            if hinge.name in hinges
+            and hinge.member in members
+            and np.linalg.norm(hinges[hinge.name].position - np.asarray(structure.nodes[node]))
+            <= REACH * largest_side(structure, hinge.member)
+        ]
+        if len(members) != 2 or len(beside) != 2 or len({hinges[name].member for name in beside}) != 2:
+            continue
+        turned, checked = (
+            [largest_turn(motion) for name in beside if (motion := s.hinge(name)) is not None]
+            for s in (comparison.candidate, comparison.reference)
+        )
+        if sum(checked) < BENT:
+            continue
+        yield (
+            f"Hinges {beside[0]} and {beside[1]} stand on both sides of corner {node}: together they turn by "
+            f"{deg(sum(turned))} {comparison.candidate.name} and {deg(sum(checked))} "
+            f"{comparison.reference.name}. Which of them takes how much hangs on where a fold begins, and is "
+            "told less surely than the sum.",
+            False,
+        )
+
+
+def across_joint(structure: Structure, motion: HingeMotion, hinges: dict[str, PlacedHinge]) -> str:
+    """Hinge of another member that lies beside a fold, as at a joint; empty where there is none."""
+    place = structure.frame_of(motion.member).position(motion.station)
+    reach = REACH * largest_side(structure, motion.member)
+    near = [
+        (float(np.linalg.norm(hinge.position - place)), name)
+        for name, hinge in hinges.items()
+        if hinge.member != motion.member
+    ]
+    distance, name = min(near, default=(np.inf, ""))
+    return name if distance <= reach else ""
