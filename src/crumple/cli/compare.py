@@ -148,7 +148,7 @@ def _show(found: Comparison, folder: Path) -> None:
     from rich.text import Text
 
     from crumple.report import curve_notes
-    from crumple.report.comparison_wording import busy_note, ranked
+    from crumple.report.comparison_wording import busy_note, ranked, times_faster
     from crumple.units import format_quantity
 
     console = Console(highlight=False)
@@ -179,16 +179,15 @@ def _show(found: Comparison, folder: Path) -> None:
         f"{format_quantity(source.result.solve_seconds, 's', 3)} ({source.with_threads})"
         for source in (found.candidate, found.reference)
     ]
-    ratio = f", {found.speed_ratio:.3g} times faster" if found.speed_ratio else ""
-    console.print(f"Solved in {times[0]} and {times[1]}{ratio}")
-    if waited := busy_note(found):
-        console.print(waited)
+    ratio = f": {times_faster(found, found.candidate.result.solve_seconds)} times faster"
+    console.print(f"Solved in {times[0]} and {times[1]}{ratio if found.speed_ratio else ''}")
     timing = found.timings.get(first)
     if timing is not None and found.speed_ratio:
-        said = f"{format_quantity(timing.again, 's', 3)}, {found.times_faster(timing.again):.3g} times faster"
-        alone = found.times_faster(timing.stepping)
-        also = f"; stepping alone {alone:.3g} times" if alone else ""
-        console.print(f"Solved again, its laws known, {first} took {said}{also}")
+        said = f"{format_quantity(timing.again, 's', 3)}: {times_faster(found, timing.again)} times faster"
+        also = f"; stepping alone {times_faster(found, timing.stepping)} times" if timing.stepping else ""
+        console.print(f"Solved again, {first} took {said}{also}")
+    if waited := busy_note(found):
+        console.print(waited)
     for curve, compared in curve_notes(found):
         console.print(Text(f"Curve {curve}", style="" if compared else "yellow"))
     for caution in found.trust.cautions:

@@ -75,8 +75,8 @@ class Timing:
     Attributes
     ----------
     again
-        Of the whole solve, as ``Result.solve_seconds``: the laws are known from the first solve, and the
-        processor's caches hold what it left.
+        Of the whole solve, as ``Result.solve_seconds``, laws sampled anew: what the first solve lacked was
+        in the processor's caches.
     stepping
         Of the stepper's part at the accuracy asked for, histories included; None if it did not complete.
     """

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from crumple.section import Section
 from crumple.structure import Frame, Mass, Structure
+from crumple.structure.remembered import remembered
 
 Floats = NDArray[np.float64]
 
@@ -55,7 +55,7 @@ def piece_mass(structure: Structure, member: str, start: float, end: float) -> R
 
 
 # asked for by every stage of lowering
-@lru_cache(maxsize=4096)
+@remembered(4096)
 def _bar(frame: Frame, section: Section, density: float, start: float, end: float) -> RigidMass:
     length = end - start
     mass = section.mass_per_length(density) * length

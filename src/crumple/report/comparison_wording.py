@@ -73,17 +73,17 @@ def key_figures(comparison: Comparison) -> list[tuple[str, str, str]]:
             if pair is not None and pair.rating is not None:
                 figures.append((word, f"{pair.rating.overall:.2f}", f"{pair.rating.grade}, {where}"))
     if comparison.speed_ratio is not None:
-        note = f"{first} than {comparison.reference.with_threads}"
-        if first in comparison.timings:
-            again = _times_faster(comparison, comparison.timings[first].again)
-            note += f"; {again} × solved again, its laws known"
-        figures.append(
-            ("Faster", f"{_times_faster(comparison, comparison.candidate.result.solve_seconds)} ×", note)
-        )
+        once = times_faster(comparison, comparison.candidate.result.solve_seconds)
+        note, timing = f"{first} than {comparison.reference.with_threads}", comparison.timings.get(first)
+        if timing is None:
+            figures.append(("Faster", f"{once} ×", note))
+        else:
+            said = f"{note}, the least of several solves; {once} × the first time"
+            figures.append(("Faster", f"{times_faster(comparison, timing.again)} ×", said))
     return figures
 
 
-def _times_faster(comparison: Comparison, seconds: float | None) -> str:
+def times_faster(comparison: Comparison, seconds: float | None) -> str:
     """How many times the reference's solve time a time [s] is, rounded: a clock that swings knows no more."""
     ratio = comparison.times_faster(seconds)
     return "—" if ratio is None else number(float(f"{ratio:.3g}"), 3)
@@ -281,13 +281,13 @@ def speed_table(comparison: Comparison) -> Table:
         for seconds in (source.result.solve_seconds, *repeated):
             known = bool(seconds) and source is not comparison.reference
             cells.append(_seconds(seconds) if seconds else "—")
-            cells.append(_times_faster(comparison, seconds) if known else "—")
+            cells.append(times_faster(comparison, seconds) if known else "—")
         rows.append(tuple(cells))
     waited = busy_note(comparison)
     caption = (
         "Wall time of every solve, and how many times faster than the "
-        f"{comparison.reference.with_threads}. The first solve samples the laws, in a process that has just "
-        "loaded what it needs; solved again, they are known: the least of several. Stepping "
+        f"{comparison.reference.with_threads}. The first solve is that of the answer, in a process that "
+        "has just loaded what it needs; solved again is the least of several, laws sampled anew. Stepping "
         "alone is the part that a sweep repeats, at the accuracy asked for, without the run that checks it."
         + (f" {waited}" if waited else "")
     )

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import lru_cache
 from typing import Annotated, Any
 
 from pydantic import Discriminator, Tag, model_validator
@@ -19,6 +18,7 @@ from crumple.material import Material
 from crumple.section import Section
 from crumple.structure.material import MaterialSpec
 from crumple.structure.problems import one_of
+from crumple.structure.remembered import remembered
 from crumple.structure.spec import Name, Spec, refuse
 
 
@@ -94,7 +94,7 @@ class AnySection(Spec):
         raise NotImplementedError
 
 
-@lru_cache(maxsize=256)
+@remembered(256)
 def _built(spec: AnySection, known: tuple[tuple[str, MaterialSpec], ...] | None) -> Section:
     """One object per description: what it has worked out stays with it."""
     materials = dict(known or ())

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
+
+from crumple.structure.remembered import remembered
 
 Floats = NDArray[np.float64]
 Triple = tuple[float, ...]
@@ -87,7 +88,7 @@ def frame_of(
 
 
 # every solver asks for the same few frames again and again
-@lru_cache(maxsize=4096)
+@remembered(4096)
 def _frame(first: Triple, second: Triple, up: Triple | None, roll: float) -> Frame:
     origin = np.asarray(first, float)
     span = np.asarray(second, float) - origin

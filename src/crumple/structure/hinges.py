@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from itertools import pairwise
 from typing import Literal
 
@@ -26,6 +25,7 @@ from crumple.structure.hinge_axes import HingeAxes
 from crumple.structure.law import LAW_SPECS, LawKeys, LawReference, Stops
 from crumple.structure.member import Hinge
 from crumple.structure.motion import FREEDOMS
+from crumple.structure.remembered import remembered
 from crumple.structure.spatial_hinges import spatial_hinge_record
 from crumple.structure.structure import Structure
 
@@ -254,7 +254,7 @@ def law_of(structure: Structure, place: HingePlace) -> HingeLaw:
 
 
 # a law is a pure function of these four: the hinges of a chain and the runs of a study share it
-@lru_cache(maxsize=MADE)
+@remembered(MADE)
 def _law(section: Section, material: Material, axis: Axis, spec: LawKeys) -> HingeLaw:
     given = spec.model_dump(exclude=set(LawKeys.model_fields) | {"type"}, exclude_none=True)
     kind = str(getattr(spec, "type"))  # noqa: B009  (every law has it, each with its own literal type)
@@ -333,7 +333,7 @@ def _direction(structure: Structure, place: HingePlace) -> Floats:
     return np.sign(along) * np.asarray(normal) if abs(along) > NEARER else axis
 
 
-@lru_cache(maxsize=MADE)
+@remembered(MADE)
 def _record(law: HingeLaw, spec: LawKeys, rigidity: float) -> HingeRecord:
     """Record of a law; where its stiffness is that of a length of member, the length is one metre here."""
     stiffness = spec.elastic_stiffness

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from functools import lru_cache
 from typing import Annotated, Any
 
 from pydantic import ConfigDict, Field, model_validator
@@ -20,6 +19,7 @@ from crumple.structure.quantity import (
     PositiveNumber,
     PositiveStress,
 )
+from crumple.structure.remembered import remembered
 from crumple.structure.spec import Spec, refuse
 
 
@@ -128,7 +128,7 @@ class MaterialSpec(Spec):
         return "" if self.grade is None else material.grade(self.grade).statement
 
 
-@lru_cache(maxsize=256)
+@remembered(256)
 def _made(spec: MaterialSpec, name: str) -> material.Material:
     """One object per description: every part of the lowering asks for it."""
     return material.Material(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from crumple.hinge import Form, HingeRecord, SofteningVariable, build_axial_law, build_torsion_law, record_of
@@ -14,6 +13,7 @@ from crumple.hinge.spatial_recording import spatial_record
 from crumple.material import Material
 from crumple.section import Section
 from crumple.structure.hinge_axes import AxialSlip, BendingAxis, HingeAxes, Twist
+from crumple.structure.remembered import remembered
 
 if TYPE_CHECKING:
     from crumple.section import InteractionFit, PlasticInteraction
@@ -114,14 +114,14 @@ def _axial(
     return _like(first, law, elastic, one_sided=True)
 
 
-@lru_cache(maxsize=KEPT)
+@remembered(KEPT)
 def _interaction(section: Section, material: Material) -> PlasticInteraction:
     from crumple.section import plastic_interaction  # noqa: PLC0415  (tubes with plain hinges need no walls)
 
     return plastic_interaction(section, material)
 
 
-@lru_cache(maxsize=KEPT)
+@remembered(KEPT)
 def _fit(section: Section, material: Material) -> InteractionFit:
     from crumple.section import fitted_interaction  # noqa: PLC0415
 

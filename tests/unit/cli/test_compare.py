@@ -36,7 +36,7 @@ def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
     )  # fmt: skip
     assert (run.returncode, run.stderr) == (0, "")
     assert "times faster" in run.stdout
-    assert "Solved again, its laws known, multibody took" in run.stdout
+    assert "Solved again, multibody took" in run.stdout
     assert "Caution" in run.stdout
     said = " ".join(run.stdout.split())
     assert "Curve bench (test.csv): member.tube.chord_rotation rated 0." in said

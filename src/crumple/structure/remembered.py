@@ -1,0 +1,29 @@
+"""What is made of a description once and kept: sections, materials, laws and their records."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from typing import ParamSpec, TypeVar
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+_forgetting: list[Callable[[], None]] = []
+
+
+def remembered(size: int) -> Callable[[Callable[P, T]], Callable[P, T]]:
+    """Decorator that keeps the last answers of a function of hashable arguments, until `forget`."""
+
+    def keep(function: Callable[P, T]) -> Callable[P, T]:
+        kept = lru_cache(maxsize=size)(function)
+        _forgetting.append(kept.cache_clear)
+        return kept  # type: ignore[return-value]
+
+    return keep
+
+
+def forget() -> None:
+    """Begin anew, as a process that has solved nothing yet: a solve that is timed finds nothing made."""
+    for clear in _forgetting:
+        clear()
