@@ -9,7 +9,7 @@ from crumple.multibody.run import Run
 from crumple.multibody.solve import solver_of
 from crumple.structure import Structure
 
-REPEATS = 5
+REPEATS = 20
 """Runs of which the fastest counts: the first one warms caches, and others may be interrupted."""
 LONG = 1.0
 """Time spent on repeats [s] after which there are no more."""
