@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
-from typing import ParamSpec, TypeVar
+from typing import ParamSpec, TypeVar, cast
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -18,7 +18,8 @@ def remembered(size: int) -> Callable[[Callable[P, T]], Callable[P, T]]:
     def keep(function: Callable[P, T]) -> Callable[P, T]:
         kept = lru_cache(maxsize=size)(function)
         _forgetting.append(kept.cache_clear)
-        return kept  # type: ignore[return-value]
+        # the type of what lru_cache gives says nothing of the arguments
+        return cast(Callable[P, T], kept)
 
     return keep
 

@@ -8,6 +8,8 @@ from crumple.analysis import loads
 from crumple.comparison import with_frames
 from crumple.comparison.solving import mesh_name, solve_and_compare, with_mesh
 from crumple.errors import Status
+from crumple.hinge import recording
+from crumple.multibody.timing import REPEATS
 
 TEXT = (
     EXAMPLE.read_text()
@@ -29,6 +31,17 @@ def test_every_multibody_model_is_timed(case):
     assert set(names) <= set(MODELS)
     assert set(found.timings) == {"multibody", *names}
     assert all(timing.stepping > 0.0 and timing.again > 0.0 for timing in found.timings.values())
+
+
+def test_timed_solves_sample_their_laws_anew(case, monkeypatch):
+    sampled = []
+    envelope = recording.sampled_envelope
+    monkeypatch.setattr(
+        recording, "sampled_envelope", lambda law, *rest: sampled.append(law) or envelope(law, *rest)
+    )
+    monkeypatch.setattr("crumple.multibody.timing.LONG", 1e9)
+    solve_and_compare(case, variants=False)
+    assert len(sampled) >= REPEATS
 
 
 def test_cancelled_after_the_shell_run_nothing_more_is_solved(case):
