@@ -12,7 +12,7 @@ PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 pytho
 	$(shell $(p) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
 BIN := $(VENV)/bin
 NATIVE := $(shell find native -type f -name '*.[ch]pp') CMakeLists.txt pyproject.toml
-KERNEL_TESTS := tests/unit/multibody tests/unit/space tests/unit/shell
+KERNEL_TESTS := tests/unit/core
 DEMO := out/demo
 # AXIS=strong turns the section of the tube upright
 TUBE := $(if $(filter strong,$(AXIS)),out/tube_upright.yaml,examples/01_tube_bending.yaml)

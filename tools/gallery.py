@@ -14,9 +14,18 @@ import numpy as np
 from crumple.errors import InputError
 from crumple.hinge import HingeLaw, axial_law_types, build_axial_law, build_law, law_types
 from crumple.material import Material, grade, grade_material
-from crumple.report.scales import display_unit, largest, spread
-from crumple.report.section_figure import draw_walls
-from crumple.report.style import WIDTH, Line, add_axes, draw_lines, drawing, name_axes, new_figure, to_svg
+from crumple.report.drawing.scales import display_unit, largest, spread
+from crumple.report.drawing.style import (
+    WIDTH,
+    Line,
+    add_axes,
+    draw_lines,
+    drawing,
+    name_axes,
+    new_figure,
+    to_svg,
+)
+from crumple.report.figures.section_figure import draw_walls
 from crumple.section import (
     AXES,
     Angle,

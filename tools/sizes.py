@@ -1,7 +1,8 @@
-"""Refuse files and functions that outgrew their noun: `python tools/sizes.py`.
+"""Refuse files, functions and folders that outgrew their noun: `python tools/sizes.py`.
 
 Ceilings: file 400 lines (Python, C++), function body 60 lines (without its docstring), 6 positional
-arguments.  Aside: lines of literal tables at module level, keyword-only options, `self` and `cls`.
+arguments, 16 source files in a folder.  Aside: lines of literal tables at module level, keyword-only options,
+`self` and `cls`, and the `__init__.py` of a folder.
 """
 
 from __future__ import annotations
@@ -10,10 +11,11 @@ import ast
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-FILE, BODY, ARGUMENTS = 400, 60, 6
+FILE, BODY, ARGUMENTS, FOLDER = 400, 60, 6, 16
 ROOT = Path(__file__).parent.parent
 SUFFIXES = (".py", ".cpp", ".hpp")
 
@@ -83,17 +85,26 @@ def cpp_findings(path: str, text: str) -> Iterator[str]:
             depth -= 1
 
 
+def folder_findings(paths: Iterable[Path]) -> Iterator[str]:
+    """Which folders hold too many source files."""
+    counts = Counter(path.parent for path in paths if path.name != "__init__.py")
+    for folder, files in sorted(counts.items()):
+        if files > FOLDER:
+            yield f"{folder.as_posix()}: {files} source files, at most {FOLDER}"
+
+
 def main() -> int:
     """Print every finding; the number of findings decides the exit code."""
     command = ["git", "ls-files", "--cached", "--others", "--exclude-standard"]
     names = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\n")
-    findings = []
-    for name in sorted(set(names)):
-        path = ROOT / name
-        if path.suffix in SUFFIXES and path.is_file():
-            read = python_findings if path.suffix == ".py" else cpp_findings
-            findings += read(name, path.read_text(encoding="utf-8"))
-    print("\n".join(findings) if findings else "sizes: every file and function is within its ceiling")
+    sources = [
+        name for name in sorted(set(names)) if Path(name).suffix in SUFFIXES and (ROOT / name).is_file()
+    ]
+    findings = list(folder_findings(map(Path, sources)))
+    for name in sources:
+        read = python_findings if name.endswith(".py") else cpp_findings
+        findings += read(name, (ROOT / name).read_text(encoding="utf-8"))
+    print("\n".join(findings) if findings else "sizes: every file, function and folder is within its ceiling")
     return 1 if findings else 0
 
 

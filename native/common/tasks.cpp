@@ -1,4 +1,4 @@
-#include "multibody/team.hpp"
+#include "common/tasks.hpp"
 
 #include <algorithm>
 #include <atomic>

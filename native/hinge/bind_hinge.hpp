@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "binding.hpp"
-#include "multibody/hinge.hpp"
+#include "common/binding.hpp"
+#include "hinge/hinge.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {

@@ -1,4 +1,4 @@
-#include "multibody/hinge.hpp"
+#include "hinge/hinge.hpp"
 
 #include <algorithm>
 

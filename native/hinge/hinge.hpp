@@ -20,7 +20,7 @@
 #include <limits>
 #include <vector>
 
-#include "multibody/real.hpp"
+#include "hinge/real.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {

@@ -1,9 +1,9 @@
-#include "multibody/batch.hpp"
+#include "planar/batch.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "multibody/team.hpp"
+#include "common/tasks.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "multibody/simulation.hpp"
+#include "planar/simulation.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {

@@ -1,7 +1,7 @@
 // Small dense solve for drive forces: symmetric positive definite up to redundancy.
 #pragma once
 
-#include "multibody/real.hpp"
+#include "hinge/real.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {

@@ -1,4 +1,4 @@
-#include "multibody/directions.hpp"
+#include "planar/directions.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "multibody/stepper.hpp"
+#include "planar/stepper.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {

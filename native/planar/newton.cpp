@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "multibody/dense.hpp"
-#include "multibody/stepper.hpp"
+#include "planar/dense.hpp"
+#include "planar/stepper.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {

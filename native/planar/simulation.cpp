@@ -1,4 +1,4 @@
-#include "multibody/simulation.hpp"
+#include "planar/simulation.hpp"
 
 #include <algorithm>
 #include <cmath>

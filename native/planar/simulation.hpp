@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "multibody/stepper.hpp"
+#include "planar/stepper.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {

@@ -1,4 +1,4 @@
-#include "multibody/stepper.hpp"
+#include "planar/stepper.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,8 +9,8 @@
 
 #include <vector>
 
-#include "multibody/hinge.hpp"
-#include "multibody/tree.hpp"
+#include "hinge/hinge.hpp"
+#include "planar/tree.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {

@@ -1,11 +1,11 @@
 // The engine once more, with derivatives: the same sources over the other arithmetic of real.hpp.
 #define CRUMPLE_TANGENT
 
-#include "multibody/hinge.cpp"
-#include "multibody/tree.cpp"
-#include "multibody/newton.cpp"
-#include "multibody/stepper.cpp"
-#include "multibody/simulation.cpp"
-#include "multibody/bind_model.cpp"
-#include "multibody/directions.cpp"
-#include "multibody/bind_tangent.cpp"
+#include "hinge/hinge.cpp"
+#include "planar/tree.cpp"
+#include "planar/newton.cpp"
+#include "planar/stepper.cpp"
+#include "planar/simulation.cpp"
+#include "planar/bind/bind_model.cpp"
+#include "planar/directions.cpp"
+#include "planar/bind/bind_tangent.cpp"

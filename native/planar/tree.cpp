@@ -1,4 +1,4 @@
-#include "multibody/tree.hpp"
+#include "planar/tree.hpp"
 
 #include <cmath>
 

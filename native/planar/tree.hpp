@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "multibody/real.hpp"
+#include "hinge/real.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {

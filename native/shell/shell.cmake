@@ -1,13 +1,13 @@
 # Sources of the shell engine.  The kernels are compiled once for each instruction set and chosen at run time.
-set(shell_dir ${CMAKE_CURRENT_LIST_DIR})
-target_sources(_kernels PRIVATE ${shell_dir}/bind.cpp ${shell_dir}/bind_model.cpp)
+set(native ${CMAKE_CURRENT_SOURCE_DIR}/native)
+target_sources(_kernels PRIVATE ${native}/shell/bind/bind.cpp ${native}/shell/bind/bind_model.cpp)
 
 # apart from the binding, which nanobind compiles for size
 add_library(shell_core OBJECT
-  ${shell_dir}/model.cpp ${shell_dir}/lowering.cpp ${shell_dir}/thickness_rule.cpp ${shell_dir}/rigid_body.cpp
-  ${shell_dir}/contact.cpp ${shell_dir}/contact_search.cpp ${shell_dir}/wall_contact.cpp ${shell_dir}/edge_contact.cpp
-  ${shell_dir}/obstacles.cpp ${shell_dir}/body_contact.cpp ${shell_dir}/simulation.cpp ${shell_dir}/driven.cpp ${shell_dir}/stage.cpp
-  ${shell_dir}/ledger.cpp ${shell_dir}/welds.cpp ${shell_dir}/isa.cpp ${shell_dir}/team.cpp)
+  ${native}/shell/run/model.cpp ${native}/shell/run/lowering.cpp ${native}/shell/element/thickness_rule.cpp ${native}/shell/rigid/rigid_body.cpp
+  ${native}/shell/contact/contact.cpp ${native}/shell/contact/contact_search.cpp ${native}/shell/contact/wall_contact.cpp ${native}/shell/contact/edge_contact.cpp
+  ${native}/shell/contact/obstacles.cpp ${native}/shell/contact/body_contact.cpp ${native}/shell/run/simulation.cpp ${native}/shell/rigid/driven.cpp ${native}/shell/run/stage.cpp
+  ${native}/shell/run/ledger.cpp ${native}/shell/rigid/welds.cpp ${native}/shell/simd/isa.cpp ${native}/common/team.cpp)
 set(shell_libraries shell_core)
 
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
@@ -16,7 +16,7 @@ else()
   set(shell_isas generic)
 endif()
 foreach(isa ${shell_isas})
-  add_library(shell_${isa} OBJECT ${shell_dir}/kernel.cpp)
+  add_library(shell_${isa} OBJECT ${native}/shell/element/kernel.cpp)
   target_compile_options(shell_${isa} PRIVATE -Wno-psabi)
   if(isa STREQUAL v4 AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     # GCC 12 warns of its own AVX-512 header: _mm512_undefined_* reads a variable that is meant to be undefined
@@ -33,6 +33,7 @@ endforeach()
 foreach(library ${shell_libraries})
   set_target_properties(${library} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden)
   target_compile_options(${library} PRIVATE -O3)
+  target_include_directories(${library} PRIVATE ${native})
   target_link_libraries(${library} PRIVATE crumple_options)
   target_link_libraries(_kernels PRIVATE ${library})
 endforeach()

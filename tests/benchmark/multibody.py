@@ -22,8 +22,8 @@ ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT))
 
 from tests.benchmark.foreign.exudyn_models import PACKAGE, best_time, exudyn  # noqa: E402
-from tests.verification import space_models  # noqa: E402
-from tests.verification.chains import REGULARISED, SET_VALUED, m1, m2, m3  # noqa: E402
+from tests.support.multibody import space_models  # noqa: E402
+from tests.support.multibody.chains import REGULARISED, SET_VALUED, m1, m2, m3  # noqa: E402
 
 END = np.array([0.1])
 ACCURACY = 1e-3

@@ -17,10 +17,11 @@ from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from tests.verification.chains import m2
-from tests.verification.space_models import m4_parts
+from tests.support.multibody.chains import m2
+from tests.support.multibody.space_models import m4_parts
 
-from crumple._core import batch, space_batch
+from crumple._core.planar import batch
+from crumple._core.spatial import batch as space_batch
 
 COUNT, SPACE_COUNT, BOUND, REPEATS = 4000, 400, 10_000, 5
 

@@ -12,9 +12,9 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from tests.verification.chains import MASS_PER_LENGTH, PAYLOAD, bar, hinge, started
+from tests.support.multibody.chains import MASS_PER_LENGTH, PAYLOAD, bar, hinge, started
 
-from crumple._core.tree import Simulation, TreeModel
+from crumple._core.planar.simulation import Simulation, TreeModel
 
 NUMBERS = (10, 100, 1000, 10_000)
 HINGE_STEPS = 40_000

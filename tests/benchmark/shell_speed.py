@@ -16,9 +16,16 @@ from pathlib import Path
 
 import numpy as np
 
-from crumple._core.shell import Element, RigidSet, ShellMaterial, ShellModel, ShellSettings, ShellState
+from crumple._core.shell.simulation import (
+    Element,
+    RigidSet,
+    ShellMaterial,
+    ShellModel,
+    ShellSettings,
+    ShellState,
+)
 from crumple.analysis import load
-from crumple.shell.model import lower
+from crumple.shell.model.model import lower
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

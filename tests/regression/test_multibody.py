@@ -5,7 +5,7 @@ them by its accuracy, which is the tolerance; more than that wants a reason.
 """
 
 import pytest
-from tests.verification.structures import cantilever
+from tests.support.structures import cantilever
 
 from crumple.multibody import Run, solve_multibody
 

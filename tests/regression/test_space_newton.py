@@ -8,7 +8,7 @@ their impulses, 82 along the central path.
 from __future__ import annotations
 
 import numpy as np
-from tests.verification.space_models import tower
+from tests.support.multibody.space_models import tower
 
 MOST_NEWTON_STEPS = 45
 MOST_ON_PATH = 105

@@ -5,9 +5,9 @@
 
 #include <memory>
 
-#include "multibody/batch.hpp"
-#include "multibody/bind_batch.hpp"
-#include "multibody/bind_model.hpp"
+#include "planar/batch.hpp"
+#include "planar/bind/bind_batch.hpp"
+#include "planar/bind/bind_model.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {

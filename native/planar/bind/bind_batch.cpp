@@ -1,10 +1,10 @@
 // Python face of `solve_many`.
-#include "multibody/bind_batch.hpp"
+#include "planar/bind/bind_batch.hpp"
 
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "multibody/batch.hpp"
+#include "planar/batch.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "multibody/bind_model.hpp"
+#include "planar/bind/bind_model.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {

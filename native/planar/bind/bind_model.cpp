@@ -1,5 +1,5 @@
 // The frozen model of a planar tree, from plain Python data; nothing here decides physics.
-#include "multibody/bind_model.hpp"
+#include "planar/bind/bind_model.hpp"
 
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>

@@ -1,8 +1,8 @@
 // What the bindings of the multibody kernels share: the model from plain Python data.
 #pragma once
 
-#include "multibody/bind_hinge.hpp"
-#include "multibody/simulation.hpp"
+#include "hinge/bind_hinge.hpp"
+#include "planar/simulation.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {

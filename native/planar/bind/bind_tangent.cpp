@@ -2,9 +2,9 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "multibody/bind_model.hpp"
-#include "multibody/directions.hpp"
-#include "multibody/simulation.hpp"
+#include "planar/bind/bind_model.hpp"
+#include "planar/directions.hpp"
+#include "planar/simulation.hpp"
 
 namespace crumple::multibody {
 inline namespace CRUMPLE_ARITHMETIC {

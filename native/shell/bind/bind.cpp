@@ -1,4 +1,4 @@
-// Python face of the shell engine's state; the typed face that people use is crumple._core.shell.
+// Python face of the shell engine's state; the typed face that people use is crumple._core.shell.simulation.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/pair.h>
@@ -6,8 +6,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "binding.hpp"
-#include "simulation.hpp"
+#include "common/binding.hpp"
+#include "shell/run/simulation.hpp"
 
 namespace nb = nanobind;
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "binding.hpp"
-#include "model.hpp"
+#include "common/binding.hpp"
+#include "shell/run/model.hpp"
 
 namespace nb = nanobind;
 

@@ -1,4 +1,4 @@
-#include "body_contact.hpp"
+#include "shell/contact/body_contact.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 // no mode of the set stiffer than s / dt^2, whatever its mass and inertia.  Friction is found in the same way, with
 // the pressures that came out.  Theory: docs/theory/contact.md.
 #pragma once
-#include "penalty.hpp"
-#include "rigid_body.hpp"
+#include "shell/contact/penalty.hpp"
+#include "shell/rigid/rigid_body.hpp"
 
 namespace crumple::shell {
 

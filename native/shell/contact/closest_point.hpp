@@ -1,6 +1,6 @@
 // Closest point of a quadrilateral: of the four triangles around its centroid.
 #pragma once
-#include "vec3.hpp"
+#include "common/vectors.hpp"
 
 namespace crumple::shell {
 

@@ -1,4 +1,4 @@
-#include "contact.hpp"
+#include "shell/contact/contact.hpp"
 
 #include <algorithm>
 

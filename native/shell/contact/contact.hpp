@@ -4,8 +4,8 @@
 #include <atomic>
 #include <memory>
 
-#include "edge_contact.hpp"
-#include "obstacles.hpp"
+#include "shell/contact/edge_contact.hpp"
+#include "shell/contact/obstacles.hpp"
 
 namespace crumple::shell {
 

@@ -1,4 +1,4 @@
-#include "contact_search.hpp"
+#include "shell/contact/contact_search.hpp"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "model.hpp"
+#include "shell/run/model.hpp"
 
 namespace crumple::shell {
 

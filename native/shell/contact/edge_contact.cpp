@@ -1,4 +1,4 @@
-#include "edge_contact.hpp"
+#include "shell/contact/edge_contact.hpp"
 
 #include <algorithm>
 #include <cmath>

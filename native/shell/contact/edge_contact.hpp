@@ -4,7 +4,7 @@
 // have no node in contact.  An edge is a rim (one element), a branch (three and more) or a crease: its
 // elements now at an angle.  Theory: docs/theory/contact.md.
 #pragma once
-#include "wall_contact.hpp"
+#include "shell/contact/wall_contact.hpp"
 
 namespace crumple::shell {
 

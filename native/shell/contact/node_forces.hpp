@@ -1,8 +1,8 @@
 // Contact forces on nodes, summed in a fixed order, and what contact knows of the sheets.
 #pragma once
-#include "lowering.hpp"
-#include "penalty.hpp"
-#include "team.hpp"
+#include "shell/run/lowering.hpp"
+#include "shell/contact/penalty.hpp"
+#include "common/team.hpp"
 
 namespace crumple::shell {
 

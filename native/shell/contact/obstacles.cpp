@@ -1,4 +1,4 @@
-#include "obstacles.hpp"
+#include "shell/contact/obstacles.hpp"
 
 #include <algorithm>
 #include <cmath>

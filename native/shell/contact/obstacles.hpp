@@ -4,8 +4,8 @@
 // A node keeps half its wall's thickness away, or the distance it has when the obstacle appears if that is less:
 // the end of a wall that stands on a plane has no thickness towards it.  Theory: docs/theory/contact.md.
 #pragma once
-#include "body_contact.hpp"
-#include "node_forces.hpp"
+#include "shell/contact/body_contact.hpp"
+#include "shell/contact/node_forces.hpp"
 
 namespace crumple::shell {
 

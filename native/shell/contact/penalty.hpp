@@ -2,8 +2,8 @@
 #pragma once
 #include <algorithm>
 
-#include "layout.hpp"
-#include "model.hpp"
+#include "shell/simd/layout.hpp"
+#include "shell/run/model.hpp"
 
 namespace crumple::shell {
 

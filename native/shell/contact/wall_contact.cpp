@@ -1,4 +1,4 @@
-#include "wall_contact.hpp"
+#include "shell/contact/wall_contact.hpp"
 
 #include <algorithm>
 #include <cmath>

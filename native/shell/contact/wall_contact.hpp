@@ -5,9 +5,9 @@
 // smaller than the wall is thick.  A node answers to the closest element and to the closest on its other
 // side, so that a wall between two walls is held by both.  Theory: docs/theory/contact.md.
 #pragma once
-#include "closest_point.hpp"
-#include "contact_search.hpp"
-#include "node_forces.hpp"
+#include "shell/contact/closest_point.hpp"
+#include "shell/contact/contact_search.hpp"
+#include "shell/contact/node_forces.hpp"
 
 namespace crumple::shell {
 

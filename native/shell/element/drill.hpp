@@ -3,7 +3,7 @@
 // Without it nothing holds that freedom in a smooth sheet, and where the warping terms couple it with curvature it
 // lets bending relax.  Theory: docs/theory/shell_element.md.
 #pragma once
-#include "kinematics.hpp"
+#include "shell/element/kinematics.hpp"
 
 namespace crumple::shell {
 namespace {

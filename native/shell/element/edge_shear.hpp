@@ -4,7 +4,7 @@
 // plate bends without shear and curves evenly along the edge, and for every rigid motion; the term of second order in
 // the step makes that true of finite turns seen from the end of the step.  It is what MITC elements interpolate.  Theory: docs/theory/stabilised_element.md, docs/theory/shell_triangle.md.
 #pragma once
-#include "kinematics.hpp"
+#include "shell/element/kinematics.hpp"
 
 namespace crumple::shell {
 namespace {

@@ -1,9 +1,9 @@
 // One step of a block of elements: one-point quadrilateral (hourglass control or physical stabilisation) or triangle.
 #pragma once
-#include "drill.hpp"
-#include "points.hpp"
-#include "stabilised.hpp"
-#include "triangle.hpp"
+#include "shell/element/drill.hpp"
+#include "shell/element/points.hpp"
+#include "shell/element/stabilised.hpp"
+#include "shell/element/triangle.hpp"
 
 namespace crumple::shell {
 namespace {

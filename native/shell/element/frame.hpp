@@ -6,7 +6,7 @@
 // x_I = mean + in-plane part, height z_I = z0 (+1, -1, +1, -1): a warped element has z0 != 0.
 // Gradients: d/dx = b_x . v with b_x = (y24, y31, y42, y13) / 2A, so B3 = -B1 and B4 = -B2.
 #pragma once
-#include "pack.hpp"
+#include "shell/simd/pack.hpp"
 
 namespace crumple::shell {
 namespace {

@@ -4,7 +4,7 @@
 // proportional to them.  Where the thickness points yield, resultants of stiffness are returned by the mean share that
 // the points keep, as stresses away from the one point would be: else they would carry load that the metal cannot.  Work done on them is the hourglass energy.  Theory: docs/theory/hourglass.md.
 #pragma once
-#include "kinematics.hpp"
+#include "shell/element/kinematics.hpp"
 
 namespace crumple::shell {
 namespace {

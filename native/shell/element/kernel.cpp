@@ -1,10 +1,10 @@
 // The element and node stages, compiled once for each instruction set (CRUMPLE_KERNELS names the build).
-#include "kernel.hpp"
+#include "shell/element/kernel.hpp"
 
 #include <algorithm>
 
-#include "element.hpp"
-#include "transpose.hpp"
+#include "shell/element/element.hpp"
+#include "shell/simd/transpose.hpp"
 
 namespace crumple::shell {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "part.hpp"
+#include "shell/element/part.hpp"
 
 namespace crumple::shell {
 

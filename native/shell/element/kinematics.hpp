@@ -4,8 +4,8 @@
 // it vanishes for any finite rigid rotation, where sym(L') leaves (1 - cos) per step.  The transverse
 // shear is corrected to the same order.  Theory: docs/theory/shell_element.md.
 #pragma once
-#include "frame.hpp"
-#include "part.hpp"
+#include "shell/element/frame.hpp"
+#include "shell/element/part.hpp"
 
 namespace crumple::shell {
 namespace {

@@ -1,6 +1,6 @@
 // Constants of a group of alike elements: material, thickness rule, hourglass control, options.
 #pragma once
-#include "layout.hpp"
+#include "shell/simd/layout.hpp"
 
 namespace crumple::shell {
 

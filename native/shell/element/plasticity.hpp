@@ -9,8 +9,8 @@
 // residual and lanes that do not yield keep their trial: the answer of an element does not depend on
 // its neighbours in the block.  Theory: docs/theory/plasticity.md.
 #pragma once
-#include "pack.hpp"
-#include "part.hpp"
+#include "shell/simd/pack.hpp"
+#include "shell/element/part.hpp"
 
 namespace crumple::shell {
 namespace {

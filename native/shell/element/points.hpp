@@ -1,7 +1,7 @@
 // The thickness points: stress update of each, integrated to resultants.
 #pragma once
-#include "kinematics.hpp"
-#include "plasticity.hpp"
+#include "shell/element/kinematics.hpp"
+#include "shell/element/plasticity.hpp"
 
 namespace crumple::shell {
 namespace {

@@ -5,9 +5,9 @@
 // shear is interpolated from the edges, so that twist is free of shear.  Integrals over the element are those of the
 // parallelogram with the same gradients at the centre.  Theory: docs/theory/stabilised_element.md.
 #pragma once
-#include "edge_shear.hpp"
-#include "hourglass.hpp"
-#include "points.hpp"
+#include "shell/element/edge_shear.hpp"
+#include "shell/element/hourglass.hpp"
+#include "shell/element/points.hpp"
 
 namespace crumple::shell {
 namespace {

@@ -1,7 +1,7 @@
 // Gauss-Legendre and Gauss-Lobatto rules through the thickness, found by Newton on Legendre polynomials.
 #include <cmath>
 
-#include "lowering.hpp"
+#include "shell/run/lowering.hpp"
 
 namespace crumple::shell {
 

@@ -3,7 +3,7 @@
 // The shear at the centroid is that of the lowest edge functions, sum over edges of s_ij (grad N_j - grad N_i) / 3; with
 // the mean rotation in its place, as in a collapsed quadrilateral, pure bending would shear.  Theory: docs/theory/shell_triangle.md.
 #pragma once
-#include "edge_shear.hpp"
+#include "shell/element/edge_shear.hpp"
 
 namespace crumple::shell {
 namespace {

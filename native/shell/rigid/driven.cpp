@@ -1,7 +1,7 @@
 // Nodes with loads or prescribed velocities, and rigid sets: few, handled one by one.
 #include <algorithm>
 
-#include "simulation.hpp"
+#include "shell/run/simulation.hpp"
 
 namespace crumple::shell {
 

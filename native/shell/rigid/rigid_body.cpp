@@ -1,4 +1,4 @@
-#include "rigid_body.hpp"
+#include "shell/rigid/rigid_body.hpp"
 
 #include <stdexcept>
 

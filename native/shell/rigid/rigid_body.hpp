@@ -1,6 +1,6 @@
 // A rigid set of nodes: exact rigid motion, with momentum and energy of the free body kept to round-off.
 #pragma once
-#include "lowering.hpp"
+#include "shell/run/lowering.hpp"
 
 namespace crumple::shell {
 

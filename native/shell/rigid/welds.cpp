@@ -1,10 +1,10 @@
-#include "welds.hpp"
+#include "shell/rigid/welds.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "simulation.hpp"
+#include "shell/run/simulation.hpp"
 
 namespace crumple::shell {
 

@@ -10,7 +10,7 @@
 // With Fn = -F . r/|r| (tension positive) and Fs = |F + Fn r/|r||, a weld fails at (max(Fn, 0)/Sn)^2 + (Fs/Ss)^2 >= 1.
 // Theory: docs/theory/spot_welds.md.
 #pragma once
-#include "lowering.hpp"
+#include "shell/run/lowering.hpp"
 
 namespace crumple::shell {
 

@@ -5,7 +5,7 @@
 // apart from the change of shape within a step (docs/theory/explicit_stepper.md).
 #include <algorithm>
 
-#include "simulation.hpp"
+#include "shell/run/simulation.hpp"
 
 namespace crumple::shell {
 

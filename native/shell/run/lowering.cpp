@@ -1,4 +1,4 @@
-#include "lowering.hpp"
+#include "shell/run/lowering.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // A model as the kernels want it: parts with their constants, blocks of lanes, lumped masses, corners per node.
 #pragma once
-#include "aligned.hpp"
-#include "kernel.hpp"
-#include "model.hpp"
+#include "common/aligned.hpp"
+#include "shell/element/kernel.hpp"
+#include "shell/run/model.hpp"
 
 namespace crumple::shell {
 

@@ -1,10 +1,10 @@
-#include "model.hpp"
+#include "shell/run/model.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "welds.hpp"
+#include "shell/rigid/welds.hpp"
 
 namespace crumple::shell {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "part.hpp"
-#include "vec3.hpp"
+#include "shell/element/part.hpp"
+#include "common/vectors.hpp"
 
 namespace crumple::shell {
 

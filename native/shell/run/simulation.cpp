@@ -1,12 +1,12 @@
 // Building the state, and the loop of the stepper.
-#include "simulation.hpp"
+#include "shell/run/simulation.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
 
-#include "team.hpp"
+#include "common/team.hpp"
 
 namespace crumple::shell {
 

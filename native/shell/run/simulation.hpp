@@ -3,10 +3,10 @@
 #include <memory>
 #include <string>
 
-#include "contact.hpp"
-#include "rigid_body.hpp"
-#include "team.hpp"
-#include "welds.hpp"
+#include "shell/contact/contact.hpp"
+#include "shell/rigid/rigid_body.hpp"
+#include "common/team.hpp"
+#include "shell/rigid/welds.hpp"
 
 namespace crumple::shell {
 

@@ -1,7 +1,7 @@
 // From one stage of a sequence to the next: the state goes over to a model with other drives, loads and obstacles.
 #include <algorithm>
 
-#include "simulation.hpp"
+#include "shell/run/simulation.hpp"
 
 namespace crumple::shell {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "kernel.hpp"
+#include "shell/element/kernel.hpp"
 
 namespace crumple::shell {
 

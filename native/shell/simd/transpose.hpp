@@ -2,7 +2,7 @@
 #pragma once
 #include <utility>
 
-#include "pack.hpp"
+#include "shell/simd/pack.hpp"
 
 namespace crumple::shell {
 namespace {

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 
-#include "multibody/bind_hinge.hpp"
-#include "space/bind_contact.hpp"
-#include "space/bind_hinge.hpp"
-#include "space/bind_model.hpp"
-#include "space/simulation.hpp"
+#include "hinge/bind_hinge.hpp"
+#include "spatial/bind/bind_contact.hpp"
+#include "spatial/bind/bind_hinge.hpp"
+#include "spatial/bind/bind_model.hpp"
+#include "spatial/run/simulation.hpp"
 
 namespace nb = nanobind;
 

@@ -2,9 +2,9 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "binding.hpp"
-#include "space/batch.hpp"
-#include "space/bind_model.hpp"
+#include "common/binding.hpp"
+#include "spatial/run/batch.hpp"
+#include "spatial/bind/bind_model.hpp"
 
 namespace nb = nanobind;
 

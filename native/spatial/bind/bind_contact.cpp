@@ -2,8 +2,8 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/vector.h>
 
-#include "space/bind_contact.hpp"
-#include "space/contact.hpp"
+#include "spatial/bind/bind_contact.hpp"
+#include "spatial/contact/contact.hpp"
 
 namespace nb = nanobind;
 

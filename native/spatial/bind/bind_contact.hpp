@@ -3,7 +3,7 @@
 
 #include <nanobind/nanobind.h>
 
-#include "space/contact_geometry.hpp"
+#include "spatial/contact/contact_geometry.hpp"
 
 namespace crumple::space {
 

@@ -1,10 +1,10 @@
-#include "space/bind_hinge.hpp"
+#include "spatial/bind/bind_hinge.hpp"
 
 #include <nanobind/ndarray.h>
 
 #include <cmath>
 
-#include "multibody/bind_hinge.hpp"
+#include "hinge/bind_hinge.hpp"
 
 namespace nb = nanobind;
 

@@ -3,7 +3,7 @@
 
 #include <nanobind/nanobind.h>
 
-#include "space/hinge.hpp"
+#include "spatial/hinge/hinge.hpp"
 
 namespace crumple::space {
 

@@ -3,7 +3,7 @@
 
 #include <nanobind/nanobind.h>
 
-#include "space/simulation.hpp"
+#include "spatial/run/simulation.hpp"
 
 namespace crumple::space {
 

@@ -1,4 +1,4 @@
-#include "space/contact.hpp"
+#include "spatial/contact/contact.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 //   friction   P_t = L w_t/max(|w_t|, width),  L = mu times the normal impulse that the last pass over the step found
 #pragma once
 
-#include "space/contact_geometry.hpp"
+#include "spatial/contact/contact_geometry.hpp"
 
 namespace crumple::space {
 

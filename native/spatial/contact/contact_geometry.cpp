@@ -1,4 +1,4 @@
-#include "space/contact_geometry.hpp"
+#include "spatial/contact/contact_geometry.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 // their common length, so that it does not rock.  Breaks are seen before they touch, as ends are.
 #pragma once
 
-#include "space/math.hpp"
+#include "spatial/model/math.hpp"
 
 namespace crumple::space {
 

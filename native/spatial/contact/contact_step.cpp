@@ -1,7 +1,7 @@
 // What a step does with contacts, beside what it does with every law.
 #include <algorithm>
 
-#include "space/stepper.hpp"
+#include "spatial/step/stepper.hpp"
 
 namespace crumple::space {
 

@@ -1,4 +1,4 @@
-#include "space/contacts.hpp"
+#include "spatial/contact/contacts.hpp"
 
 #include <algorithm>
 #include <cmath>

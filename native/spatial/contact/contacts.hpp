@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "space/contact.hpp"
-#include "space/joint.hpp"
+#include "spatial/contact/contact.hpp"
+#include "spatial/model/joint.hpp"
 
 namespace crumple::space {
 

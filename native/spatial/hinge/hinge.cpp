@@ -1,4 +1,4 @@
-#include "space/hinge.hpp"
+#include "spatial/hinge/hinge.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -20,8 +20,8 @@
 #include <limits>
 #include <vector>
 
-#include "multibody/hinge.hpp"
-#include "space/surface.hpp"
+#include "hinge/hinge.hpp"
+#include "spatial/hinge/surface.hpp"
 
 namespace crumple::space {
 

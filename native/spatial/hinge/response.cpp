@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "space/hinge.hpp"
+#include "spatial/hinge/hinge.hpp"
 
 namespace crumple::space {
 

@@ -1,4 +1,4 @@
-#include "space/surface.hpp"
+#include "spatial/hinge/surface.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "space/joint.hpp"
+#include "spatial/model/joint.hpp"
 
 namespace crumple::space {
 

@@ -6,7 +6,7 @@
 // the held components of s are zero.  So one form serves every set of held rotations, at any angle of the free ones.
 #pragma once
 
-#include "space/math.hpp"
+#include "spatial/model/math.hpp"
 
 namespace crumple::space {
 

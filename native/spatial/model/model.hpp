@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "space/contacts.hpp"
-#include "space/hinge.hpp"
-#include "space/joint.hpp"
+#include "spatial/contact/contacts.hpp"
+#include "spatial/hinge/hinge.hpp"
+#include "spatial/model/joint.hpp"
 
 namespace crumple::space {
 

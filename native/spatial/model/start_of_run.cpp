@@ -1,7 +1,7 @@
 // What a run asks of the model at rest: motion that fits the joints, inertias that hinges feel, displacements.
 #include <algorithm>
 
-#include "space/stepper.hpp"
+#include "spatial/step/stepper.hpp"
 
 namespace crumple::space {
 

@@ -1,10 +1,10 @@
-#include "space/batch.hpp"
+#include "spatial/run/batch.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "multibody/team.hpp"
+#include "common/tasks.hpp"
 
 namespace crumple::space {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "space/simulation.hpp"
+#include "spatial/run/simulation.hpp"
 
 namespace crumple::space {
 

@@ -1,7 +1,7 @@
 // A run that takes another's steps; see journey.hpp.
 #include <cmath>
 
-#include "space/simulation.hpp"
+#include "spatial/run/simulation.hpp"
 
 namespace crumple::space {
 

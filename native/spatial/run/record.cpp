@@ -1,7 +1,7 @@
 // What a run records.
 #include <limits>
 
-#include "space/simulation.hpp"
+#include "spatial/run/simulation.hpp"
 
 namespace crumple::space {
 

@@ -1,4 +1,4 @@
-#include "space/simulation.hpp"
+#include "spatial/run/simulation.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "space/stepper.hpp"
+#include "spatial/step/stepper.hpp"
 
 namespace crumple::space {
 
@@ -19,7 +19,7 @@ struct Settings {
     double scale_floor = 2e-3;   // [rad] smallest rotation that counts as large
 };
 
-// What ends a stage; see crumple._core.space.Until.
+// What ends a stage; see crumple._core.spatial.simulation.Until.
 enum class Quantity { force, drive_force, work, distance, displacement };
 
 struct Condition {

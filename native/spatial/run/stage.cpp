@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "space/simulation.hpp"
+#include "spatial/run/simulation.hpp"
 
 namespace crumple::space {
 

@@ -1,4 +1,4 @@
-#include "space/block_cholesky.hpp"
+#include "spatial/step/block_cholesky.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "space/central.hpp"
+#include "spatial/step/central_hinge.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 // rest and sliding.  Rates are in units of the strongest component, y_k = C_k w_k/C_ref [rad/s].
 #pragma once
 
-#include "space/hinge.hpp"
+#include "spatial/hinge/hinge.hpp"
 
 namespace crumple::space {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "space/stepper.hpp"
+#include "spatial/step/stepper.hpp"
 
 namespace crumple::space {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "space/eigen.hpp"
-#include "space/stepper.hpp"
+#include "spatial/model/eigen.hpp"
+#include "spatial/step/stepper.hpp"
 
 namespace crumple::space {
 

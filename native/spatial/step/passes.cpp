@@ -1,7 +1,7 @@
 // What a pass over a step takes from the one before it.
 #include <algorithm>
 
-#include "space/stepper.hpp"
+#include "spatial/step/stepper.hpp"
 
 namespace crumple::space {
 

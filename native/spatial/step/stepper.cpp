@@ -1,4 +1,4 @@
-#include "space/stepper.hpp"
+#include "spatial/step/stepper.hpp"
 
 #include <algorithm>
 #include <cmath>

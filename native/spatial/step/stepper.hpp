@@ -11,10 +11,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "space/central.hpp"
-#include "space/journey.hpp"
-#include "space/model.hpp"
-#include "space/system.hpp"
+#include "spatial/step/central_hinge.hpp"
+#include "spatial/run/step_record.hpp"
+#include "spatial/model/model.hpp"
+#include "spatial/step/system.hpp"
 
 namespace crumple::space {
 

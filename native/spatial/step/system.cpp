@@ -1,4 +1,4 @@
-#include "space/system.hpp"
+#include "spatial/step/system.hpp"
 
 #include <algorithm>
 

@@ -13,8 +13,8 @@
 
 #include <vector>
 
-#include "space/block_cholesky.hpp"
-#include "space/joint.hpp"
+#include "spatial/step/block_cholesky.hpp"
+#include "spatial/model/joint.hpp"
 
 namespace crumple::space {
 

@@ -18,8 +18,8 @@ from crumple.structure import (
     shell_problems,
     stage_problems,
 )
-from crumple.structure.quantity import PositiveTime
-from crumple.structure.spec import Spec, raise_all, refuse
+from crumple.structure.schema.quantity import PositiveTime
+from crumple.structure.schema.spec import Spec, raise_all, refuse
 from crumple.units import format_quantity
 
 LONGEST_TITLE = 200

@@ -13,7 +13,7 @@ from crumple.errors import Problem
 from crumple.result import Channel, Result, cfc
 from crumple.result.filters import CUT_OFF, SAMPLES_PER_CUT_OFF
 from crumple.structure import Filter, Outputs, Structure, hinge_places
-from crumple.structure.problems import one_of, suggestion
+from crumple.structure.schema.problems import one_of, suggestion
 
 HINGE_QUANTITIES = ("rotation", "rotation_rate", "plastic_rotation", "moment", "capacity", "energy")
 NODE_QUANTITIES = ("displacement", "velocity", "acceleration", "rotation")

@@ -23,7 +23,7 @@ from crumple.structure import (
     shell_problems,
     stage_problems,
 )
-from crumple.structure.problems import Place, path_of, placed_problems, shown
+from crumple.structure.schema.problems import Place, path_of, placed_problems, shown
 
 FORMAT = 1
 """Version of the format; a file that needs another one says so."""

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from crumple.errors import InputError, Problem
-from crumple.structure.problems import Place, shown, spelled
+from crumple.structure.schema.problems import Place, shown, spelled
 
 LARGEST_FILE = 1_000_000
 """Bytes of an input file; a frame of ten thousand members stays below."""

@@ -19,10 +19,10 @@ from pydantic.fields import FieldInfo
 from crumple.analysis.input_file import InputFile
 from crumple.analysis.schema import field_descriptions, first_sentence
 from crumple.structure import LawKeys, Obstacle
-from crumple.structure.member import Place
-from crumple.structure.quantity import Dimension
-from crumple.structure.spec import Name
-from crumple.structure.time_function import FunctionOf
+from crumple.structure.keys.member import Place
+from crumple.structure.keys.time_function import FunctionOf
+from crumple.structure.schema.quantity import Dimension
+from crumple.structure.schema.spec import Name
 
 BEGIN = "<!-- written by `python -m crumple.analysis.reference docs/input.md`: begin -->"
 END = "<!-- end -->"

@@ -11,7 +11,7 @@ from crumple.analysis.analysis import Analysis
 from crumple.analysis.canonical import canonical, hash_of
 from crumple.analysis.filters import with_filters
 from crumple.errors import InputError, Problem, Status
-from crumple.structure.spec import raise_all
+from crumple.structure.schema.spec import raise_all
 from crumple.units import format_quantity
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from crumple.cli.fidelity import Fidelity
+from crumple.cli.console.fidelity import Fidelity
 
 if TYPE_CHECKING:
     from crumple.analysis import Analysis
@@ -47,7 +47,7 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
 
 def _shell_notes(analysis: Analysis) -> Iterator[str]:
     """Mesh and warnings."""
-    from crumple.cli.shell_run import shell_notes
+    from crumple.cli.console.shell_run import shell_notes
 
     mesh, *warnings = shell_notes(analysis)
     yield mesh

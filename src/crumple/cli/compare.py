@@ -60,10 +60,10 @@ def compare(
 ) -> None:
     """Solve with both engines and compare. Writes multibody/, shell/ and report.html to a folder."""
     from crumple.analysis import load, with_lines
-    from crumple.cli.curves import curves_of
-    from crumple.cli.folder import results_errors, results_folder
-    from crumple.cli.progress import progress_bar, stop_on_interrupt
-    from crumple.cli.shell_run import RESTART, available_threads, long_run_of
+    from crumple.cli.console.curves import curves_of
+    from crumple.cli.console.folder import results_errors, results_folder
+    from crumple.cli.console.progress import progress_bar, stop_on_interrupt
+    from crumple.cli.console.shell_run import RESTART, available_threads, long_run_of
     from crumple.comparison import picture_times, solve_and_compare, with_mesh
     from crumple.errors import InputError
     from crumple.report import write_comparison
@@ -104,7 +104,7 @@ def _refuse_mesh(analysis: Analysis, factor: float) -> None:
     """Refuse a second mesh that the shell solver would refuse."""
     from dataclasses import replace
 
-    from crumple.cli.shell_run import shell_notes
+    from crumple.cli.console.shell_run import shell_notes
     from crumple.errors import InputError
 
     try:
@@ -148,7 +148,7 @@ def _show(found: Comparison, folder: Path) -> None:
     from rich.text import Text
 
     from crumple.report import curve_notes
-    from crumple.report.comparison_wording import busy_note, ranked, times_faster
+    from crumple.report.wording.comparison_wording import busy_note, ranked, times_faster
     from crumple.units import format_quantity
 
     console = Console(highlight=False)

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from crumple.cli.named import MATERIAL_HELP, SECTION_HELP
+from crumple.cli.console.named import MATERIAL_HELP, SECTION_HELP
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from crumple.function.transition import Floats
     from crumple.hinge import HingeLaw
     from crumple.material import Material
+    from crumple.numeric.arrays import Floats
     from crumple.section import Axis, Section
 
 ROTATIONS = (0, 1, 2, 5, 10, 15, 20, 25, 30, 40, 50, 60, 75, 90)
@@ -51,7 +51,7 @@ def hinge(
     import numpy as np
     from rich.console import Console
 
-    from crumple.cli.named import material_of, section_of
+    from crumple.cli.console.named import material_of, section_of
     from crumple.section.section import checked_axis
 
     shape = section_of(section)
@@ -68,7 +68,7 @@ def hinge(
     for note in [*left_out, *(f"Assumed: {text}" for text in assumed)]:
         console.print(note, style="dim", markup=False)
     if figure is not None:
-        from crumple.cli.law_figure import law_figure
+        from crumple.cli.console.law_figure import law_figure
 
         figure.write_text(law_figure(laws, rotation, title), encoding="utf-8")
         console.print(f"Figure: {figure}", soft_wrap=True, markup=False)
@@ -156,7 +156,7 @@ def _show_table(console: Console, laws: dict[str, HingeLaw], largest: float) -> 
     from rich.markup import escape
     from rich.table import Table
 
-    from crumple.cli.columns import in_one_unit
+    from crumple.cli.console.columns import in_one_unit
 
     rows = [angle for angle in ROTATIONS if np.deg2rad(angle) < largest * (1.0 - 1e-9)]
     angles = np.array([*rows, np.rad2deg(largest)])
@@ -174,7 +174,7 @@ def _show_table(console: Console, laws: dict[str, HingeLaw], largest: float) -> 
 def _show_chart(console: Console, laws: dict[str, HingeLaw], rotation: Floats) -> None:
     from rich.text import Text
 
-    from crumple.cli.chart import COLOURS, MARKS, chart
+    from crumple.cli.console.chart import COLOURS, MARKS, chart
     from crumple.units import format_quantity
 
     curves = [entry.moment_capacity(rotation) for entry in laws.values()]

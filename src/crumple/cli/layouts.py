@@ -20,8 +20,8 @@ def layouts(
     title: Annotated[str, typer.Option(help="Title of the page.")] = "Layouts",
 ) -> None:
     """Solve several layouts as multibody models and compare them. A layout that fails is a row."""
-    from crumple.cli.folder import results_errors, results_folder
-    from crumple.cli.progress import progress_bar, stop_on_interrupt
+    from crumple.cli.console.folder import results_errors, results_folder
+    from crumple.cli.console.progress import progress_bar, stop_on_interrupt
     from crumple.report import write_layouts
 
     folder = results_folder(out, files[0])
@@ -51,7 +51,7 @@ def _names(files: list[Path]) -> list[str]:
 def _solved(name: str, file: Path, folder: Path, cancel: Callable[[], bool]) -> Layout:
     """One layout: read, solved and written to its folder; a refusal is kept with its reason."""
     from crumple.analysis import canonical, load, solve
-    from crumple.cli.folder import results_errors
+    from crumple.cli.console.folder import results_errors
     from crumple.errors import InputError
     from crumple.report import Layout, ReportInput, write_report
     from crumple.result import write

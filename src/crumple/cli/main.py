@@ -13,9 +13,9 @@ import typer
 from crumple import __version__
 from crumple.cli.check import check
 from crumple.cli.compare import compare
+from crumple.cli.console.refusal import show_refusal
 from crumple.cli.hinge import hinge
 from crumple.cli.layouts import layouts
-from crumple.cli.refusal import show_refusal
 from crumple.cli.run import run
 from crumple.cli.schema import schema
 from crumple.cli.section import section

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from crumple.cli.fidelity import Fidelity
+from crumple.cli.console.fidelity import Fidelity
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -42,7 +42,7 @@ def run(
 ) -> None:
     """Solve an input file and report. Writes summary, histories, shapes, figures and a page to a folder."""
     from crumple.analysis import load
-    from crumple.cli.folder import results_folder
+    from crumple.cli.console.folder import results_folder
     from crumple.errors import Status
 
     analysis = load(file)
@@ -77,9 +77,9 @@ def _solve(
 ) -> Result:
     """Solve with one engine and write its files; `how`: which, threads, restart file."""
     from crumple.analysis import canonical, solve, with_lines
-    from crumple.cli.folder import results_errors
-    from crumple.cli.progress import progress_bar, stop_on_interrupt
-    from crumple.cli.shell_run import available_threads, long_run_of
+    from crumple.cli.console.folder import results_errors
+    from crumple.cli.console.progress import progress_bar, stop_on_interrupt
+    from crumple.cli.console.shell_run import available_threads, long_run_of
     from crumple.errors import InputError
     from crumple.report import ReportInput, write_report
     from crumple.result import write
@@ -120,7 +120,7 @@ def _summary(result: Result) -> dict[str, Any]:
 
 def _show_restart(file: Path, folder: Path) -> None:
     """Say how to go on with a shell run that was interrupted."""
-    from crumple.cli.shell_run import RESTART
+    from crumple.cli.console.shell_run import RESTART
 
     if (folder / RESTART).exists():
         typer.echo(
@@ -157,7 +157,7 @@ def _hinge_table(result: Result) -> Table:
     from rich.markup import escape
     from rich.table import Table
 
-    from crumple.cli.columns import in_one_unit
+    from crumple.cli.console.columns import in_one_unit
 
     hinges = list(result.hinges.items())
     if len(hinges) > MOST_HINGES:

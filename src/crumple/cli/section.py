@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from crumple.cli.named import MATERIAL_HELP, SECTION_HELP
+from crumple.cli.console.named import MATERIAL_HELP, SECTION_HELP
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -35,7 +35,7 @@ def section(
     from rich.console import Console
     from rich.text import Text
 
-    from crumple.cli.named import material_of, section_of
+    from crumple.cli.console.named import material_of, section_of
     from crumple.errors import InputError, Problem
     from crumple.section import walls_of
     from crumple.units import parse_quantity
@@ -62,7 +62,7 @@ def section(
     for text in assumed:
         console.print(Text(f"Assumed: {text}"))
     if figure is not None:
-        from crumple.report.section_figure import section_figure
+        from crumple.report.figures.section_figure import section_figure
 
         figure.write_text(section_figure(shape, metal), encoding="utf-8")
         console.print(f"Figure: {figure}", soft_wrap=True, markup=False)
@@ -155,7 +155,7 @@ def _show_capacities(console: Console, capacities: dict[str, MomentCapacity], fo
     from rich.table import Table
     from rich.text import Text
 
-    from crumple.cli.columns import in_one_unit
+    from crumple.cli.console.columns import in_one_unit
     from crumple.units import format_quantity
 
     every = list(capacities.values())

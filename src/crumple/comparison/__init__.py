@@ -1,14 +1,15 @@
 """Two results, or a result and a measured curve: metrics, rating, verdict."""
 
+from crumple.comparison.cautions.trust import Trust
 from crumple.comparison.comparison import Comparison, Opening, Source, Timing, compare
-from crumple.comparison.curve_file import CurveFile, read_curves
-from crumple.comparison.energy import energy_put_in
-from crumple.comparison.metrics import HingeComparison, HingeMetrics
-from crumple.comparison.motion import HingeMotion, rate_of
-from crumple.comparison.pairing import Pair
-from crumple.comparison.rating import EDITION, SAMPLING_RATE, Rating, rating
-from crumple.comparison.sections import at_times
-from crumple.comparison.signal import Signal
+from crumple.comparison.measure.energy import energy_put_in
+from crumple.comparison.measure.metrics import HingeComparison, HingeMetrics
+from crumple.comparison.measure.motion import HingeMotion, rate_of
+from crumple.comparison.measure.sections import at_times
+from crumple.comparison.rating.curve_file import CurveFile, read_curves
+from crumple.comparison.rating.pairing import Pair
+from crumple.comparison.rating.rating import EDITION, SAMPLING_RATE, Rating, rating
+from crumple.comparison.rating.signal import Signal
 from crumple.comparison.solving import (
     picture_times,
     solve_and_compare,
@@ -16,7 +17,6 @@ from crumple.comparison.solving import (
     with_mesh,
     with_pictures,
 )
-from crumple.comparison.trust import Trust
 from crumple.comparison.variant import MODEL_NAMES
 
 __all__ = [

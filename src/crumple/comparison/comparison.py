@@ -8,13 +8,19 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from crumple.comparison.curve_file import CurveFile
-from crumple.comparison.metrics import HingeComparison, compared, metrics_of
-from crumple.comparison.motion import HingeMotion, Measured, channel_motions, measured, member_sections
-from crumple.comparison.pairing import TELLING, Pair, pairs_of
-from crumple.comparison.sections import at_times
-from crumple.comparison.signal import Signal, member_signals, signals_of
-from crumple.comparison.trust import Trust, trust_of
+from crumple.comparison.cautions.trust import Trust, trust_of
+from crumple.comparison.measure.metrics import HingeComparison, compared, metrics_of
+from crumple.comparison.measure.motion import (
+    HingeMotion,
+    Measured,
+    channel_motions,
+    measured,
+    member_sections,
+)
+from crumple.comparison.measure.sections import at_times
+from crumple.comparison.rating.curve_file import CurveFile
+from crumple.comparison.rating.pairing import TELLING, Pair, pairs_of
+from crumple.comparison.rating.signal import Signal, member_signals, signals_of
 from crumple.errors import InputError, Problem
 from crumple.result import Result
 from crumple.structure import PlacedHinge, Structure, placed_hinges

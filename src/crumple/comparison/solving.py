@@ -12,8 +12,8 @@ import numpy as np
 
 from crumple.analysis import Analysis, input_hash, solve
 from crumple.comparison.comparison import Comparison, Timing, compare
-from crumple.comparison.curve_file import CurveFile
-from crumple.comparison.sections import at_times
+from crumple.comparison.measure.sections import at_times
+from crumple.comparison.rating.curve_file import CurveFile
 from crumple.comparison.variant import (
     ELASTIC_HINGES,
     ELASTIC_MEMBERS,

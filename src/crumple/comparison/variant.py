@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from crumple.comparison.motion import HingeMotion
+from crumple.comparison.measure.motion import HingeMotion
 from crumple.section import bending_moment
 from crumple.structure import HingePlace, Member, Structure, TableLaw
-from crumple.structure.automatic import hinges_of
 from crumple.structure.bending import bending_axis
-from crumple.structure.hinges import hinge_places, law_spec
-from crumple.structure.law import LawKeys, LawReference, Regularisation
-from crumple.structure.member import Bars, Hinge
+from crumple.structure.hinges.automatic import hinges_of
+from crumple.structure.hinges.hinges import hinge_places, law_spec
+from crumple.structure.keys.law import LawKeys, LawReference, Regularisation
+from crumple.structure.keys.member import Bars, Hinge
 
 ELASTIC = "elastic-plastic"
 ELASTIC_HINGES, ELASTIC_MEMBERS, SHELL_LAWS = "elastic hinges", "elastic members", "laws of the shells"

@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple.errors import InputError
-from crumple.function.transition import Floats, step
+from crumple.function.transition import step
+from crumple.numeric.arrays import Floats
 
 
 def impact(x: ArrayLike, v: ArrayLike, x1: float, k: float, e: float, cmax: float, d: float) -> Floats:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple.errors import InputError
-from crumple.function.transition import Floats
+from crumple.numeric.arrays import Floats
 
 
 def table(x: ArrayLike, xs: Sequence[float] | Floats, ys: Sequence[float] | Floats) -> Floats:

@@ -18,7 +18,8 @@ from numpy.typing import ArrayLike
 from crumple.errors import InputError
 from crumple.function.contact import bistop, impact
 from crumple.function.table import table, table_slope
-from crumple.function.transition import PASSAGES, Floats
+from crumple.function.transition import PASSAGES
+from crumple.numeric.arrays import Floats
 
 MAX_SAMPLES = 1_000_000
 """Points of a sampled function; a tolerance that needs more is a mistake."""

@@ -15,11 +15,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from crumple.errors import InputError
-
-Floats = NDArray[np.float64]
+from crumple.numeric.arrays import Floats
 
 
 def step(x: ArrayLike, x0: float, h0: float, x1: float, h1: float) -> Floats:

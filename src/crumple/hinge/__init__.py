@@ -1,22 +1,31 @@
 """Section and material to collapse law, with a source and a range, and to the record of the stepper."""
 
-from crumple.hinge.axial_collapse import AxialCollapse
-from crumple.hinge.axial_law import AxialLaw, CrushDistance, CrushRate, CrushValidity, absorbed_by
+from crumple.hinge.axial.axial_collapse import AxialCollapse
+from crumple.hinge.axial.axial_law import AxialLaw, CrushDistance, CrushRate, CrushValidity, absorbed_by
 from crumple.hinge.band import Band, Bound, ScaledLaw, band_of
+from crumple.hinge.bending.circular import CircularLaw
+from crumple.hinge.bending.constant import ConstantLaw
+from crumple.hinge.bending.jamming import AfterJamming
+from crumple.hinge.bending.kecman import KecmanLaw, Start
+from crumple.hinge.bending.oblique import ObliqueLaw
+from crumple.hinge.bending.wierzbicki import WierzbickiLaw
 from crumple.hinge.energy import absorbed_energy, rotation_absorbing
-from crumple.hinge.jamming import AfterJamming
 from crumple.hinge.law import HingeLaw, SofteningVariable, Source, Trust, Validity
-from crumple.hinge.law_file import read_law, stored_law, write_law
-from crumple.hinge.laws.circular import CircularLaw
-from crumple.hinge.laws.constant import ConstantLaw
-from crumple.hinge.laws.kecman import KecmanLaw, Start
-from crumple.hinge.laws.oblique import ObliqueLaw
-from crumple.hinge.laws.stored import StoredLaw, bounded
-from crumple.hinge.laws.tabulated import TabulatedLaw
-from crumple.hinge.laws.wierzbicki import WierzbickiLaw
+from crumple.hinge.measured.law_file import read_law, stored_law, write_law
+from crumple.hinge.measured.stored import StoredLaw, bounded
+from crumple.hinge.measured.table import plastic_part, read_table
+from crumple.hinge.measured.tabulated import TabulatedLaw
 from crumple.hinge.rate import HingeRate
-from crumple.hinge.record import Envelope, Form, HingeRecord
-from crumple.hinge.recording import record_of, tributary_stiffness
+from crumple.hinge.record.record import Envelope, Form, HingeRecord
+from crumple.hinge.record.recording import record_of, tributary_stiffness
+from crumple.hinge.record.spatial_record import (
+    Coupling,
+    Freedom,
+    HingeComponent,
+    HingeSurface,
+    SpatialHingeRecord,
+)
+from crumple.hinge.record.spatial_recording import spatial_record
 from crumple.hinge.registry import (
     axial_law_types,
     build_axial_law,
@@ -26,11 +35,8 @@ from crumple.hinge.registry import (
     law_types,
     torsion_law_types,
 )
-from crumple.hinge.spatial_record import Coupling, Freedom, HingeComponent, HingeSurface, SpatialHingeRecord
-from crumple.hinge.spatial_recording import spatial_record
 from crumple.hinge.stop import Stop
-from crumple.hinge.table import plastic_part, read_table
-from crumple.hinge.torsion_law import TorsionLaw
+from crumple.hinge.torsion.torsion_law import TorsionLaw
 
 __all__ = [
     "AfterJamming",

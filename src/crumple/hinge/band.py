@@ -13,10 +13,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.law import Floats, HingeLaw, SofteningVariable, Source, Validity
+from crumple.hinge.law import HingeLaw, SofteningVariable, Source, Validity
 from crumple.hinge.options import choice
 from crumple.hinge.rate import HingeRate
 from crumple.hinge.stop import Stop
+from crumple.numeric.arrays import Floats
 
 
 class Bound(Enum):

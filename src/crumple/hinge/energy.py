@@ -6,7 +6,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from crumple.hinge.law import Floats, HingeLaw
+from crumple.hinge.law import HingeLaw
+from crumple.numeric.arrays import Floats
 
 GAUSS_POINTS = 8
 """Per interval of a smooth piece."""

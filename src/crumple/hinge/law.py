@@ -15,12 +15,11 @@ from enum import Enum
 from typing import Protocol, runtime_checkable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from crumple.hinge.rate import HingeRate
 from crumple.hinge.stop import Stop
-
-Floats = NDArray[np.float64]
+from crumple.numeric.arrays import Floats
 
 
 class SofteningVariable(Enum):

@@ -1,13 +1,9 @@
-"""Laws by name.  Adding a law is adding a file to one of the three folders with a class under its decorator.
-
-``laws`` holds bending, ``axial`` axial crushing, ``torsion`` twisting.
-"""
+"""Laws by name.  Adding a law is adding a file with a class under its decorator, and its line here."""
 
 from __future__ import annotations
 
 import importlib
 import inspect
-import pkgutil
 from collections.abc import Callable
 from functools import cache
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
@@ -18,8 +14,8 @@ from crumple.material import Material
 from crumple.section import Axis, Section
 
 if TYPE_CHECKING:
-    from crumple.hinge.axial_law import AxialLaw
-    from crumple.hinge.torsion_law import TorsionLaw
+    from crumple.hinge.axial.axial_law import AxialLaw
+    from crumple.hinge.torsion.torsion_law import TorsionLaw
 
 _Class = TypeVar("_Class")
 
@@ -33,18 +29,18 @@ class LawType(Protocol):
 
 
 class Family:
-    """Laws of one kind of collapse, one file each in one folder.
+    """Laws of one kind of collapse, one file each.
 
     Parameters
     ----------
-    folder
-        Package that holds the files; imported on first use.
+    modules
+        The files; imported on first use.
     what
         What messages call a law of this kind.
     """
 
-    def __init__(self, folder: str, what: str) -> None:
-        self._folder = folder
+    def __init__(self, modules: tuple[str, ...], what: str) -> None:
+        self._modules = modules
         self._what = what
         self._types: dict[str, Any] = {}
         self._loaded = False
@@ -61,9 +57,8 @@ class Family:
     def types(self) -> dict[str, Any]:
         """Every law class by its name, sorted."""
         if not self._loaded:
-            package = importlib.import_module(self._folder)
-            for module in pkgutil.iter_modules(package.__path__):
-                importlib.import_module(f"{self._folder}.{module.name}")
+            for module in self._modules:
+                importlib.import_module(module)
             self._loaded = True
         return dict(sorted(self._types.items()))
 
@@ -114,9 +109,29 @@ def _needed(function: Callable[..., Any]) -> tuple[str, ...]:
     )
 
 
-_BENDING = Family("crumple.hinge.laws", "hinge law")
-_AXIAL = Family("crumple.hinge.axial", "axial law")
-_TORSION = Family("crumple.hinge.torsion", "torsion law")
+_BENDING = Family(
+    (
+        "crumple.hinge.bending.circular",
+        "crumple.hinge.bending.constant",
+        "crumple.hinge.bending.folded_profile",
+        "crumple.hinge.bending.kecman",
+        "crumple.hinge.bending.oblique",
+        "crumple.hinge.bending.wierzbicki",
+        "crumple.hinge.measured.stored",
+        "crumple.hinge.measured.tabulated",
+    ),
+    "hinge law",
+)
+_AXIAL = Family(
+    (
+        "crumple.hinge.axial.circular",
+        "crumple.hinge.axial.square",
+        "crumple.hinge.axial.superfolding",
+        "crumple.hinge.axial.top_hat",
+    ),
+    "axial law",
+)
+_TORSION = Family(("crumple.hinge.torsion.plastic", "crumple.hinge.torsion.square_tube"), "torsion law")
 
 law_type = _BENDING.register
 axial_law_type = _AXIAL.register

@@ -20,7 +20,8 @@ import math
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.material.hardening import Floats, HardeningCurve
+from crumple.material.hardening import HardeningCurve
+from crumple.numeric.arrays import Floats
 
 GAUSS_POINTS = 16
 """Per interval; a smooth hardening curve is integrated to rounding."""

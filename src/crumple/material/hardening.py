@@ -26,8 +26,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from crumple.errors import InputError, Problem
-
-Floats = NDArray[np.float64]
+from crumple.numeric.arrays import Floats
 
 
 @runtime_checkable

@@ -3,19 +3,19 @@
 `solve_multibody(structure, run)` is the way in; `lower` shows the mechanism that a structure becomes.
 """
 
-from crumple.multibody.assembly import Piece
-from crumple.multibody.infinitesimal import infinitesimal
-from crumple.multibody.linkage import Connection, Linkage, link
-from crumple.multibody.mechanism import Link, Mechanism, lower
-from crumple.multibody.mobility import notes
-from crumple.multibody.model import start_of, tree_hinge, tree_model
-from crumple.multibody.plane import Plane
+from crumple.multibody.bodies.assembly import Piece
+from crumple.multibody.bodies.linkage import Connection, Linkage, link
+from crumple.multibody.bodies.mobility import notes
+from crumple.multibody.checks.infinitesimal import infinitesimal
+from crumple.multibody.checks.unheld import unheld_notes
+from crumple.multibody.planar.mechanism import Link, Mechanism, lower
+from crumple.multibody.planar.model import start_of, tree_hinge, tree_model
+from crumple.multibody.planar.plane import Plane
 from crumple.multibody.run import Run
-from crumple.multibody.sensitivity import Sensitivities, sensitivities
 from crumple.multibody.solve import solve_multibody, solver_of
 from crumple.multibody.timing import least_seconds, stepping_seconds
-from crumple.multibody.unheld import unheld_notes
-from crumple.multibody.variants import VariantTable, solve_variants
+from crumple.multibody.variants.sensitivity import Sensitivities, sensitivities
+from crumple.multibody.variants.variants import VariantTable, solve_variants
 
 __all__ = [
     "Connection",

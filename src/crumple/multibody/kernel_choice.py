@@ -11,12 +11,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.multibody.assembly import assemble
-from crumple.multibody.linkage import GROUND, Linkage, link
-from crumple.multibody.mobility import mobility
-from crumple.multibody.plane import PARALLEL, plane_of
-from crumple.multibody.rigid import Floats
+from crumple.multibody.bodies.assembly import assemble
+from crumple.multibody.bodies.linkage import GROUND, Linkage, link
+from crumple.multibody.bodies.mobility import mobility
+from crumple.multibody.planar.plane import PARALLEL, plane_of
 from crumple.multibody.run import Run
+from crumple.numeric.arrays import Floats
 from crumple.structure import FREEDOMS, PlacedHinge, Structure, across_plane, placed_hinges
 
 MOST_LOOPS = 8

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from crumple._core.tree import Outcome
+from crumple._core.planar.simulation import Outcome
 from crumple.errors import Status
-from crumple.multibody.rigid import Floats
+from crumple.numeric.arrays import Floats
 from crumple.structure import MultibodySettings, Outputs, Stage
 
 Progress = Callable[[float], None]

@@ -7,12 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from crumple._core.tree import Outcome
+from crumple._core.planar.simulation import Outcome
 from crumple.errors import InputError, Problem, Status
-from crumple.multibody import trust
-from crumple.multibody.choice import why_spatial
-from crumple.multibody.collapse import changed_capacities, collapse_log, not_unique
-from crumple.multibody.histories import (
+from crumple.multibody.answer.histories import (
     clearance_channels,
     distance_channels,
     energy_channels,
@@ -22,14 +19,17 @@ from crumple.multibody.histories import (
     section_channels,
     summaries,
 )
-from crumple.multibody.infinitesimal import infinitesimal
-from crumple.multibody.linkage import link
-from crumple.multibody.rigid import Floats
+from crumple.multibody.answer.shapes import states_of
+from crumple.multibody.answer.solved import Solved, Solver
+from crumple.multibody.bodies.linkage import link
+from crumple.multibody.checks import trust
+from crumple.multibody.checks.collapse import changed_capacities, collapse_log, not_unique
+from crumple.multibody.checks.infinitesimal import infinitesimal
+from crumple.multibody.kernel_choice import why_spatial
+from crumple.multibody.planar.solver import TreeSolver
 from crumple.multibody.run import CHECK_FACTOR, Cancel, Progress, Run, outcome_status, picture_times, poll_of
-from crumple.multibody.shapes import states_of
-from crumple.multibody.solved import Solved, Solver
-from crumple.multibody.space_solver import SpaceSolver
-from crumple.multibody.tree_solver import TreeSolver
+from crumple.multibody.spatial.solver import SpaceSolver
+from crumple.numeric.arrays import Floats
 from crumple.result import Provenance, Result, missing_pictures
 from crumple.structure import Structure, any_automatic, placed_hinges
 

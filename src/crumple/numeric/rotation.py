@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from crumple.structure.geometry import Floats
+from crumple.numeric.arrays import Floats
 
 SMALL = 1e-9
 """Sine of a rotation below which its direction is noise."""

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from crumple.hinge.law import Floats
+from crumple.numeric.arrays import Floats
 
 GRID = np.linspace(0.0, 1.0, 65)
 """Points of the first pass: a change that turns back within a sixty-fourth of the interval may be missed."""

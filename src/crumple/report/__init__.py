@@ -1,9 +1,9 @@
 """The report room: figures, tables and one self-contained page."""
 
 from crumple.report.comparison_page import write_comparison
-from crumple.report.curve_wording import curve_notes
 from crumple.report.layouts import Layout, layout_table, write_layouts
 from crumple.report.report import ReportInput, write_report
+from crumple.report.wording.curve_wording import curve_notes
 
 __all__ = [
     "Layout",

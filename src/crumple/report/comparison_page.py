@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from crumple.comparison import Comparison
-from crumple.report.curve_wording import curve_notes
 from crumple.report.report import MAX_INPUT, ReportInput, embedded, write_figures
+from crumple.report.wording.curve_wording import curve_notes
 from crumple.result.files import write_text
 
 MOST_HINGES = 4
@@ -63,11 +63,11 @@ def _draw(comparison: Comparison, pictures: Sequence[float]) -> list[tuple[str, 
     """File name, SVG and caption of every figure that there is something for."""
     import numpy as np  # noqa: PLC0415
 
-    from crumple.report import comparison_figures as figures  # noqa: PLC0415
-    from crumple.report.comparison_shapes import shapes_side_by_side  # noqa: PLC0415
-    from crumple.report.comparison_wording import ranked  # noqa: PLC0415
-    from crumple.report.style import drawing  # noqa: PLC0415
-    from crumple.report.welds import weld_loads  # noqa: PLC0415
+    from crumple.report.drawing.style import drawing  # noqa: PLC0415
+    from crumple.report.figures import comparison_figures as figures  # noqa: PLC0415
+    from crumple.report.figures.comparison_shapes import shapes_side_by_side  # noqa: PLC0415
+    from crumple.report.figures.welds import weld_loads  # noqa: PLC0415
+    from crumple.report.wording.comparison_wording import ranked  # noqa: PLC0415
 
     times = pictures or tuple(np.linspace(0.0, float(comparison.reference.result.time[-1]), 6))
     first, second = comparison.candidate.name, comparison.reference.name
@@ -118,10 +118,10 @@ def _render(comparison: Comparison, source: ReportInput, drawn: list[tuple[str, 
     from jinja2 import Environment, FileSystemLoader, StrictUndefined  # noqa: PLC0415
     from markupsafe import Markup  # noqa: PLC0415
 
-    from crumple.report import comparison_wording as wording  # noqa: PLC0415
-    from crumple.report.player import scene_of  # noqa: PLC0415
+    from crumple.report.drawing.player import scene_of  # noqa: PLC0415
+    from crumple.report.wording import comparison_wording as wording  # noqa: PLC0415
 
-    here = Path(__file__).parent
+    here = Path(__file__).parent / "templates"
     figures = {name: _Figure(i + 1, Markup(svg), caption) for i, (name, svg, caption) in enumerate(drawn)}
     hinges = [
         {key: figures.get(f"{key}_{i}") for key in ("motion", "shifted", "plastic")}
@@ -131,7 +131,7 @@ def _render(comparison: Comparison, source: ReportInput, drawn: list[tuple[str, 
     scene = scene_of(comparison)
     scripts = [_text(here / "copy.js")]
     if scene is not None:
-        scripts = [_text(here / "vendor" / "three.min.js"), _text(here / "player.js"), *scripts]
+        scripts = [_text(here.parent / "vendor" / "three.min.js"), _text(here / "player.js"), *scripts]
     environment = Environment(
         loader=FileSystemLoader(here), autoescape=True, undefined=StrictUndefined, trim_blocks=True
     )

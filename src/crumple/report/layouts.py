@@ -14,7 +14,7 @@ from crumple.report.report import write_figures
 from crumple.result.files import write_text
 
 if TYPE_CHECKING:
-    from crumple.report.wording import Table
+    from crumple.report.wording.wording import Table
     from crumple.result import Result
 
 OPEN = 1e-3
@@ -106,7 +106,7 @@ def common_outputs(layouts: Sequence[Layout]) -> list[str]:
 
 def layout_table(layouts: Sequence[Layout]) -> Table:
     """One row per layout: mass, energy, hinges, each column in one unit."""
-    from crumple.report.wording import Table, column, percent  # noqa: PLC0415
+    from crumple.report.wording.wording import Table, column, percent  # noqa: PLC0415
 
     nan = float("nan")
     absorbed = [layout.absorbed for layout in layouts]
@@ -133,7 +133,7 @@ def layout_table(layouts: Sequence[Layout]) -> Table:
 
 def _output_table(layouts: Sequence[Layout], outputs: Sequence[str]) -> Table:
     """One row per requested output: its value of largest magnitude in every solved layout."""
-    from crumple.report.wording import Table, column  # noqa: PLC0415
+    from crumple.report.wording.wording import Table, column  # noqa: PLC0415
 
     solved = [(layout.name, layout.result) for layout in layouts if layout.result is not None]
     rows = []
@@ -174,8 +174,8 @@ def _csv(layouts: Sequence[Layout], outputs: Sequence[str]) -> str:
 
 def _draw(layouts: Sequence[Layout], outputs: Sequence[str]) -> list[tuple[str, str, str]]:
     """File name, SVG and caption of every figure that there is something for."""
-    from crumple.report import layouts_figures as figures  # noqa: PLC0415  (matplotlib is slow to import)
-    from crumple.report.style import drawing  # noqa: PLC0415
+    from crumple.report.drawing.style import drawing  # noqa: PLC0415
+    from crumple.report.figures import layouts_figures as figures  # noqa: PLC0415
 
     solved = [(layout.name, layout.result) for layout in layouts if layout.result is not None]
     with drawing():
@@ -199,7 +199,7 @@ def _render(
     from jinja2 import Environment, FileSystemLoader, StrictUndefined  # noqa: PLC0415
     from markupsafe import Markup  # noqa: PLC0415
 
-    here = Path(__file__).parent
+    here = Path(__file__).parent / "templates"
     environment = Environment(
         loader=FileSystemLoader(here), autoescape=True, undefined=StrictUndefined, trim_blocks=True
     )

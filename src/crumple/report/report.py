@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from crumple.result.files import write_text
 
 if TYPE_CHECKING:
-    from crumple.report.wording import Table
+    from crumple.report.wording.wording import Table
     from crumple.result import Result
 
 MAX_MOMENT_FIGURES = 12
@@ -99,8 +99,8 @@ def write_figures(folder: Path, drawn: Sequence[tuple[str, str, str]]) -> None:
 
 def _draw(result: Result, bound: float | None) -> list[tuple[str, str, str]]:
     """Every figure that the result has something for: file name, SVG, caption."""
-    from crumple.report import curves, fold, moment, shape, welds  # noqa: PLC0415  (matplotlib takes a third of a second)
-    from crumple.report.style import drawing  # noqa: PLC0415
+    from crumple.report.drawing.style import drawing  # noqa: PLC0415
+    from crumple.report.figures import curves, fold, moment, shape, welds  # noqa: PLC0415
 
     with drawing():
         loads = welds.weld_loads(result)
@@ -136,8 +136,8 @@ def _named(result: Result, named: int) -> str:
 
 
 def _moment_figures(result: Result, draw: Any) -> list[tuple[str, str | None, str]]:
-    from crumple.report.curves import ranked_hinges  # noqa: PLC0415
-    from crumple.report.wording import angle, sentence_case  # noqa: PLC0415
+    from crumple.report.figures.curves import ranked_hinges  # noqa: PLC0415
+    from crumple.report.wording.wording import angle, sentence_case  # noqa: PLC0415
 
     figures = []
     for i, hinge in enumerate(ranked_hinges(result)[:MAX_MOMENT_FIGURES]):
@@ -179,13 +179,13 @@ def _render(
     from jinja2 import Environment, FileSystemLoader, StrictUndefined  # noqa: PLC0415
     from markupsafe import Markup  # noqa: PLC0415
 
-    from crumple.report import wording  # noqa: PLC0415
+    from crumple.report.wording import wording  # noqa: PLC0415
 
     # the figures and the style are our own; everything else is escaped
     figures = {name: _Figure(i + 1, Markup(svg), caption) for i, (name, svg, caption) in enumerate(drawn)}
     close_ups = [figure for name, figure in figures.items() if name.startswith("fold_")]
     moments = [figure for name, figure in figures.items() if name.startswith("moment_")]
-    here = Path(__file__).parent
+    here = Path(__file__).parent / "templates"
     environment = Environment(
         loader=FileSystemLoader(here),
         autoescape=True,

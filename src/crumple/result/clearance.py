@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from crumple.numeric.arrays import Floats
 
 SAMPLES = 33
 """Points of a segment that are looked at, ends included; between two of them the distance errs by at most

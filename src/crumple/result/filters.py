@@ -79,7 +79,8 @@ def cfc(
 
     References
     ----------
-    Derivation and sources in docs/theory/filters.md.  Verified in tests/verification/test_cfc_filters.py.
+    Derivation and sources in docs/theory/filters.md.
+    Verified in tests/verification/comparison/test_cfc_filters.py.
     """
     samples = np.asarray(values, dtype=np.float64)
     _check(samples, time_step, channel_class, standard)

@@ -9,17 +9,14 @@ from math import isnan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from crumple.errors import InputError, Problem, Status
+from crumple.numeric.arrays import Floats, Integers
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from crumple.result.filters import ChannelClass, Standard
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,42 +8,42 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from crumple.section.circular_tube import CircularTube
 from crumple.section.fold import half_fold_length
-from crumple.section.rectangular_tube import RectangularTube
 from crumple.section.section import AXES, Axis, Section
+from crumple.section.shapes.circular_tube import CircularTube
+from crumple.section.shapes.rectangular_tube import RectangularTube
 
 if TYPE_CHECKING:
-    from crumple.section.bending_curve import bending_moment
-    from crumple.section.built_up import ClosedHat, MultiCellTube
-    from crumple.section.capacity import MomentCapacity, moment_capacity
-    from crumple.section.interaction import PlasticInteraction, plastic_interaction
-    from crumple.section.interaction_fit import InteractionFit, fitted_interaction
-    from crumple.section.open_sections import Angle, Channel, Hat
-    from crumple.section.properties import SectionProperties
+    from crumple.section.capacity.bending_curve import bending_moment
+    from crumple.section.capacity.capacity import MomentCapacity, moment_capacity
+    from crumple.section.capacity.interaction import PlasticInteraction, plastic_interaction
+    from crumple.section.capacity.interaction_fit import InteractionFit, fitted_interaction
+    from crumple.section.properties.properties import SectionProperties
+    from crumple.section.shapes.built_up import ClosedHat, MultiCellTube
+    from crumple.section.shapes.open_sections import Angle, Channel, Hat
     from crumple.section.wall import Wall, Weld
     from crumple.section.wall_section import WallSection, outline_section, square_tube, walls_of
     from crumple.section.walled import WalledSection
 
 _FILES = {
-    "Angle": "open_sections",
-    "Channel": "open_sections",
-    "ClosedHat": "built_up",
-    "Hat": "open_sections",
-    "InteractionFit": "interaction_fit",
-    "MomentCapacity": "capacity",
-    "MultiCellTube": "built_up",
-    "PlasticInteraction": "interaction",
-    "SectionProperties": "properties",
+    "Angle": "shapes.open_sections",
+    "Channel": "shapes.open_sections",
+    "ClosedHat": "shapes.built_up",
+    "Hat": "shapes.open_sections",
+    "InteractionFit": "capacity.interaction_fit",
+    "MomentCapacity": "capacity.capacity",
+    "MultiCellTube": "shapes.built_up",
+    "PlasticInteraction": "capacity.interaction",
+    "SectionProperties": "properties.properties",
     "Wall": "wall",
     "WallSection": "wall_section",
     "WalledSection": "walled",
     "Weld": "wall",
-    "bending_moment": "bending_curve",
-    "fitted_interaction": "interaction_fit",
-    "moment_capacity": "capacity",
+    "bending_moment": "capacity.bending_curve",
+    "fitted_interaction": "capacity.interaction_fit",
+    "moment_capacity": "capacity.capacity",
     "outline_section": "wall_section",
-    "plastic_interaction": "interaction",
+    "plastic_interaction": "capacity.interaction",
     "square_tube": "wall_section",
     "walls_of": "wall_section",
 }

@@ -11,14 +11,11 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import Literal, Protocol, get_args, runtime_checkable
 
-import numpy as np
-from numpy.typing import NDArray
-
 from crumple.errors import InputError, Problem
+from crumple.numeric.arrays import Floats
 
 Axis = Literal["y", "z"]
 AXES: tuple[Axis, ...] = get_args(Axis)
-Floats = NDArray[np.float64]
 
 
 @runtime_checkable

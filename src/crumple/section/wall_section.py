@@ -8,9 +8,9 @@ from functools import cached_property, lru_cache
 from typing import ClassVar
 
 from crumple.errors import InputError, Problem
-from crumple.section.circular_tube import CircularTube
-from crumple.section.rectangular_tube import RectangularTube
 from crumple.section.section import Section, in_mm
+from crumple.section.shapes.circular_tube import CircularTube
+from crumple.section.shapes.rectangular_tube import RectangularTube
 from crumple.section.wall import Point, Wall, Weld
 from crumple.section.walled import WalledSection
 
@@ -30,7 +30,7 @@ class WallSection(WalledSection):
 
     References
     ----------
-    docs/theory/thin_walled_sections.md.  Verified in tests/verification/test_section_properties.py.
+    docs/theory/thin_walled_sections.md.  Verified in tests/verification/section/test_section_properties.py.
     """
 
     kind: ClassVar[str] = "walls"

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from crumple.section.assembly import skeleton_of
-from crumple.section.plates import plates_of
-from crumple.section.polygons import above, equal_level
-from crumple.section.properties import SectionProperties, properties_of
-from crumple.section.section import Axis, ByAxis, Floats, checked_axis, in_mm
-from crumple.section.skeleton import Complexes, Skeleton
+from crumple.numeric.arrays import Floats
+from crumple.section.geometry.assembly import skeleton_of
+from crumple.section.geometry.plates import plates_of
+from crumple.section.geometry.skeleton import Complexes, Skeleton
+from crumple.section.properties.polygons import above, equal_level
+from crumple.section.properties.properties import SectionProperties, properties_of
+from crumple.section.section import Axis, ByAxis, checked_axis, in_mm
 from crumple.section.wall import Wall, Weld
 
 if TYPE_CHECKING:

@@ -13,10 +13,10 @@ from zipfile import BadZipFile, is_zipfile
 import numpy as np
 
 from crumple.errors import InputError, Problem
+from crumple.numeric.arrays import Floats
 from crumple.result import StageSummary
 from crumple.result.files import replacing
-from crumple.shell.contour import Floats
-from crumple.shell.record import Record
+from crumple.shell.answer.record import Record
 from crumple.structure import Outputs, ShellSettings, Stage, Structure
 
 FORMAT = 4

@@ -7,16 +7,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from crumple._core.shell import ShellState
+from crumple._core.shell.simulation import ShellState
 from crumple.errors import InputError, Problem, Status
+from crumple.numeric.arrays import Floats
 from crumple.result import Channel, Provenance, Result, missing_pictures
-from crumple.shell import trust
-from crumple.shell.contour import Floats
-from crumple.shell.histories import channels_of, summaries
-from crumple.shell.model import Lowered, lower
-from crumple.shell.record import ENERGIES, Record, Sampler
-from crumple.shell.refusals import refuse_steps
-from crumple.shell.shapes import states_of
+from crumple.shell.answer.histories import channels_of, summaries
+from crumple.shell.answer.record import ENERGIES, Record, Sampler
+from crumple.shell.answer.shapes import states_of
+from crumple.shell.checks import trust
+from crumple.shell.checks.refusals import refuse_steps
+from crumple.shell.model.model import Lowered, lower
 from crumple.shell.stepping import Cancel, Hooks, LongRun, Progress, ShellRun, Stepping, with_place
 from crumple.structure import Structure
 
@@ -55,7 +55,7 @@ def solve_shell(
 
     References
     ----------
-    docs/theory/shell_lowering.md.  Verified in tests/verification/test_shell_tube_reference.py.
+    docs/theory/shell_lowering.md.  Verified in tests/verification/shell/test_tube_reference.py.
     """
     begin = time.perf_counter()
     lowered, state = _started(structure, run)

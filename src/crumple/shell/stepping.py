@@ -10,18 +10,18 @@ from pathlib import Path
 
 import numpy as np
 
-from crumple._core.shell import ShellState
+from crumple._core.shell.simulation import ShellState
 from crumple.errors import Status
+from crumple.numeric.arrays import Floats
 from crumple.result import StageSummary
-from crumple.shell import trust
-from crumple.shell.bodies import moved
-from crumple.shell.contour import Floats
-from crumple.shell.model import Lowered, model_of_stage
-from crumple.shell.obstacles import appeared_inside
-from crumple.shell.record import Record, Sampler
+from crumple.shell.answer.record import Record, Sampler
+from crumple.shell.answer.shapes import shape_of
+from crumple.shell.checks import trust
+from crumple.shell.model.bodies import moved
+from crumple.shell.model.initial_motion import start_of
+from crumple.shell.model.model import Lowered, model_of_stage
+from crumple.shell.model.obstacles import appeared_inside
 from crumple.shell.restart import Saved, fingerprint, read_restart, write_restart
-from crumple.shell.shapes import shape_of
-from crumple.shell.start import start_of
 from crumple.shell.until import LOOK_STEPS, Watch
 from crumple.structure import Outputs, ShellSettings, Stage, Structure
 

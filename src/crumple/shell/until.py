@@ -6,11 +6,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from crumple._core.shell import ShellState
-from crumple.shell.contour import Floats
-from crumple.shell.mesh import Mesh
-from crumple.shell.model import Lowered
-from crumple.shell.record import IMPULSE, ring_of_node
+from crumple._core.shell.simulation import ShellState
+from crumple.numeric.arrays import Floats
+from crumple.shell.answer.record import IMPULSE, ring_of_node
+from crumple.shell.mesh.mesh import Mesh
+from crumple.shell.model.model import Lowered
 from crumple.structure import Stage, Structure, Until
 
 LOOK_STEPS = 5

@@ -12,14 +12,15 @@ For a solver:
 - `MultibodySettings`, `ShellSettings` and `Outputs` -> what the solver is told beside the structure.
 """
 
-from crumple.structure.automatic import any_automatic
 from crumple.structure.bending import across_plane, planar
 from crumple.structure.change import changed, value_at
-from crumple.structure.checks import output_problems, problems_in, shell_problems
+from crumple.structure.checks.checks import output_problems, problems_in, shell_problems
+from crumple.structure.checks.obstacle_checks import gap, stage_problems
 from crumple.structure.geometry import Frame, frame_of
-from crumple.structure.hinges import HingePlace, PlacedHinge, hinge_places, placed_hinges
-from crumple.structure.joint import Joint
-from crumple.structure.law import (
+from crumple.structure.hinges.automatic import any_automatic
+from crumple.structure.hinges.hinges import HingePlace, PlacedHinge, hinge_places, placed_hinges
+from crumple.structure.keys.joint import Joint
+from crumple.structure.keys.law import (
     LAW_SPECS,
     ConstantLaw,
     KecmanLaw,
@@ -29,13 +30,11 @@ from crumple.structure.law import (
     TableLaw,
     WierzbickiLaw,
 )
-from crumple.structure.load import ForceComponents, Load, Mass, MomentComponents, NodalImpulse
-from crumple.structure.mapping import FrozenMapping
-from crumple.structure.material import MaterialSpec
-from crumple.structure.member import AutomaticHinges, Bars, Hinge, Member, Stretch
-from crumple.structure.motion import FREEDOMS, InitialVelocity, Motion, Support
-from crumple.structure.obstacle_checks import gap, stage_problems
-from crumple.structure.obstacles import (
+from crumple.structure.keys.load import ForceComponents, Load, Mass, MomentComponents, NodalImpulse
+from crumple.structure.keys.material import MaterialSpec
+from crumple.structure.keys.member import AutomaticHinges, Bars, Hinge, Member, Stretch
+from crumple.structure.keys.motion import FREEDOMS, InitialVelocity, Motion, Support
+from crumple.structure.keys.obstacles import (
     CylinderObstacle,
     MemberContact,
     Obstacle,
@@ -44,8 +43,8 @@ from crumple.structure.obstacles import (
     Travel,
     Turning,
 )
-from crumple.structure.outputs import Distance, Filter, Outputs, SectionForce, SectionRotation
-from crumple.structure.section import (
+from crumple.structure.keys.outputs import Distance, Filter, Outputs, SectionForce, SectionRotation
+from crumple.structure.keys.section import (
     AngleSpec,
     ChannelSpec,
     CircularTubeSpec,
@@ -55,12 +54,13 @@ from crumple.structure.section import (
     RectangularTubeSpec,
     SquareTubeSpec,
 )
-from crumple.structure.settings import MultibodySettings
-from crumple.structure.shell_settings import FinePlace, ShellSettings
-from crumple.structure.spot_welds import SpotWelds
-from crumple.structure.stages import Stage, Until
+from crumple.structure.keys.spot_welds import SpotWelds
+from crumple.structure.keys.stages import Stage, Until
+from crumple.structure.keys.walls import WallSectionSpec, WallSpec, WeldSpec
+from crumple.structure.schema.mapping import FrozenMapping
+from crumple.structure.settings.multibody_settings import MultibodySettings
+from crumple.structure.settings.shell_settings import FinePlace, ShellSettings
 from crumple.structure.structure import Structure
-from crumple.structure.walls import WallSectionSpec, WallSpec, WeldSpec
 
 __all__ = [
     "FREEDOMS",

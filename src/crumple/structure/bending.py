@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from crumple.structure.geometry import Floats
+from crumple.numeric.arrays import Floats
 
 if TYPE_CHECKING:
     from crumple.structure.structure import Structure

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from crumple.errors import InputError, Problem
-from crumple.structure.spec import Spec
+from crumple.structure.schema.spec import Spec
 from crumple.structure.structure import Structure
 
 

@@ -6,11 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from crumple.numeric.arrays import Floats
 from crumple.structure.remembered import remembered
 
-Floats = NDArray[np.float64]
 Triple = tuple[float, ...]
 
 NEARLY_PARALLEL = 1e-6

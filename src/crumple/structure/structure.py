@@ -11,18 +11,18 @@ from crumple.material import Material
 from crumple.section import Axis, Section
 from crumple.structure.bending import bending_normal
 from crumple.structure.geometry import Frame, frame_of
-from crumple.structure.joint import Joint
-from crumple.structure.law import LawSpec
-from crumple.structure.load import Load, Mass, NodalImpulse
-from crumple.structure.mapping import FrozenMapping
-from crumple.structure.material import MaterialSpec
-from crumple.structure.member import Member, OnlyAutomatic
-from crumple.structure.motion import InitialVelocity, Support
-from crumple.structure.obstacles import MemberContact, ObstacleSpec
-from crumple.structure.quantity import Acceleration, Position
-from crumple.structure.section import SectionSpec
-from crumple.structure.spec import Named, Spec, raise_all
-from crumple.structure.spot_welds import SpotWelds
+from crumple.structure.keys.joint import Joint
+from crumple.structure.keys.law import LawSpec
+from crumple.structure.keys.load import Load, Mass, NodalImpulse
+from crumple.structure.keys.material import MaterialSpec
+from crumple.structure.keys.member import Member, OnlyAutomatic
+from crumple.structure.keys.motion import InitialVelocity, Support
+from crumple.structure.keys.obstacles import MemberContact, ObstacleSpec
+from crumple.structure.keys.section import SectionSpec
+from crumple.structure.keys.spot_welds import SpotWelds
+from crumple.structure.schema.mapping import FrozenMapping
+from crumple.structure.schema.quantity import Acceleration, Position
+from crumple.structure.schema.spec import Named, Spec, raise_all
 
 
 class Structure(Spec):
@@ -69,7 +69,7 @@ class Structure(Spec):
     def _sound(self, info: ValidationInfo) -> Structure:
         """Refuse what cannot be solved, every problem at once; a file's reader does so itself, with lines."""
         if not (info.context and info.context.get("file")):
-            from crumple.structure.checks import problems_in  # noqa: PLC0415  (checks import this class)
+            from crumple.structure.checks.checks import problems_in  # noqa: PLC0415  (checks import this class)
 
             raise_all(problems_in(self))
         return self

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from crumple.numeric.arrays import Floats
 from crumple.section import Section
 from crumple.structure.geometry import Frame
 from crumple.structure.structure import Structure
-
-Floats = NDArray[np.float64]
 
 FLAT = np.cos(np.radians(30.0))
 """Cosine of the angle by which a wall may turn and still be the one on which a spot lies: two sheets may be

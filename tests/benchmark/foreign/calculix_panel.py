@@ -1,4 +1,4 @@
-"""The thrown panel in CalculiX, as solid elements: figures for tests/verification/test_shell_panel.py.
+"""The thrown panel in CalculiX, as solid elements: figures for tests/verification/shell/test_panel.py.
 
 ``python -m tests.benchmark.foreign.calculix_panel FOLDER`` writes the decks of all meshes, runs ``ccx``
 (Debian: calculix-ccx) on those that have no results yet, and writes the figures that the test keeps.
@@ -19,7 +19,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from tests.verification.shell_panel import (
+from tests.support.shell.panel import (
     DENSITY,
     HALF_ANGLE,
     LENGTH,
@@ -32,7 +32,7 @@ from tests.verification.shell_panel import (
     YOUNGS_MODULUS,
 )
 
-KEPT = Path(__file__).parents[2] / "verification" / "panel_reference.json"
+KEPT = Path(__file__).parents[2] / "verification" / "shell" / "panel_reference.json"
 UNIFORM = np.linspace(0.0, 1.0, 9)
 # finer where the panel bends towards its end; loaded up to 13/16
 FINE = np.array([0.0, 0.2, 0.4, 0.55, 0.675, 37 / 48, 41 / 48, 43 / 48, 0.9375, 0.96875, 1.0])

@@ -20,8 +20,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from tests.verification import space_models
-from tests.verification.chains import MASS_PER_LENGTH, PAYLOAD, bar
+from tests.support.multibody import space_models
+from tests.support.multibody.chains import MASS_PER_LENGTH, PAYLOAD, bar
 
 PACKAGE = "exudyn==1.13.*"
 TARGET = Path(__file__).parents[3] / "build" / "benchmark" / "exudyn"

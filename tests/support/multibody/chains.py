@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from crumple._core.tree import JointKind, Simulation, TreeBody, TreeHinge, TreeModel, TreeWeld
+from crumple._core.planar.simulation import JointKind, Simulation, TreeBody, TreeHinge, TreeModel, TreeWeld
 
 MASS_PER_LENGTH = 2.8998685
 PAYLOAD = 6.0

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from crumple._core.space import SpaceSimulation
-from crumple._core.space_model import (
+from crumple._core.spatial.model import (
     GROUND,
     ObstacleKind,
     SpaceBody,
@@ -14,6 +13,7 @@ from crumple._core.space_model import (
     SpaceModel,
     SpaceObstacle,
 )
+from crumple._core.spatial.simulation import SpaceSimulation
 
 GRAVITY = 9.81
 DOWN = (0.0, 0.0, -GRAVITY)

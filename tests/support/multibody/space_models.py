@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from tests.verification.chains import MASS_PER_LENGTH, PAYLOAD, REGULARISED, ROTATION, softening_law
+from tests.support.multibody.chains import MASS_PER_LENGTH, PAYLOAD, REGULARISED, ROTATION, softening_law
 
-from crumple._core.space import SpaceSimulation
-from crumple._core.space_model import (
+from crumple._core.spatial.model import (
     GROUND,
     Coupling,
     SpaceBody,
@@ -19,6 +18,7 @@ from crumple._core.space_model import (
     revolute,
     spherical,
 )
+from crumple._core.spatial.simulation import SpaceSimulation
 
 GRAVITY = 9.81
 RX, RY, RZ = 3, 4, 5

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from tests.unit.result.synthetic_tube import tube_result
+from tests.support.result.synthetic_tube import tube_result
 
 from crumple.result import Channel, HingeSummary, States
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from crumple._core.shell import Element, ShellMaterial, ShellModel, ShellSettings, ShellState
+from crumple._core.shell.simulation import Element, ShellMaterial, ShellModel, ShellSettings, ShellState
 
 INCH = 0.0254
 RADIUS, WALL, LENGTH = 2.9375 * INCH, 0.125 * INCH, 12.56 * INCH

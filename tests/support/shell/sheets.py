@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from crumple._core.shell import Sheet, ShellMaterial, ShellModel, ShellSettings
+from crumple._core.shell.simulation import Sheet, ShellMaterial, ShellModel, ShellSettings
 
 STEEL = ShellMaterial(7850.0, 210e9, 0.3, yield_stress=488e6)
 ELASTIC = ShellMaterial(7850.0, 210e9, 0.3)

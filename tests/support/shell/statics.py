@@ -11,7 +11,7 @@ import numpy as np
 from scipy.sparse import coo_matrix, csr_matrix, diags
 from scipy.sparse.linalg import splu
 
-from crumple._core.shell import ShellModel, ShellState
+from crumple._core.shell.simulation import ShellModel, ShellState
 
 STEP = 1e-8
 """Displacement over the mesh's element size, and rotation, of the differences: far in the linear range."""

@@ -1,6 +1,6 @@
 """Model of the reference tube from the deck of another code; used by the comparison test and by hand.
 
-By hand: ``python tests/verification/shell_reference.py DECK_0000.rad HISTORY.csv [threads]``.
+By hand: ``python tests/support/shell/tube_reference.py DECK_0000.rad HISTORY.csv [threads]``.
 """
 
 from __future__ import annotations
@@ -11,7 +11,15 @@ from pathlib import Path
 
 import numpy as np
 
-from crumple._core.shell import Cut, Hourglass, RigidSet, ShellMaterial, ShellModel, ShellSettings, ShellState
+from crumple._core.shell.simulation import (
+    Cut,
+    Hourglass,
+    RigidSet,
+    ShellMaterial,
+    ShellModel,
+    ShellSettings,
+    ShellState,
+)
 
 STEEL = ShellMaterial(7850.0, 210e9, 0.3, yield_stress=488e6)
 WALL = 2.65e-3

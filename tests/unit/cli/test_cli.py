@@ -15,7 +15,7 @@ import pytest
 
 import crumple
 from crumple.cli import main as command
-from crumple.cli.progress import stop_on_interrupt
+from crumple.cli.console.progress import stop_on_interrupt
 from crumple.errors import Status
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "01_tube_bending.yaml"

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from crumple.cli.chart import HEIGHT, WIDTH, chart
-from crumple.cli.columns import in_one_unit
+from crumple.cli.console.chart import HEIGHT, WIDTH, chart
+from crumple.cli.console.columns import in_one_unit
 
 
 def test_one_unit_for_the_column() -> None:

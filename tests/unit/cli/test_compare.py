@@ -12,11 +12,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import typer
+from tests.support.result.folded_tube import analysis, angle_over_time, folded_result
 from tests.unit.cli.test_shell_run import coarse, crumple
-from tests.unit.comparison.folded_tube import analysis, angle_over_time, folded_result
 
 from crumple.cli.compare import _show
-from crumple.cli.fidelity import Fidelity
+from crumple.cli.console.fidelity import Fidelity
 from crumple.cli.main import main
 from crumple.cli.run import run
 from crumple.comparison import compare
@@ -137,8 +137,8 @@ def test_an_interrupted_comparison_goes_on(tmp_path: Path, monkeypatch, capsys) 
         return ""
 
     with monkeypatch.context() as patch:
-        patch.setattr("crumple.cli.shell_run.news", end)
-        patch.setattr("crumple.cli.shell_run.NEWS_EVERY", -1.0)
+        patch.setattr("crumple.cli.console.shell_run.news", end)
+        patch.setattr("crumple.cli.console.shell_run.NEWS_EVERY", -1.0)
         patch.setattr("crumple.shell.stepping.WATCH_EVERY", 0.0)
         words = ["crumple", "compare", file, "--out", parts, "--threads", 1, "--no-variants"]
         patch.setattr(sys, "argv", [str(word) for word in words])

@@ -11,7 +11,7 @@ import pytest
 
 from crumple import section as room
 from crumple.cli import main as command
-from crumple.cli.named import material_of, section_of
+from crumple.cli.console.named import material_of, section_of
 from crumple.errors import InputError
 from crumple.material import grade
 from crumple.section import moment_capacity

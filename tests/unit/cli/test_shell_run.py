@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
+from crumple.cli.console.progress import Bar, stop_on_interrupt
+from crumple.cli.console.shell_run import available_threads, duration, long_run_of, news
 from crumple.cli.main import main
-from crumple.cli.progress import Bar, stop_on_interrupt
-from crumple.cli.shell_run import available_threads, duration, long_run_of, news
 from crumple.shell import Moment
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "01_tube_bending.yaml"
@@ -72,8 +72,8 @@ def test_run_told_to_end_can_be_read_and_goes_on_with_the_same_bits(
             os.kill(os.getpid(), signal.SIGTERM)
         return ""
 
-    monkeypatch.setattr("crumple.cli.shell_run.news", end)
-    monkeypatch.setattr("crumple.cli.shell_run.NEWS_EVERY", -1.0)
+    monkeypatch.setattr("crumple.cli.console.shell_run.news", end)
+    monkeypatch.setattr("crumple.cli.console.shell_run.NEWS_EVERY", -1.0)
     monkeypatch.setattr("crumple.shell.stepping.WATCH_EVERY", 0.0)
     words = ["crumple", "run", file, "--fidelity", "shell", "--out", parts, "--threads", 1]
     monkeypatch.setattr(sys, "argv", [str(word) for word in words])
@@ -116,7 +116,7 @@ def test_wall_times_for_people() -> None:
 
 
 def test_news_go_to_standard_error_where_there_is_no_terminal(monkeypatch, capsys, tmp_path) -> None:
-    monkeypatch.setattr("crumple.cli.shell_run.NEWS_EVERY", -1.0)
+    monkeypatch.setattr("crumple.cli.console.shell_run.NEWS_EVERY", -1.0)
     watch = long_run_of(tmp_path, None, Bar("solving")).watch
     assert watch is not None
     watch(MOMENT)

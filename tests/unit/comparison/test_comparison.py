@@ -6,14 +6,14 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from tests.unit.comparison.folded_tube import EXAMPLE, analysis, angle_over_time, folded_result
-from tests.verification.structures import STEEL, TUBE
+from tests.support.result.folded_tube import EXAMPLE, analysis, angle_over_time, folded_result
+from tests.support.structures import STEEL, TUBE
 
 from crumple.analysis import load, solve
 from crumple.comparison import CurveFile, Signal, Timing, compare, with_frames, with_pictures
-from crumple.comparison.fold_trust import across_joint, folds_said
-from crumple.comparison.motion import HingeMotion
-from crumple.comparison.pairing import pairs_of
+from crumple.comparison.cautions.fold_trust import across_joint, folds_said
+from crumple.comparison.measure.motion import HingeMotion
+from crumple.comparison.rating.pairing import pairs_of
 from crumple.comparison.solving import mesh_name, with_mesh
 from crumple.comparison.variant import (
     SHELL_LAWS,
@@ -24,11 +24,11 @@ from crumple.comparison.variant import (
     yielding_law,
 )
 from crumple.errors import InputError, Status
-from crumple.report.comparison_wording import busy_note, key_figures, speed_table
+from crumple.report.wording.comparison_wording import busy_note, key_figures, speed_table
 from crumple.result import Provenance
 from crumple.section import bending_moment
 from crumple.structure import Structure
-from crumple.structure.hinges import hinge_places, law_spec, placed_hinges
+from crumple.structure.hinges.hinges import hinge_places, law_spec, placed_hinges
 
 TIMES = np.linspace(0.0, 0.1, 101)
 

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from tests.unit.comparison.folded_tube import EXAMPLE
+from tests.support.result.folded_tube import EXAMPLE
 
 from crumple.analysis import loads
 from crumple.comparison import with_frames
 from crumple.comparison.solving import mesh_name, solve_and_compare, with_mesh
 from crumple.errors import Status
-from crumple.hinge import recording
+from crumple.hinge.record import recording
 from crumple.multibody.timing import REPEATS
 
 TEXT = (

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 STACK, ROOM = 64 << 20, 160 << 20
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
@@ -21,8 +21,8 @@ def limit():
     resource.setrlimit(resource.RLIMIT_AS, (used + {ROOM}, resource.RLIM_INFINITY))
 """
 SHELL = """
-from crumple._core.shell import ShellState
-from tests.unit.shell.sheets import bits, grid, model
+from crumple._core.shell.simulation import ShellState
+from tests.support.shell.sheets import bits, grid, model
 sheet = model(*grid(100, 80))
 one, many = ShellState(sheet), ShellState(sheet)
 one.advance(1.0, steps=3)
@@ -32,8 +32,8 @@ assert bits(one) == bits(many)
 """
 BATCH = """
 import numpy as np
-from crumple._core.batch import TreeVariants, solve_many
-from tests.verification.chains import m2
+from crumple._core.planar.batch import TreeVariants, solve_many
+from tests.support.multibody.chains import m2
 scale = np.linspace(0.5, 2.0, 400).repeat(4).reshape(400, 4)
 variants = TreeVariants((m2(4).model,), np.zeros(400, int), capacity_scale=scale)
 one = solve_many(variants, 0.01)
@@ -44,8 +44,8 @@ assert np.array_equal(one.pose, many.pose) and np.array_equal(one.outcome, many.
 FORK = """
 import os
 import signal
-from crumple._core.shell import ShellState
-from tests.unit.shell.sheets import bits, grid, model
+from crumple._core.shell.simulation import ShellState
+from tests.support.shell.sheets import bits, grid, model
 sheet = model(*grid(60, 60))
 one, many = ShellState(sheet), ShellState(sheet)
 one.advance(1.0, steps=3)

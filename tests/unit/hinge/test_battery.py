@@ -22,7 +22,7 @@ from crumple.hinge import (
     law_types,
     record_of,
 )
-from crumple.hinge.law_file import stored_law, write_law
+from crumple.hinge.measured.law_file import stored_law, write_law
 from crumple.material import CowperSymonds, Material
 from crumple.section import Channel, CircularTube, ClosedHat, Hat, RectangularTube
 

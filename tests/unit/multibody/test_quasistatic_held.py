@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tests.verification.structures import STEEL, TUBE
+from tests.support.structures import STEEL, TUBE
 
 from crumple.errors import InputError, Status
 from crumple.multibody import Run, link, solve_multibody, unheld_notes

@@ -3,7 +3,7 @@
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.unit.multibody.parts import structure
+from tests.support.multibody.frames import structure
 from tests.unit.multibody.test_random_trees import laws
 
 from crumple.errors import InputError

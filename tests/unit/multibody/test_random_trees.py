@@ -3,7 +3,7 @@
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.unit.multibody.parts import structure
+from tests.support.multibody.frames import structure
 
 from crumple.multibody import Run, lower, solve_multibody
 from crumple.structure import MultibodySettings

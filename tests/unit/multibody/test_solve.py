@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tests.unit.multibody.parts import CLAMP, LAW, THROWN, X_LINE, member, structure
+from tests.support.multibody.frames import CLAMP, LAW, THROWN, X_LINE, member, structure
 
 from crumple.errors import InputError, Status
 from crumple.multibody import Run, solve_multibody

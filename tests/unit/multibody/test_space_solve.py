@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from tests.unit.multibody.parts import CLAMP, LAW, member, structure
+from tests.support.multibody.frames import CLAMP, LAW, member, structure
 
 from crumple.errors import InputError
 from crumple.multibody import Run, solve_multibody
-from crumple.multibody.collapse import collapse_log, not_unique
-from crumple.multibody.solved import HingeHistory
+from crumple.multibody.answer.solved import HingeHistory
+from crumple.multibody.checks.collapse import collapse_log, not_unique
 from crumple.structure import MultibodySettings, Outputs, Stage, placed_hinges
 
 G = 9.81

@@ -1,7 +1,7 @@
 """Spot welds between members in the multibody model: rigid joints where they lie."""
 
 import pytest
-from tests.unit.multibody.parts import CLAMP, member, structure
+from tests.support.multibody.frames import CLAMP, member, structure
 
 from crumple.errors import InputError
 from crumple.multibody import Run, solve_multibody

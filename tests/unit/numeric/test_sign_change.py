@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from crumple.hinge.root import sign_change
+from crumple.numeric.sign_change import sign_change
 
 
 def counted(function):

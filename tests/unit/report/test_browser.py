@@ -5,9 +5,9 @@ import os
 import re
 
 import pytest
-from tests.unit.report.browser import Browser, find_browser
-from tests.unit.result.synthetic_frame import CUBE, frame_result
-from tests.unit.result.synthetic_tube import tube_result
+from tests.support.browser import Browser, find_browser
+from tests.support.result.synthetic_frame import CUBE, frame_result
+from tests.support.result.synthetic_tube import tube_result
 
 from crumple.report import ReportInput, write_report
 

@@ -5,8 +5,8 @@ from dataclasses import replace
 from xml.etree import ElementTree
 
 import pytest
-from tests.unit.result.synthetic_frame import PORTAL, frame_result
-from tests.unit.result.synthetic_tube import tube_result
+from tests.support.result.synthetic_frame import PORTAL, frame_result
+from tests.support.result.synthetic_tube import tube_result
 
 from crumple.report import Layout, layout_table, write_layouts
 

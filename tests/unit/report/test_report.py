@@ -11,8 +11,8 @@ from xml.etree import ElementTree
 import matplotlib as mpl
 import numpy as np
 import pytest
-from tests.unit.result.synthetic_frame import CUBE, PORTAL, frame_result, frame_states
-from tests.unit.result.synthetic_tube import (
+from tests.support.result.synthetic_frame import CUBE, PORTAL, frame_result, frame_states
+from tests.support.result.synthetic_tube import (
     ENERGY,
     MOMENT,
     ROTATION_MAX,

@@ -1,7 +1,7 @@
 """Fixtures of the result room."""
 
 import pytest
-from tests.unit.result.synthetic_tube import tube_result
+from tests.support.result.synthetic_tube import tube_result
 
 
 @pytest.fixture(name="tube")

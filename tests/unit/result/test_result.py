@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from tests.unit.result.synthetic_tube import MOMENT, ROTATION_MAX, tube_channels, tube_result
+from tests.support.result.synthetic_tube import MOMENT, ROTATION_MAX, tube_channels, tube_result
 
 from crumple.errors import InputError, Status
 from crumple.result import Channel, cfc, summary, summary_json

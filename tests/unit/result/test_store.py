@@ -7,7 +7,7 @@ import random
 import h5py
 import numpy as np
 import pytest
-from tests.unit.result.synthetic_tube import tube_channels, tube_result, tube_states
+from tests.support.result.synthetic_tube import tube_channels, tube_result, tube_states
 
 from crumple.errors import InputError, Status
 from crumple.result import Channel, read, write

@@ -4,7 +4,7 @@ from itertools import count
 
 import numpy as np
 import pytest
-from tests.unit.shell_room.structures import cantilever, structure, thrown
+from tests.support.shell.structures import cantilever, structure, thrown
 
 from crumple.analysis import Analysis, solve
 from crumple.errors import InputError, Status

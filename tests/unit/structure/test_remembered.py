@@ -19,9 +19,9 @@ def test_answers_are_kept_until_they_are_forgotten():
 
 
 def test_laws_are_sampled_anew(monkeypatch):
-    from tests.unit.comparison.folded_tube import analysis
+    from tests.support.result.folded_tube import analysis
 
-    from crumple.hinge import recording
+    from crumple.hinge.record import recording
     from crumple.structure import placed_hinges
 
     sampled = []

@@ -9,7 +9,14 @@ import math
 
 import numpy as np
 import pytest
-from tests.verification.contact_models import GRAVITY, MAX_RESIDUAL, ball_shape, plane, simulation, sphere
+from tests.support.multibody.contact_models import (
+    GRAVITY,
+    MAX_RESIDUAL,
+    ball_shape,
+    plane,
+    simulation,
+    sphere,
+)
 
 HEIGHT = 1.0
 FALL = math.sqrt(2 * HEIGHT / GRAVITY)

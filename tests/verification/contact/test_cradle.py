@@ -7,9 +7,9 @@ pair here.  With e = 0 all go on together at v/n.
 
 import numpy as np
 import pytest
-from tests.verification.contact_models import MAX_RESIDUAL, ball_shape, simulation, sphere
+from tests.support.multibody.contact_models import MAX_RESIDUAL, ball_shape, simulation, sphere
 
-from crumple._core.space_model import SpaceContact
+from crumple._core.spatial.model import SpaceContact
 
 RADIUS, MASS, SPEED, GAP = 0.1, 2.0, 3.0, 0.05
 

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 import pytest
-from tests.verification.contact_models import (
+from tests.support.multibody.contact_models import (
     GRAVITY,
     MAX_RESIDUAL,
     ball_shape,
@@ -21,7 +21,7 @@ from tests.verification.contact_models import (
     sphere,
 )
 
-from crumple._core.space_model import SpaceBody, SpaceCapsule
+from crumple._core.spatial.model import SpaceBody, SpaceCapsule
 
 FRICTION = 0.4
 

@@ -3,7 +3,7 @@
 import numpy as np
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from tests.verification.contact_models import (
+from tests.support.multibody.contact_models import (
     MAX_RESIDUAL,
     all_pairs,
     plane,
@@ -13,8 +13,8 @@ from tests.verification.contact_models import (
     simulation,
 )
 
-from crumple._core.space_model import GROUND, ObstacleKind, SpaceObstacle
-from crumple._core.tree import Outcome
+from crumple._core.planar.simulation import Outcome
+from crumple._core.spatial.model import GROUND, ObstacleKind, SpaceObstacle
 
 
 @settings(max_examples=40)

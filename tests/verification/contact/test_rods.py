@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from tests.verification.contact_models import (
+from tests.support.multibody.contact_models import (
     GRAVITY,
     MAX_RESIDUAL,
     all_pairs,
@@ -17,8 +17,8 @@ from tests.verification.contact_models import (
     sphere,
 )
 
-from crumple._core.space import SpaceSimulation
-from crumple._core.space_model import GROUND, SpaceBody, SpaceModel, prismatic
+from crumple._core.spatial.model import GROUND, SpaceBody, SpaceModel, prismatic
+from crumple._core.spatial.simulation import SpaceSimulation
 
 NO_GRAVITY = (0.0, 0.0, 0.0)
 

@@ -10,11 +10,10 @@ import math
 
 import numpy as np
 import pytest
-from tests.verification.contact_models import MAX_RESIDUAL, ball_shape, plane
-from tests.verification.space_models import component
+from tests.support.multibody.contact_models import MAX_RESIDUAL, ball_shape, plane
+from tests.support.multibody.space_models import component
 
-from crumple._core.space import SpaceSimulation, SpaceUntil, Until
-from crumple._core.space_model import (
+from crumple._core.spatial.model import (
     GROUND,
     SpaceBody,
     SpaceDrive,
@@ -23,6 +22,7 @@ from crumple._core.space_model import (
     prismatic,
     revolute,
 )
+from crumple._core.spatial.simulation import SpaceSimulation, SpaceUntil, Until
 
 LENGTH, RADIUS, MOMENT = 1.2, 0.05, 900.0
 BAR = SpaceBody(3.0, np.diag([0.4, 0.4, 0.01]), np.array([0.0, 0.0, 0.6]))

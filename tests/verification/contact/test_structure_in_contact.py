@@ -8,12 +8,12 @@ import itertools
 
 import numpy as np
 import pytest
-from tests.verification.contact_models import all_pairs, plane, rod, rod_shape
-from tests.verification.space_models import component, with_mass
+from tests.support.multibody.contact_models import all_pairs, plane, rod, rod_shape
+from tests.support.multibody.space_models import component, with_mass
 
-from crumple._core.space import SpaceSimulation
-from crumple._core.space_model import SpaceContact, SpaceHinge, SpaceModel, revolute
-from crumple._core.tree import Outcome
+from crumple._core.planar.simulation import Outcome
+from crumple._core.spatial.model import SpaceContact, SpaceHinge, SpaceModel, revolute
+from crumple._core.spatial.simulation import SpaceSimulation
 
 BARS, RADIUS, SPEED = 8, 0.02, 10.0
 

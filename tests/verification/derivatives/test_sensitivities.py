@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.verification.chains import (
+from tests.support.multibody.chains import (
     ACCUMULATED,
     ELASTIC_PLASTIC,
     PEAK,
@@ -25,10 +25,9 @@ from tests.verification.chains import (
     softening_law,
     wheel,
 )
-from tests.verification.structures import cantilever, constant_law
+from tests.support.structures import cantilever, constant_law
 
-from crumple._core.tangent import TreeDirection, solve_tangent
-from crumple._core.tree import (
+from crumple._core.planar.simulation import (
     JointKind,
     Outcome,
     Simulation,
@@ -39,6 +38,7 @@ from crumple._core.tree import (
     TreeModel,
     TreeWeld,
 )
+from crumple._core.planar.tangent import TreeDirection, solve_tangent
 from crumple.errors import InputError, Status
 from crumple.multibody import Run, sensitivities, solve_variants
 from crumple.structure import MultibodySettings, Outputs, changed, value_at

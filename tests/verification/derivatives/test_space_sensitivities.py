@@ -16,7 +16,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.verification.chains import (
+from tests.support.multibody.chains import (
     ACCUMULATED,
     ELASTIC_PLASTIC,
     PEAK,
@@ -25,11 +25,11 @@ from tests.verification.chains import (
     SET_VALUED,
     softening_law,
 )
-from tests.verification.space_models import RX, RY, RZ, about, bar, component, m4_parts, with_mass
+from tests.support.multibody.space_models import RX, RY, RZ, about, bar, component, m4_parts, with_mass
 
-from crumple._core.space import SpaceSimulation
-from crumple._core.space_batch import SpaceCase, SpaceStage, SpaceVariants, solve_many
-from crumple._core.space_model import (
+from crumple._core.planar.simulation import Outcome
+from crumple._core.spatial.batch import SpaceCase, SpaceStage, SpaceVariants, solve_many
+from crumple._core.spatial.model import (
     GROUND,
     Coupling,
     SpaceBody,
@@ -42,7 +42,7 @@ from crumple._core.space_model import (
     revolute,
     spherical,
 )
-from crumple._core.tree import Outcome
+from crumple._core.spatial.simulation import SpaceSimulation
 
 LOOSE = 1e3
 """Accuracy that no step fails, so the longest step fixes all of them."""

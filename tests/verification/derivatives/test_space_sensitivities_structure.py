@@ -8,7 +8,7 @@ runs that choose their own steps.
 from dataclasses import replace
 
 import pytest
-from tests.verification.structures import STEEL, TUBE
+from tests.support.structures import STEEL, TUBE
 
 from crumple.errors import InputError, Status
 from crumple.multibody import Run, sensitivities, solve_variants

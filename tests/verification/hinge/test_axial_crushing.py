@@ -23,12 +23,12 @@ from crumple.hinge import (
     axial_law_types,
     build_axial_law,
 )
+from crumple.hinge.axial.axial_law import rate_factor_of
 from crumple.hinge.axial.circular import concertina_force, effective_distance
 from crumple.hinge.axial.square import Mode, mode_forces
+from crumple.hinge.axial.squash import FREE, HELD, effective_width
 from crumple.hinge.axial.superfolding import COEFFICIENT, HALF_FOLD, ROLLING_RADIUS
 from crumple.hinge.axial.top_hat import DOUBLE_HAT, TOP_HAT, HatCrushing
-from crumple.hinge.axial_law import rate_factor_of
-from crumple.hinge.squash import FREE, HELD, effective_width
 from crumple.material import CowperSymonds, Material
 from crumple.section import CircularTube, ClosedHat, RectangularTube
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from crumple.errors import InputError
 from crumple.hinge import CircularLaw, KecmanLaw
-from crumple.hinge.laws.circular import FLATTENED, brazier_moment, ovalisation_curvature
+from crumple.hinge.bending.circular import FLATTENED, brazier_moment, ovalisation_curvature
 from crumple.material import Material
 from crumple.section import CircularTube, RectangularTube
 

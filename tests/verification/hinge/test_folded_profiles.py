@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 
 from crumple.errors import InputError
 from crumple.hinge import build_law
-from crumple.hinge.free_edge import FreeEdgeMechanism
-from crumple.hinge.mechanism import FoldMechanism
-from crumple.hinge.profile_mechanism import ProfileMechanism
+from crumple.hinge.bending.free_edge import FreeEdgeMechanism
+from crumple.hinge.bending.mechanism import FoldMechanism
+from crumple.hinge.bending.profile_mechanism import ProfileMechanism
 from crumple.material import Material
 from crumple.section import Channel, ClosedHat, Hat, RectangularTube, moment_capacity
 

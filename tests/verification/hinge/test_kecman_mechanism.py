@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from crumple.hinge.mechanism import FoldMechanism
+from crumple.hinge.bending.mechanism import FoldMechanism
 
 
 def mechanisms():

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from crumple.hinge.capacity import Regime, peak_moment
+from crumple.hinge.bending.largest_moment import Regime, peak_moment
 from crumple.material import Material
 from crumple.section import RectangularTube
 

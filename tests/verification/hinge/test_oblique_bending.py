@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from crumple.errors import InputError
 from crumple.hinge import KecmanLaw, ObliqueLaw, absorbed_energy
-from crumple.hinge.laws.oblique import oblique_plastic_modulus
+from crumple.hinge.bending.oblique import oblique_plastic_modulus
 from crumple.material import Material
 from crumple.section import CircularTube, RectangularTube
 

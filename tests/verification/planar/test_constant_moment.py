@@ -8,10 +8,10 @@ bars of a structure move on arcs, whose midpoint rule errs by less than the accu
 
 import numpy as np
 import pytest
-from tests.verification.chains import ELASTIC_PLASTIC, SET_VALUED, hinge, started, wheel
-from tests.verification.structures import cantilever, table_law
+from tests.support.multibody.chains import ELASTIC_PLASTIC, SET_VALUED, hinge, started, wheel
+from tests.support.structures import cantilever, table_law
 
-from crumple._core.tree import TreeModel
+from crumple._core.planar.simulation import TreeModel
 from crumple.multibody import Run, solve_multibody
 from crumple.structure import MultibodySettings
 

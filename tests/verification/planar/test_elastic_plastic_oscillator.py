@@ -13,9 +13,9 @@ import math
 
 import numpy as np
 import pytest
-from tests.verification.chains import ELASTIC_PLASTIC, hinge, started, wheel
+from tests.support.multibody.chains import ELASTIC_PLASTIC, hinge, started, wheel
 
-from crumple._core.tree import TreeModel
+from crumple._core.planar.simulation import TreeModel
 
 INERTIA, STIFFNESS, YIELD = 2.0, 2e5, 700.0
 OMEGA, X_Y = math.sqrt(STIFFNESS / INERTIA), YIELD / STIFFNESS

@@ -8,9 +8,9 @@ for; energy, which goes with the square of the velocity, by no more than twice t
 
 import numpy as np
 import pytest
-from tests.verification.chains import bar, hinge, started
+from tests.support.multibody.chains import bar, hinge, started
 
-from crumple._core.tree import JointKind, TreeModel
+from crumple._core.planar.simulation import JointKind, TreeModel
 
 NUMBER, LENGTH = 5, 0.2
 RATES = np.array([3.0, 2.0, -1.0, 8.0, -12.0, 10.0, -7.0])  # root: rotation, x, y; hinges

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 import pytest
-from tests.verification.structures import STEEL, constant_law
+from tests.support.structures import STEEL, constant_law
 
 from crumple.multibody import Run, solve_variants
 from crumple.structure import MultibodySettings, Structure

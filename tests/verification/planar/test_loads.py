@@ -9,10 +9,10 @@ import math
 
 import numpy as np
 import pytest
-from tests.verification.chains import hinge, started, wheel
-from tests.verification.structures import cantilever, constant_law
+from tests.support.multibody.chains import hinge, started, wheel
+from tests.support.structures import cantilever, constant_law
 
-from crumple._core.tree import JointKind, TreeBody, TreeLoad, TreeModel
+from crumple._core.planar.simulation import JointKind, TreeBody, TreeLoad, TreeModel
 from crumple.multibody import Run, solve_multibody
 from crumple.structure import MultibodySettings, Outputs
 

@@ -11,7 +11,7 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from tests.verification.chains import MASS_PER_LENGTH, PAYLOAD, REGULARISED, SET_VALUED, m1
+from tests.support.multibody.chains import MASS_PER_LENGTH, PAYLOAD, REGULARISED, SET_VALUED, m1
 
 INERTIA = MASS_PER_LENGTH / 3 + PAYLOAD
 ROTATION, REST, REGULARISED_ROTATION = 0.424127729101, 0.064005833, 0.424130871579

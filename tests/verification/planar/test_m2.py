@@ -9,7 +9,7 @@ hinge and of the tip must stay below the accuracy asked for, as shares of the la
 
 import numpy as np
 import pytest
-from tests.verification.chains import REGULARISED, SET_VALUED, m2
+from tests.support.multibody.chains import REGULARISED, SET_VALUED, m2
 
 from crumple.multibody.run import CHECK_FACTOR
 

@@ -12,7 +12,7 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from tests.verification.chains import MASS_PER_LENGTH, REGULARISED, m3
+from tests.support.multibody.chains import MASS_PER_LENGTH, REGULARISED, m3
 
 LEFT, RIGHT, SPAN, LUMP, SPEED, SCALE = 0.5, 0.6, 1.0, 20.0, 10.0, 0.5
 TOP = math.hypot(SPAN, RIGHT - LEFT)

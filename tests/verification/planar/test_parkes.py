@@ -16,7 +16,7 @@ import math
 from itertools import pairwise
 
 import pytest
-from tests.verification.structures import STEEL, constant_law
+from tests.support.structures import STEEL, constant_law
 
 from crumple.multibody import Run, solve_multibody
 from crumple.structure import MultibodySettings, Outputs, Structure

@@ -9,9 +9,9 @@ periods add up. So the period may err by ten times the accuracy and the energy b
 
 import numpy as np
 import pytest
-from tests.verification.chains import started
+from tests.support.multibody.chains import started
 
-from crumple._core.tree import JointKind, TreeBody, TreeModel
+from crumple._core.planar.simulation import JointKind, TreeBody, TreeModel
 
 PERIOD, GRAVITY, PERIODS = 2.3678419475762373, 9.81, 100
 BODY = TreeBody(-1, JointKind.REVOLUTE, (0.0, 0.0), (0.5, 0.0), 2.0, 0.5)

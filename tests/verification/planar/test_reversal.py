@@ -18,7 +18,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from tests.verification.chains import (
+from tests.support.multibody.chains import (
     ACCUMULATED,
     ELASTIC_PLASTIC,
     PEAK,
@@ -30,7 +30,7 @@ from tests.verification.chains import (
     wheel,
 )
 
-from crumple._core.tree import TreeDrive, TreeModel
+from crumple._core.planar.simulation import TreeDrive, TreeModel
 
 INERTIA, RATE, MOMENT = 2.0, 15.0, 700.0
 LAW = (np.array([0.0, 1.0]), np.array([1000.0, 400.0]))

@@ -16,9 +16,9 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from tests.verification.chains import MASS_PER_LENGTH, bar, hinge, started, wheel
+from tests.support.multibody.chains import MASS_PER_LENGTH, bar, hinge, started, wheel
 
-from crumple._core.tree import Simulation, TreeModel
+from crumple._core.planar.simulation import Simulation, TreeModel
 from crumple.function import impact
 
 INERTIA, STIFFNESS, RATE, GAP = 2.0, 1e6, 5.0, 0.01

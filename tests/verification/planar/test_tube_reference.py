@@ -11,7 +11,7 @@ where the differences come from. What is required is that the figures stay what 
 
 import numpy as np
 import pytest
-from tests.verification.structures import cantilever
+from tests.support.structures import cantilever
 
 from crumple.multibody import Run, solve_multibody
 from crumple.structure import MultibodySettings, Outputs

@@ -11,7 +11,7 @@ beside an accuracy of 1e-5.
 import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
-from tests.verification.structures import cantilever
+from tests.support.structures import cantilever
 
 from crumple.hinge import build_law
 from crumple.material import Material

@@ -11,7 +11,12 @@ import pytest
 from numpy.polynomial import legendre
 from scipy.linalg import eigh
 
-from crumple.section.buckling import held_coefficient, outstand_coefficient, plate_stress, width_factor
+from crumple.section.capacity.buckling import (
+    held_coefficient,
+    outstand_coefficient,
+    plate_stress,
+    width_factor,
+)
 
 NU, TERMS = 0.3, 12
 

@@ -24,7 +24,7 @@ from crumple.section import (
     WallSection,
     moment_capacity,
 )
-from crumple.section.buckling import held_coefficient, plate_stress, width_factor
+from crumple.section.capacity.buckling import held_coefficient, plate_stress, width_factor
 
 MM = 1e-3
 STEEL = Material("steel", 206e9, 0.3, 7850.0, 488e6)

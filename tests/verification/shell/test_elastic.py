@@ -8,7 +8,7 @@
 - Twisted beam, 90 degrees over 12 x 1.1 x 0.32, unit end loads: 5.424e-3 in the plane of the end, 1.754e-3
   across (MacNeal and Harder, Finite Elements in Analysis and Design 1, 1985, 3-20).
 - Pinched cylinder with diaphragms, quasi-static by damping: the deflection that the same mesh has without
-  inertia (tests/verification/test_shell_linear.py, where its mesh is refined).
+  inertia (tests/verification/shell/test_linear.py, where its mesh is refined).
 - Longitudinal wave in a bar: speed sqrt(E/rho), stress rho c v.
 Tolerances are those of the mesh (stated beside each), not of the integration.
 """
@@ -17,10 +17,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from sheets import grid, model
-from shell_statics import solve
+from tests.support.shell.sheets import grid, model
+from tests.support.shell.statics import solve
 
-from crumple._core.shell import (
+from crumple._core.shell.simulation import (
     Element,
     NodalLoad,
     PrescribedVelocity,

@@ -13,10 +13,10 @@ Tolerances are those of the mesh. The tangent comes from the elements that step 
 
 import numpy as np
 import pytest
-from sheets import distorted_patch, grid, model
-from shell_statics import solve
+from tests.support.shell.sheets import distorted_patch, grid, model
+from tests.support.shell.statics import solve
 
-from crumple._core.shell import Element, ShellMaterial
+from crumple._core.shell.simulation import Element, ShellMaterial
 
 BELYTSCHKO_TSAY = {"warping_correction": True, "drill_stiffness": 0.01}
 STABILISED = {**BELYTSCHKO_TSAY, "element": Element.STABILISED}

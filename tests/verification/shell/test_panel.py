@@ -26,9 +26,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from shell_panel import ENERGY, HALF_ANGLE, LENGTH, run
+from tests.support.shell.panel import ENERGY, HALF_ANGLE, LENGTH, run
 
-from crumple._core.shell import Element
+from crumple._core.shell.simulation import Element
 
 KEPT = json.loads((Path(__file__).parent / "panel_reference.json").read_text(encoding="utf-8"))["meshes"]
 MESHES = (8, 16, 32)

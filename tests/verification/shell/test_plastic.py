@@ -15,10 +15,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from sheets import grid, model
-from shell_reference import compared, run, tube
+from tests.support.shell.sheets import grid, model
+from tests.support.shell.tube_reference import compared, run, tube
 
-from crumple._core.shell import (
+from crumple._core.shell.simulation import (
     Cut,
     Element,
     NodalLoad,

@@ -12,7 +12,7 @@
 
 import numpy as np
 import pytest
-from tests.verification.welded_parts import SETTINGS, closed_hat, cross, driven, hat_and_plate, lap
+from tests.support.shell.welded_parts import SETTINGS, closed_hat, cross, driven, hat_and_plate, lap
 
 from crumple.errors import Status
 from crumple.shell import ShellRun, solve_shell

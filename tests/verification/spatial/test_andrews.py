@@ -10,10 +10,10 @@ import math
 
 import numpy as np
 import pytest
-from tests.verification.space_models import revolute
+from tests.support.multibody.space_models import revolute
 
-from crumple._core.space import SpaceSimulation
-from crumple._core.space_model import GROUND, SpaceBody, SpaceLoad, SpaceModel, SpaceSpring
+from crumple._core.spatial.model import GROUND, SpaceBody, SpaceLoad, SpaceModel, SpaceSpring
+from crumple._core.spatial.simulation import SpaceSimulation
 
 END = 0.03
 # beta, Theta, gamma, Phi, delta, Omega, epsilon [rad]

@@ -8,10 +8,10 @@ steps, so hinge quantities agree to the accuracy asked for, and to rounding with
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from tests.verification.chains import bar, hinge, softening_law, started
-from tests.verification.structures import STEEL, TUBE, table_law
+from tests.support.multibody.chains import bar, hinge, softening_law, started
+from tests.support.structures import STEEL, TUBE, table_law
 
-from crumple._core.tree import JointKind, TreeModel
+from crumple._core.planar.simulation import JointKind, TreeModel
 from crumple.multibody import Run, solve_multibody
 from crumple.structure import MultibodySettings, Outputs, Structure
 

@@ -12,9 +12,9 @@ import math
 import numpy as np
 import pytest
 from scipy.optimize import brentq
-from tests.verification.chains import MASS_PER_LENGTH, REGULARISED, ROTATION, SET_VALUED
-from tests.verification.chains import m2 as planar_m2
-from tests.verification.space_models import (
+from tests.support.multibody.chains import MASS_PER_LENGTH, REGULARISED, ROTATION, SET_VALUED
+from tests.support.multibody.chains import m2 as planar_m2
+from tests.support.multibody.space_models import (
     RX,
     RY,
     RZ,
@@ -31,9 +31,9 @@ from tests.verification.space_models import (
     started,
     with_mass,
 )
-from tests.verification.test_portal_loop import HEIGHTS, TOP, turns
+from tests.verification.planar.test_portal_loop import HEIGHTS, TOP, turns
 
-from crumple._core.space_model import GROUND, Coupling, SpaceHinge, SpaceModel, SpaceSurface
+from crumple._core.spatial.model import GROUND, Coupling, SpaceHinge, SpaceModel, SpaceSurface
 
 END = np.array([0.1])
 

@@ -14,10 +14,9 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from tests.verification.space_models import GRAVITY, bar, started, with_mass
+from tests.support.multibody.space_models import GRAVITY, bar, started, with_mass
 
-from crumple._core.space import SpaceSimulation
-from crumple._core.space_model import (
+from crumple._core.spatial.model import (
     GROUND,
     SpaceBody,
     SpaceDrive,
@@ -26,6 +25,7 @@ from crumple._core.space_model import (
     prismatic,
     revolute,
 )
+from crumple._core.spatial.simulation import SpaceSimulation
 
 Z = (0.0, 0.0, 1.0)
 DOWN = (0.0, -GRAVITY, 0.0)

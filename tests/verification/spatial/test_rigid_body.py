@@ -11,10 +11,10 @@ import math
 
 import numpy as np
 import pytest
-from tests.verification.space_models import GRAVITY, bar, pendulum, started
+from tests.support.multibody.space_models import GRAVITY, bar, pendulum, started
 
-from crumple._core.space import SpaceSimulation
-from crumple._core.space_model import GROUND, SpaceBody, SpaceModel, spherical
+from crumple._core.spatial.model import GROUND, SpaceBody, SpaceModel, spherical
+from crumple._core.spatial.simulation import SpaceSimulation
 
 PERIOD = 2.3678419475762373
 INERTIA = np.diag([1.0, 2.0, 3.5])

@@ -19,9 +19,9 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from tests.verification.chains import hinge as tree_hinge
-from tests.verification.chains import wheel
-from tests.verification.hinge_rig import (
+from tests.support.multibody.chains import hinge as tree_hinge
+from tests.support.multibody.chains import wheel
+from tests.support.multibody.hinge_rig import (
     ABOUT_Y,
     ABOUT_Z,
     ACCUMULATED,
@@ -39,7 +39,7 @@ from tests.verification.hinge_rig import (
     rig,
 )
 
-from crumple._core.tree import Simulation, TreeDrive, TreeLoad, TreeModel
+from crumple._core.planar.simulation import Simulation, TreeDrive, TreeLoad, TreeModel
 
 CURVE = ([0.0, 0.1, 0.4, 1.0], [700.0, 700.0, 400.0, 300.0])
 OTHER = ([0.0, 0.2, 1.0], [500.0, 300.0, 250.0])

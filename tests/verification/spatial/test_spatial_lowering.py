@@ -12,7 +12,7 @@
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from tests.verification.structures import STEEL, TUBE, constant_law, table_law
+from tests.support.structures import STEEL, TUBE, constant_law, table_law
 
 from crumple.multibody import Run, solve_multibody
 from crumple.structure import MultibodySettings, Outputs, Stage, Structure

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 import pytest
-from tests.verification.structures import cantilever, constant_law
+from tests.support.structures import cantilever, constant_law
 
 from crumple.multibody import Run, solve_multibody
 from crumple.structure import MultibodySettings, Outputs

@@ -16,7 +16,7 @@ import re
 import numpy as np
 import pytest
 from scipy.optimize import linprog
-from tests.verification.test_spatial_lowering import MOMENT, frame, tube
+from tests.verification.spatial.test_spatial_lowering import MOMENT, frame, tube
 
 from crumple.errors import Status
 from crumple.multibody import Run, solve_multibody

@@ -12,8 +12,8 @@ import re
 
 import numpy as np
 import pytest
-from tests.verification.structures import constant_law
-from tests.verification.test_spatial_lowering import MOMENT, frame, tube
+from tests.support.structures import constant_law
+from tests.verification.spatial.test_spatial_lowering import MOMENT, frame, tube
 
 from crumple.errors import Status
 from crumple.multibody import Run, solve_multibody

@@ -10,8 +10,8 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from crumple._core.space import SpaceSimulation
-from crumple._core.space_model import SpaceBody, SpaceJoint, SpaceLoad, SpaceModel
+from crumple._core.spatial.model import SpaceBody, SpaceJoint, SpaceLoad, SpaceModel
+from crumple._core.spatial.simulation import SpaceSimulation
 
 DRAG = 0.1
 INERTIA = np.array([0.01, 0.02, 0.04])

@@ -7,7 +7,7 @@
 
 import numpy as np
 import pytest
-from tests.verification.structures import STEEL, constant_law
+from tests.support.structures import STEEL, constant_law
 
 from crumple.multibody import Run, solve_multibody
 from crumple.structure import Stage, Structure

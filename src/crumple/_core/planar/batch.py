@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crumple._core import _kernels
-from crumple._core.tree import MINIMUM_STEP, Floats, TreeModel, kernel_model
+from crumple._core.planar.simulation import MINIMUM_STEP, TreeModel, kernel_model
+from crumple.numeric.arrays import Floats
 
 
 @dataclass(frozen=True, eq=False)

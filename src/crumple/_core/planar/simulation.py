@@ -14,11 +14,9 @@ from enum import IntEnum
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from crumple._core import _kernels
-
-Floats = NDArray[np.float64]
+from crumple.numeric.arrays import Floats
 
 MINIMUM_STEP = 1e-9
 """Smallest step [s]; rates that jump are passed in one such step."""
@@ -62,7 +60,7 @@ class TreeBody:
 
 @dataclass(frozen=True)
 class TreeHinge:
-    """Hinge of one joint coordinate; codes of form and softening variable as in native/multibody/hinge.hpp.
+    """Hinge of one joint coordinate; codes of form and softening variable as in native/hinge/hinge.hpp.
 
     A stop is (rotation, stiffness, exponent, damping, penetration): empty for none, damping NaN for critical.
     """

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from crumple._core import _kernels
-from crumple._core.tree import MINIMUM_STEP, Floats, Outcome, TreeModel, kernel_model
+from crumple._core.planar.simulation import MINIMUM_STEP, Outcome, TreeModel, kernel_model
+from crumple.numeric.arrays import Floats
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple._core import _kernels
-from crumple._core.shell_model import (
+from crumple._core.shell.model import (
     Element,
-    Floats,
     History,
     Hourglass,
     Indices,
@@ -21,6 +20,7 @@ from crumple._core.shell_model import (
     ShellModel,
     ShellSettings,
 )
+from crumple.numeric.arrays import Floats
 
 kernel: Any = _kernels.shell
 _DOFS = {"x": 0, "y": 1, "z": 2, "rx": 3, "ry": 4, "rz": 5}

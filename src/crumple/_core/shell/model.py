@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Floats = NDArray[np.float64]
+from crumple.numeric.arrays import Floats
+
 Indices = NDArray[np.uint32]
 History = tuple[ArrayLike, ArrayLike]
 """Times and values."""

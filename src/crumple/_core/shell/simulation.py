@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from crumple._core.shell_build import built, floats, kernel
-from crumple._core.shell_model import (
+from crumple._core.shell.build import built, floats, kernel
+from crumple._core.shell.model import (
     Cut,
     Element,
-    Floats,
     Hourglass,
     NodalLoad,
     PrescribedVelocity,
@@ -26,6 +25,7 @@ from crumple._core.shell_model import (
     SpotWeld,
 )
 from crumple.errors import InputError, Status
+from crumple.numeric.arrays import Floats
 
 __all__ = [
     "Cut",
@@ -48,9 +48,9 @@ __all__ = [
 _SLOTS: Mapping[str, int] = kernel.slots
 # Wall time after which a running advance() comes back to look for cancellation and to report progress [s].
 _LOOK_EVERY = 0.1
-# Point quantities by their place in the state, see native/shell/layout.hpp.
+# Point quantities by their place in the state, see native/shell/simd/layout.hpp.
 _POINT_SLOTS = {"stress_x": 0, "stress_y": 1, "stress_xy": 2, "plastic_strain": 3}
-# How the core says that a run ended, see End in native/shell/simulation.hpp.
+# How the core says that a run ended, see End in native/shell/run/simulation.hpp.
 _REACHED, _NOT_FINITE, _COLLAPSED, _TORN, _INVERTED = 1, 2, 3, 4, 5
 _ENDS = {
     _NOT_FINITE: Status.NOT_FINITE,

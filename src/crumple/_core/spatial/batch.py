@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crumple._core import _kernels
-from crumple._core.batch import as_rows
-from crumple._core.space import MINIMUM_STEP, SpaceUntil, as_dict, as_until
-from crumple._core.space_model import Floats, SpaceModel
+from crumple._core.planar.batch import as_rows
+from crumple._core.spatial.model import SpaceModel
+from crumple._core.spatial.simulation import MINIMUM_STEP, SpaceUntil, as_dict, as_until
+from crumple.numeric.arrays import Floats
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,9 +13,9 @@ from dataclasses import dataclass, field
 from enum import IntEnum
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Floats = NDArray[np.float64]
+from crumple.numeric.arrays import Floats
 
 GROUND = -1
 
@@ -131,7 +131,7 @@ class SpaceComponent:
 
 
 class Coupling(IntEnum):
-    """How the components of a hinge share their capacity; native/space/surface.hpp."""
+    """How the components of a hinge share their capacity; native/spatial/hinge/surface.hpp."""
 
     NONE = 0
     ELLIPSOID = 1
@@ -156,8 +156,8 @@ class SpaceSurface:
 class SpaceHinge:
     """Plastic hinge in freedoms of a joint that are not held.
 
-    Codes of form and softening variable are those of `crumple._core.tree.TreeHinge`.  It opens for good at
-    the plastic rotation `fracture` [rad].
+    Codes of form and softening variable are those of `crumple._core.planar.simulation.TreeHinge`.
+    It opens for good at the plastic rotation `fracture` [rad].
     """
 
     joint: int

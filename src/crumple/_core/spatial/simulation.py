@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from crumple._core import _kernels
-from crumple._core.space_model import (
-    Floats,
+from crumple._core.planar.simulation import Outcome
+from crumple._core.spatial.model import (
     SpaceComponent,
     SpaceDrive,
     SpaceHinge,
@@ -21,7 +21,7 @@ from crumple._core.space_model import (
     SpaceModel,
     SpaceObstacle,
 )
-from crumple._core.tree import Outcome
+from crumple.numeric.arrays import Floats
 
 MINIMUM_STEP = 1e-9
 """Smallest step [s]; rates that jump are passed in one such step."""

@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from rich.text import Text
 
-    from crumple.function.transition import Floats
+    from crumple.numeric.arrays import Floats
 
 WIDTH, HEIGHT = 64, 16
 MARKS = "*o+x#@%&"

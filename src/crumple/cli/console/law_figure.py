@@ -5,8 +5,18 @@ from __future__ import annotations
 import numpy as np
 
 from crumple.hinge import HingeLaw
-from crumple.report.scales import Floats, display_unit, largest, spread
-from crumple.report.style import WIDTH, Line, add_axes, draw_lines, drawing, name_axes, new_figure, to_svg
+from crumple.numeric.arrays import Floats
+from crumple.report.drawing.scales import display_unit, largest, spread
+from crumple.report.drawing.style import (
+    WIDTH,
+    Line,
+    add_axes,
+    draw_lines,
+    drawing,
+    name_axes,
+    new_figure,
+    to_svg,
+)
 
 LABELS = 1.35  # room for the names at the ends of the lines [in]
 

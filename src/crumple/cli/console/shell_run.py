@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from crumple.analysis import Analysis
-    from crumple.cli.progress import Bar
+    from crumple.cli.console.progress import Bar
     from crumple.shell import LongRun, Moment
 
 RESTART = "restart.npz"

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crumple.comparison.metrics import deg, mm
-from crumple.comparison.motion import REACH, HingeMotion, largest_side
+from crumple.comparison.measure.metrics import deg, mm
+from crumple.comparison.measure.motion import REACH, HingeMotion, largest_side
 from crumple.structure import PlacedHinge, Structure
 
 if TYPE_CHECKING:

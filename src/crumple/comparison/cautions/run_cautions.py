@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crumple.comparison.energy import energy_put_in
-from crumple.comparison.metrics import OPENED_AT, percent
+from crumple.comparison.measure.energy import energy_put_in
+from crumple.comparison.measure.metrics import OPENED_AT, percent
 
 if TYPE_CHECKING:
     from crumple.comparison.comparison import Comparison

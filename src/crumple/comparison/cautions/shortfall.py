@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from crumple.comparison.metrics import HingeComparison, signed
+from crumple.comparison.measure.metrics import HingeComparison, signed
 from crumple.comparison.variant import ELASTIC_MEMBERS, SHELL_LAWS
 
 if TYPE_CHECKING:

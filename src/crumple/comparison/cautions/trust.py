@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crumple.comparison.energy import energy_put_in, largest_of
-from crumple.comparison.fold_trust import across_joint, folds_said, largest_turn
-from crumple.comparison.metrics import deg, mm, percent
-from crumple.comparison.runs import said_of_runs
-from crumple.comparison.sections import Floats
-from crumple.comparison.shortfall import shortfall
-from crumple.comparison.verdict import SMALL, agreement, verdict
+from crumple.comparison.cautions.fold_trust import across_joint, folds_said, largest_turn
+from crumple.comparison.cautions.run_cautions import said_of_runs
+from crumple.comparison.cautions.shortfall import shortfall
+from crumple.comparison.cautions.verdict import SMALL, agreement, verdict
+from crumple.comparison.measure.energy import energy_put_in, largest_of
+from crumple.comparison.measure.metrics import deg, mm, percent
 from crumple.hinge import Form
+from crumple.numeric.arrays import Floats
 from crumple.structure import PlacedHinge, Structure, placed_hinges
 
 if TYPE_CHECKING:

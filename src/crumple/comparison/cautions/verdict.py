@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from crumple.comparison.metrics import HingeComparison, deg, percent, signed
-from crumple.comparison.runs import outside_folds
+from crumple.comparison.cautions.run_cautions import outside_folds
+from crumple.comparison.measure.metrics import HingeComparison, deg, percent, signed
 
 if TYPE_CHECKING:
     from crumple.comparison.comparison import Comparison

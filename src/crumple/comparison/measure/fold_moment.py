@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crumple.comparison.sections import Floats
+from crumple.numeric.arrays import Floats
 from crumple.result import Result
 
 WINDOW = np.radians(2.0)

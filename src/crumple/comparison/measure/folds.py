@@ -16,7 +16,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from crumple.comparison.sections import Floats, Sections
+from crumple.comparison.measure.sections import Sections
+from crumple.numeric.arrays import Floats
 from crumple.result import States
 
 WORK, STRAIN = "plastic_work", "plastic_strain"

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crumple.comparison.motion import HingeMotion
-from crumple.comparison.sections import Floats
+from crumple.comparison.measure.motion import HingeMotion
+from crumple.numeric.arrays import Floats
 
 OPENED_AT = math.radians(0.5)
 """Plastic rotation [rad] from which a hinge counts as open."""

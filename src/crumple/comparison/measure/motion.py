@@ -23,10 +23,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from crumple.comparison.fold_moment import ELASTIC_WORK, Bent, moment_in
-from crumple.comparison.folds import Fold, find_folds
-from crumple.comparison.sections import Floats, Sections, sections_of
+from crumple.comparison.measure.fold_moment import ELASTIC_WORK, Bent, moment_in
+from crumple.comparison.measure.folds import Fold, find_folds
+from crumple.comparison.measure.sections import Sections, sections_of
 from crumple.hinge import Freedom
+from crumple.numeric.arrays import Floats
 from crumple.result import Result
 from crumple.structure import PlacedHinge, Structure
 

@@ -17,12 +17,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from crumple.numeric.arrays import Floats
 from crumple.result import States
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 SAME_STATION = 1e-6
 """Stations nearer than this share of the member's length are one: far below any element, above rounding."""

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from crumple.comparison.signal import Signal
+from crumple.comparison.rating.signal import Signal
 from crumple.errors import InputError, Problem
 from crumple.units import QuantityError, unit_factor
 

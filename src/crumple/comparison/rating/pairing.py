@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crumple.comparison.rating import Rating, rating
-from crumple.comparison.sections import Floats
-from crumple.comparison.signal import Signal, at
+from crumple.comparison.rating.rating import Rating, rating
+from crumple.comparison.rating.signal import Signal, at
 from crumple.errors import InputError
+from crumple.numeric.arrays import Floats
 
 MOST = 60
 """Histories that are rated against one reference; a rating takes some 50 ms for 100 ms of history."""

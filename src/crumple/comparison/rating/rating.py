@@ -18,8 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from crumple.errors import InputError, Problem
-
-Floats = NDArray[np.float64]
+from crumple.numeric.arrays import Floats
 
 EDITION = "ISO/TS 18571:2014"
 SAMPLING_RATE = 10_000.0
@@ -112,7 +111,7 @@ def rating(
     References
     ----------
     ISO/TS 18571:2014, Road vehicles: objective rating metric for non-ambiguous signals.  Verified against the
-    published package objective-rating-metrics in tests/verification/test_rating.py.
+    published package objective-rating-metrics in tests/verification/comparison/test_rating.py.
     """
     t_reference, t_curve = np.asarray(reference_time, float), np.asarray(time, float)
     begin = max(t_reference[0], t_curve[0]) if start is None else start

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crumple.comparison.motion import HingeMotion, rate_of
-from crumple.comparison.sections import Floats, Sections
+from crumple.comparison.measure.motion import HingeMotion, rate_of
+from crumple.comparison.measure.sections import Sections
+from crumple.numeric.arrays import Floats
 from crumple.result import Result
 from crumple.structure import Structure
 from crumple.structure.bending import bending_axis

@@ -22,10 +22,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.axial_law import AxialLaw
-from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.axial.axial_law import AxialLaw
+from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
 from crumple.hinge.rate import HingeRate, rate_factor
 from crumple.hinge.stop import Stop
+from crumple.numeric.arrays import Floats
 
 CHOSEN = Source("none", Trust.ASSUMED, "peak, mean and stroke are the user's choice")
 FIRST_FALL = 0.05
@@ -51,7 +52,7 @@ class AxialCollapse:
 
     References
     ----------
-    docs/theory/spatial_hinge.md.  Verified in tests/unit/hinge/test_spatial_recording.py.
+    docs/theory/spatial_hinge.md.  Verified in tests/unit/hinge/record/test_spatial_recording.py.
     """
 
     name: ClassVar[str] = "axial_collapse"

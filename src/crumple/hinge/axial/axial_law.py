@@ -14,8 +14,9 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crumple.hinge.law import Floats, Source
+from crumple.hinge.law import Source
 from crumple.material import CowperSymonds, Material
+from crumple.numeric.arrays import Floats
 
 
 @dataclass(frozen=True)

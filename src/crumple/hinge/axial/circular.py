@@ -20,7 +20,7 @@ from enum import Enum
 from typing import ClassVar
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.axial_law import (
+from crumple.hinge.axial.axial_law import (
     CrushDistance,
     CrushRate,
     CrushValidity,
@@ -60,7 +60,7 @@ class CircularCrushing:
 
     References
     ----------
-    docs/theory/axial_crushing.md.  Verified in tests/verification/test_axial_crushing.py.
+    docs/theory/axial_crushing.md.  Verified in tests/verification/hinge/test_axial_crushing.py.
     """
 
     name: ClassVar[str] = "circular"

@@ -25,7 +25,7 @@ def effective_width(width: float, thickness: float, material: Material, coeffici
     References
     ----------
     Winter's rule as in cold-formed steel codes; standard text, not seen.
-    Verified in tests/verification/test_axial_crushing.py.
+    Verified in tests/verification/hinge/test_axial_crushing.py.
     """
     modulus = material.youngs_modulus / (12.0 * (1.0 - material.poissons_ratio**2))
     critical = coefficient * math.pi**2 * modulus * (thickness / width) ** 2

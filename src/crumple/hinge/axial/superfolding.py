@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.axial_law import (
+from crumple.hinge.axial.axial_law import (
     CrushDistance,
     CrushRate,
     CrushValidity,
@@ -29,10 +29,10 @@ from crumple.hinge.axial_law import (
     flat_wall_moment,
     rate_warnings,
 )
+from crumple.hinge.axial.squash import HELD, squash_force
 from crumple.hinge.law import Source, Trust
 from crumple.hinge.options import choice
 from crumple.hinge.registry import axial_law_type
-from crumple.hinge.squash import HELD, squash_force
 from crumple.material import Material
 from crumple.section import RectangularTube, Section
 
@@ -64,7 +64,7 @@ class SuperfoldingCrushing:
 
     References
     ----------
-    docs/theory/axial_crushing.md.  Verified in tests/verification/test_axial_crushing.py.
+    docs/theory/axial_crushing.md.  Verified in tests/verification/hinge/test_axial_crushing.py.
     """
 
     name: ClassVar[str] = "superfolding"

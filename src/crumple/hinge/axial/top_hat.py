@@ -19,7 +19,13 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.axial_law import CrushRate, CrushValidity, crush_rate, flat_wall_moment, rate_warnings
+from crumple.hinge.axial.axial_law import (
+    CrushRate,
+    CrushValidity,
+    crush_rate,
+    flat_wall_moment,
+    rate_warnings,
+)
 from crumple.hinge.law import Source, Trust
 from crumple.hinge.registry import axial_law_type
 from crumple.material import Material
@@ -48,7 +54,7 @@ class HatCrushing:
 
     References
     ----------
-    docs/theory/axial_crushing.md.  Verified in tests/verification/test_axial_crushing.py.
+    docs/theory/axial_crushing.md.  Verified in tests/verification/hinge/test_axial_crushing.py.
     """
 
     name: ClassVar[str] = "top_hat"

@@ -13,8 +13,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from crumple.hinge.law import Floats
-from crumple.hinge.root import sign_change
+from crumple.numeric.arrays import Floats
+from crumple.numeric.sign_change import sign_change
 
 
 class Mechanism(Protocol):

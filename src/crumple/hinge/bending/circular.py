@@ -23,17 +23,18 @@ from typing import ClassVar
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.capped import CappedMechanism
-from crumple.hinge.folding import FoldingLaw
-from crumple.hinge.jamming import AfterJamming
-from crumple.hinge.law import Floats, Source, Trust, Validity
-from crumple.hinge.mechanism import FoldMechanism
+from crumple.hinge.bending.capped import CappedMechanism
+from crumple.hinge.bending.folding import FoldingLaw
+from crumple.hinge.bending.jamming import AfterJamming
+from crumple.hinge.bending.mechanism import FoldMechanism
+from crumple.hinge.law import Source, Trust, Validity
 from crumple.hinge.options import choice
 from crumple.hinge.rate import hinge_rate
 from crumple.hinge.registry import law_type
-from crumple.hinge.root import sign_change
 from crumple.hinge.stop import Stop
 from crumple.material import Material
+from crumple.numeric.arrays import Floats
+from crumple.numeric.sign_change import sign_change
 from crumple.section import Axis, CircularTube, Section, half_fold_length
 
 SOURCE = Source(
@@ -66,7 +67,7 @@ class CircularLaw(FoldingLaw):
 
     References
     ----------
-    docs/theory/circular_tube.md.  Verified in tests/verification/test_circular_bending.py.
+    docs/theory/circular_tube.md.  Verified in tests/verification/hinge/test_circular_bending.py.
     """
 
     name: ClassVar[str] = "circular"

@@ -16,11 +16,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
 from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor, rate_warnings
 from crumple.hinge.registry import law_type
 from crumple.hinge.stop import Stop
 from crumple.material import Material
+from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section
 
 CHOSEN = Source("none", Trust.ASSUMED, "the moment is the user's choice")
@@ -43,7 +44,7 @@ class ConstantLaw:
 
     References
     ----------
-    docs/theory/constant_and_table.md.  Verified in tests/unit/hinge/test_constant.py.
+    docs/theory/constant_and_table.md.  Verified in tests/unit/hinge/bending/test_constant.py.
     """
 
     name: ClassVar[str] = "constant"

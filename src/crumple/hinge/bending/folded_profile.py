@@ -7,7 +7,7 @@ compressed:
     a closed face (web of a channel,          the tube's mechanism with the faces that exist
     crown or plate of a hat)
     an open side (edges, with lips or         the same with those lips alone as its face, or walls folding
-    outward flanges)                          sideways (crumple.hinge.free_edge)
+    outward flanges)                          sideways (crumple.hinge.bending.free_edge)
 
 Of two mechanisms the one that needs less work up to half the smaller jamming angle governs.  A closing plate
 of another thickness or metal counts by its own m_p.  Limits: lip -> 0 leaves the free edge; a face as wide as
@@ -24,20 +24,21 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.capped import CappedMechanism, Mechanism
-from crumple.hinge.free_edge import FreeEdgeMechanism
-from crumple.hinge.jamming import AfterJamming, continued, continued_kinks
-from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.bending.capped import CappedMechanism, Mechanism
+from crumple.hinge.bending.free_edge import FreeEdgeMechanism
+from crumple.hinge.bending.jamming import AfterJamming, continued, continued_kinks
+from crumple.hinge.bending.profile_mechanism import ProfileMechanism
+from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
 from crumple.hinge.options import choice, number_between
-from crumple.hinge.profile_mechanism import ProfileMechanism
 from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
 from crumple.hinge.registry import law_type
 from crumple.hinge.stop import Stop
 from crumple.material import Material
+from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section
-from crumple.section.built_up import ClosedHat
-from crumple.section.capacity import MomentCapacity, moment_capacity
-from crumple.section.open_sections import Channel, Hat
+from crumple.section.capacity.capacity import MomentCapacity, moment_capacity
+from crumple.section.shapes.built_up import ClosedHat
+from crumple.section.shapes.open_sections import Channel, Hat
 
 SOURCE = Source(
     "Kecman-type mechanism with the faces of the profile, and folding of free edges",
@@ -64,7 +65,7 @@ class FoldedProfileLaw:
 
     References
     ----------
-    docs/theory/folded_profile.md.  Verified in tests/verification/test_folded_profiles.py.
+    docs/theory/folded_profile.md.  Verified in tests/verification/hinge/test_folded_profiles.py.
     """
 
     name: ClassVar[str] = "folded_profile"

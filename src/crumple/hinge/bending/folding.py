@@ -8,10 +8,11 @@ from typing import ClassVar
 
 from numpy.typing import ArrayLike
 
-from crumple.hinge.jamming import AfterJamming, continued, continued_kinks
-from crumple.hinge.law import Floats, SofteningVariable, Source, Validity
+from crumple.hinge.bending.jamming import AfterJamming, continued, continued_kinks
+from crumple.hinge.law import SofteningVariable, Source, Validity
 from crumple.hinge.rate import HingeRate, rate_factor
 from crumple.hinge.stop import Stop
+from crumple.numeric.arrays import Floats
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -26,8 +26,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from crumple.hinge.law import Floats
-from crumple.hinge.mechanism import COMPLEX_STEP, SMALLEST_ROTATION
+from crumple.hinge.bending.mechanism import COMPLEX_STEP, SMALLEST_ROTATION
+from crumple.numeric.arrays import Floats
 
 WALLS = 2
 
@@ -51,7 +51,8 @@ class FreeEdgeMechanism:
 
     References
     ----------
-    Derived here.  docs/theory/folded_profile.md.  Verified in tests/verification/test_folded_profiles.py.
+    Derived here.  docs/theory/folded_profile.md.
+    Verified in tests/verification/hinge/test_folded_profiles.py.
     """
 
     depth: float

@@ -13,7 +13,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crumple.hinge.law import Floats
+from crumple.numeric.arrays import Floats
 
 # Ramp from the jammed moment to the next fold's curve, as a fraction of the jamming angle: short enough to
 # cost little energy, long enough that the capacity is continuous and a time step can follow it.

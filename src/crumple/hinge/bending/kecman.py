@@ -4,8 +4,8 @@ Unknown: the capacity M(theta).  Three branches:
 
     theta <= theta_T             start: cap        Mmax (and M = min(Mmax, M_mech): continuous, one kink)
                                  start: parabola   Mmax - c theta^2, value and slope of M_mech at theta_T
-    theta_T <= theta <= theta_J  M_mech = dW/dtheta of the mechanism (crumple.hinge.mechanism)
-    theta > theta_J              after_jamming (crumple.hinge.jamming)
+    theta_T <= theta <= theta_J  M_mech = dW/dtheta of the mechanism (crumple.hinge.bending.mechanism)
+    theta > theta_J              after_jamming (crumple.hinge.bending.jamming)
 
 The parabola's theta_T solves Mmax - M_mech + theta M_mech'/2 = 0, and c = (Mmax - M_mech)/theta_T^2.
 Limits: rolling_weight 0 leaves one rolling line per ear; M_mech ~ t^2 but Mmax ~ t, so thick walls leave the
@@ -22,18 +22,19 @@ from typing import ClassVar
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.capacity import PeakMoment, peak_moment
-from crumple.hinge.folding import FoldingLaw
-from crumple.hinge.jamming import AfterJamming
-from crumple.hinge.kecman_range import kecman_validity
-from crumple.hinge.law import Floats, Source, Trust
-from crumple.hinge.mechanism import FoldMechanism
+from crumple.hinge.bending.folding import FoldingLaw
+from crumple.hinge.bending.jamming import AfterJamming
+from crumple.hinge.bending.kecman_range import kecman_validity
+from crumple.hinge.bending.largest_moment import PeakMoment, peak_moment
+from crumple.hinge.bending.mechanism import FoldMechanism
+from crumple.hinge.law import Source, Trust
 from crumple.hinge.options import choice, number_between
 from crumple.hinge.rate import hinge_rate
 from crumple.hinge.registry import law_type
-from crumple.hinge.root import sign_change
 from crumple.hinge.stop import Stop
 from crumple.material import Material
+from crumple.numeric.arrays import Floats
+from crumple.numeric.sign_change import sign_change
 from crumple.section import Axis, RectangularTube, Section
 
 SOURCE = Source(
@@ -69,7 +70,7 @@ class KecmanLaw(FoldingLaw):
 
     References
     ----------
-    docs/theory/kecman.md.  Verified in tests/verification/test_kecman_curves.py.
+    docs/theory/kecman.md.  Verified in tests/verification/hinge/test_kecman_curves.py.
     """
 
     name: ClassVar[str] = "kecman"

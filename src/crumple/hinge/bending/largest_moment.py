@@ -89,7 +89,7 @@ def peak_moment(section: RectangularTube, material: Material, axis: Axis = "y") 
     ----------
     Regimes and buckling coefficient as quoted from D. Kecman, Int. J. Mech. Sci. 25 (1983) 623-636 (original
     not seen); bracket, Mel and Mp derived.  docs/theory/kecman.md.
-    Verified in tests/verification/test_kecman_peak_moment.py.
+    Verified in tests/verification/hinge/test_kecman_peak_moment.py.
     """
     a, b, t = section.flange_width(axis), section.bending_depth(axis), section.thickness
     plastic = material.yield_stress * section.plastic_section_modulus(axis)

@@ -26,7 +26,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from crumple.hinge.law import Floats
+from crumple.numeric.arrays import Floats
 
 # Far below the rounding of any rotation, so that a complex step has no truncation error.
 COMPLEX_STEP = 1e-30
@@ -53,7 +53,7 @@ class FoldMechanism:
     ----------
     Idea, h = min(a, b)/2, r(theta) and the line terms after D. Kecman, Int. J. Mech. Sci. 25 (1983) 623-636;
     the geometry and its energies are derived here.  docs/theory/kecman.md.
-    Verified in tests/verification/test_kecman_mechanism.py.
+    Verified in tests/verification/hinge/test_kecman_mechanism.py.
     """
 
     width: float

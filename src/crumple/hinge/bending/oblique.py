@@ -27,15 +27,16 @@ from typing import ClassVar
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.folding import FoldingLaw
-from crumple.hinge.jamming import AfterJamming
-from crumple.hinge.law import Floats, Source, Trust, Validity
-from crumple.hinge.laws.kecman import KecmanLaw
+from crumple.hinge.bending.folding import FoldingLaw
+from crumple.hinge.bending.jamming import AfterJamming
+from crumple.hinge.bending.kecman import KecmanLaw
+from crumple.hinge.law import Source, Trust, Validity
 from crumple.hinge.options import choice, number_between
 from crumple.hinge.registry import law_type
-from crumple.hinge.root import sign_change
 from crumple.hinge.stop import Stop
 from crumple.material import Material
+from crumple.numeric.arrays import Floats
+from crumple.numeric.sign_change import sign_change
 from crumple.section import Axis, RectangularTube, Section
 
 SOURCE = Source(
@@ -66,7 +67,7 @@ class ObliqueLaw(FoldingLaw):
 
     References
     ----------
-    docs/theory/oblique.md.  Verified in tests/verification/test_oblique_bending.py.
+    docs/theory/oblique.md.  Verified in tests/verification/hinge/test_oblique_bending.py.
     """
 
     name: ClassVar[str] = "oblique"

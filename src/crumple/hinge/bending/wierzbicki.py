@@ -4,8 +4,8 @@ Unknown: the capacity M(theta) of a square tube with mid-line side b, wall t and
 
     M = min(Mmax, C (0.576 + 1/(2 sqrt(theta)))),        C = 4.65 s_0 b^(4/3) t^(5/3)
 
-Mmax is the largest moment of crumple.hinge.capacity.  Limits: theta -> 0 is singular, hence the cap, which
-ends at theta_T = (2 (Mmax/C - 0.576))^-2; for large theta M tends to 0.576 C, but the walls touch
+Mmax is the largest moment of crumple.hinge.bending.largest_moment.  Limits: theta -> 0 is singular, hence the
+cap, which ends at theta_T = (2 (Mmax/C - 0.576))^-2; for large theta M tends to 0.576 C, but the walls touch
 before that.
 """
 
@@ -18,15 +18,16 @@ from typing import ClassVar
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.capacity import peak_moment
-from crumple.hinge.folding import FoldingLaw
-from crumple.hinge.jamming import AfterJamming
-from crumple.hinge.law import Floats, Source, Trust, Validity
+from crumple.hinge.bending.folding import FoldingLaw
+from crumple.hinge.bending.jamming import AfterJamming
+from crumple.hinge.bending.largest_moment import peak_moment
+from crumple.hinge.law import Source, Trust, Validity
 from crumple.hinge.options import choice
 from crumple.hinge.rate import hinge_rate
 from crumple.hinge.registry import law_type
 from crumple.hinge.stop import Stop
 from crumple.material import Material
+from crumple.numeric.arrays import Floats
 from crumple.section import Axis, RectangularTube, Section, half_fold_length
 
 SOURCE = Source(
@@ -61,7 +62,7 @@ class WierzbickiLaw(FoldingLaw):
 
     References
     ----------
-    docs/theory/wierzbicki.md.  Verified in tests/verification/test_wierzbicki.py.
+    docs/theory/wierzbicki.md.  Verified in tests/verification/hinge/test_wierzbicki.py.
     """
 
     name: ClassVar[str] = "wierzbicki"

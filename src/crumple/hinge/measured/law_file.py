@@ -12,12 +12,12 @@ from collections.abc import Iterable, Mapping
 from crumple.errors import InputError, Problem
 from crumple.hinge.band import Band
 from crumple.hinge.law import HingeLaw, SofteningVariable, Source, Trust, Validity
-from crumple.hinge.law_group import Group
-from crumple.hinge.laws.stored import StoredCurve, StoredLaw
-from crumple.hinge.plain_yaml import read_plain_yaml
+from crumple.hinge.measured.law_group import Group
+from crumple.hinge.measured.stored import StoredCurve, StoredLaw
 from crumple.hinge.rate import HingeRate
-from crumple.hinge.sampling import sampled_envelope
+from crumple.hinge.record.sampling import sampled_envelope
 from crumple.hinge.stop import Stop
+from crumple.text.plain_yaml import read_plain_yaml
 
 FORMAT = 1
 """Version of the format; a reader refuses others."""

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import NoReturn, TypeVar
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.plain_yaml import Entry
+from crumple.text.plain_yaml import Entry
 from crumple.units import QuantityError, parse_quantity
 
 Value = TypeVar("Value")

@@ -4,7 +4,7 @@ The same steps serve a bending test (moment against rotation) and a crush test (
 "abscissa" and "ordinate" below are either pair.
 
     smoothing   least-squares parabola over a moving window, at its middle; ends by the first and last window
-    elastic     crumple.hinge.table.plastic_part on each specimen
+    elastic     crumple.hinge.measured.table.plastic_part on each specimen
     mean        of all specimens on one grid that ends with the shortest of them
     band        mean +- coverage x standard deviation (n - 1), at every point
     dynamic     a constant factor on mean and band, where the tests were slow and no rate law is used
@@ -21,12 +21,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.axial_law import CrushRate, CrushValidity
+from crumple.hinge.axial.axial_law import CrushRate, CrushValidity
 from crumple.hinge.band import Band
-from crumple.hinge.law import Floats, Source, Trust
-from crumple.hinge.laws.tabulated import TabulatedLaw
+from crumple.hinge.law import Source, Trust
+from crumple.hinge.measured.table import BENDING, CRUSHING, Curve, plastic_part, read_table
+from crumple.hinge.measured.tabulated import TabulatedLaw
 from crumple.hinge.rate import HingeRate
-from crumple.hinge.table import BENDING, CRUSHING, Curve, plastic_part, read_table
+from crumple.numeric.arrays import Floats
 
 GRID = 200
 """Points of the common grid; finer than any curve that a hinge needs."""
@@ -227,7 +228,7 @@ class MeasuredCrushing:
 
     Attributes
     ----------
-    As `crumple.hinge.axial_law.AxialLaw`.
+    As `crumple.hinge.axial.axial_law.AxialLaw`.
     """
 
     peak_force: float

@@ -1,7 +1,7 @@
 """A law read from a law file: curves of both senses with everything that was known where they were made.
 
 Straight lines between points, the last capacity held.  What it is of (formula, test, shell model) stays
-with it: source, range, band, rate, stop.  See crumple.hinge.law_file for the format.
+with it: source, range, band, rate, stop.  See crumple.hinge.measured.law_file for the format.
 """
 
 from __future__ import annotations
@@ -14,12 +14,13 @@ from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.band import Band, Bound, band_of
-from crumple.hinge.law import Floats, HingeLaw, SofteningVariable, Source, Validity
+from crumple.hinge.law import HingeLaw, SofteningVariable, Source, Validity
 from crumple.hinge.options import choice
 from crumple.hinge.rate import HingeRate, rate_factor
 from crumple.hinge.registry import law_type
 from crumple.hinge.stop import Stop
 from crumple.material import Material
+from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section
 
 Points = tuple[tuple[float, ...], tuple[float, ...]]
@@ -66,7 +67,7 @@ class StoredLaw:
 
     References
     ----------
-    docs/law_file.md.  Verified in tests/unit/hinge/test_law_file.py.
+    docs/law_file.md.  Verified in tests/unit/hinge/measured/test_law_file.py.
     """
 
     name: ClassVar[str] = "file"
@@ -109,7 +110,7 @@ class StoredLaw:
         InputError
             With lines, if the text is no law file.
         """
-        from crumple.hinge.law_file import read_law  # noqa: PLC0415  (the reader builds this class)
+        from crumple.hinge.measured.law_file import read_law  # noqa: PLC0415  (the reader builds this class)
 
         return read_law(text)
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.law import Floats
+from crumple.numeric.arrays import Floats
 from crumple.units import QuantityError, unit_factor
 
 Curve = Sequence[float] | Floats

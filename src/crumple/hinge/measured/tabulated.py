@@ -2,7 +2,8 @@
 
 Straight lines between the points; the last capacity is held beyond the last point, where the law warns.
 The table runs on plastic rotation: a test that starts with an elastic rise has that part removed first
-(crumple.hinge.table.plastic_part), since the elasticity belongs to the member or to the elastic form.
+(crumple.hinge.measured.table.plastic_part), since the elasticity belongs to the member or to the elastic
+form.
 """
 
 from __future__ import annotations
@@ -14,12 +15,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
+from crumple.hinge.measured.table import Curve, plastic_part
 from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor, rate_warnings
 from crumple.hinge.registry import law_type
 from crumple.hinge.stop import Stop
-from crumple.hinge.table import Curve, plastic_part
 from crumple.material import Material
+from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section
 
 MEASURED = Source("table", Trust.MEASURED, "as good as the curve that was supplied")

@@ -9,8 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from crumple.hinge.law import Floats, SofteningVariable
+from crumple.hinge.law import SofteningVariable
 from crumple.hinge.stop import Stop
+from crumple.numeric.arrays import Floats
 
 __all__ = ["Envelope", "Form", "HingeRecord", "Stop"]
 

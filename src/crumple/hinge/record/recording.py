@@ -7,8 +7,8 @@ from typing import Literal
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.law import HingeLaw, SofteningVariable
-from crumple.hinge.record import Form, HingeRecord
-from crumple.hinge.sampling import sampled_envelope
+from crumple.hinge.record.record import Form, HingeRecord
+from crumple.hinge.record.sampling import sampled_envelope
 from crumple.hinge.stop import Stop
 
 Stops = Literal["law"] | Stop | tuple[Stop | None, Stop | None] | None
@@ -67,7 +67,7 @@ def record_of(
 
     References
     ----------
-    Verified in tests/unit/hinge/test_recording.py.
+    Verified in tests/unit/hinge/record/test_recording.py.
     """
     if not (math.isfinite(regularisation_rate) and regularisation_rate > 0.0):
         what, todo = "the regularisation rate must be positive", "0.05 rad/s is the usual half-width"

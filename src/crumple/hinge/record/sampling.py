@@ -12,8 +12,9 @@ import math
 import numpy as np
 
 from crumple.errors import CrumpleError
-from crumple.hinge.law import Floats, HingeLaw
-from crumple.hinge.record import Envelope
+from crumple.hinge.law import HingeLaw
+from crumple.hinge.record.record import Envelope
+from crumple.numeric.arrays import Floats
 
 DENSE = np.linspace(0.0, 1.0, 65)
 """Points per smooth piece on which the error is measured, beside the middle of every chord."""

@@ -12,7 +12,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crumple.hinge.law import Floats, HingeLaw
+from crumple.hinge.law import HingeLaw
+from crumple.numeric.arrays import Floats
 
 STEP = 1e-3
 """Relative change of the property: fourth-order error near 1e-12, rounding near 1e-13 over it."""
@@ -53,7 +54,7 @@ def capacity_sensitivity(
 
     References
     ----------
-    Verified in tests/unit/hinge/test_spatial_recording.py.
+    Verified in tests/unit/hinge/record/test_spatial_recording.py.
     """
     places = np.asarray(rotation, np.float64)
 

@@ -8,8 +8,9 @@ from enum import Enum, IntEnum
 
 import numpy as np
 
-from crumple.hinge.law import Floats, SofteningVariable
-from crumple.hinge.record import Form, HingeRecord
+from crumple.hinge.law import SofteningVariable
+from crumple.hinge.record.record import Form, HingeRecord
+from crumple.numeric.arrays import Floats
 
 
 class Freedom(IntEnum):

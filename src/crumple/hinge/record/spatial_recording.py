@@ -20,9 +20,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.law import Floats
-from crumple.hinge.record import Form, HingeRecord
-from crumple.hinge.spatial_record import Coupling, Freedom, HingeComponent, HingeSurface, SpatialHingeRecord
+from crumple.hinge.record.record import Form, HingeRecord
+from crumple.hinge.record.spatial_record import (
+    Coupling,
+    Freedom,
+    HingeComponent,
+    HingeSurface,
+    SpatialHingeRecord,
+)
+from crumple.numeric.arrays import Floats
 
 if TYPE_CHECKING:
     from crumple.section import InteractionFit
@@ -66,8 +72,8 @@ def spatial_record(
 
     References
     ----------
-    docs/theory/spatial_hinge.md.  Verified in tests/unit/hinge/test_spatial_recording.py and
-    tests/verification/test_spatial_hinge.py.
+    docs/theory/spatial_hinge.md.  Verified in tests/unit/hinge/record/test_spatial_recording.py and
+    tests/verification/spatial/test_spatial_hinge.py.
     """
     ordered = tuple(sorted(components, key=lambda component: component.freedom))
     problems = [*_component_problems(ordered), *_coupling_problems(ordered, coupling, interaction, arm)]

@@ -2,8 +2,8 @@
 
     T = T_p
 
-T_p is the largest torque of the section, see `crumple.section.plastic_torsion`.  An upper bound of the peak:
-thin walls buckle in shear and fold.  Limits: one closed cell has Bredt's 2 A t s_y/sqrt(3).
+T_p is the largest torque of the section, see `crumple.section.properties.plastic_torsion`.  An upper bound of
+the peak: thin walls buckle in shear and fold.  Limits: one closed cell has Bredt's 2 A t s_y/sqrt(3).
 """
 
 from __future__ import annotations
@@ -16,11 +16,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
 from crumple.hinge.rate import HingeRate, rate_factor
 from crumple.hinge.registry import torsion_law_type
 from crumple.hinge.stop import Stop
 from crumple.material import Material
+from crumple.numeric.arrays import Floats
 from crumple.section import Section
 
 SOURCE = Source(
@@ -42,7 +43,7 @@ class PlasticTorsion:
 
     References
     ----------
-    docs/theory/torsion.md.  Verified in tests/unit/hinge/test_spatial_recording.py.
+    docs/theory/torsion.md.  Verified in tests/unit/hinge/record/test_spatial_recording.py.
     """
 
     name: ClassVar[str] = "plastic"

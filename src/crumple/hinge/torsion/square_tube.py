@@ -22,11 +22,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.law import Floats, SofteningVariable, Source, Trust, Validity
+from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
 from crumple.hinge.rate import HingeRate, rate_factor
 from crumple.hinge.registry import torsion_law_type
 from crumple.hinge.stop import Stop
 from crumple.material import Material
+from crumple.numeric.arrays import Floats
 from crumple.section import RectangularTube, Section
 
 SOURCE = Source(
@@ -52,7 +53,7 @@ class SquareTubeTorsion:
 
     References
     ----------
-    docs/theory/torsion.md.  Verified in tests/verification/test_torsion_collapse.py.
+    docs/theory/torsion.md.  Verified in tests/verification/hinge/test_torsion_collapse.py.
     """
 
     name: ClassVar[str] = "square_tube"

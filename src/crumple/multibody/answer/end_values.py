@@ -8,19 +8,19 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from crumple._core.batch import TreeFinals
-from crumple._core.space_batch import SpaceFinals
-from crumple._core.tree import Outcome, TreeRecord
-from crumple.multibody.histories import (
+from crumple._core.planar.batch import TreeFinals
+from crumple._core.planar.simulation import Outcome, TreeRecord
+from crumple._core.spatial.batch import SpaceFinals
+from crumple.multibody.answer.histories import (
     clearance_channels,
     distance_channels,
     node_channels,
     section_channels,
 )
-from crumple.multibody.lowered import Lowered
-from crumple.multibody.poses import Poses, TreePoses
-from crumple.multibody.rigid import Floats
-from crumple.multibody.tree_solver import energy_of, hinge_columns
+from crumple.multibody.answer.poses import Poses, TreePoses
+from crumple.multibody.planar.case import Lowered
+from crumple.multibody.planar.solver import energy_of, hinge_columns
+from crumple.numeric.arrays import Floats
 from crumple.structure import Outputs, Structure
 
 OF_HINGES = ("rotation", "plastic_rotation", "moment", "capacity", "energy")

@@ -19,14 +19,15 @@ from typing import Literal
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.multibody.assembly import Piece
-from crumple.multibody.linkage import GROUND, Linkage
-from crumple.multibody.poses import SpacePoses, piece_at
-from crumple.multibody.rigid import Floats, piece_mass
+from crumple.multibody.answer.poses import SpacePoses, piece_at
+from crumple.multibody.bodies.assembly import Piece
+from crumple.multibody.bodies.linkage import GROUND, Linkage
+from crumple.multibody.bodies.rigid import piece_mass
+from crumple.numeric.arrays import Floats
+from crumple.numeric.rotation import product, turned, vector_quaternion
 from crumple.result import Channel
 from crumple.section import fitted_interaction, plastic_interaction
 from crumple.structure import Outputs, SectionForce, Structure
-from crumple.structure.rotation import product, turned, vector_quaternion
 
 AXES = ("x", "y", "z")
 

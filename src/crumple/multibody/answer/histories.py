@@ -6,9 +6,10 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from crumple.multibody.poses import Poses, piece_at
-from crumple.multibody.rigid import Floats, lump_mass, piece_mass
-from crumple.multibody.solved import HingeHistory, Solved
+from crumple.multibody.answer.poses import Poses, piece_at
+from crumple.multibody.answer.solved import HingeHistory, Solved
+from crumple.multibody.bodies.rigid import lump_mass, piece_mass
+from crumple.numeric.arrays import Floats
 from crumple.result import Channel, HingeSummary
 from crumple.result.clearance import clearance
 from crumple.structure import Outputs, Structure

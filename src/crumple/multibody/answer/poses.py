@@ -8,13 +8,13 @@ from typing import Protocol
 
 import numpy as np
 
-from crumple._core.space import SpaceRecord
-from crumple._core.tree import TreeRecord
-from crumple.multibody.assembly import Piece
-from crumple.multibody.linkage import GROUND, Linkage
-from crumple.multibody.mechanism import Mechanism
-from crumple.multibody.rigid import Floats
-from crumple.structure.rotation import (
+from crumple._core.planar.simulation import TreeRecord
+from crumple._core.spatial.simulation import SpaceRecord
+from crumple.multibody.bodies.assembly import Piece
+from crumple.multibody.bodies.linkage import GROUND, Linkage
+from crumple.multibody.planar.mechanism import Mechanism
+from crumple.numeric.arrays import Floats
+from crumple.numeric.rotation import (
     continuous,
     inverse,
     product,

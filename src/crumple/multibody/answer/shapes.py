@@ -6,16 +6,13 @@ from itertools import groupby
 from operator import itemgetter
 
 import numpy as np
-from numpy.typing import NDArray
 
-from crumple.multibody.assembly import Piece
-from crumple.multibody.poses import Poses
-from crumple.multibody.rigid import Floats
+from crumple.multibody.answer.poses import Poses
+from crumple.multibody.bodies.assembly import Piece
+from crumple.numeric.arrays import Floats, Integers
+from crumple.numeric.rotation import product, turned, vector_quaternion
 from crumple.result import States
 from crumple.structure import Structure
-from crumple.structure.rotation import product, turned, vector_quaternion
-
-Integers = NDArray[np.int64]
 
 LONGEST_QUAD = 2.0
 """Length of a quadrilateral over the section's largest side: smooth enough to draw, few enough to store."""

@@ -8,9 +8,9 @@ from typing import Protocol
 
 import numpy as np
 
-from crumple._core.tree import Outcome
-from crumple.multibody.poses import Poses
-from crumple.multibody.rigid import Floats
+from crumple._core.planar.simulation import Outcome
+from crumple.multibody.answer.poses import Poses
+from crumple.numeric.arrays import Floats
 from crumple.result import Channel, StageSummary
 from crumple.structure import PlacedHinge
 

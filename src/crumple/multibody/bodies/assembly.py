@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crumple.errors import InputError, Problem
-from crumple.multibody.rigid import RigidMass, combined, lump_mass, piece_mass
+from crumple.multibody.bodies.rigid import RigidMass, combined, lump_mass, piece_mass
 from crumple.structure import Joint, PlacedHinge, Structure
 
 

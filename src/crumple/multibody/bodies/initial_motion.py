@@ -10,12 +10,13 @@ from typing import Protocol
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.multibody.assembly import Piece
-from crumple.multibody.linkage import GROUND, Linkage
-from crumple.multibody.rigid import Floats, RigidMass, lump_mass, piece_mass
+from crumple.multibody.bodies.assembly import Piece
+from crumple.multibody.bodies.linkage import GROUND, Linkage
+from crumple.multibody.bodies.rigid import RigidMass, lump_mass, piece_mass
+from crumple.numeric.arrays import Floats
+from crumple.numeric.rotation import turned
 from crumple.structure import InitialVelocity, NodalImpulse, Structure
 from crumple.structure.geometry import cross
-from crumple.structure.rotation import turned
 
 FASTEST = 1e5
 """Speed [m/s] that an impulse may give a part before joints slow it."""

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.multibody.assembly import Assembly, Cut, Piece, assemble, idle
-from crumple.multibody.rigid import Floats, RigidMass
+from crumple.multibody.bodies.assembly import Assembly, Cut, Piece, assemble, idle
+from crumple.multibody.bodies.rigid import RigidMass
+from crumple.numeric.arrays import Floats
 from crumple.structure import FREEDOMS, Joint, PlacedHinge, Structure, placed_hinges
 from crumple.structure.geometry import cross
 

@@ -19,8 +19,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from crumple.multibody.linkage import GROUND, Connection, Linkage
-from crumple.multibody.rigid import Floats
+from crumple.multibody.bodies.linkage import GROUND, Connection, Linkage
+from crumple.numeric.arrays import Floats
 
 NOTHING = 1e-9
 """Singular value over the largest, and share of a motion, below which it is rounding."""

@@ -14,7 +14,7 @@ from itertools import combinations
 
 import numpy as np
 
-from crumple._core.space_model import (
+from crumple._core.spatial.model import (
     ObstacleKind,
     SpaceBody,
     SpaceCapsule,
@@ -25,10 +25,10 @@ from crumple._core.space_model import (
     SpaceObstacle,
     frame_of,
 )
-from crumple.multibody.assembly import Piece
-from crumple.multibody.linkage import GROUND, Linkage
-from crumple.multibody.rigid import Floats
-from crumple.multibody.sampling import sampled_motion
+from crumple.multibody.bodies.assembly import Piece
+from crumple.multibody.bodies.linkage import GROUND, Linkage
+from crumple.multibody.bodies.sampled_functions import sampled_motion
+from crumple.numeric.arrays import Floats
 from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Structure
 
 LIGHT = 1e-3

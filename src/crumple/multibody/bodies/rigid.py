@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from crumple.numeric.arrays import Floats
 from crumple.section import Section
 from crumple.structure import Frame, Mass, Structure
 from crumple.structure.remembered import remembered
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

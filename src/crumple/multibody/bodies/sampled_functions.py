@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from crumple.function import TimeFunction
-from crumple.multibody.rigid import Floats
+from crumple.numeric.arrays import Floats
 
 SAMPLING = 1e-5
 """Error of a sampled function of time, relative to its largest value; far below any accuracy asked for."""

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 
 from crumple.hinge import Freedom
-from crumple.multibody.solved import HingeHistory
+from crumple.multibody.answer.solved import HingeHistory
 from crumple.units import format_quantity
 
 SHOWN = 6

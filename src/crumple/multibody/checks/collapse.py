@@ -19,7 +19,7 @@ from dataclasses import replace
 import numpy as np
 
 from crumple.hinge import Envelope, HingeRecord
-from crumple.multibody.solved import HingeHistory
+from crumple.multibody.answer.solved import HingeHistory
 from crumple.result import Opening
 from crumple.structure import PlacedHinge
 

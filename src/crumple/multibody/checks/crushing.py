@@ -14,12 +14,12 @@ import numpy as np
 
 from crumple.errors import InputError
 from crumple.hinge import Freedom, axial_law_types, build_axial_law
-from crumple.multibody.forces import on_second
-from crumple.multibody.poses import SpacePoses
-from crumple.multibody.solved import Solved
+from crumple.multibody.answer.forces import on_second
+from crumple.multibody.answer.poses import SpacePoses
+from crumple.multibody.answer.solved import Solved
+from crumple.numeric.rotation import turned
 from crumple.section import plastic_interaction
 from crumple.structure import Structure
-from crumple.structure.rotation import turned
 
 ALONG = np.cos(np.radians(30.0))
 """Cosine of the angle between a blow and a member's axis from which it counts as bending, not crushing."""

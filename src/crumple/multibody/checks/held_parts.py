@@ -11,12 +11,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from crumple._core.space_model import SpaceCapsule
-from crumple._core.tree import Outcome
-from crumple.multibody.obstacle_bodies import member_capsules
-from crumple.multibody.overlap import segment_distance
-from crumple.multibody.rigid import Floats
-from crumple.multibody.solved import Solved
+from crumple._core.planar.simulation import Outcome
+from crumple._core.spatial.model import SpaceCapsule
+from crumple.multibody.answer.solved import Solved
+from crumple.multibody.bodies.obstacle_bodies import member_capsules
+from crumple.multibody.checks.overlap import segment_distance
+from crumple.numeric.arrays import Floats
 from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Structure
 from crumple.units import format_quantity
 

@@ -12,9 +12,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from crumple.multibody.linkage import Linkage
-from crumple.multibody.mobility import NOTHING, Tree, loop_system, tree_of
-from crumple.multibody.rigid import Floats
+from crumple.multibody.bodies.linkage import Linkage
+from crumple.multibody.bodies.mobility import NOTHING, Tree, loop_system, tree_of
+from crumple.numeric.arrays import Floats
 
 SMALL = 1e-4
 """Rates that show second order: third order and rounding are both 1e-4 of it or less."""

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from crumple.multibody.linkage import link
-from crumple.multibody.obstacle_bodies import member_capsules, touching_pairs
-from crumple.multibody.rigid import Floats
+from crumple.multibody.bodies.linkage import link
+from crumple.multibody.bodies.obstacle_bodies import member_capsules, touching_pairs
+from crumple.numeric.arrays import Floats
 from crumple.structure import PlacedHinge, Structure
 
 JOINED = 0.1
-"""Share of the radii within which centre lines meet: as in native/space/contacts.cpp."""
+"""Share of the radii within which centre lines meet: as in native/spatial/contact/contacts.cpp."""
 LEAST = 1e-6
 """Overlap [m] that is rounding of the input."""
 

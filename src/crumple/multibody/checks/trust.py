@@ -7,13 +7,13 @@ import math
 import numpy as np
 
 from crumple.hinge import Form, Freedom, SofteningVariable, tributary_stiffness
-from crumple.multibody.broken import broken_warnings
-from crumple.multibody.crushing import crushing_warnings
-from crumple.multibody.held_parts import held_part_warnings
-from crumple.multibody.linkage import link
-from crumple.multibody.mobility import free_parts
-from crumple.multibody.overlap import overlap_warnings
-from crumple.multibody.solved import Solved, Solver
+from crumple.multibody.answer.solved import Solved, Solver
+from crumple.multibody.bodies.linkage import link
+from crumple.multibody.bodies.mobility import free_parts
+from crumple.multibody.checks.broken import broken_warnings
+from crumple.multibody.checks.crushing import crushing_warnings
+from crumple.multibody.checks.held_parts import held_part_warnings
+from crumple.multibody.checks.overlap import overlap_warnings
 from crumple.result import HingeSummary
 from crumple.structure import PlacedHinge, Structure
 

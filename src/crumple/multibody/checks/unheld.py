@@ -11,9 +11,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from crumple.errors import Status
-from crumple.multibody.linkage import Linkage
-from crumple.multibody.mobility import free_twists
-from crumple.multibody.rigid import Floats
+from crumple.multibody.bodies.linkage import Linkage
+from crumple.multibody.bodies.mobility import free_twists
+from crumple.numeric.arrays import Floats
 from crumple.structure import Stage, Structure
 
 ROUNDING = 1e-9

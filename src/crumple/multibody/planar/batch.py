@@ -7,14 +7,14 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from crumple._core.batch import TreeFinals, TreeVariants, solve_many
-from crumple.multibody.choice import refuse_spatial
-from crumple.multibody.factors import masses_of
-from crumple.multibody.finals import final_quantities
-from crumple.multibody.lowered import Lowered, RawMass, lowered, raw_mass, tree_arrays
-from crumple.multibody.rigid import Floats
+from crumple._core.planar.batch import TreeFinals, TreeVariants, solve_many
+from crumple.multibody.answer.end_values import final_quantities
+from crumple.multibody.answer.solved import Poll
+from crumple.multibody.kernel_choice import refuse_spatial
+from crumple.multibody.planar.case import Lowered, RawMass, lowered, raw_mass, tree_arrays
 from crumple.multibody.run import Run
-from crumple.multibody.solved import Poll
+from crumple.multibody.variants.factors import masses_of
+from crumple.numeric.arrays import Floats
 from crumple.structure import Structure, changed, value_at
 
 

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crumple._core.tree import TreeModel
+from crumple._core.planar.simulation import TreeModel
 from crumple.errors import InputError
-from crumple.multibody.mechanism import Mechanism, hinge_links, lower
-from crumple.multibody.model import start_of, tree_model
-from crumple.multibody.rigid import Floats
-from crumple.multibody.start import Start
+from crumple.multibody.bodies.initial_motion import Start
+from crumple.multibody.planar.mechanism import Mechanism, hinge_links, lower
+from crumple.multibody.planar.model import start_of, tree_model
+from crumple.numeric.arrays import Floats
 from crumple.structure import Structure
 
 RawMass = Floats

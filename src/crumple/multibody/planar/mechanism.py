@@ -16,9 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.multibody.assembly import Assembly, Piece, assemble
-from crumple.multibody.plane import Plane, plane_of
-from crumple.multibody.rigid import Floats, RigidMass
+from crumple.multibody.bodies.assembly import Assembly, Piece, assemble
+from crumple.multibody.bodies.rigid import RigidMass
+from crumple.multibody.planar.plane import Plane, plane_of
+from crumple.numeric.arrays import Floats
 from crumple.structure import PlacedHinge, Structure, placed_hinges
 
 GROUND = -1

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from crumple._core.tree import (
+from crumple._core.planar.simulation import (
     JointKind,
     TreeBody,
     TreeDrive,
@@ -19,10 +19,10 @@ from crumple._core.tree import (
 )
 from crumple.errors import InputError, Problem
 from crumple.hinge import Envelope, Form, HingeRecord, SofteningVariable, Stop
-from crumple.multibody.mechanism import GROUND, Mechanism
-from crumple.multibody.rigid import Floats
-from crumple.multibody.sampling import sampled, sampled_motion
-from crumple.multibody.start import Start, motion_of, moving_parts, refuse_speeding
+from crumple.multibody.bodies.initial_motion import Start, motion_of, moving_parts, refuse_speeding
+from crumple.multibody.bodies.sampled_functions import sampled, sampled_motion
+from crumple.multibody.planar.mechanism import GROUND, Mechanism
+from crumple.numeric.arrays import Floats
 from crumple.structure import Structure
 
 FORMS = {Form.SET_VALUED: 0, Form.ELASTIC_PLASTIC: 1, Form.REGULARISED: 2}

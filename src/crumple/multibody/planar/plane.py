@@ -13,10 +13,10 @@ from functools import cached_property
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.multibody.rigid import Floats
+from crumple.numeric.arrays import Floats
 from crumple.structure import PlacedHinge, Structure, Support
 from crumple.structure.geometry import cross
-from crumple.structure.motion import FREEDOMS
+from crumple.structure.keys.motion import FREEDOMS
 
 PARALLEL = 1e-6
 """Sine of the angle between two axes below which they count as parallel."""

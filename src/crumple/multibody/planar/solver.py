@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from crumple._core.tree import Simulation, TreeRecord, kernel_model
-from crumple.multibody.mechanism import Mechanism, hinge_links, lower
-from crumple.multibody.model import start_of, tree_model
-from crumple.multibody.poses import TreePoses
-from crumple.multibody.rigid import Floats
+from crumple._core.planar.simulation import Simulation, TreeRecord, kernel_model
+from crumple.multibody.answer.poses import TreePoses
+from crumple.multibody.answer.solved import HingeHistory, Poll, Solved
+from crumple.multibody.planar.mechanism import Mechanism, hinge_links, lower
+from crumple.multibody.planar.model import start_of, tree_model
 from crumple.multibody.run import Run, output_times
-from crumple.multibody.solved import HingeHistory, Poll, Solved
+from crumple.numeric.arrays import Floats
 from crumple.structure import PlacedHinge, Structure
 
 

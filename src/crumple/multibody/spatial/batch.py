@@ -7,13 +7,13 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from crumple._core.space_batch import SpaceFinals, SpaceVariants, solve_many
-from crumple.multibody.factors import masses_of
-from crumple.multibody.rigid import Floats
+from crumple._core.spatial.batch import SpaceFinals, SpaceVariants, solve_many
+from crumple.multibody.answer.solved import Poll
 from crumple.multibody.run import Run
-from crumple.multibody.solved import Poll
-from crumple.multibody.space_finals import space_quantities
-from crumple.multibody.space_lowered import SpaceLowered, lowered_in_space, space_arrays, space_raw_mass
+from crumple.multibody.spatial.case import SpaceLowered, lowered_in_space, space_arrays, space_raw_mass
+from crumple.multibody.spatial.end_values import space_quantities
+from crumple.multibody.variants.factors import masses_of
+from crumple.numeric.arrays import Floats
 from crumple.structure import Structure, changed, value_at
 
 

@@ -7,16 +7,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crumple._core.space_batch import SpaceCase, SpaceStage
-from crumple._core.space_model import SpaceModel
+from crumple._core.spatial.batch import SpaceCase, SpaceStage
+from crumple._core.spatial.model import SpaceModel
 from crumple.errors import InputError, Problem
-from crumple.multibody.linkage import Linkage, check_inertia, link
-from crumple.multibody.obstacle_bodies import Touching, with_obstacles
-from crumple.multibody.rigid import Floats
+from crumple.multibody.bodies.initial_motion import Placed, start_in_space
+from crumple.multibody.bodies.linkage import Linkage, check_inertia, link
+from crumple.multibody.bodies.obstacle_bodies import Touching, with_obstacles
 from crumple.multibody.run import Run
-from crumple.multibody.space_model import space_model, support_drives
-from crumple.multibody.stages import lowered_until, refuse_floating, stages_of
-from crumple.multibody.start import Placed, start_in_space
+from crumple.multibody.spatial.model import space_model, support_drives
+from crumple.multibody.spatial.stages import lowered_until, refuse_floating, stages_of
+from crumple.numeric.arrays import Floats
 from crumple.structure import Stage, Structure
 
 

@@ -1,4 +1,4 @@
-"""Where runs in space ended, as named quantities; see `crumple.multibody.finals`."""
+"""Where runs in space ended, as named quantities; see `crumple.multibody.answer.end_values`."""
 
 from __future__ import annotations
 
@@ -6,17 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crumple._core.space import SpaceRecord
-from crumple._core.space_batch import SpaceFinals
-from crumple._core.tree import Outcome
-from crumple.multibody.finals import place_quantities
-from crumple.multibody.linkage import GROUND
-from crumple.multibody.poses import SpacePoses
-from crumple.multibody.rigid import Floats
-from crumple.multibody.space_lowered import SpaceLowered
-from crumple.multibody.space_solver import energy_in_space, hinge_columns
+from crumple._core.planar.simulation import Outcome
+from crumple._core.spatial.batch import SpaceFinals
+from crumple._core.spatial.simulation import SpaceRecord
+from crumple.multibody.answer.end_values import place_quantities
+from crumple.multibody.answer.poses import SpacePoses
+from crumple.multibody.bodies.linkage import GROUND
+from crumple.multibody.spatial.case import SpaceLowered
+from crumple.multibody.spatial.solver import energy_in_space, hinge_columns
+from crumple.numeric.arrays import Floats
+from crumple.numeric.rotation import inverse, product, quaternion_vector, turned
 from crumple.structure import Outputs
-from crumple.structure.rotation import inverse, product, quaternion_vector, turned
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from crumple._core.space_model import (
+from crumple._core.spatial.model import (
     Coupling as SpaceCoupling,
 )
-from crumple._core.space_model import (
+from crumple._core.spatial.model import (
     SpaceBody,
     SpaceComponent,
     SpaceDrive,
@@ -20,9 +20,9 @@ from crumple._core.space_model import (
     SpaceSurface,
 )
 from crumple.hinge import Coupling, HingeRecord
-from crumple.multibody.linkage import GROUND, Connection, Linkage
-from crumple.multibody.model import FORMS, SOFTENING, stop_of
-from crumple.multibody.sampling import sampled, sampled_motion
+from crumple.multibody.bodies.linkage import GROUND, Connection, Linkage
+from crumple.multibody.bodies.sampled_functions import sampled, sampled_motion
+from crumple.multibody.planar.model import FORMS, SOFTENING, stop_of
 from crumple.structure import FREEDOMS, Structure
 
 COUPLINGS = {

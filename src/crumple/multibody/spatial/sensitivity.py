@@ -11,16 +11,16 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from crumple._core.space_model import SpaceModel
-from crumple._core.tree import Outcome
+from crumple._core.planar.simulation import Outcome
+from crumple._core.spatial.model import SpaceModel
 from crumple.errors import InputError, Problem, Status
-from crumple.multibody.factors import checked_names, is_factor
-from crumple.multibody.finals import part_of
-from crumple.multibody.rigid import Floats
+from crumple.multibody.answer.end_values import part_of
+from crumple.multibody.answer.solved import Poll
 from crumple.multibody.run import Run, outcome_status
-from crumple.multibody.solved import Poll
-from crumple.multibody.space_batch import SpaceBatch
-from crumple.multibody.space_lowered import SpaceLowered
+from crumple.multibody.spatial.batch import SpaceBatch
+from crumple.multibody.spatial.case import SpaceLowered
+from crumple.multibody.variants.factors import checked_names, is_factor
+from crumple.numeric.arrays import Floats
 from crumple.structure import Structure, changed, value_at
 
 RELATIVE_STEP = 1e-5

@@ -10,20 +10,20 @@ from typing import Any
 
 import numpy as np
 
-from crumple._core.space import SpaceRecord, SpaceSimulation
-from crumple._core.tree import Outcome
-from crumple.multibody.forces import check_sections, force_channels, section_force_channels
-from crumple.multibody.linkage import Linkage, check_inertia, link
-from crumple.multibody.mobility import free_parts
-from crumple.multibody.obstacle_bodies import with_obstacles
-from crumple.multibody.poses import SpacePoses
-from crumple.multibody.rigid import Floats
+from crumple._core.planar.simulation import Outcome
+from crumple._core.spatial.simulation import SpaceRecord, SpaceSimulation
+from crumple.multibody.answer.forces import check_sections, force_channels, section_force_channels
+from crumple.multibody.answer.poses import SpacePoses
+from crumple.multibody.answer.solved import HingeHistory, Poll, Solved
+from crumple.multibody.bodies.initial_motion import Placed
+from crumple.multibody.bodies.linkage import Linkage, check_inertia, link
+from crumple.multibody.bodies.mobility import free_parts
+from crumple.multibody.bodies.obstacle_bodies import with_obstacles
 from crumple.multibody.run import Run, output_times
-from crumple.multibody.solved import HingeHistory, Poll, Solved
-from crumple.multibody.space_lowered import added_motion, kernel_stage
-from crumple.multibody.space_model import space_model, support_drives
-from crumple.multibody.stages import lost_equilibrium, lowered_until, refuse_floating, stages_of, told
-from crumple.multibody.start import Placed
+from crumple.multibody.spatial.case import added_motion, kernel_stage
+from crumple.multibody.spatial.model import space_model, support_drives
+from crumple.multibody.spatial.stages import lost_equilibrium, lowered_until, refuse_floating, stages_of, told
+from crumple.numeric.arrays import Floats
 from crumple.result import Channel, StageSummary
 from crumple.structure import PlacedHinge, Stage, Structure
 

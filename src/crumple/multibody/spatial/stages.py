@@ -7,12 +7,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from crumple._core.space import SpaceRecord, SpaceUntil
-from crumple._core.space import Until as Quantity
+from crumple._core.spatial.simulation import SpaceRecord, SpaceUntil
+from crumple._core.spatial.simulation import Until as Quantity
 from crumple.errors import InputError, Problem
-from crumple.multibody.linkage import Linkage
-from crumple.multibody.mobility import floating_members, named_members
-from crumple.multibody.obstacle_bodies import Touching
+from crumple.multibody.bodies.linkage import Linkage
+from crumple.multibody.bodies.mobility import floating_members, named_members
+from crumple.multibody.bodies.obstacle_bodies import Touching
 from crumple.multibody.run import Run
 from crumple.structure import FREEDOMS, Stage, Structure, Until
 from crumple.units import format_quantity

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from crumple.errors import InputError, Problem
-from crumple.multibody.lowered import Lowered
-from crumple.multibody.rigid import Floats
+from crumple.multibody.planar.case import Lowered
+from crumple.numeric.arrays import Floats
 from crumple.structure import Structure, value_at
 
 FACTORS = ("initial_velocity", "impulses", "loads", "gravity")

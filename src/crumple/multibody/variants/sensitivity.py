@@ -8,17 +8,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from crumple._core.batch import TreeFinals
-from crumple._core.tangent import TreeDirection, TreeTangent, solve_tangent
+from crumple._core.planar.batch import TreeFinals
+from crumple._core.planar.tangent import TreeDirection, TreeTangent, solve_tangent
 from crumple.errors import InputError, Problem, Status
 from crumple.hinge import HingeLaw
-from crumple.multibody.choice import why_spatial
-from crumple.multibody.factors import checked_names, scaled
-from crumple.multibody.finals import final_quantities
-from crumple.multibody.lowered import Lowered, lowered
-from crumple.multibody.rigid import Floats
+from crumple.multibody.answer.end_values import final_quantities
+from crumple.multibody.kernel_choice import why_spatial
+from crumple.multibody.planar.case import Lowered, lowered
 from crumple.multibody.run import Cancel, Run, outcome_status
-from crumple.multibody.space_sensitivity import space_sensitivities
+from crumple.multibody.spatial.sensitivity import space_sensitivities
+from crumple.multibody.variants.factors import checked_names, scaled
+from crumple.numeric.arrays import Floats
 from crumple.structure import Structure, changed, placed_hinges, value_at
 
 RELATIVE_STEP = 1e-4
@@ -88,7 +88,7 @@ def sensitivities(
     References
     ----------
     Derivation and limits in docs/theory/sensitivities.md.
-    Verified in tests/verification/test_sensitivities.py and test_space_sensitivities.py.
+    Verified in tests/verification/derivatives/test_sensitivities.py and test_space_sensitivities.py.
     """
     if isinstance(parameters, str):
         parameters = (parameters,)

@@ -19,16 +19,16 @@ from typing import Protocol, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from crumple._core.tree import Outcome
+from crumple._core.planar.simulation import Outcome
 from crumple.errors import InputError, Problem, Status
-from crumple.multibody.choice import why_spatial
-from crumple.multibody.factors import checked_names, quick
-from crumple.multibody.finals import Finals, part_of
-from crumple.multibody.planar_batch import PlanarBatch
-from crumple.multibody.rigid import Floats
+from crumple.multibody.answer.end_values import Finals, part_of
+from crumple.multibody.answer.solved import Poll
+from crumple.multibody.kernel_choice import why_spatial
+from crumple.multibody.planar.batch import PlanarBatch
 from crumple.multibody.run import Cancel, Progress, Run, outcome_status
-from crumple.multibody.solved import Poll
-from crumple.multibody.space_batch import SpaceBatch
+from crumple.multibody.spatial.batch import SpaceBatch
+from crumple.multibody.variants.factors import checked_names, quick
+from crumple.numeric.arrays import Floats
 from crumple.structure import Structure, changed, placed_hinges
 
 REASONS = {
@@ -151,7 +151,7 @@ def solve_variants(
 
     References
     ----------
-    docs/theory/variants.md.  Verified in tests/unit/multibody/test_variants.py.
+    docs/theory/variants.md.  Verified in tests/unit/multibody/variants/test_variants.py.
     """
     count = threads or os.cpu_count() or 1
     poll = _poll(progress, cancel)

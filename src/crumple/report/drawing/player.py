@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crumple.comparison import Comparison, HingeMotion, Source, at_times
-from crumple.comparison.folds import STRAIN
-from crumple.report.scales import Floats
-from crumple.report.shape import finite_states, hinge_places
-from crumple.report.view import View, choose_view
+from crumple.comparison.measure.folds import STRAIN
+from crumple.numeric.arrays import Floats
+from crumple.report.drawing.view import View, choose_view
+from crumple.report.figures.shape import finite_states, hinge_places
 from crumple.result import States
 
 RAW_BYTES = 6_000_000

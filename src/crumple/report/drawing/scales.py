@@ -8,13 +8,11 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from crumple.errors import InputError
+from crumple.numeric.arrays import Floats
 from crumple.result import Channel, Result
 from crumple.units import format_quantity, unit_factor
-
-Floats = NDArray[np.float64]
 
 MAX_POINTS = 1200
 """Points of one line; more cannot be seen at the size of the page."""

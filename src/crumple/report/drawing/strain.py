@@ -5,12 +5,10 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
-from numpy.typing import NDArray
 
-from crumple.report.style import MUTED
+from crumple.numeric.arrays import Floats
+from crumple.report.drawing.style import MUTED
 from crumple.result import States
-
-Floats = NDArray[np.float64]
 
 FIELD = "plastic_strain"
 """Field of the walls that is drawn."""

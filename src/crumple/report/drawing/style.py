@@ -22,7 +22,8 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from crumple.report.scales import Floats, thinned
+from crumple.numeric.arrays import Floats
+from crumple.report.drawing.scales import thinned
 
 WIDTH = 7.0  # of the text column of an A4 page [in]
 HALF = 3.42  # of two figures side by side [in]

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from crumple.numeric.arrays import Floats
 from crumple.result import States
-
-Floats = NDArray[np.float64]
 
 _PLANAR = 0.05
 """Spread across a plane over the spread along it, below which structure and motion count as planar."""

@@ -9,8 +9,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from crumple.comparison import Comparison, Source, rate_of
-from crumple.report.scales import Floats, display_unit, largest, spread, time_unit
-from crumple.report.style import (
+from crumple.numeric.arrays import Floats
+from crumple.report.drawing.scales import display_unit, largest, spread, time_unit
+from crumple.report.drawing.style import (
     HALF,
     RULE,
     WIDTH,

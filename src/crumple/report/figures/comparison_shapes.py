@@ -8,8 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from crumple.comparison import Comparison, at_times
-from crumple.report.scales import Floats
-from crumple.report.shape import (
+from crumple.numeric.arrays import Floats
+from crumple.report.drawing.style import INK, MUTED, WIDTH, add_axes, new_figure, to_svg
+from crumple.report.drawing.view import View, choose_view
+from crumple.report.figures.shape import (
     draw_hinges,
     draw_scale,
     draw_walls,
@@ -18,8 +20,6 @@ from crumple.report.shape import (
     picture_time,
     surface_of,
 )
-from crumple.report.style import INK, MUTED, WIDTH, add_axes, new_figure, to_svg
-from crumple.report.view import View, choose_view
 from crumple.result import States
 
 _TALLEST = 8.6  # of the figure, to fit a page [in]

@@ -8,8 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from crumple.report.scales import Floats, display_unit, largest, output_groups, spread, time_unit
-from crumple.report.style import (
+from crumple.numeric.arrays import Floats
+from crumple.report.drawing.scales import display_unit, largest, output_groups, spread, time_unit
+from crumple.report.drawing.style import (
     HALF,
     MUTED,
     RULE,

@@ -11,13 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from numpy.typing import NDArray
 
-from crumple.report.strain import FIELD, draw_key, largest_strain, wall_colours
-from crumple.report.style import INK, MUTED, WIDTH, add_axes, new_figure, to_svg
-from crumple.report.view import View
+from crumple.numeric.arrays import Floats
+from crumple.report.drawing.strain import FIELD, draw_key, largest_strain, wall_colours
+from crumple.report.drawing.style import INK, MUTED, WIDTH, add_axes, new_figure, to_svg
+from crumple.report.drawing.view import View
 from crumple.result import Result, States
 from crumple.units import format_quantity
-
-Floats = NDArray[np.float64]
 
 MOST_FOLDS = 3
 """Folds drawn."""

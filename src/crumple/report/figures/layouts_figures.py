@@ -7,9 +7,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from crumple.report.curves import over_time
-from crumple.report.scales import display_unit, largest, time_unit
-from crumple.report.shape import (
+from crumple.report.drawing.scales import display_unit, largest, time_unit
+from crumple.report.drawing.style import INK, WIDTH, Line, add_axes, new_figure, short, to_svg
+from crumple.report.drawing.view import choose_view
+from crumple.report.figures.curves import over_time
+from crumple.report.figures.shape import (
     draw_hinges,
     draw_scale,
     draw_walls,
@@ -17,8 +19,6 @@ from crumple.report.shape import (
     hinge_places,
     surface_of,
 )
-from crumple.report.style import INK, WIDTH, Line, add_axes, new_figure, short, to_svg
-from crumple.report.view import choose_view
 from crumple.result import Result, States
 
 Solved = Sequence[tuple[str, Result]]

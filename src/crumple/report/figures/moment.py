@@ -7,9 +7,9 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 
-from crumple.report.curves import hinge_channel, sense
-from crumple.report.scales import Floats, display_unit, largest, spread, thinned
-from crumple.report.style import (
+from crumple.numeric.arrays import Floats
+from crumple.report.drawing.scales import display_unit, largest, spread, thinned
+from crumple.report.drawing.style import (
     HALF,
     INK,
     OUTSIDE,
@@ -22,6 +22,7 @@ from crumple.report.style import (
     short,
     to_svg,
 )
+from crumple.report.figures.curves import hinge_channel, sense
 from crumple.result import HingeSummary, Result
 
 _DEGREES = math.degrees(1.0)

@@ -14,8 +14,9 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
 from crumple.material import Material
-from crumple.report.scales import display_unit
-from crumple.report.style import (
+from crumple.numeric.arrays import Floats
+from crumple.report.drawing.scales import display_unit
+from crumple.report.drawing.style import (
     GRID,
     INK,
     MUTED,
@@ -30,7 +31,6 @@ from crumple.report.style import (
     to_svg,
 )
 from crumple.section import PlasticInteraction, Section, plastic_interaction, walls_of
-from crumple.section.section import Floats
 from crumple.section.walled import WalledSection
 
 HEIGHT = 2.9

@@ -12,13 +12,12 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
-from crumple.report.strain import draw_key, largest_strain, wall_colours
-from crumple.report.style import INK, MUTED, RULE, SERIES, WIDTH, add_axes, new_figure, short, to_svg
-from crumple.report.view import View, choose_view, ring_centres
+from crumple.numeric.arrays import Floats
+from crumple.report.drawing.strain import draw_key, largest_strain, wall_colours
+from crumple.report.drawing.style import INK, MUTED, RULE, SERIES, WIDTH, add_axes, new_figure, short, to_svg
+from crumple.report.drawing.view import View, choose_view, ring_centres
 from crumple.result import Result, States
 from crumple.units import format_quantity
-
-Floats = NDArray[np.float64]
 
 _WALL = to_rgb("#9db3c8")
 _GHOST = "#e9ecef"

@@ -6,9 +6,10 @@ import re
 
 import numpy as np
 
-from crumple.report.curves import over_time
-from crumple.report.scales import Floats, display_unit, largest, time_unit
-from crumple.report.style import WARNING, WIDTH, Line, add_axes, label_room, new_figure, to_svg
+from crumple.numeric.arrays import Floats
+from crumple.report.drawing.scales import display_unit, largest, time_unit
+from crumple.report.drawing.style import WARNING, WIDTH, Line, add_axes, label_room, new_figure, to_svg
+from crumple.report.figures.curves import over_time
 from crumple.result import Result
 
 MOST_RATIOS, MOST_FORCES = 6, 3

@@ -13,8 +13,8 @@ from crumple.comparison import (
     HingeMetrics,
     Pair,
 )
-from crumple.report.scales import display_unit
-from crumple.report.wording import Table, degrees, number
+from crumple.report.drawing.scales import display_unit
+from crumple.report.wording.wording import Table, degrees, number
 from crumple.units import format_quantity
 
 MOST_HINGES = 8

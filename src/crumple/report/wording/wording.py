@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from crumple.report.scales import display_unit, output_groups
+from crumple.report.drawing.scales import display_unit, output_groups
 from crumple.result import HingeSummary, Result
 from crumple.units import format_quantity
 

@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple.material import Material
-from crumple.section.polygons import above
-from crumple.section.root import rising_root
-from crumple.section.section import Axis, Floats, Section
+from crumple.numeric.arrays import Floats
+from crumple.numeric.monotone_root import rising_root
+from crumple.section.properties.polygons import above
+from crumple.section.section import Axis, Section
 from crumple.section.wall_section import walls_of
 from crumple.section.walled import WalledSection, angle_of
 
@@ -45,7 +46,7 @@ def bending_moment(section: Section, material: Material, axis: Axis | float, cur
 
     References
     ----------
-    Verified in tests/verification/test_bending_curve.py.
+    Verified in tests/verification/section/test_bending_curve.py.
     """
     height, area, metals = _layers(walls_of(section), material, angle_of(axis))
     curves = [_stress_over_strain(metal) for metal in metals]

@@ -29,11 +29,12 @@ import numpy as np
 
 from crumple.errors import InputError, Problem
 from crumple.material import Material
-from crumple.section.buckling import Carried, held_plate, outstand
-from crumple.section.plates import Plate, plates_of
-from crumple.section.polygons import above, equal_level, moments
-from crumple.section.root import rising_root
-from crumple.section.section import Axis, Floats, Section
+from crumple.numeric.arrays import Floats
+from crumple.numeric.monotone_root import rising_root
+from crumple.section.capacity.buckling import Carried, held_plate, outstand
+from crumple.section.geometry.plates import Plate, plates_of
+from crumple.section.properties.polygons import above, equal_level, moments
+from crumple.section.section import Axis, Section
 from crumple.section.wall_section import walls_of
 from crumple.section.walled import WalledSection, angle_of
 
@@ -142,7 +143,7 @@ def moment_capacity(
 
     References
     ----------
-    docs/theory/moment_capacity.md.  Verified in tests/verification/test_section_moment_capacity.py.
+    docs/theory/moment_capacity.md.  Verified in tests/verification/section/test_section_moment_capacity.py.
     """
     if sense not in (1, -1):
         raise InputError(Problem("the sense is neither +1 nor -1", f"{sense!r}", "1 or -1", "", "sense"))

@@ -26,9 +26,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple.material import Material
-from crumple.section.plastic_torsion import plastic_torsion
-from crumple.section.polygons import above, moments
-from crumple.section.section import Axis, Floats, Section
+from crumple.numeric.arrays import Floats
+from crumple.section.properties.plastic_torsion import plastic_torsion
+from crumple.section.properties.polygons import above, moments
+from crumple.section.section import Axis, Section
 from crumple.section.wall_section import walls_of
 from crumple.section.walled import WalledSection, angle_of
 
@@ -46,7 +47,7 @@ class PlasticInteraction:
 
     References
     ----------
-    docs/theory/interaction.md.  Verified in tests/verification/test_section_interaction.py.
+    docs/theory/interaction.md.  Verified in tests/verification/section/test_section_interaction.py.
     """
 
     section: WalledSection

@@ -21,8 +21,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crumple.section.interaction import PlasticInteraction
-from crumple.section.section import Floats
+from crumple.numeric.arrays import Floats
+from crumple.section.capacity.interaction import PlasticInteraction
 
 POWERS = (6.0, 10.0, 16.0)
 """Exponents p that are tried; higher ones follow edges better and curve more."""

@@ -10,10 +10,16 @@ from collections.abc import Sequence
 import numpy as np
 
 from crumple.errors import InputError
-from crumple.section.bends import Piece, pieces_of
-from crumple.section.skeleton import Complexes, Integers, Skeleton
+from crumple.numeric.arrays import Integers
+from crumple.section.geometry.bends import Piece, pieces_of
+from crumple.section.geometry.skeleton import Complexes, Skeleton
+from crumple.section.geometry.wall_checks import (
+    bends_without_room,
+    graph_problems,
+    wall_problems,
+    weld_problems,
+)
 from crumple.section.wall import Wall, Weld
-from crumple.section.wall_checks import bends_without_room, graph_problems, wall_problems, weld_problems
 
 SAME_POINT = 1e-3
 

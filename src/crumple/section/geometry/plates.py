@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from crumple.section.geometry.skeleton import Skeleton
 from crumple.section.section import in_mm
-from crumple.section.skeleton import Skeleton
 
 if TYPE_CHECKING:
     from crumple.section.walled import WalledSection

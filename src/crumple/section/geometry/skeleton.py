@@ -19,11 +19,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from crumple.section.bends import STRAIGHT, Piece
-from crumple.section.section import Floats
+from crumple.numeric.arrays import Floats, Integers
+from crumple.section.geometry.bends import STRAIGHT, Piece
 
 Complexes = NDArray[np.complex128]
-Integers = NDArray[np.int64]
 
 # Sine of the angle between walls below which they count as one straight wall: a step in thickness there is
 # cut square, as the mitre of two almost parallel faces would run far away.

@@ -8,9 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from crumple.errors import Problem
-from crumple.section.bends import Piece
-from crumple.section.section import Floats, in_mm
-from crumple.section.skeleton import Complexes, Integers, Skeleton
+from crumple.numeric.arrays import Floats, Integers
+from crumple.section.geometry.bends import Piece
+from crumple.section.geometry.skeleton import Complexes, Skeleton
+from crumple.section.section import in_mm
 from crumple.section.wall import Wall, Weld
 
 # Walls that leave a node closer together than this [rad] are folded onto each other, no corner.

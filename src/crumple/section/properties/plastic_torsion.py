@@ -17,8 +17,8 @@ import math
 
 import numpy as np
 
-from crumple.section.section import Floats
-from crumple.section.skeleton import Skeleton
+from crumple.numeric.arrays import Floats
+from crumple.section.geometry.skeleton import Skeleton
 
 
 def plastic_torsion(skeleton: Skeleton, yields: Floats) -> tuple[float, Floats]:

@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crumple.section.root import rising_root
-from crumple.section.section import Floats
-from crumple.section.skeleton import Complexes
+from crumple.numeric.arrays import Floats
+from crumple.numeric.monotone_root import rising_root
+from crumple.section.geometry.skeleton import Complexes
 
 
 class Moments(NamedTuple):

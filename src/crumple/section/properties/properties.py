@@ -9,10 +9,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from crumple.section.polygons import moments
-from crumple.section.section import Floats
-from crumple.section.skeleton import Skeleton
-from crumple.section.torsion import torsion_of
+from crumple.numeric.arrays import Floats
+from crumple.section.geometry.skeleton import Skeleton
+from crumple.section.properties.polygons import moments
+from crumple.section.properties.torsion import torsion_of
 from crumple.section.wall import Point
 
 

@@ -23,8 +23,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crumple.section.section import Floats
-from crumple.section.skeleton import Skeleton
+from crumple.numeric.arrays import Floats
+from crumple.section.geometry.skeleton import Skeleton
 
 # A weld is this much stiffer in shear than the stiffest wall: enough for seven digits, far from rounding.
 _WELD = 1e7

@@ -8,9 +8,9 @@ from typing import ClassVar
 
 from crumple.errors import InputError, Problem
 from crumple.material import Material
-from crumple.section.open_sections import hat_wall
 from crumple.section.section import in_mm, not_positive
-from crumple.section.shape_checks import in_title, must_be_below, must_not_be_negative
+from crumple.section.shapes.open_sections import hat_wall
+from crumple.section.shapes.shape_checks import in_title, must_be_below, must_not_be_negative
 from crumple.section.wall import Wall, Weld
 from crumple.section.walled import WalledSection
 
@@ -48,7 +48,7 @@ class ClosedHat(WalledSection):
 
     References
     ----------
-    docs/theory/thin_walled_sections.md.  Verified in tests/verification/test_section_properties.py.
+    docs/theory/thin_walled_sections.md.  Verified in tests/verification/section/test_section_properties.py.
     """
 
     kind: ClassVar[str] = "closed_hat"
@@ -135,7 +135,7 @@ class MultiCellTube(WalledSection):
 
     References
     ----------
-    docs/theory/thin_walled_sections.md.  Verified in tests/verification/test_section_properties.py.
+    docs/theory/thin_walled_sections.md.  Verified in tests/verification/section/test_section_properties.py.
     """
 
     kind: ClassVar[str] = "multi_cell_tube"

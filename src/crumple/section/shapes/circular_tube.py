@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from crumple.errors import InputError, Problem
+from crumple.numeric.arrays import Floats
 from crumple.section.outline import circle
-from crumple.section.section import Axis, ByAxis, Floats, checked_axis, in_mm, not_positive
+from crumple.section.section import Axis, ByAxis, checked_axis, in_mm, not_positive
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,7 @@ class CircularTube(ByAxis):
 
     References
     ----------
-    docs/theory/sections.md.  Verified in tests/verification/test_tube_sections.py.
+    docs/theory/sections.md.  Verified in tests/verification/section/test_tube_sections.py.
     """
 
     kind: ClassVar[str] = "circular_tube"

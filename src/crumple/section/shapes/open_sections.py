@@ -8,7 +8,7 @@ from typing import ClassVar
 
 from crumple.errors import InputError
 from crumple.section.section import not_positive
-from crumple.section.shape_checks import in_title, must_be_below, must_not_be_negative
+from crumple.section.shapes.shape_checks import in_title, must_be_below, must_not_be_negative
 from crumple.section.wall import Wall
 from crumple.section.walled import WalledSection
 
@@ -37,7 +37,7 @@ class Channel(WalledSection):
 
     References
     ----------
-    docs/theory/thin_walled_sections.md.  Verified in tests/verification/test_section_properties.py.
+    docs/theory/thin_walled_sections.md.  Verified in tests/verification/section/test_section_properties.py.
     """
 
     kind: ClassVar[str] = "channel"
@@ -102,7 +102,7 @@ class Angle(WalledSection):
 
     References
     ----------
-    docs/theory/thin_walled_sections.md.  Verified in tests/verification/test_section_properties.py.
+    docs/theory/thin_walled_sections.md.  Verified in tests/verification/section/test_section_properties.py.
     """
 
     kind: ClassVar[str] = "angle"
@@ -163,7 +163,7 @@ class Hat(WalledSection):
 
     References
     ----------
-    docs/theory/thin_walled_sections.md.  Verified in tests/verification/test_section_properties.py.
+    docs/theory/thin_walled_sections.md.  Verified in tests/verification/section/test_section_properties.py.
     """
 
     kind: ClassVar[str] = "hat"

@@ -19,8 +19,9 @@ from functools import cached_property
 from typing import ClassVar
 
 from crumple.errors import InputError, Problem
+from crumple.numeric.arrays import Floats
 from crumple.section.outline import rounded_rectangle
-from crumple.section.section import Axis, ByAxis, Floats, checked_axis, in_mm, not_positive
+from crumple.section.section import Axis, ByAxis, checked_axis, in_mm, not_positive
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ class RectangularTube(ByAxis):
 
     References
     ----------
-    docs/theory/sections.md.  Verified in tests/verification/test_tube_sections.py.
+    docs/theory/sections.md.  Verified in tests/verification/section/test_tube_sections.py.
     """
 
     kind: ClassVar[str] = "rectangular_tube"

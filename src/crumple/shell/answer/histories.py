@@ -6,13 +6,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from crumple.numeric.arrays import Floats
+from crumple.numeric.rotation import continuous, relative_rotation, rotation_vector
 from crumple.result import Channel, HingeSummary
-from crumple.shell.contour import Floats
-from crumple.shell.places import HingeZone
-from crumple.shell.record import ENERGIES, IMPULSE, Record, Sampler
-from crumple.shell.weld_histories import weld_channels
+from crumple.shell.answer.record import ENERGIES, IMPULSE, Record, Sampler
+from crumple.shell.answer.weld_histories import weld_channels
+from crumple.shell.model.places import HingeZone
 from crumple.structure import Outputs, Structure
-from crumple.structure.rotation import continuous, relative_rotation, rotation_vector
 
 AXES = ("x", "y", "z")
 AT_REST = 2e-3

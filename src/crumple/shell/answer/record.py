@@ -7,13 +7,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from crumple._core.shell import ShellState
-from crumple.shell.bodies import body_numbers
-from crumple.shell.contour import Floats, Integers
-from crumple.shell.mesh import Mesh
-from crumple.shell.model import Lowered
-from crumple.shell.sections import mean_spin, section_rotation
-from crumple.shell.spaces import clearance_now
+from crumple._core.shell.simulation import ShellState
+from crumple.numeric.arrays import Floats, Integers
+from crumple.shell.answer.sections import mean_spin, section_rotation
+from crumple.shell.mesh.mesh import Mesh
+from crumple.shell.model.bodies import body_numbers
+from crumple.shell.model.model import Lowered
+from crumple.shell.model.spaces import clearance_now
 from crumple.structure import Outputs
 
 ENERGIES = (

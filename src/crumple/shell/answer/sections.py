@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from crumple.shell.contour import Floats
+from crumple.numeric.arrays import Floats
 
 
 def section_frame(start: Floats, now: Floats) -> Floats:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from crumple._core.shell import ShellState
+from crumple._core.shell.simulation import ShellState
+from crumple.numeric.arrays import Floats, Integers
 from crumple.result import States
-from crumple.shell.contour import Floats, Integers
-from crumple.shell.mesh import Mesh
-from crumple.shell.record import Record
+from crumple.shell.answer.record import Record
+from crumple.shell.mesh.mesh import Mesh
 
 CELL_FIELDS = ("plastic_strain", "plastic_work", "thickness", "von_mises")
 """Largest equivalent plastic strain through the thickness [-], plastic work of the element [J], thickness

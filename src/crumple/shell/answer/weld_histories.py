@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from crumple.numeric.arrays import Floats, Integers
 from crumple.result import Channel
-from crumple.shell.contour import Floats, Integers
-from crumple.shell.model import Lowered
-from crumple.shell.record import Record
-from crumple.shell.welds import in_words
+from crumple.shell.answer.record import Record
+from crumple.shell.model.model import Lowered
+from crumple.shell.model.welds import in_words
 from crumple.structure import Structure
 from crumple.units import format_quantity
 

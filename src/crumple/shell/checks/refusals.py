@@ -7,7 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.shell.contour import Contour, Floats
+from crumple.numeric.arrays import Floats
+from crumple.shell.mesh.contour import Contour
 from crumple.structure import ShellSettings, Stage, Structure
 
 FEWEST_STEPS = 10

@@ -6,18 +6,18 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from crumple._core.shell import Element, ShellState
+from crumple._core.shell.simulation import Element, ShellState
 from crumple.result import StageSummary
-from crumple.shell.bodies import Body, Lump
-from crumple.shell.joints import Kind
-from crumple.shell.metal import in_words
-from crumple.shell.model import Lowered
-from crumple.shell.obstacles import too_sharp
-from crumple.shell.quality import wall_metals
-from crumple.shell.record import ENERGIES, Record
-from crumple.shell.weld_histories import weld_assumptions, weld_warnings
+from crumple.shell.answer.record import ENERGIES, Record
+from crumple.shell.answer.weld_histories import weld_assumptions, weld_warnings
+from crumple.shell.mesh.joints import Kind
+from crumple.shell.mesh.quality import wall_metals
+from crumple.shell.model.bodies import Body, Lump
+from crumple.shell.model.metal import in_words
+from crumple.shell.model.model import Lowered
+from crumple.shell.model.obstacles import too_sharp
 from crumple.structure import ShellSettings, Stage, Structure
-from crumple.structure.hinges import hinge_places
+from crumple.structure.hinges.hinges import hinge_places
 
 LOST_SHARE = 5e-3
 """Share of the given energy that may vanish at the start before a warning."""

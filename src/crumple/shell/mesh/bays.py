@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from crumple.shell.profile import Contour, Floats, Integers
+from crumple.numeric.arrays import Floats, Integers
+from crumple.shell.mesh.profile import Contour
 
 FLAT = 1e-6
 """Sine of the turn at a point up to which it lies in a wall and not at a corner or in a bend."""

@@ -11,10 +11,11 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from crumple.numeric.arrays import Floats, Integers
 from crumple.section import Section
 from crumple.section.walled import WalledSection
-from crumple.shell.profile import SHORTEST_BEND, Contour, Floats, Integers, number_of_sides
-from crumple.shell.walls import walled_contour
+from crumple.shell.mesh.profile import SHORTEST_BEND, Contour, number_of_sides
+from crumple.shell.mesh.walls import walled_contour
 
 __all__ = ["Contour", "Floats", "Integers", "contour_of", "outline_points"]
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from crumple.shell.contour import Contour, Floats
+from crumple.numeric.arrays import Floats
+from crumple.shell.mesh.contour import Contour
 
 Words = NDArray[np.uint64]
 

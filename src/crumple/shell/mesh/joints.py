@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crumple.errors import InputError, Problem
-from crumple.shell.contour import Contour, Floats
+from crumple.numeric.arrays import Floats
+from crumple.shell.mesh.contour import Contour
 from crumple.structure import FREEDOMS, Structure
 
 SHARPEST_MITRE = np.radians(100.0)

@@ -8,12 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crumple.errors import InputError, Problem
-from crumple.shell.bays import Bays, Levels, bays_of, coarse_rings, left_out, levels_of, without_points
-from crumple.shell.contour import Contour, Floats, Integers, contour_of
-from crumple.shell.imperfection import offsets
-from crumple.shell.joints import SHEARED_LENGTH, Joint, Kind, joints_of
-from crumple.shell.refusals import refuse_sizes, refuse_waves
-from crumple.shell.stations import Sizes, Zone, stations
+from crumple.numeric.arrays import Floats, Integers
+from crumple.shell.checks.refusals import refuse_sizes, refuse_waves
+from crumple.shell.mesh.bays import Bays, Levels, bays_of, coarse_rings, left_out, levels_of, without_points
+from crumple.shell.mesh.contour import Contour, contour_of
+from crumple.shell.mesh.imperfection import offsets
+from crumple.shell.mesh.joints import SHEARED_LENGTH, Joint, Kind, joints_of
+from crumple.shell.mesh.stations import Sizes, Zone, stations
 from crumple.structure import Frame, Outputs, ShellSettings, Structure, hinge_places
 
 MOST_ELEMENTS = 5_000_000

@@ -5,12 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from crumple.material import Material
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
+from crumple.numeric.arrays import Floats, Integers
 
 SHORTEST_BEND = 0.3
 """Length of a bend over the element size below which it is drawn as a sharp corner: a shorter side would cost

@@ -8,8 +8,8 @@ import numpy as np
 
 from crumple.errors import InputError, Problem
 from crumple.material import Material
-from crumple.shell.contour import Floats, Integers
-from crumple.shell.mesh import Mesh
+from crumple.numeric.arrays import Floats, Integers
+from crumple.shell.mesh.mesh import Mesh
 from crumple.structure import Structure
 
 MOST_NAMED = 5

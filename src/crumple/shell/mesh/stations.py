@@ -14,9 +14,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from crumple.numeric.arrays import Floats
+
 Zone = tuple[float, float]
 
 TOO_NEAR = 0.5

@@ -10,10 +10,10 @@ from itertools import pairwise
 import numpy as np
 
 from crumple.material import Material
-from crumple.section.bends import Piece
-from crumple.section.skeleton import Skeleton
+from crumple.section.geometry.bends import Piece
+from crumple.section.geometry.skeleton import Skeleton
 from crumple.section.walled import WalledSection
-from crumple.shell.profile import SHORTEST_BEND, Contour, number_of_sides
+from crumple.shell.mesh.profile import SHORTEST_BEND, Contour, number_of_sides
 
 LARGEST_BEND = math.radians(150.0)
 """Turn up to which arcs are drawn together [rad]: below 180 degrees a chord tells the angle."""

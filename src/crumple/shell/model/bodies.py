@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.shell.contour import Floats, Integers
-from crumple.shell.joints import Joint
-from crumple.shell.mesh import Mesh, clamped_nodes
-from crumple.shell.rigid_parts import Group, groups_of
-from crumple.shell.welds import weld_pairs
+from crumple.numeric.arrays import Floats, Integers
+from crumple.shell.mesh.joints import Joint
+from crumple.shell.mesh.mesh import Mesh, clamped_nodes
+from crumple.shell.model.rigid_parts import Group, groups_of
+from crumple.shell.model.welds import weld_pairs
 from crumple.structure import FREEDOMS, Structure
 
 TRANSLATIONS, ROTATIONS = set(FREEDOMS[:3]), set(FREEDOMS[3:])

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from crumple._core.shell import NodalLoad, PrescribedVelocity
+from crumple._core.shell.simulation import NodalLoad, PrescribedVelocity
 from crumple.function import TimeFunction
-from crumple.shell.bodies import Body, body_numbers
-from crumple.shell.contour import Floats
-from crumple.shell.mesh import Mesh
+from crumple.numeric.arrays import Floats
+from crumple.shell.mesh.mesh import Mesh
+from crumple.shell.model.bodies import Body, body_numbers
 from crumple.structure import Stage, Structure
 
 SAMPLING = 1e-5

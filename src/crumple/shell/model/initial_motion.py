@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crumple.shell.bodies import Body
-from crumple.shell.contour import Floats
-from crumple.shell.mesh import Mesh
-from crumple.shell.quality import areas, wall_density, wall_metals, wall_thickness
+from crumple.numeric.arrays import Floats
+from crumple.shell.mesh.mesh import Mesh
+from crumple.shell.mesh.quality import areas, wall_density, wall_metals, wall_thickness
+from crumple.shell.model.bodies import Body
 from crumple.structure import InitialVelocity, Structure
 
 

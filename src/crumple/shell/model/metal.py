@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from crumple._core.shell import ShellMaterial
-from crumple._core.shell_model import Floats
+from crumple._core.shell.simulation import ShellMaterial
 from crumple.material import CowperSymonds, HardeningCurve, HardeningTable, JohnsonCook, Material
+from crumple.numeric.arrays import Floats
 
 TABLE_STRAINS = np.concatenate([[0.0], np.geomspace(1e-4, 3.0, 80)])
 """Plastic strains at which a hardening curve is sampled: 14 % apart, so that straight lines between err by

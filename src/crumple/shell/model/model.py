@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from crumple._core.shell import (
+from crumple._core.shell.simulation import (
     Cut,
     Element,
     Hourglass,
@@ -17,20 +17,21 @@ from crumple._core.shell import (
     ShellModel,
     SpotWeld,
 )
-from crumple._core.shell import ShellSettings as CoreSettings
-from crumple.shell.bodies import Body, bodies_of, taken_nodes
-from crumple.shell.contour import Integers, triple
-from crumple.shell.drives import loads_of, motions_of
-from crumple.shell.mesh import Mesh, clamped_nodes, mesh_of
-from crumple.shell.metal import shell_material
-from crumple.shell.obstacles import obstacles_of, refuse_walls_inside
-from crumple.shell.places import HingeZone, SupportCut, hinge_zones, support_cut
-from crumple.shell.quality import MeshReport, report_of, wall_metals, wall_thickness
-from crumple.shell.refusals import damping_of
-from crumple.shell.rigid_parts import rigid_elements
-from crumple.shell.spaces import Space, spaces_of
-from crumple.shell.start import Start, start_of
-from crumple.shell.welds import Spot, spots_of
+from crumple._core.shell.simulation import ShellSettings as CoreSettings
+from crumple.numeric.arrays import Integers
+from crumple.shell.checks.refusals import damping_of
+from crumple.shell.mesh.contour import triple
+from crumple.shell.mesh.mesh import Mesh, clamped_nodes, mesh_of
+from crumple.shell.mesh.quality import MeshReport, report_of, wall_metals, wall_thickness
+from crumple.shell.model.bodies import Body, bodies_of, taken_nodes
+from crumple.shell.model.drives import loads_of, motions_of
+from crumple.shell.model.initial_motion import Start, start_of
+from crumple.shell.model.metal import shell_material
+from crumple.shell.model.obstacles import obstacles_of, refuse_walls_inside
+from crumple.shell.model.places import HingeZone, SupportCut, hinge_zones, support_cut
+from crumple.shell.model.rigid_parts import rigid_elements
+from crumple.shell.model.spaces import Space, spaces_of
+from crumple.shell.model.welds import Spot, spots_of
 from crumple.structure import Outputs, ShellSettings, Stage, Structure
 
 CONTACT_DAMPING = 0.1

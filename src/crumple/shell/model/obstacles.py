@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from crumple._core.shell import RigidObstacle, Shape, ShellState
-from crumple._core.shell_model import History
+from crumple._core.shell.model import History
+from crumple._core.shell.simulation import RigidObstacle, Shape, ShellState
 from crumple.errors import InputError, Problem
-from crumple.shell.contour import triple
-from crumple.shell.drives import velocity_of
-from crumple.shell.mesh import Mesh
+from crumple.shell.mesh.contour import triple
+from crumple.shell.mesh.mesh import Mesh
+from crumple.shell.model.drives import velocity_of
 from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Stage, Structure, gap
 
 INSIDE = 1e-6
@@ -107,7 +107,7 @@ def rebound_damping(restitution: float) -> float:
     References
     ----------
     Schwager and Poeschel, Granular Matter 9 (2007) 465; derived anew in docs/theory/contact.md.  Verified in
-    tests/unit/shell_room/test_heavy_lumps.py.
+    tests/unit/shell/model/test_heavy_lumps.py.
     """
     wanted = max(restitution, LEAST_REBOUND)
     low, high = 0.0, 10.0

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from crumple.numeric.arrays import Floats, Integers
 from crumple.section import half_fold_length
-from crumple.shell.bodies import Body
-from crumple.shell.contour import Floats, Integers
-from crumple.shell.mesh import Mesh
+from crumple.shell.mesh.mesh import Mesh
+from crumple.shell.model.bodies import Body
 from crumple.structure import HingePlace, Structure, hinge_places
 
 SIDE = 3.0

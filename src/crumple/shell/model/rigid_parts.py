@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crumple.errors import InputError, Problem
-from crumple.shell.contour import Integers
-from crumple.shell.mesh import Mesh
+from crumple.numeric.arrays import Integers
+from crumple.shell.mesh.mesh import Mesh
 from crumple.structure import Structure
 
 

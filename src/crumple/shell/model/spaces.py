@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from crumple.numeric.arrays import Floats, Integers
 from crumple.result.clearance import clearance
-from crumple.shell.contour import Floats, Integers
-from crumple.shell.mesh import Mesh, Tube
-from crumple.shell.sections import section_rotation
+from crumple.shell.answer.sections import section_rotation
+from crumple.shell.mesh.mesh import Mesh, Tube
 from crumple.structure import Outputs, Structure
-from crumple.structure.outputs import Clearance
+from crumple.structure.keys.outputs import Clearance
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.shell.contour import Floats, Integers
-from crumple.shell.mesh import Mesh, Tube
-from crumple.shell.quality import wall_thickness
+from crumple.numeric.arrays import Floats, Integers
+from crumple.shell.mesh.mesh import Mesh, Tube
+from crumple.shell.mesh.quality import wall_thickness
 from crumple.structure import SpotWelds, Structure
 
 LEAST_PARALLEL = np.cos(np.radians(30.0))

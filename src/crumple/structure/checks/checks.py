@@ -13,20 +13,20 @@ from itertools import combinations, product
 import numpy as np
 
 from crumple.errors import Problem
-from crumple.structure.geometry import Floats
-from crumple.structure.hinge_axes import AxisLaws, HingeAxes
-from crumple.structure.hinge_checks import inertia_problems, place_problems
-from crumple.structure.joint_checks import bare_node_problems, joint_problems
-from crumple.structure.law import LAW_SPECS
-from crumple.structure.member import AutomaticHinges
-from crumple.structure.obstacle_checks import obstacle_problems
-from crumple.structure.outputs import Outputs
-from crumple.structure.problems import one_of, outside, shown, suggestion, unknown
-from crumple.structure.rigid_checks import rigid_problems
-from crumple.structure.shell_settings import ShellSettings
-from crumple.structure.start_checks import start_problems
+from crumple.numeric.arrays import Floats
+from crumple.structure.checks.hinge_checks import inertia_problems, place_problems
+from crumple.structure.checks.joint_checks import bare_node_problems, joint_problems
+from crumple.structure.checks.obstacle_checks import obstacle_problems
+from crumple.structure.checks.rigid_checks import rigid_problems
+from crumple.structure.checks.start_checks import start_problems
+from crumple.structure.checks.weld_checks import pitch_problems, spot_weld_problems
+from crumple.structure.hinges.hinge_axes import AxisLaws, HingeAxes
+from crumple.structure.keys.law import LAW_SPECS
+from crumple.structure.keys.member import AutomaticHinges
+from crumple.structure.keys.outputs import Outputs
+from crumple.structure.schema.problems import one_of, outside, shown, suggestion, unknown
+from crumple.structure.settings.shell_settings import ShellSettings
 from crumple.structure.structure import Structure
-from crumple.structure.weld_checks import pitch_problems, spot_weld_problems
 
 COINCIDENT = 1e-6
 """Distance [m] below which two nodes are one place: a thousandth of a wall, far above rounding."""

@@ -9,15 +9,15 @@ from functools import partial
 from itertools import pairwise, product
 
 from crumple.errors import InputError, Problem
-from crumple.structure.hinges import (
+from crumple.structure.hinges.hinges import (
     HingePlace,
     holds_rotation,
     law_of,
     member_hinge_places,
     spatial_record_of,
 )
-from crumple.structure.law import LAW_SPECS
-from crumple.structure.problems import outside
+from crumple.structure.keys.law import LAW_SPECS
+from crumple.structure.schema.problems import outside
 from crumple.structure.structure import Structure
 
 APART = 1e-6

@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping
 
 from crumple.errors import Problem
-from crumple.structure.problems import one_of, shown, suggestion
+from crumple.structure.schema.problems import one_of, shown, suggestion
 from crumple.structure.structure import Structure
 
 

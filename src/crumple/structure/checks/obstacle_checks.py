@@ -8,11 +8,11 @@ import numpy as np
 
 from crumple.errors import Problem
 from crumple.function import TimeFunction
-from crumple.structure.geometry import Floats
-from crumple.structure.obstacles import CylinderObstacle, Obstacle, PlaneObstacle
-from crumple.structure.problems import unknown
-from crumple.structure.stages import Stage, Until
-from crumple.structure.start_checks import swallowed
+from crumple.numeric.arrays import Floats
+from crumple.structure.checks.start_checks import swallowed
+from crumple.structure.keys.obstacles import CylinderObstacle, Obstacle, PlaneObstacle
+from crumple.structure.keys.stages import Stage, Until
+from crumple.structure.schema.problems import unknown
 from crumple.structure.structure import Structure
 
 JUMP = 1e-12

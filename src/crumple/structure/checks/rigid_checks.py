@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from crumple.errors import Problem
-from crumple.structure.hinge_checks import sound_members
-from crumple.structure.hinges import member_hinge_places
-from crumple.structure.problems import outside
+from crumple.structure.checks.hinge_checks import sound_members
+from crumple.structure.hinges.hinges import member_hinge_places
+from crumple.structure.schema.problems import outside
 from crumple.structure.structure import Structure
 
 AT_END = 1e-9

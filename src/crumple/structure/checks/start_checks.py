@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from crumple.errors import Problem
-from crumple.structure.geometry import Floats
-from crumple.structure.load import NodalImpulse
-from crumple.structure.motion import FREEDOMS, InitialVelocity
+from crumple.numeric.arrays import Floats
+from crumple.structure.keys.load import NodalImpulse
+from crumple.structure.keys.motion import FREEDOMS, InitialVelocity
 from crumple.structure.structure import Structure
 
 ROUNDING = 1e-9

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from crumple.errors import Problem
-from crumple.structure.problems import one_of, outside, unknown
-from crumple.structure.spot_welds import MOST_SPOTS
+from crumple.structure.keys.spot_welds import MOST_SPOTS
+from crumple.structure.schema.problems import one_of, outside, unknown
 from crumple.structure.structure import Structure
 from crumple.structure.weld_room import spot_places, widest_spot
 

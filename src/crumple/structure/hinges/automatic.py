@@ -14,8 +14,8 @@ import numpy as np
 
 from crumple.section import Axis, half_fold_length
 from crumple.structure.bending import bending_axis, planar
-from crumple.structure.hinge_axes import HingeAxes
-from crumple.structure.member import AutomaticHinges, Hinge
+from crumple.structure.hinges.hinge_axes import HingeAxes
+from crumple.structure.keys.member import AutomaticHinges, Hinge
 from crumple.structure.structure import Structure
 
 

@@ -6,9 +6,9 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from crumple.structure.law import LawReference
-from crumple.structure.quantity import PositiveAngle, PositiveForce, PositiveLength, PositiveMoment
-from crumple.structure.spec import Spec, refuse
+from crumple.structure.keys.law import LawReference
+from crumple.structure.schema.quantity import PositiveAngle, PositiveForce, PositiveLength, PositiveMoment
+from crumple.structure.schema.spec import Spec, refuse
 
 BendingAxis = Literal["y", "z"]
 """Section axis that the moment vector of a hinge lies along."""

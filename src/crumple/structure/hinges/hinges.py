@@ -17,16 +17,16 @@ from crumple import hinge
 from crumple.errors import InputError, Problem
 from crumple.hinge import Form, HingeLaw, HingeRecord, SofteningVariable, SpatialHingeRecord, Stop
 from crumple.material import Material
+from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section, half_fold_length
-from crumple.structure.automatic import hinges_of, where_automatic
 from crumple.structure.bending import bending_axis
-from crumple.structure.geometry import Floats
-from crumple.structure.hinge_axes import HingeAxes
-from crumple.structure.law import LAW_SPECS, LawKeys, LawReference, Stops
-from crumple.structure.member import Hinge
-from crumple.structure.motion import FREEDOMS
+from crumple.structure.hinges.automatic import hinges_of, where_automatic
+from crumple.structure.hinges.hinge_axes import HingeAxes
+from crumple.structure.hinges.spatial_hinges import spatial_hinge_record
+from crumple.structure.keys.law import LAW_SPECS, LawKeys, LawReference, Stops
+from crumple.structure.keys.member import Hinge
+from crumple.structure.keys.motion import FREEDOMS
 from crumple.structure.remembered import remembered
-from crumple.structure.spatial_hinges import spatial_hinge_record
 from crumple.structure.structure import Structure
 
 PLAIN = HingeAxes()

@@ -7,12 +7,12 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from crumple.hinge import Form, HingeRecord, SofteningVariable, build_axial_law, build_torsion_law, record_of
-from crumple.hinge.axial_collapse import AxialCollapse
-from crumple.hinge.spatial_record import Coupling, Freedom, HingeComponent, SpatialHingeRecord
-from crumple.hinge.spatial_recording import spatial_record
+from crumple.hinge.axial.axial_collapse import AxialCollapse
+from crumple.hinge.record.spatial_record import Coupling, Freedom, HingeComponent, SpatialHingeRecord
+from crumple.hinge.record.spatial_recording import spatial_record
 from crumple.material import Material
 from crumple.section import Section
-from crumple.structure.hinge_axes import AxialSlip, BendingAxis, HingeAxes, Twist
+from crumple.structure.hinges.hinge_axes import AxialSlip, BendingAxis, HingeAxes, Twist
 from crumple.structure.remembered import remembered
 
 if TYPE_CHECKING:

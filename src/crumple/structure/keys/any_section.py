@@ -16,10 +16,10 @@ from pydantic import Discriminator, Tag, model_validator
 from crumple.errors import InputError, Problem
 from crumple.material import Material
 from crumple.section import Section
-from crumple.structure.material import MaterialSpec
-from crumple.structure.problems import one_of
+from crumple.structure.keys.material import MaterialSpec
 from crumple.structure.remembered import remembered
-from crumple.structure.spec import Name, Spec, refuse
+from crumple.structure.schema.problems import one_of
+from crumple.structure.schema.spec import Name, Spec, refuse
 
 
 def _material_tag(given: Any) -> str:

@@ -9,8 +9,8 @@ from typing import Literal
 
 from pydantic import model_validator
 
-from crumple.structure.quantity import Direction
-from crumple.structure.spec import Name, Spec, refuse
+from crumple.structure.schema.quantity import Direction
+from crumple.structure.schema.spec import Name, Spec, refuse
 
 JointType = Literal["revolute", "universal", "spherical", "prismatic", "cylindrical", "planar"]
 

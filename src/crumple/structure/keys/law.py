@@ -1,6 +1,6 @@
 """Hinge laws as the description gives them: which law, in which form, with which stops.
 
-Each law type is one class here beside its formula in `crumple.hinge.laws`; its own keys are the options
+Each law type is one class here beside its formula in `crumple.hinge.bending`; its own keys are the options
 that the formula takes.
 """
 
@@ -13,9 +13,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationInfo, model_validator
 
-from crumple.hinge.plain_yaml import LARGEST_TEXT
-from crumple.structure.curve import MOST_POINTS, with_curve_read, with_law_read, with_units
-from crumple.structure.quantity import (
+from crumple.structure.keys.curve import MOST_POINTS, with_curve_read, with_law_read, with_units
+from crumple.structure.schema.quantity import (
     Angle,
     DampingOrCritical,
     Moment,
@@ -30,7 +29,8 @@ from crumple.structure.quantity import (
     StiffnessOrAuto,
     StopExponent,
 )
-from crumple.structure.spec import Name, Spec, refuse, type_tag
+from crumple.structure.schema.spec import Name, Spec, refuse, type_tag
+from crumple.text.plain_yaml import LARGEST_TEXT
 
 
 class Regularisation(Spec):

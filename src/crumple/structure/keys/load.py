@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from pydantic import model_validator
 
-from crumple.structure.quantity import (
+from crumple.structure.keys.time_function import ForceFunction, MomentFunction
+from crumple.structure.schema.quantity import (
     AngularImpulse,
     Impulse,
     NonNegativeMass,
     NonNegativeRotaryInertia,
     Position,
 )
-from crumple.structure.spec import Name, Spec, refuse
-from crumple.structure.time_function import ForceFunction, MomentFunction
+from crumple.structure.schema.spec import Name, Spec, refuse
 
 Inertia = tuple[NonNegativeRotaryInertia, NonNegativeRotaryInertia, NonNegativeRotaryInertia]
 

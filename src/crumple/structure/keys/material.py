@@ -10,17 +10,17 @@ from pydantic import ConfigDict, Field, model_validator
 
 from crumple import material
 from crumple.errors import InputError
-from crumple.structure.metal_curves import HardeningSpec, RateSpec, hardening_keys, rate_keys
-from crumple.structure.problems import suggestion
-from crumple.structure.quantity import (
+from crumple.structure.keys.metal_curves import HardeningSpec, RateSpec, hardening_keys, rate_keys
+from crumple.structure.remembered import remembered
+from crumple.structure.schema.problems import suggestion
+from crumple.structure.schema.quantity import (
     Converted,
     PoissonsRatio,
     PositiveDensity,
     PositiveNumber,
     PositiveStress,
 )
-from crumple.structure.remembered import remembered
-from crumple.structure.spec import Spec, refuse
+from crumple.structure.schema.spec import Spec, refuse
 
 
 def _grade_or_values(schema: dict[str, Any]) -> None:

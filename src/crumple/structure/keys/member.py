@@ -17,9 +17,16 @@ from pydantic import (
     model_validator,
 )
 
-from crumple.structure.hinge_axes import HingeAxes
-from crumple.structure.quantity import LENGTH, Angle, Direction, Length, NonNegativeLength, PositiveLength
-from crumple.structure.spec import Name, Spec, refuse
+from crumple.structure.hinges.hinge_axes import HingeAxes
+from crumple.structure.schema.quantity import (
+    LENGTH,
+    Angle,
+    Direction,
+    Length,
+    NonNegativeLength,
+    PositiveLength,
+)
+from crumple.structure.schema.spec import Name, Spec, refuse
 
 MOST_BARS = 10_000
 """Bars in one member; more is a slip of the pen and would fill the memory."""

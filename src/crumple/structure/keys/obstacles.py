@@ -7,8 +7,9 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Discriminator, Tag, model_validator
 
-from crumple.structure.geometry import Floats
-from crumple.structure.quantity import (
+from crumple.numeric.arrays import Floats
+from crumple.structure.keys.time_function import AngleFunction, LengthFunction
+from crumple.structure.schema.quantity import (
     Direction,
     FrictionCoefficient,
     Position,
@@ -17,8 +18,7 @@ from crumple.structure.quantity import (
     Restitution,
     Velocity,
 )
-from crumple.structure.spec import Name, Spec, refuse, type_tag
-from crumple.structure.time_function import AngleFunction, LengthFunction
+from crumple.structure.schema.spec import Name, Spec, refuse, type_tag
 
 SLANT = 1e-9
 """Cosine between two directions below which they are at right angles but for rounding."""

@@ -6,9 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from crumple.structure.mapping import FrozenMapping
-from crumple.structure.quantity import NonNegativeLength, NonNegativeTime, Position, PositiveTime
-from crumple.structure.spec import Name, Named, Spec
+from crumple.structure.schema.mapping import FrozenMapping
+from crumple.structure.schema.quantity import NonNegativeLength, NonNegativeTime, Position, PositiveTime
+from crumple.structure.schema.spec import Name, Named, Spec
 
 MOST_PICTURES = 1000
 """Stored shapes of one run."""

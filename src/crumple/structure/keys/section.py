@@ -8,10 +8,10 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Discriminator, Field, Tag
 
 from crumple import section
-from crumple.structure.any_section import AnySection, MaterialReference, Metal
-from crumple.structure.quantity import NonNegativeLength, PositiveLength
-from crumple.structure.spec import type_tag
-from crumple.structure.walls import WallSectionSpec
+from crumple.structure.keys.any_section import AnySection, MaterialReference, Metal
+from crumple.structure.keys.walls import WallSectionSpec
+from crumple.structure.schema.quantity import NonNegativeLength, PositiveLength
+from crumple.structure.schema.spec import type_tag
 
 
 class RectangularTubeSpec(AnySection):

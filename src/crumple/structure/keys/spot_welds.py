@@ -9,8 +9,14 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from crumple.structure.geometry import Frame
-from crumple.structure.quantity import Length, NonNegativeLength, Position, PositiveForce, PositiveLength
-from crumple.structure.spec import Name, Spec, refuse
+from crumple.structure.schema.quantity import (
+    Length,
+    NonNegativeLength,
+    Position,
+    PositiveForce,
+    PositiveLength,
+)
+from crumple.structure.schema.spec import Name, Spec, refuse
 
 MOST_SPOTS = 10_000
 """Spots of one entry; more is a slip of the pen."""

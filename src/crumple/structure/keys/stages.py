@@ -6,10 +6,16 @@ from typing import Literal
 
 from pydantic import model_validator
 
-from crumple.structure.load import NodalImpulse
-from crumple.structure.motion import InitialVelocity
-from crumple.structure.quantity import Length, PositiveEnergy, PositiveForce, PositiveLength, PositiveTime
-from crumple.structure.spec import Name, Spec, refuse
+from crumple.structure.keys.load import NodalImpulse
+from crumple.structure.keys.motion import InitialVelocity
+from crumple.structure.schema.quantity import (
+    Length,
+    PositiveEnergy,
+    PositiveForce,
+    PositiveLength,
+    PositiveTime,
+)
+from crumple.structure.schema.spec import Name, Spec, refuse
 
 Quantity = Literal["force", "energy", "displacement", "distance"]
 QUANTITIES: tuple[Quantity, ...] = ("force", "energy", "displacement", "distance")

@@ -9,9 +9,9 @@ from pydantic import Field
 
 from crumple import section
 from crumple.errors import InputError, Problem
-from crumple.structure.any_section import AnySection, MaterialReference, Metal
-from crumple.structure.quantity import Length, NonNegativeLength, PositiveLength
-from crumple.structure.spec import Spec
+from crumple.structure.keys.any_section import AnySection, MaterialReference, Metal
+from crumple.structure.schema.quantity import Length, NonNegativeLength, PositiveLength
+from crumple.structure.schema.spec import Spec
 
 MOST_WALLS = 100
 """Walls of one section; a multi-chamber extrusion has some thirty."""

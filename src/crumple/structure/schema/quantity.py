@@ -14,7 +14,7 @@ from typing import Annotated, Any, Literal
 from pydantic import GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
-from crumple.structure.spec import refuse
+from crumple.structure.schema.spec import refuse
 from crumple.units import QuantityError, parse_quantity
 
 LARGEST = 1e18

@@ -21,8 +21,8 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from crumple.errors import InputError, Problem
-from crumple.structure.mapping import frozen
-from crumple.structure.problems import problems_of
+from crumple.structure.schema.mapping import frozen
+from crumple.structure.schema.problems import problems_of
 
 if TYPE_CHECKING:
     from pydantic._internal._model_construction import ModelMetaclass

@@ -6,8 +6,8 @@ from typing import Literal
 
 from pydantic import model_validator
 
-from crumple.structure.quantity import Accuracy, Fraction, PositiveTime
-from crumple.structure.spec import Spec, refuse
+from crumple.structure.schema.quantity import Accuracy, Fraction, PositiveTime
+from crumple.structure.schema.spec import Spec, refuse
 
 
 class MultibodySettings(Spec):

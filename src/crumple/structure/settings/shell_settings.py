@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from crumple.structure.quantity import (
+from crumple.structure.schema.quantity import (
     NUMBER,
     Dimension,
     Fraction,
@@ -16,7 +16,7 @@ from crumple.structure.quantity import (
     PositiveLength,
     PositiveTime,
 )
-from crumple.structure.spec import Name, Spec, refuse
+from crumple.structure.schema.spec import Name, Spec, refuse
 
 
 def _on_or_off(given: Any) -> Any:

@@ -6,18 +6,18 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from tests.unit.comparison.folded_tube import EXAMPLE, analysis, angle_over_time, folded_result
+from tests.support.result.folded_tube import EXAMPLE, analysis, angle_over_time, folded_result
 
 from crumple.analysis import load, loads, solve
 from crumple.comparison import compare, with_frames
-from crumple.comparison.fold_trust import folds_said
-from crumple.comparison.motion import HingeMotion, channel_motions, measured
-from crumple.comparison.trust import _order, swings_of
-from crumple.comparison.verdict import agreement
+from crumple.comparison.cautions.fold_trust import folds_said
+from crumple.comparison.cautions.trust import _order, swings_of
+from crumple.comparison.cautions.verdict import agreement
+from crumple.comparison.measure.motion import HingeMotion, channel_motions, measured
 from crumple.errors import Status
 from crumple.result import Channel
 from crumple.structure import Structure
-from crumple.structure.hinges import placed_hinges
+from crumple.structure.hinges.hinges import placed_hinges
 
 TIMES = np.linspace(0.0, 0.1, 101)
 

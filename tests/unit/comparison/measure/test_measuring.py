@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.unit.comparison.folded_tube import MOMENT, analysis, angle_over_time, folded_result, folded_states
+from tests.support.result.folded_tube import MOMENT, analysis, angle_over_time, folded_result, folded_states
 
-from crumple.comparison.fold_moment import conjugate_moment
-from crumple.comparison.folds import find_folds
-from crumple.comparison.motion import far_rotation, matched, measured
-from crumple.comparison.sections import at_times, sections_of
+from crumple.comparison.measure.fold_moment import conjugate_moment
+from crumple.comparison.measure.folds import find_folds
+from crumple.comparison.measure.motion import far_rotation, matched, measured
+from crumple.comparison.measure.sections import at_times, sections_of
 from crumple.structure import placed_hinges
 
 TIMES = np.linspace(0.0, 0.1, 101)

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from crumple.comparison.metrics import compared, metrics_of, opening_time, rotation_levels
-from crumple.comparison.motion import HingeMotion
+from crumple.comparison.measure.metrics import compared, metrics_of, opening_time, rotation_levels
+from crumple.comparison.measure.motion import HingeMotion
 
 
 def motion(scale=1.0, sense=1.0, **changes):

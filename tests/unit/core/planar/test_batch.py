@@ -4,10 +4,10 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-from tests.verification.chains import m2
+from tests.support.multibody.chains import m2
 
-from crumple._core.batch import TreeVariants, solve_many
-from crumple._core.tree import Outcome, Simulation, TreeLoad
+from crumple._core.planar.batch import TreeVariants, solve_many
+from crumple._core.planar.simulation import Outcome, Simulation, TreeLoad
 
 COUNT, BARS, END = 40, 4, 0.05
 LOAD = TreeLoad(3, (0.1, 0.0), (0.0, 0.0, 1.0), np.array([0.0, END]), np.array([0.0, 400.0]))

@@ -3,7 +3,15 @@
 import numpy as np
 import pytest
 
-from crumple._core.tree import JointKind, Outcome, Simulation, TreeBody, TreeHinge, TreeLoad, TreeModel
+from crumple._core.planar.simulation import (
+    JointKind,
+    Outcome,
+    Simulation,
+    TreeBody,
+    TreeHinge,
+    TreeLoad,
+    TreeModel,
+)
 
 CURVE = (np.array([0.0, 1.0]), np.array([100.0, 50.0]))
 

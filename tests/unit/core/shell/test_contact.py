@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from sheets import ELASTIC, STEEL, bits, grid, model
+from tests.support.shell.sheets import ELASTIC, STEEL, bits, grid, model
 
-from crumple._core.shell import (
+from crumple._core.shell.simulation import (
     PrescribedVelocity,
     RigidObstacle,
     RigidSet,

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from sheets import ELASTIC, STEEL, distorted_patch, grid, model, rotation
+from tests.support.shell.sheets import ELASTIC, STEEL, distorted_patch, grid, model, rotation
 
-from crumple._core.shell import ShellState, thickness_rule
+from crumple._core.shell.simulation import ShellState, thickness_rule
 from crumple.errors import InputError
 
 E, NU, T = 210e9, 0.3, 2e-3
@@ -137,7 +137,7 @@ def test_hourglass_control_resists_and_books_its_work():
     mode = 1e-8 * np.array([1, -1, 1, -1.0])[[0, 1, 3, 2]]
     for axis in range(3):
         for kind in ("stiffness", "viscous"):
-            from crumple._core.shell import Hourglass
+            from crumple._core.shell.simulation import Hourglass
 
             state = ShellState(model(x, quads, T, settings={"hourglass": Hourglass(kind)}))
             u = np.zeros((4, 3))

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from sheets import ELASTIC, STEEL, grid, model
+from tests.support.shell.sheets import ELASTIC, STEEL, grid, model
 
-from crumple._core.shell import RigidObstacle, RigidSet, Shape, ShellState
+from crumple._core.shell.simulation import RigidObstacle, RigidSet, Shape, ShellState
 
 T = 2e-3
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from sheets import grid, model
+from tests.support.shell.sheets import grid, model
 
-from crumple._core.shell import PrescribedVelocity, RigidSet, ShellState
+from crumple._core.shell.simulation import PrescribedVelocity, RigidSet, ShellState
 
 
 def test_body_pinned_beside_its_centre_swings_as_a_compound_pendulum():

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from sheets import ELASTIC, STEEL, grid, model
+from tests.support.shell.sheets import ELASTIC, STEEL, grid, model
 
-from crumple._core.shell import Sheet, ShellMaterial, ShellState, thickness_rule
+from crumple._core.shell.simulation import Sheet, ShellMaterial, ShellState, thickness_rule
 
 E, NU, G = 210e9, 0.3, 210e9 / 2.6
 X, QUAD = grid(1, 1, 0.01, 0.01)

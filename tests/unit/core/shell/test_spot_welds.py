@@ -4,9 +4,9 @@ import dataclasses
 
 import numpy as np
 import pytest
-from sheets import bits, grid, model
+from tests.support.shell.sheets import bits, grid, model
 
-from crumple._core.shell import (
+from crumple._core.shell.simulation import (
     NodalLoad,
     PrescribedVelocity,
     RigidObstacle,

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from sheets import ELASTIC, STEEL, distorted_patch, grid, model, rotation
+from tests.support.shell.sheets import ELASTIC, STEEL, distorted_patch, grid, model, rotation
 
-from crumple._core.shell import Element, ShellState, thickness_rule
+from crumple._core.shell.simulation import Element, ShellState, thickness_rule
 
 E, NU, T = 210e9, 0.3, 2e-3
 G = E / 2 / (1 + NU)

@@ -4,9 +4,9 @@ import dataclasses
 
 import numpy as np
 import pytest
-from sheets import ELASTIC, STEEL, bits, grid, model
+from tests.support.shell.sheets import ELASTIC, STEEL, bits, grid, model
 
-from crumple._core.shell import (
+from crumple._core.shell.simulation import (
     Cut,
     Element,
     NodalLoad,
@@ -111,7 +111,7 @@ def test_elastic_energy_is_that_of_the_stresses():
     state = ShellState(cantilever(ELASTIC))
     state.advance(3e-4)
     x, y, xy = (state.point_field(n) for n in ("stress_x", "stress_y", "stress_xy"))
-    from crumple._core.shell import thickness_rule
+    from crumple._core.shell.simulation import thickness_rule
 
     density = (x**2 + y**2 - 0.6 * x * y + 2.6 * xy**2) / (2 * 210e9) @ thickness_rule(5)[1]
     shear = state.element_field("shear_xz") ** 2 + state.element_field("shear_yz") ** 2

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.verification.hinge_rig import (
+from tests.support.multibody.hinge_rig import (
     ABOUT_Y,
     ABOUT_Z,
     ACCUMULATED,

@@ -4,13 +4,13 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-from tests.verification.contact_models import ball_shape, plane, sphere
-from tests.verification.space_models import m4_parts
+from tests.support.multibody.contact_models import ball_shape, plane, sphere
+from tests.support.multibody.space_models import m4_parts
 
-from crumple._core.space import SpaceSimulation, SpaceUntil, Until
-from crumple._core.space_batch import SpaceCase, SpaceStage, SpaceVariants, solve_many
-from crumple._core.space_model import SpaceLoad, SpaceModel
-from crumple._core.tree import Outcome
+from crumple._core.planar.simulation import Outcome
+from crumple._core.spatial.batch import SpaceCase, SpaceStage, SpaceVariants, solve_many
+from crumple._core.spatial.model import SpaceLoad, SpaceModel
+from crumple._core.spatial.simulation import SpaceSimulation, SpaceUntil, Until
 
 COUNT, BODIES, HINGES, END = 9, 8, 12, 0.01
 LOAD = SpaceLoad(

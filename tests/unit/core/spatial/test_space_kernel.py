@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.verification.space_models import (
+from tests.support.multibody.space_models import (
     RX,
     RY,
     RZ,
@@ -17,8 +17,8 @@ from tests.verification.space_models import (
     started,
 )
 
-from crumple._core.space import SpaceSimulation, SpaceUntil, Until
-from crumple._core.space_model import (
+from crumple._core.planar.simulation import Outcome
+from crumple._core.spatial.model import (
     GROUND,
     SpaceBody,
     SpaceDrive,
@@ -34,7 +34,7 @@ from crumple._core.space_model import (
     spherical,
     universal,
 )
-from crumple._core.tree import Outcome
+from crumple._core.spatial.simulation import SpaceSimulation, SpaceUntil, Until
 
 X, Y = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 JOINTS = {

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import minimize
-from tests.verification.hinge_rig import BALL, ELLIPSOID, SECTION
+from tests.support.multibody.hinge_rig import BALL, ELLIPSOID, SECTION
 
 from crumple._core import _kernels
 
@@ -109,7 +109,7 @@ def test_gauge_is_a_norm_and_its_gradient_is_true():
 
 def test_tension_flange_against_a_general_optimiser():
     """|M| <= 100, |M| - 0.5 N <= 60, -80 <= N <= 150 at softened moment: by SciPy's SLSQP."""
-    from tests.verification.hinge_rig import (
+    from tests.support.multibody.hinge_rig import (
         ABOUT_Y,
         AXIAL,
         ELASTIC_PLASTIC,

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from crumple.hinge import AfterJamming, KecmanLaw
-from crumple.hinge.jamming import RAMP_FRACTION, continued, continued_kinks
+from crumple.hinge.bending.jamming import RAMP_FRACTION, continued, continued_kinks
 from crumple.material import Material
 from crumple.section import RectangularTube
 

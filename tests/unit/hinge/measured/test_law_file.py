@@ -21,9 +21,9 @@ from crumple.hinge import (
     record_of,
 )
 from crumple.hinge.band import Bound, band_of
-from crumple.hinge.law_file import read_law, stored_law, write_law
-from crumple.hinge.laws.stored import StoredCurve, StoredLaw, bounded
-from crumple.hinge.measured import bending_band, measured_band
+from crumple.hinge.measured.law_file import read_law, stored_law, write_law
+from crumple.hinge.measured.measured import bending_band, measured_band
+from crumple.hinge.measured.stored import StoredCurve, StoredLaw, bounded
 from crumple.material import CowperSymonds, Material
 from crumple.section import Channel, CircularTube, RectangularTube
 

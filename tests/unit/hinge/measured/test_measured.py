@@ -5,8 +5,8 @@ import pytest
 
 from crumple.errors import InputError
 from crumple.hinge import HingeRate, Trust, record_of
-from crumple.hinge.axial_law import AxialLaw
-from crumple.hinge.measured import bending_band, crushing_of, measured_band, read_specimens, smoothed
+from crumple.hinge.axial.axial_law import AxialLaw
+from crumple.hinge.measured.measured import bending_band, crushing_of, measured_band, read_specimens, smoothed
 
 STIFFNESS = 40e3
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tests.unit.comparison.folded_tube import analysis
+from tests.support.result.folded_tube import analysis
 
 from crumple.analysis import solve
 

@@ -5,7 +5,7 @@ import pytest
 
 from crumple.analysis import loads, solve
 from crumple.errors import InputError
-from crumple.report.wording import fall_table
+from crumple.report.wording.wording import fall_table
 
 # a bar swings down from level about a pin at its end, past a square that stands still
 SWINGING = """crumple: 1

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from tests.unit.multibody.parts import CLAMP, LAW, member, structure
+from tests.support.multibody.frames import CLAMP, LAW, member, structure
 
 from crumple.errors import InputError
 from crumple.multibody import Run, infinitesimal, link, notes, solve_multibody
-from crumple.multibody.linkage import GROUND, check_inertia
-from crumple.multibody.mobility import free_parts, mobility
+from crumple.multibody.bodies.linkage import GROUND, check_inertia
+from crumple.multibody.bodies.mobility import free_parts, mobility
 from crumple.structure import MultibodySettings
 
 SQUARE = {"a": (0, 0, 0), "b": (0, 0, 1), "c": (1, 0, 1), "d": (1, 0, 0)}

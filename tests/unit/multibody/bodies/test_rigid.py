@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from tests.unit.multibody.parts import structure
+from tests.support.multibody.frames import structure
 
-from crumple.multibody.rigid import RigidMass, combined, lump_mass, piece_mass
+from crumple.multibody.bodies.rigid import RigidMass, combined, lump_mass, piece_mass
 
 AREA = 0.050 * 0.025 - 0.0447 * 0.0197
 

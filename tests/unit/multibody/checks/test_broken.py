@@ -5,10 +5,10 @@ import re
 
 import numpy as np
 import pytest
-from tests.verification.structures import STEEL, TUBE, constant_law
+from tests.support.structures import STEEL, TUBE, constant_law
 
 from crumple.multibody import Run, solve_multibody
-from crumple.report.wording import collapse_table
+from crumple.report.wording.wording import collapse_table
 from crumple.result import summary
 from crumple.structure import Structure
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from tests.verification.structures import STEEL
+from tests.support.structures import STEEL
 
 from crumple.analysis import load, solve
 from crumple.hinge import build_axial_law
@@ -11,7 +11,7 @@ from crumple.multibody import Run, solve_multibody
 from crumple.structure import MultibodySettings, Outputs, SectionForce, Structure
 
 SIDE, WALL = 0.05, 0.0015
-CRUSH = Path(__file__).parents[3] / "examples" / "07_axial_crush.yaml"
+CRUSH = Path(__file__).parents[4] / "examples" / "07_axial_crush.yaml"
 
 
 def column(force, axial=None):

@@ -1,9 +1,9 @@
 """Motions that begin and cannot go on: two bars in one line between two pins, struck in the middle."""
 
 import pytest
-from tests.verification.structures import TUBE, constant_law
-from tests.verification.test_limit_loads import beam, portal
-from tests.verification.test_spatial_lowering import frame
+from tests.support.structures import TUBE, constant_law
+from tests.verification.spatial.test_spatial_lowering import frame
+from tests.verification.stages.test_limit_loads import beam, portal
 
 from crumple.errors import Status
 from crumple.multibody import Run, infinitesimal, link, solve_multibody

@@ -1,7 +1,7 @@
 """Driven obstacles and supports that strike or move what cannot give way."""
 
 import pytest
-from tests.verification.structures import STEEL, TUBE
+from tests.support.structures import STEEL, TUBE
 
 from crumple.errors import Status
 from crumple.multibody import Run, solve_multibody

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from tests.verification.structures import STEEL
+from tests.support.structures import STEEL
 
 from crumple.multibody import Run, solve_multibody
-from crumple.multibody.overlap import segment_distance
+from crumple.multibody.checks.overlap import segment_distance
 from crumple.structure import Structure
 
 SQUARE = {"type": "square_tube", "side": 0.05, "thickness": 0.003}

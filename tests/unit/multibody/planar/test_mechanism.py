@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from tests.unit.multibody.parts import CLAMP, THROWN, X_LINE, member, structure
+from tests.support.multibody.frames import CLAMP, THROWN, X_LINE, member, structure
 
 from crumple.errors import InputError
 from crumple.multibody import lower
-from crumple.multibody.mechanism import GROUND
-from crumple.multibody.poses import piece_at
+from crumple.multibody.answer.poses import piece_at
+from crumple.multibody.planar.mechanism import GROUND
 from crumple.section import RectangularTube, half_fold_length
 
 ABOUT_Y = {"axis": "y"}

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from tests.unit.multibody.parts import CLAMP, THROWN, member, structure
+from tests.support.multibody.frames import CLAMP, THROWN, member, structure
 
-from crumple._core.tree import JointKind
+from crumple._core.planar.simulation import JointKind
 from crumple.errors import InputError
 from crumple.hinge import Envelope, Form, HingeRecord, SofteningVariable, Stop
 from crumple.multibody import lower, start_of, tree_hinge, tree_model

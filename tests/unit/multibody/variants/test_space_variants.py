@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tests.verification.structures import STEEL, TUBE, cantilever
+from tests.support.structures import STEEL, TUBE, cantilever
 
 from crumple.errors import Status
 from crumple.multibody import Run, solve_multibody, solve_variants

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.unit.result.synthetic_frame import CUBE, PORTAL, frame_states
-from tests.unit.result.synthetic_tube import tube_states
+from tests.support.result.synthetic_frame import CUBE, PORTAL, frame_states
+from tests.support.result.synthetic_tube import tube_states
 
-from crumple.report.view import choose_view
+from crumple.report.drawing.view import choose_view
 
 
 def turned(states, rotation):

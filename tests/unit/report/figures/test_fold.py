@@ -4,11 +4,11 @@ import dataclasses
 
 import numpy as np
 import pytest
-from tests.unit.shell_room.structures import thrown
+from tests.support.shell.structures import thrown
 
 from crumple.report import ReportInput, write_report
-from crumple.report.fold import folds, found_folds
-from crumple.report.strain import SCALE, largest_strain, wall_colours
+from crumple.report.drawing.strain import SCALE, largest_strain, wall_colours
+from crumple.report.figures.fold import folds, found_folds
 from crumple.shell import ShellRun, solve_shell
 from crumple.structure import Outputs, ShellSettings
 

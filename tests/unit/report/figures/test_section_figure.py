@@ -3,7 +3,7 @@ from xml.etree import ElementTree
 import pytest
 
 from crumple.material import Material
-from crumple.report.section_figure import section_figure
+from crumple.report.figures.section_figure import section_figure
 from crumple.section import (
     Angle,
     Channel,

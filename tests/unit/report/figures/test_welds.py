@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.unit.result.synthetic_tube import tube_result
+from tests.support.result.synthetic_tube import tube_result
 
 from crumple.report import ReportInput, write_report
-from crumple.report.style import drawing
-from crumple.report.welds import MOST_FORCES, MOST_RATIOS, weld_loads
+from crumple.report.drawing.style import drawing
+from crumple.report.figures.welds import MOST_FORCES, MOST_RATIOS, weld_loads
 from crumple.result import Channel
 
 

@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.unit.result.synthetic_frame import frame_result
-from tests.unit.result.synthetic_tube import tube_result
+from tests.support.result.synthetic_frame import frame_result
+from tests.support.result.synthetic_tube import tube_result
 
 from crumple.errors import Status
-from crumple.report.scales import display_unit, output_groups, pretty_unit, spread, thinned, time_unit
-from crumple.report.wording import (
+from crumple.report.drawing.scales import display_unit, output_groups, pretty_unit, spread, thinned, time_unit
+from crumple.report.wording.wording import (
     angle,
     column,
     hinge_table,

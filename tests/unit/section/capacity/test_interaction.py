@@ -6,6 +6,7 @@ from hypothesis.extra.numpy import arrays
 
 from crumple.errors import InputError
 from crumple.material import Material
+from crumple.numeric.monotone_root import rising_root
 from crumple.section import (
     Channel,
     ClosedHat,
@@ -16,8 +17,7 @@ from crumple.section import (
     moment_capacity,
     plastic_interaction,
 )
-from crumple.section.interaction_fit import nonnegative_least_squares
-from crumple.section.root import rising_root
+from crumple.section.capacity.interaction_fit import nonnegative_least_squares
 
 MM = 1e-3
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 488e6)

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from crumple.shell.sections import mean_spin, section_rotation
-from crumple.structure.rotation import continuous, relative_rotation, rotation_vector
+from crumple.numeric.rotation import continuous, relative_rotation, rotation_vector
+from crumple.shell.answer.sections import mean_spin, section_rotation
 
 RING = np.array(
     [[0.0, y, z] for y, z in ((2, -1), (2, 0), (2, 1), (0, 1), (-2, 1), (-2, 0), (-2, -1), (0, -1))]

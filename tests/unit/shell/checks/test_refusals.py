@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from tests.unit.shell_room.structures import cantilever, thrown
+from tests.support.shell.structures import cantilever, thrown
 
-from crumple._core.shell import ShellState
+from crumple._core.shell.simulation import ShellState
 from crumple.errors import InputError, Status
 from crumple.shell import LongRun, ShellRun, lower, mesh_of, solve_shell
 from crumple.structure import Outputs, ShellSettings, Stage

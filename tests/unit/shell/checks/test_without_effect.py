@@ -1,7 +1,7 @@
 """What is asked for and would change nothing: refused, or told with the result."""
 
 import pytest
-from tests.unit.shell_room.structures import cantilever, thrown
+from tests.support.shell.structures import cantilever, thrown
 
 from crumple.analysis import Analysis
 from crumple.errors import InputError, Status

@@ -4,16 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.unit.shell_room.structures import STEEL, cantilever, thrown
+from tests.support.shell.structures import STEEL, cantilever, thrown
 
-from crumple._core.shell import ShellState
+from crumple._core.shell.simulation import ShellState
 from crumple.errors import Status
 from crumple.shell import ShellRun, lower, mesh_of, solve_shell
-from crumple.shell.bays import bays_of, coarse_rings, halving_of, levels_of
-from crumple.shell.contour import contour_of
-from crumple.shell.profile import Contour
-from crumple.shell.quality import areas, report_of
-from crumple.shell.start import nodal_masses
+from crumple.shell.mesh.bays import bays_of, coarse_rings, halving_of, levels_of
+from crumple.shell.mesh.contour import contour_of
+from crumple.shell.mesh.profile import Contour
+from crumple.shell.mesh.quality import areas, report_of
+from crumple.shell.model.initial_motion import nodal_masses
 from crumple.structure import Outputs, ShellSettings, Structure
 
 GRADED = ShellSettings(element_size=30e-3, fine_size=8e-3, fine_length=40e-3, growth=1.3)
@@ -231,7 +231,7 @@ def test_a_run_on_a_coarser_section_keeps_its_energy_and_its_channels(settings):
 
 
 def test_members_that_meet_stay_fine_there():
-    from tests.unit.shell_room.structures import knee
+    from tests.support.shell.structures import knee
 
     mesh = mesh_of(knee(), COARSER)
     for node in ("b",):

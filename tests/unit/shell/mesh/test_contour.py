@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from crumple.section import CircularTube, RectangularTube, Wall, WallSection, Weld, outline_section
-from crumple.shell.contour import contour_of
+from crumple.shell.mesh.contour import contour_of
 
 
 def lengths(contour):

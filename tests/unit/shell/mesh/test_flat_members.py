@@ -1,7 +1,7 @@
 """Members of one flat wall: the places of nodes in a line tell no turn of a section."""
 
 import pytest
-from tests.verification.structures import STEEL
+from tests.support.structures import STEEL
 
 from crumple.shell import ShellRun, solve_shell
 from crumple.structure import Outputs, ShellSettings, Structure

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from tests.unit.shell_room.structures import cantilever
+from tests.support.shell.structures import cantilever
 
 from crumple.shell import mesh_of
-from crumple.shell.imperfection import spread
+from crumple.shell.mesh.imperfection import spread
 from crumple.structure import ShellSettings
 
 

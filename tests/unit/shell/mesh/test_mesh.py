@@ -4,12 +4,12 @@ import dataclasses
 
 import numpy as np
 import pytest
-from tests.unit.shell_room.structures import STEEL, TUBE, cantilever, knee, structure, tee, thrown
+from tests.support.shell.structures import STEEL, TUBE, cantilever, knee, structure, tee, thrown
 
 from crumple.errors import InputError
-from crumple.shell.joints import Kind
-from crumple.shell.mesh import mesh_of
-from crumple.shell.quality import areas, report_of
+from crumple.shell.mesh.joints import Kind
+from crumple.shell.mesh.mesh import mesh_of
+from crumple.shell.mesh.quality import areas, report_of
 from crumple.structure import Outputs, ShellSettings
 
 COARSE = ShellSettings(element_size=12e-3)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from crumple.shell.stations import Sizes, stations
+from crumple.shell.mesh.stations import Sizes, stations
 
 GRADED = Sizes(coarse=20e-3, fine=5e-3, growth=1.2)
 

@@ -5,13 +5,13 @@ An impact takes about ten steps, and its first touch is seen up to one step late
 
 import numpy as np
 import pytest
-from sheets import grid, model
-from tests.unit.shell_room.structures import structure
+from tests.support.shell.sheets import grid, model
+from tests.support.shell.structures import structure
 
-from crumple._core.shell import RigidObstacle, RigidSet, Shape, ShellState
+from crumple._core.shell.simulation import RigidObstacle, RigidSet, Shape, ShellState
 from crumple.errors import Status
 from crumple.shell import ShellRun, solve_shell
-from crumple.shell.obstacles import rebound, rebound_damping
+from crumple.shell.model.obstacles import rebound, rebound_damping
 from crumple.structure import Outputs, ShellSettings
 
 T = 2e-3

@@ -2,15 +2,15 @@
 
 import numpy as np
 import pytest
-from tests.unit.shell_room.structures import STEEL, cantilever, tee, thrown
+from tests.support.shell.structures import STEEL, cantilever, tee, thrown
 
-from crumple._core.shell import Element, ShellState
+from crumple._core.shell.simulation import Element, ShellState
 from crumple.errors import InputError
 from crumple.function import parse_time_function
 from crumple.material import CowperSymonds, HardeningTable, JohnsonCook, Material, Swift
 from crumple.shell import lower
-from crumple.shell.drives import velocity_of
-from crumple.shell.metal import in_words, shell_material
+from crumple.shell.model.drives import velocity_of
+from crumple.shell.model.metal import in_words, shell_material
 from crumple.structure import ShellSettings, Structure
 
 COARSE = ShellSettings(element_size=12e-3)

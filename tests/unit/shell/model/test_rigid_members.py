@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.unit.shell_room.structures import structure
+from tests.support.shell.structures import structure
 
-from crumple._core.shell import ShellState
+from crumple._core.shell.simulation import ShellState
 from crumple.errors import InputError, Status
 from crumple.multibody import Run, solve_multibody
 from crumple.shell import ShellRun, lower, solve_shell
@@ -160,7 +160,7 @@ def test_automatic_hinges_avoid_rigid_parts():
 
 
 def test_elastic_length_of_a_hinge_leaves_out_what_is_rigid():
-    from crumple.structure.hinges import tributary_lengths
+    from crumple.structure.hinges.hinges import tributary_lengths
 
     assert tributary_lengths([0.1], 0.9, ((0.3, 0.6),)) == pytest.approx([0.2])
     assert tributary_lengths([0.1, 0.7], 0.9, ((0.3, 0.6),)) == pytest.approx([0.3, 0.3])

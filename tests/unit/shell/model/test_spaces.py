@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from tests.unit.shell_room.structures import knee
+from tests.support.shell.structures import knee
 
+from crumple.numeric.rotation import turned, vector_quaternion
 from crumple.shell import lower
-from crumple.shell.spaces import clearance_now
+from crumple.shell.model.spaces import clearance_now
 from crumple.structure import Outputs, ShellSettings
-from crumple.structure.rotation import turned, vector_quaternion
 
 COARSE = ShellSettings(element_size=24e-3)
 

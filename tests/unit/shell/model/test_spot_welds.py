@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tests.verification.welded_parts import (
+from tests.support.shell.welded_parts import (
     SETTINGS,
     THICKNESS,
     closed_hat,

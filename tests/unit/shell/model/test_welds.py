@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from tests.unit.shell_room.structures import STEEL
+from tests.support.shell.structures import STEEL
 
-from crumple._core.shell import ShellState
+from crumple._core.shell.simulation import ShellState
 from crumple.errors import Status
 from crumple.shell import ShellRun, lower, solve_shell
 from crumple.structure import Outputs, ShellSettings, Structure

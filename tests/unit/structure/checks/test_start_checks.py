@@ -1,7 +1,7 @@
 """Impulses and velocities that a support would swallow are refused by name, at the start and in stages."""
 
 import pytest
-from tests.unit.shell_room.structures import cantilever
+from tests.support.shell.structures import cantilever
 
 from crumple.analysis import Analysis
 from crumple.errors import InputError

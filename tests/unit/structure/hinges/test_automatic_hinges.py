@@ -1,12 +1,12 @@
 """Where `hinges: auto` puts its candidates."""
 
 import pytest
-from tests.unit.multibody.parts import CLAMP, LAW, member, structure
+from tests.support.multibody.frames import CLAMP, LAW, member, structure
 
 from crumple.errors import InputError
 from crumple.section import RectangularTube, half_fold_length
 from crumple.structure import any_automatic, hinge_places, placed_hinges, planar
-from crumple.structure.automatic import automatic_stations
+from crumple.structure.hinges.automatic import automatic_stations
 
 NODES = {"a": (0.0, 0.0, 0.0), "b": (1.0, 0.0, 0.0), "c": (1.0, 0.0, 1.0), "d": (1.02, 0.0, 0.0)}
 FRAME = {"ab": member("a", "b") | {"hinges": ()}, "bc": member("b", "c") | {"hinges": ()}}

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from tests.unit.multibody.parts import CLAMP, member, structure
+from tests.support.multibody.frames import CLAMP, member, structure
 
 from crumple.errors import InputError
-from crumple.multibody.linkage import joint_axes
+from crumple.multibody.bodies.linkage import joint_axes
 from crumple.structure import Joint
 
 NODES = {"a": (0.0, 0.0, 0.0), "b": (1.0, 0.0, 0.0), "c": (2.0, 0.0, 0.0)}

@@ -6,7 +6,7 @@ from crumple.errors import InputError
 from crumple.hinge import build_law, stored_law, write_law
 from crumple.material import Material
 from crumple.section import RectangularTube
-from crumple.structure.law import FileLaw
+from crumple.structure.keys.law import FileLaw
 
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 488e6)
 TUBE = RectangularTube(0.05, 0.025, 0.00265)

@@ -13,7 +13,7 @@ from crumple import section
 from crumple.errors import InputError
 from crumple.material import Material, grade
 from crumple.structure import MaterialSpec, Structure, placed_hinges
-from crumple.structure.section import SectionSpec
+from crumple.structure.keys.section import SectionSpec
 
 MILD = Material("mild", 210e9, 0.3, 7850.0, 300e6)
 STRONG = Material("in place", 210e9, 0.3, 7850.0, 600e6)
@@ -284,7 +284,7 @@ def test_an_ultimate_stress_below_the_yield_stress_of_a_grade_is_refused():
 def test_tubes_alone_import_no_walls():
     code = (
         "import sys\n"
-        "from crumple.structure.section import SectionSpec\n"
+        "from crumple.structure.keys.section import SectionSpec\n"
         "from pydantic import TypeAdapter\n"
         "TypeAdapter(SectionSpec).validate_python("
         "{'type': 'rectangular_tube', 'width': 0.05, 'depth': 0.03, 'thickness': 0.002})\n"

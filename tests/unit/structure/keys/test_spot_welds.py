@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tests.unit.multibody.parts import STEEL, TUBE, member
+from tests.support.multibody.frames import STEEL, TUBE, member
 
 from crumple.analysis import Analysis
 from crumple.errors import InputError

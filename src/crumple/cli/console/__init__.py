@@ -1,0 +1,1 @@
+"""What the verbs print with: charts, tables, progress, refusals."""

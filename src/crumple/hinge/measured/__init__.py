@@ -1,0 +1,1 @@
+"""Measured curves, tables and law files."""

@@ -1,0 +1,1 @@
+"""A law as the stepper takes it."""

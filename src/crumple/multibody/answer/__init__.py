@@ -1,0 +1,1 @@
+"""From a run of a kernel to named channels, shapes and summaries."""

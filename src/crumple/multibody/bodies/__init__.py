@@ -1,0 +1,1 @@
+"""From a structure to rigid bodies, joints and what moves them."""

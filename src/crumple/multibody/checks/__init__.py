@@ -1,0 +1,1 @@
+"""What an engineer must know before believing a multibody result."""

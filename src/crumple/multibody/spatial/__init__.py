@@ -1,0 +1,1 @@
+"""What only the spatial kernel needs."""

@@ -1,0 +1,1 @@
+"""How figures look: styles, scales, views, the moving picture."""

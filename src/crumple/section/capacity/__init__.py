@@ -1,0 +1,1 @@
+"""What a section carries: buckling, moment over curvature, plastic interaction."""

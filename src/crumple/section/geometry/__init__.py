@@ -1,0 +1,1 @@
+"""Walls as a graph of flats, bends and plates."""

@@ -1,0 +1,1 @@
+"""Areas, second moments, torsion and warping."""

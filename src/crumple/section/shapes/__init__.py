@@ -1,0 +1,1 @@
+"""Section shapes, one file each."""

@@ -1,0 +1,1 @@
+"""From a shell run to named channels and shapes."""

@@ -1,0 +1,1 @@
+"""Settings that are refused, and what to know before believing a shell result."""

@@ -1,0 +1,1 @@
+"""From a structure and its mesh to the model of the stepper."""

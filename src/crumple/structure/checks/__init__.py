@@ -1,0 +1,1 @@
+"""Mistakes that no part shows alone."""

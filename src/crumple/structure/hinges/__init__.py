@@ -1,0 +1,1 @@
+"""Where hinges are and what each can carry."""

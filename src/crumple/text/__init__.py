@@ -1,0 +1,1 @@
+"""Plain texts with the line of every entry."""
