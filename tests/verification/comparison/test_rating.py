@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from tests.verification.comparison.rating_curves import PAIRS, arrested, swings
 
-from crumple.comparison.rating import rating
+from crumple.comparison import rating
 
 KEPT = json.loads((Path(__file__).parent / "rating_reference.json").read_text(encoding="utf-8"))
 PARTS = ("corridor", "phase", "magnitude", "slope", "overall")

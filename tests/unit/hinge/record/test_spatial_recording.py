@@ -19,8 +19,8 @@ from crumple.hinge import (
     build_law,
     build_torsion_law,
     record_of,
+    spatial_record,
 )
-from crumple.hinge.record import spatial_record
 from crumple.hinge.record.sensitivity import capacity_sensitivity
 from crumple.material import Material
 from crumple.section import InteractionFit, RectangularTube, fitted_interaction, plastic_interaction
