@@ -283,11 +283,10 @@ class _Bending:
     def _cut_edges(self, carried: list[Carried]) -> dict[int, tuple[float, float]]:
         """Heights between which edges remain whose free end buckling takes away; crossed if nothing does."""
         cut = {}
-        for plate, (_, h0, _, h1), part in zip(self.plates, self._ends, carried, strict=True):
+        for plate, (u0, h0, u1, h1), part in zip(self.plates, self._ends, carried, strict=True):
             if part.end <= part.start or part.end < plate.width or plate.held != 1:
                 continue
-            across = abs(h1 - h0) / plate.width
-            beside = math.sqrt(max(1.0 - across * across, 0.0)) * plate.thickness / 2.0
+            beside = abs(u1 - u0) / plate.width * plate.thickness / 2.0
             left = h0 + (h1 - h0) * part.start / plate.width
             for k, edge in enumerate(plate.edges):
                 if plate.stops[k] >= part.start:

@@ -42,10 +42,9 @@ class Piece:
         """Length along the mid-line [m], exact for arcs."""
         return 2.0 * self.half_angle * self.radius if self.radius else abs(self.end - self.start)
 
-    @property
-    def sweep(self) -> float:
-        """Twice the area that the ray from the origin sweeps along the piece [m^2], exact for arcs."""
-        chord = (self.start.conjugate() * self.end).imag
+    def sweep(self, pole: complex) -> float:
+        """Twice the area that the ray from a pole sweeps along the piece [m^2], exact for arcs."""
+        chord = ((self.start - pole).conjugate() * (self.end - pole)).imag
         if not self.radius:
             return chord
         angle = 2.0 * self.half_angle

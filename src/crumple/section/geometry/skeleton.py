@@ -66,9 +66,14 @@ class Skeleton:
         return np.array([piece.length for piece in self.pieces])
 
     @cached_property
+    def middle(self) -> complex:
+        """Mean of the nodes: integrals are taken about it, as about a distant origin they lose digits."""
+        return complex(self.nodes.mean())
+
+    @cached_property
     def sweep(self) -> Floats:
-        """Twice the area that the ray from the origin sweeps along each edge [m^2], shape (m,)."""
-        return np.array([piece.sweep for piece in self.pieces])
+        """Twice the area that the ray from `middle` sweeps along each edge [m^2], shape (m,)."""
+        return np.array([piece.sweep(self.middle) for piece in self.pieces])
 
     @cached_property
     def stars(self) -> list[list[int]]:

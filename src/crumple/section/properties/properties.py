@@ -72,7 +72,7 @@ def properties_of(skeleton: Skeleton, stretch: Floats, shear: Floats) -> Section
         Young's and shear modulus of each edge over those of the reference metal, shape (m,); ones for the
         plain geometry.
     """
-    parts = moments(skeleton.polygons)
+    parts = moments(skeleton.polygons - skeleton.middle)
     area, sy, sz, yy, zz, yz = (float(stretch @ part) for part in parts)
     y, z = sy / area, sz / area
     iy, iz, iyz = zz - area * z * z, yy - area * y * y, yz - area * y * z
@@ -80,10 +80,11 @@ def properties_of(skeleton: Skeleton, stretch: Floats, shear: Floats) -> Section
     # equal within rounding: every axis is principal, y as good as any
     angle = math.atan2(-2.0 * iyz, iy - iz) / 2.0 if radius > 1e-9 * middle else 0.0
     torsion = torsion_of(skeleton, stretch, shear)
-    shear_centre = torsion.shear_centre - complex(y, z)
+    centroid = skeleton.middle + complex(y, z)
+    shear_centre = torsion.shear_centre - centroid
     return SectionProperties(
         area,
-        (y, z),
+        (centroid.real, centroid.imag),
         iy,
         iz,
         iyz,

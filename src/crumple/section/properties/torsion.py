@@ -1,14 +1,18 @@
 """Torsion and warping of a graph of thin walls: any number of cells, open walls, all in one system.
 
-Unknown: the warping u of the nodes at unit twist per length.  In a wall of thickness t, length L, with s the
-ray's sweep (twice the area that the ray from the pole sweeps along it):
+At unit twist per length, in a wall of thickness t and length L, with u the warping of its ends and s twice
+the area that the ray from the pole sweeps along it, the shear flow is
 
-    shear flow    q = G t/L (u_end - u_start + s)
-    at each node  sum of the flows that leave = 0
+    q = G t/L (u_end - u_start + s).
 
-so open walls carry no flow and warp freely, and cells carry Bredt's flow.  Then
+The flows that leave a node add up to zero, so they are sums of flows q_i that circulate in the independent
+loops of the graph.  Once around a loop the warping comes back to its value; with A_i the area of the loop:
 
-    G J   = sum q s + sum G L t^3/3
+    sum over its walls of q L/(G t) = 2 A_i      (Bredt; one equation per loop for the q_i)
+
+Walls in no loop carry no flow and warp freely.  A weld is rigid in shear: L/(G t) = 0.  Then
+
+    G J   = sum 2 A_i q_i + sum G L t^3/3
     shear centre P:  the warping about it, u + y_P z - z_P y + const, does no work with bending:
                      int E u_P dA = int E u_P y dA = int E u_P z dA = 0
     E I_w = int E u_P^2 dA + sum E t^3/12 int r_t^2 ds       (r_t lever arm along the wall: warping across it)
@@ -19,31 +23,26 @@ equal legs.  Mid-line integrals: sharp corners add stiffness that is not here.
 
 from __future__ import annotations
 
+from collections import deque
 from typing import NamedTuple
 
 import numpy as np
 
 from crumple.numeric.arrays import Floats
-from crumple.section.geometry.skeleton import Skeleton
-
-# A weld is this much stiffer in shear than the stiffest wall: enough for seven digits, far from rounding.
-_WELD = 1e7
+from crumple.section.geometry.skeleton import Complexes, Skeleton
 
 
 class Torsion(NamedTuple):
     """Answers to a twist, relative to the reference metal.
 
     ``constant`` [m^4]; ``shear_centre`` complex [m] in the coordinates of the walls; ``warping_constant``
-    of the mid-line and ``wall_warping_constant`` across the walls [m^6]; ``flow`` q/(G twist) [m^2] of each
-    edge and ``warping`` of each node about the shear centre [m^2].
+    of the mid-line and ``wall_warping_constant`` across the walls [m^6].
     """
 
     constant: float
     shear_centre: complex
     warping_constant: float
     wall_warping_constant: float
-    flow: Floats
-    warping: Floats
 
 
 def torsion_of(skeleton: Skeleton, stretch: Floats, shear: Floats) -> Torsion:
@@ -57,28 +56,53 @@ def torsion_of(skeleton: Skeleton, stretch: Floats, shear: Floats) -> Torsion:
         Young's and shear modulus of each edge over those of the reference metal, shape (m,).
     """
     t, length, sweep = skeleton.thickness, skeleton.length, skeleton.sweep
-    conductance = np.where(t > 0.0, shear * t / length, 0.0)
-    conductance[t <= 0.0] = _WELD * conductance.max()
+    flexibility = np.divide(length, shear * t, out=np.zeros(len(t)), where=t > 0.0)
+    paths, loops = _paths_and_loops(skeleton)
+    twice_areas = loops @ sweep
+    circulating = np.linalg.solve((loops * flexibility) @ loops.T, twice_areas)
+    constant = float(circulating @ twice_areas + (shear * length * t**3).sum() / 3.0)
+    warping = paths @ (flexibility * (circulating @ loops) - sweep)
     start, end = skeleton.ends.T
-    n = len(skeleton.nodes)
-    matrix, load = np.zeros((n, n)), np.zeros(n)
-    np.add.at(matrix, (start, start), conductance)
-    np.add.at(matrix, (end, end), conductance)
-    np.add.at(matrix, (start, end), -conductance)
-    np.add.at(matrix, (end, start), -conductance)
-    np.add.at(load, start, conductance * sweep)
-    np.add.at(load, end, -conductance * sweep)
-    warping = np.zeros(n)
-    warping[1:] = np.linalg.solve(matrix[1:, 1:], load[1:])
-    flow = conductance * (warping[end] - warping[start] + sweep)
-    # rounding of the stiff welds would leave a trace of flow in open walls
-    constant = float(flow @ sweep + (shear * length * t**3).sum() / 3.0)
-    y, z = skeleton.nodes.real, skeleton.nodes.imag
     metal = _Midline(start, end, stretch * t * length)
-    pole, warping = _about_shear_centre(metal, y, z, warping)
-    lever = _lever_along(skeleton, pole)
+    local = skeleton.nodes - skeleton.middle
+    pole, warping = _about_shear_centre(metal, local.real, local.imag, warping)
+    lever = _lever_along(local[start], local[end], pole)
     across = float((stretch * t**3 / 12.0 * length * lever).sum())
-    return Torsion(constant, pole, metal.product(warping, warping), across, flow, warping)
+    return Torsion(constant, skeleton.middle + pole, metal.product(warping, warping), across)
+
+
+def _paths_and_loops(skeleton: Skeleton) -> tuple[Floats, Floats]:
+    """Which edges lead from node 0 to each node, and which make up each independent loop.
+
+    Returns
+    -------
+    tuple
+        Paths along a spanning tree, shape (n, m), and the loops that the other edges close, shape (loops, m):
+        +1 where an edge is followed from its start to its end, -1 against it, else 0.
+    """
+    edges, ends = len(skeleton.pieces), skeleton.ends.tolist()
+    paths = np.zeros((len(skeleton.nodes), edges))
+    loops: list[Floats] = []
+    reached, used = {0}, set()
+    walls, welds = deque(skeleton.stars[0]), deque[int]()
+    while walls or welds:
+        # welds first: one that then closes a loop closes a loop of welds alone, and is redundant
+        half = (welds or walls).popleft()
+        edge, side = half >> 1, half & 1
+        if edge in used:
+            continue
+        used.add(edge)
+        far = ends[edge][1 - side]
+        path = paths[ends[edge][side]].copy()
+        path[edge] = 1.0 - 2.0 * side
+        if far not in reached:
+            reached.add(far)
+            paths[far] = path
+            for leaving in skeleton.stars[far]:
+                (walls if skeleton.thickness[leaving >> 1] > 0.0 else welds).append(leaving)
+        elif skeleton.thickness[edge] > 0.0:
+            loops.append(path - paths[far])
+    return paths, np.array(loops).reshape(-1, edges)
 
 
 class _Midline(NamedTuple):
@@ -107,9 +131,8 @@ def _about_shear_centre(metal: _Midline, y: Floats, z: Floats, warping: Floats) 
     return complex(yp, zp), metal.centred(u + yp * z0 - zp * y0)
 
 
-def _lever_along(skeleton: Skeleton, pole: complex) -> Floats:
+def _lever_along(start: Complexes, end: Complexes, pole: complex) -> Floats:
     """Mean square over each edge of the distance to the pole along the edge [m^2]."""
-    start, end = (skeleton.nodes[number] for number in skeleton.ends.T)
     direction = (end - start) / np.abs(end - start)
     a, b = (((point - pole) * direction.conj()).real for point in (start, end))
     return np.asarray((a * a + a * b + b * b) / 3.0)
