@@ -3,7 +3,7 @@
 
 namespace nb = nanobind;
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace plain {
 void bind(nb::module_& m);
 }
@@ -14,7 +14,7 @@ void bind_tangent(nb::module_& m);
 namespace crumple::shell {
 void bind(nb::module_& m);
 }
-namespace crumple::space {
+namespace crumple::spatial {
 void bind(nb::module_& m);
 void bind_hinge(nb::module_& m);
 void bind_contact(nb::module_& m);
@@ -23,15 +23,15 @@ void bind_batch(nb::module_& m);
 
 NB_MODULE(_kernels, m) {
     m.doc() = "Compiled kernels of Crumple; use them through crumple.multibody and crumple.shell.";
-    auto multibody = m.def_submodule("multibody", "Implicit convex stepper for trees of rigid bodies with plastic hinges.");
-    crumple::multibody::bind(multibody);
-    auto space = m.def_submodule("space", "Implicit convex stepper for rigid bodies in space with plastic hinges.");
-    crumple::space::bind(space);
-    crumple::space::bind_hinge(space);
-    crumple::space::bind_contact(space);
-    crumple::space::bind_batch(space);
-    auto tangent = multibody.def_submodule("tangent", "The same stepper with derivatives.");
-    crumple::multibody::bind_tangent(tangent);
+    auto planar = m.def_submodule("planar", "Implicit convex stepper for trees of rigid bodies with plastic hinges.");
+    crumple::planar::bind(planar);
+    auto spatial = m.def_submodule("spatial", "Implicit convex stepper for rigid bodies in space with plastic hinges.");
+    crumple::spatial::bind(spatial);
+    crumple::spatial::bind_hinge(spatial);
+    crumple::spatial::bind_contact(spatial);
+    crumple::spatial::bind_batch(spatial);
+    auto tangent = planar.def_submodule("tangent", "The same stepper with derivatives.");
+    crumple::planar::bind_tangent(tangent);
     auto shell = m.def_submodule("shell", "Explicit stepper for thin shells.");
     crumple::shell::bind(shell);
 }

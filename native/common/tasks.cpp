@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace crumple::multibody {
+namespace crumple {
 
 namespace {
 
@@ -68,4 +68,4 @@ void share_out(std::size_t count, std::size_t share, int threads,
     if (failed) std::rethrow_exception(failed);
 }
 
-}  // namespace crumple::multibody
+}  // namespace crumple

@@ -9,7 +9,7 @@
 #include "common/binding.hpp"
 #include "hinge/hinge.hpp"
 
-namespace crumple::multibody {
+namespace crumple::hinge {
 inline namespace CRUMPLE_ARITHMETIC {
 
 using Doubles = std::vector<double>;
@@ -45,4 +45,4 @@ inline Hinge make_hinge(const nanobind::dict& d, Form form, Softening softening)
 }
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::hinge

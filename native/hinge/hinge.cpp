@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace crumple::multibody {
+namespace crumple::hinge {
 inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
@@ -14,7 +14,7 @@ constexpr double smallest_mean = 1e-7;
 // An elastic hinge that has yielded swings back to just its capacity, where errors of the step make it flow or
 // not; its time of rest passes over flow of less than this share of all its plastic rotation.
 constexpr double smallest_episode = 1e-2;
-// A rigid hinge of a loop that has come to rest is stirred once more while the loop's gap is mended.
+// A rigid hinge of a loop that has come to rest is stirred once more while the loop's gap is corrected.
 constexpr double smallest_rigid_episode = 1e-5;
 
 // Capacity in one sense (0 positive, 1 negative) before it turns further.  `u` is the plastic rotation counted in
@@ -387,4 +387,4 @@ Real stop_energy(const Hinge& hinge, Real q) {
 }
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::hinge

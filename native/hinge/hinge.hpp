@@ -22,7 +22,7 @@
 
 #include "hinge/real.hpp"
 
-namespace crumple::multibody {
+namespace crumple::hinge {
 inline namespace CRUMPLE_ARITHMETIC {
 
 using std::size_t;
@@ -141,4 +141,4 @@ Real stop_energy(const Hinge& hinge, Real q);
 bool turning(const Hinge& hinge, const HingeState& state);
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::hinge

@@ -14,7 +14,7 @@
 #define CRUMPLE_ARITHMETIC plain
 #endif
 
-namespace crumple::multibody {
+namespace crumple::hinge {
 inline namespace CRUMPLE_ARITHMETIC {
 
 using std::exp;
@@ -105,4 +105,4 @@ inline void take_directions(Real& to, const Real& from) { std::copy(from.d, from
 #endif
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::hinge

@@ -5,7 +5,7 @@
 
 #include "common/tasks.hpp"
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
@@ -66,7 +66,7 @@ void put(std::vector<double>& all, size_t row, const std::vector<double>& values
 }
 
 void solve_row(const Variations& v, size_t row, double end, const Settings& settings,
-               const std::function<bool(double)>& go_on, Finals& out) {
+               const std::function<bool(double)>& go_on, EndValues& out) {
     Model model = varied(v, row);
     const auto bodies = static_cast<size_t>(model.tree.bodies());
     bool finite = true;
@@ -90,10 +90,10 @@ void solve_row(const Variations& v, size_t row, double end, const Settings& sett
     out.outcome[row] = static_cast<int>(record.outcome);
 }
 
-Finals sized(const Variations& v) {
+EndValues sized(const Variations& v) {
     const Model& model = *v.models.front();
     const size_t n = v.count, bodies = static_cast<size_t>(model.tree.bodies()), dofs = static_cast<size_t>(model.tree.dofs());
-    Finals out;
+    EndValues out;
     for (auto* column : {&out.time, &out.residual, &out.lost}) column->assign(n, 0.0);
     for (auto* column : {&out.q, &out.w}) column->assign(n * dofs, 0.0);
     for (auto* column : {&out.pose, &out.velocity}) column->assign(n * bodies * 3, 0.0);
@@ -107,13 +107,13 @@ Finals sized(const Variations& v) {
 
 }  // namespace
 
-Finals solve_many(const Variations& v, double end, const Settings& settings, int threads,
+EndValues solve_many(const Variations& v, double end, const Settings& settings, int threads,
                   const std::function<bool(double)>& poll) {
-    Finals out = sized(v);
+    EndValues out = sized(v);
     auto solve = [&](size_t row, const std::function<bool(double)>& go_on) { solve_row(v, row, end, settings, go_on, out); };
     share_out(v.count, share, threads, solve, poll);
     return out;
 }
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::planar

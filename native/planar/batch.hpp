@@ -6,7 +6,7 @@
 
 #include "planar/simulation.hpp"
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
 // What varies, one row per variant; a null pointer leaves the model's own.
@@ -23,7 +23,7 @@ struct Variations {
 };
 
 // Where every variant ended, row by row; a row of a variant that was not solved holds zeros.
-struct Finals {
+struct EndValues {
     std::vector<double> time, q, w;     // (count), (count, dofs)
     std::vector<double> pose;           // (count, bodies, 3): angle, x, y of the origin
     std::vector<double> velocity;       // (count, bodies, 3), at the centres of mass
@@ -35,8 +35,8 @@ struct Finals {
 };
 
 // `poll` gets the share done, now and then, on the calling thread, and returns false to cancel.
-Finals solve_many(const Variations& variations, double end, const Settings& settings, int threads,
+EndValues solve_many(const Variations& variations, double end, const Settings& settings, int threads,
                   const std::function<bool(double)>& poll);
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::planar

@@ -3,8 +3,10 @@
 
 #include "hinge/real.hpp"
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
+
+using namespace hinge;
 
 // Solves a x = b in place (b becomes x) by LDL^T.  A redundant row (pivot below 1e-12 of its diagonal) gets x = 0.
 inline void solve_symmetric(Real* a, Real* b, int n) {
@@ -30,4 +32,4 @@ inline void solve_symmetric(Real* a, Real* b, int n) {
 }
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::planar

@@ -1,6 +1,6 @@
 #include "planar/directions.hpp"
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
@@ -87,4 +87,4 @@ bool set_directions(Model& model, const std::vector<Model*>& up, const std::vect
 }
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::planar

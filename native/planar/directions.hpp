@@ -5,7 +5,7 @@
 
 #include "planar/stepper.hpp"
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
 // Gives every number of the model the derivative (up - down)/width along each direction, up and down being the same
@@ -14,4 +14,4 @@ bool set_directions(Model& model, const std::vector<Model*>& up, const std::vect
                     const std::vector<double>& width);
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::planar

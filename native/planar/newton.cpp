@@ -5,14 +5,14 @@
 #include "planar/dense.hpp"
 #include "planar/stepper.hpp"
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
-// Whole Newton steps before the guaranteed path is taken; they fail only by cycling, which is rare.  In a chain hinges
+// Full Newton steps before the guaranteed path is taken; they fail only by cycling, which is rare.  In a chain hinges
 // come loose one after another, so a long one gets one more for every so many hinges.
-constexpr int bold_limit = 16, hinges_per_bold_step = 8;
+constexpr int full_step_limit = 16, hinges_per_full_step = 8;
 // Newton steps per width of the ramps before the step is given up and shortened: a fixed number, and some per
 // hinge, since in the worst case (an impulse on the end of a long chain) hinges lock and let go one at a time.
 constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
@@ -24,13 +24,13 @@ constexpr double impulse_tolerance = 1e-9;
 }  // namespace
 
 // A locked hinge is nearly infinitely stiff, so a line search at the true ramps unlocks hinges one at a time.  So
-// whole steps are tried first; where they cycle, the ramps are widened and narrowed in steps, each a good start
+// full steps are tried first; where they cycle, the ramps are widened and narrowed in steps, each a good start
 // for the next, with line search.
 bool Stepper::newton() {
     std::fill(impedance_.begin(), impedance_.end(), 0.0);
     std::fill(rhs_.begin(), rhs_.end(), 0.0);
     const int limit = newton_limit + newton_limit_per_hinge * static_cast<int>(frozen_.size());
-    if (all_set_valued_ ? descend(bold_limit + static_cast<int>(frozen_.size()) / hinges_per_bold_step, true) : descend(limit, false)) return true;
+    if (all_set_valued_ ? descend(full_step_limit + static_cast<int>(frozen_.size()) / hinges_per_full_step, true) : descend(limit, false)) return true;
     Real width = 1;
     for (const Real& w : w_) width = max(width, fabs(w));
     if (!std::isfinite(value(width))) return false;
@@ -53,7 +53,7 @@ bool Stepper::newton() {
 // Takes the whole Newton step, except that a hinge which would reverse is first put to rest, and that of
 // neighbouring locked hinges loaded beyond their capacity only the one loaded most is released: the moment
 // falls beside it, and releasing all of them would only send most back.
-void Stepper::take_whole_step() {
+void Stepper::take_full_step() {
     std::fill(overload_.begin(), overload_.end(), 0.0);
     std::fill(overload_of_children_.begin(), overload_of_children_.end(), 0.0);
     for (size_t j = 0; j < frozen_.size(); j++) {
@@ -79,8 +79,8 @@ void Stepper::take_whole_step() {
     w_.swap(next_);
 }
 
-// Newton steps, bold (whole steps, no guarantee) or with exact line search on the potential (always downhill).
-bool Stepper::descend(int limit, bool bold) {
+// Newton steps, either full (no guarantee) or with exact line search on the potential (always downhill).
+bool Stepper::descend(int limit, bool full_steps) {
     for (int iteration = 0; iteration < limit; iteration++) {
         linearise();
         solve_once();
@@ -100,8 +100,8 @@ bool Stepper::descend(int limit, bool bold) {
             w_.swap(next_);
             return true;
         }
-        if (bold) {
-            take_whole_step();
+        if (full_steps) {
+            take_full_step();
         } else if (slope <= 0) {
             w_.swap(next_);
         } else {
@@ -228,4 +228,4 @@ Real Stepper::search(Real slope_end) {
 }
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::planar

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
@@ -269,4 +269,4 @@ std::vector<Real> hinge_summary(const Simulation& simulation) {
 }
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::planar

@@ -7,7 +7,7 @@
 
 #include "planar/stepper.hpp"
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
 enum class Outcome { complete, step_collapsed, not_finite, cancelled, refused };
@@ -85,4 +85,4 @@ private:
 std::vector<Real> hinge_summary(const Simulation& simulation);
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::planar

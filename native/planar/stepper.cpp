@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
-// Turn [rad] over which a constraint's error is mended to 1/e: short against any rotation of interest.
-constexpr double mending_turn = 0.02;
+// Turn [rad] over which the drift of a constraint is corrected to 1/e: short against any rotation of interest.
+constexpr double correction_turn = 0.02;
 // Share of its rate that a hinge of a loop may keep and still count as come to rest: what the loop's gap asks of it.
 constexpr double at_rest = 1e-3;
 
@@ -157,26 +157,26 @@ void Stepper::predict(const State& s, double h) {
 }
 
 // Rates that the constrained directions must have, told for the middle's positions.  They must be the drive's own
-// (a hold's and a weld's are zero) at the positions of the end, which the last pass predicts.  What has gone astray is mended
-// while something turns to the end, so that nothing stirs at rest, nor where a step comes to it.
+// (a hold's and a weld's are zero) at the positions of the end, which the last pass predicts.  Drift is corrected while something
+// turns to the end, so that nothing stirs at rest, nor where a step comes to it.
 void Stepper::aim_rows(const State& s, double h) {
     if (rows_.empty()) return;
     Real turning = 0;
     for (const Real& w : w_) turning = max(turning, fabs(w));
-    const Real joint_mending = min(turning / mending_turn, 1 / (2 * h));
-    const double drive_mending = 1 / std::max(2 * h, drift_time_);
+    const Real joint_correction = min(turning / correction_turn, 1 / (2 * h));
+    const double drive_correction = 1 / std::max(2 * h, drift_time_);
     for (size_t k = 0; k < rows_.size(); k++) {
         row_target_[k] = row_rate(rows_[k], middle_.data(), twist_.data()) - row_rate(rows_[k], end_.data(), end_twist_.data());
-        Real place = 0, rate = 0, mending = joint_mending;
+        Real place = 0, rate = 0, correction = joint_correction;
         if (k < model_.drives.size()) {
             const Drive& drive = model_.drives[k];
             int hint = 0;
             place = drive.start + drive.rate.integral(s.t, hint);
             rate = drive.rate.at(s.t + h, hint);
-            mending = drive_mending;
+            correction = drive_correction;
         }
-        const Real astray = relative(rows_[k], s.pose.data()) - rows_[k].origin - place;
-        row_target_[k] += rate - astray * mending;
+        const Real drift = relative(rows_[k], s.pose.data()) - rows_[k].origin - place;
+        row_target_[k] += rate - drift * correction;
     }
 }
 
@@ -201,7 +201,7 @@ void Stepper::freeze(const State& s, double h) {
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         const Hinge& hinge = model_.hinges[j];
         const auto dof = static_cast<size_t>(hinge.dof);
-        frozen_[j] = multibody::freeze(hinge, s.hinge[j], h, s.q[dof], s.w[dof], w_[dof], &hint_[2 * j]);
+        frozen_[j] = hinge::freeze(hinge, s.hinge[j], h, s.q[dof], s.w[dof], w_[dof], &hint_[2 * j]);
     }
 }
 
@@ -246,7 +246,7 @@ void Stepper::commit(State& s, double h) {
         const Hinge& hinge = model_.hinges[j];
         const auto dof = static_cast<size_t>(hinge.dof);
         const Real* halt = model_.drives.empty() && !looped_[j] ? nullptr : &common;
-        dq_[dof] = multibody::commit(hinge, frozen_[j], s.hinge[j], s.t, s.q[dof], w_[dof], halt);
+        dq_[dof] = hinge::commit(hinge, frozen_[j], s.hinge[j], s.t, s.q[dof], w_[dof], halt);
         s.hinge[j].hint[0] = hint_[2 * j];
         s.hinge[j].hint[1] = hint_[2 * j + 1];
     }
@@ -281,4 +281,4 @@ void Stepper::commit(State& s, double h) {
 }
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::planar

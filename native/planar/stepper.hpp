@@ -1,4 +1,4 @@
-// One step of the multibody engine: a convex problem for the joint rates at the end of the step.
+// One step of the planar kernel: a convex problem for the joint rates at the end of the step.
 //
 // With the motion over the step taken as trapezoidal (q1 = q0 + h (w0 + w1)/2) and everything that depends on
 // position taken at its middle, the end rates w1 minimise
@@ -12,7 +12,7 @@
 #include "hinge/hinge.hpp"
 #include "planar/tree.hpp"
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
 // Force or moment on a body: direction (rotation, x, y) fixed in the world, at a point of the body.
@@ -103,8 +103,8 @@ private:
     void predict(const State& s, double h);
     void freeze(const State& s, double h);
     bool newton();
-    bool descend(int limit, bool bold);
-    void take_whole_step();
+    bool descend(int limit, bool full_steps);
+    void take_full_step();
     void linearise();
     void differentiate();
     void solve_once();
@@ -143,4 +143,4 @@ private:
 };
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::planar

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
@@ -228,4 +228,4 @@ void ArticulatedSolver::substitute(const Twist* b, const Real* r, Real* w) {
 }
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::planar

@@ -14,9 +14,10 @@
 
 #include "hinge/real.hpp"
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
+using namespace hinge;
 using std::size_t;
 
 struct Vec2 {
@@ -121,4 +122,4 @@ private:
 };
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::planar

@@ -1,4 +1,4 @@
-// Python face of the multibody kernels.  Arrays come in as plain NumPy; nothing here decides physics.
+// Python face of the planar kernel.  Arrays come in as plain NumPy; nothing here decides physics.
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -9,7 +9,7 @@
 #include "planar/bind/bind_batch.hpp"
 #include "planar/bind/bind_model.hpp"
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
@@ -84,4 +84,4 @@ void bind(nb::module_& m) {
 }
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::planar

@@ -6,7 +6,7 @@
 
 #include "planar/batch.hpp"
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
@@ -23,7 +23,7 @@ void require_one_topology(const std::vector<const Model*>& models) {
     }
 }
 
-nb::dict to_dict(const Finals& f, const Model& model, size_t n) {
+nb::dict to_dict(const EndValues& f, const Model& model, size_t n) {
     const size_t bodies = static_cast<size_t>(model.tree.bodies()), dofs = static_cast<size_t>(model.tree.dofs());
     const size_t hinges = model.hinges.size();
     nb::dict d;
@@ -64,8 +64,8 @@ nb::dict solve(const std::vector<const Model*>& models, const InNumbers& model_o
     v.bodies = rows(bodies, v.count, 4 * n, "bodies must have shape (variants, bodies, 4)");
     v.gravity = rows(gravity, v.count, 2, "gravity must have shape (variants, 2)");
     const Settings settings{accuracy, minimum_step, maximum_step};
-    const Finals finals = unlocked(poll, [&](const auto& ask) { return solve_many(v, end, settings, threads, ask); });
-    return to_dict(finals, first, v.count);
+    const EndValues end_values = unlocked(poll, [&](const auto& ask) { return solve_many(v, end, settings, threads, ask); });
+    return to_dict(end_values, first, v.count);
 }
 
 }  // namespace
@@ -78,4 +78,4 @@ void bind_batch(nb::module_& m) {
 }
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::planar

@@ -4,7 +4,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
@@ -92,4 +92,4 @@ void bind_model(nb::module_& m) {
 }
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::planar

@@ -1,10 +1,10 @@
-// What the bindings of the multibody kernels share: the model from plain Python data.
+// What the bindings of the planar kernel share: the model from plain Python data.
 #pragma once
 
 #include "hinge/bind_hinge.hpp"
 #include "planar/simulation.hpp"
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
 namespace nb = nanobind;
@@ -12,4 +12,4 @@ namespace nb = nanobind;
 void bind_model(nb::module_& m);
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::planar

@@ -6,7 +6,7 @@
 #include "planar/directions.hpp"
 #include "planar/simulation.hpp"
 
-namespace crumple::multibody {
+namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
@@ -77,4 +77,4 @@ void bind_tangent(nb::module_& m) {
 }
 
 }  // namespace CRUMPLE_ARITHMETIC
-}  // namespace crumple::multibody
+}  // namespace crumple::planar

@@ -14,12 +14,12 @@
 
 namespace nb = nanobind;
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
-using multibody::Doubles;
-using multibody::make_curve;
+using hinge::Doubles;
+using hinge::make_curve;
 
 Vec3 vector(const double* v) { return {v[0], v[1], v[2]}; }
 
@@ -93,7 +93,7 @@ void add_hinge(Model& model, const nb::dict& d) {
     require(index >= 0 && index < static_cast<int>(model.joints.size()), "a hinge names an unknown joint");
     Joint& joint = model.joints[static_cast<size_t>(index)];
     require(joint.hinge < 0, "a joint has one hinge at most");
-    const SpaceHinge hinge = make_hinge(d);
+    const SpatialHinge hinge = make_hinge(d);
     for (const Component& c : hinge.components) {
         require(!has(joint, joint.rows(), c.freedom), "a hinge needs freedoms that are not held");
         joint.freedom[joint.held + joint.laws++] = c.freedom;
@@ -315,4 +315,4 @@ void bind(nb::module_& m) {
         .def_prop_ro("time", [](Simulation& s) { return s.state().t; });
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

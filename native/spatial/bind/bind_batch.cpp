@@ -8,7 +8,7 @@
 
 namespace nb = nanobind;
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -24,7 +24,7 @@ void add_stage(Case& of, double duration, bool quasi_static, const std::vector<i
     of.stages.push_back(stage);
 }
 
-nb::dict to_dict(const Finals& f, const Case& of, size_t n) {
+nb::dict to_dict(const EndValues& f, const Case& of, size_t n) {
     const size_t bodies = of.model.bodies.size(), hinges = of.model.hinges.size(), components = n > 0 ? f.hinge_rate.size() / n : 0;
     nb::dict d;
     d["time"] = to_array(f.time, {n});
@@ -75,8 +75,8 @@ nb::dict solve(const std::vector<const Case*>& cases, const InNumbers& case_of, 
     v.gravity = rows(gravity, v.count, 3, "gravity must have shape (variants, 3)");
     const Settings settings{accuracy, minimum_step, maximum_step};
     const auto solver = led ? solve_led : solve_many;
-    const Finals finals = unlocked(poll, [&](const auto& ask) { return solver(v, settings, threads, ask); });
-    return to_dict(finals, first, v.count);
+    const EndValues end_values = unlocked(poll, [&](const auto& ask) { return solver(v, settings, threads, ask); });
+    return to_dict(end_values, first, v.count);
 }
 
 }  // namespace
@@ -91,4 +91,4 @@ void bind_batch(nb::module_& m) {
           nb::arg("led"), "Solve every variant as one run would; or, led, the first so and the others in its steps.");
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -7,7 +7,7 @@
 
 namespace nb = nanobind;
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -68,4 +68,4 @@ void bind_contact(nb::module_& m) {
           nb::arg("closed"), nb::arg("rest"), "Normal rate that a step allows at its end.");
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

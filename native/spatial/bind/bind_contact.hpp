@@ -5,9 +5,9 @@
 
 #include "spatial/contact/contact_geometry.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 Solid make_solid(const nanobind::dict& d);
 void bind_contact(nanobind::module_& m);
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -8,17 +8,17 @@
 
 namespace nb = nanobind;
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
-using multibody::Doubles;
+using hinge::Doubles;
 
 // One hinge that is led along given rates.
 struct Element {
-    SpaceHinge hinge;
-    SpaceHingeState state;
-    FrozenSpaceHinge frozen;
+    SpatialHinge hinge;
+    SpatialHingeState state;
+    FrozenSpatialHinge frozen;
     double time = 0;
     Doubles q;
 };
@@ -45,10 +45,10 @@ Doubles committed(Element& e, const Doubles& w1) {
 }
 
 nb::dict state_of(const Element& e) {
-    const SpaceHingeState& s = e.state;
+    const SpatialHingeState& s = e.state;
     Doubles plastic, moment, total, capacity;
     for (int k = 0; k < size(e.hinge); k++) {
-        const multibody::HingeState& c = s.component[k];
+        const hinge::HingeState& c = s.component[k];
         plastic.push_back(c.plastic);
         moment.push_back(c.moment);
         total.push_back(c.total_moment);
@@ -95,14 +95,14 @@ Surface make_surface(const nb::dict& d, int n) {
 
 }  // namespace
 
-SpaceHinge make_hinge(const nb::dict& d) {
-    SpaceHinge h;
+SpatialHinge make_hinge(const nb::dict& d) {
+    SpatialHinge h;
     const int form = nb::cast<int>(d["form"]), softening = nb::cast<int>(d["softening"]);
     int slips = 0, turns = 0;
     for (nb::handle item : nb::cast<nb::list>(d["components"])) {
         const auto c = nb::cast<nb::dict>(item);
         h.components.push_back({nb::cast<int>(c["freedom"]),
-                                multibody::make_hinge(c, static_cast<Form>(form), static_cast<Softening>(softening))});
+                                hinge::make_hinge(c, static_cast<Form>(form), static_cast<Softening>(softening))});
         const Component& last = h.components.back();
         require(last.freedom >= 0 && last.freedom < 6, "a freedom is one of six");
         require(form != 1 || (last.law.stiffness > 0 && std::isfinite(last.law.stiffness)), "an elastic hinge needs a stiffness");
@@ -165,4 +165,4 @@ void bind_hinge(nb::module_& m) {
     });
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

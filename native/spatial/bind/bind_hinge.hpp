@@ -5,9 +5,9 @@
 
 #include "spatial/hinge/hinge.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
-SpaceHinge make_hinge(const nanobind::dict& d);
+SpatialHinge make_hinge(const nanobind::dict& d);
 void bind_hinge(nanobind::module_& m);
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -5,11 +5,11 @@
 
 #include "spatial/run/simulation.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 Model make_model(const nanobind::dict& d);
 Condition make_condition(const Model& model, const nanobind::tuple& t);
 // flags of n things, true for the indices given
 std::vector<bool> chosen(const std::vector<int>& indices, size_t n, const char* unknown);
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 double allowed_rate(double restitution, double gap, double rate, double h, double closed, double rest) {
     if (gap > closed) return -std::max(0.0, 2 * gap / h + rate);
@@ -38,4 +38,4 @@ void respond(const FrozenContact& f, const double* w, double* impulse, double* t
     }
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

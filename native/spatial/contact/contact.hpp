@@ -12,7 +12,7 @@
 
 #include "spatial/contact/contact_geometry.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 struct ContactLaw {
     double friction = 0, restitution = 0;
@@ -37,4 +37,4 @@ FrozenContact freeze(const ContactLaw& law, double inverse_mass, double normal_i
 // impulse P (3), its derivative (3 x 3, symmetric, positive semidefinite), and its potential; any may be null
 void respond(const FrozenContact& f, const double* w, double* impulse, double* tangent, double* potential);
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

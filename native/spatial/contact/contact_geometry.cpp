@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -166,4 +166,4 @@ int touches(const Solid& solid, const Segment& segment, Touch* out) {
     return n;
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -11,7 +11,7 @@
 
 #include "spatial/model/math.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 struct Segment {
     Vec3 first, second;
@@ -54,4 +54,4 @@ int touches(const Solid& solid, const Segment& segment, Touch* out);
 // two unit vectors that make right-handed axes with the unit vector n
 void tangents(Vec3 n, Vec3& first, Vec3& second);
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

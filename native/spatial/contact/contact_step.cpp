@@ -3,7 +3,7 @@
 
 #include "spatial/step/stepper.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -36,7 +36,7 @@ void Stepper::commit_contacts(State& s, double h) {
     contacts_.commit(h, stage_.quasi_static, rows_.data() + first, impulse_.data() + first, rate0_.data() + first, w_.data() + first, s.contact);
 }
 
-// Mending rates, with contacts as stiff as they were, pushes obstacles a little: x_ along the roots of their tangents.
+// Projecting rates, with contacts as stiff as they were, pushes obstacles a little: x_ along the roots of their tangents.
 void Stepper::push_obstacles(State& s, double h) {
     for (size_t i = 0; i < contacts_.size(); i++) {
         const size_t link = connections_.size() - contacts_.size() + i, first = at(start(link));
@@ -49,7 +49,7 @@ void Stepper::push_obstacles(State& s, double h) {
     }
 }
 
-// Error that mending takes from a link's row of a law: overlap of closed contacts.
+// Error that projection takes from a link's row of a law: overlap of closed contacts.
 double Stepper::overlap(size_t link) const {
     if (!is(link, Kind::contact)) return 0;
     const size_t k = at(start(link));
@@ -77,4 +77,4 @@ void Stepper::look_for_impact(State& s) {
     see_contacts(s, 0);
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

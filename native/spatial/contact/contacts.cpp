@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -247,7 +247,7 @@ double Contacts::allowed(size_t i, double h, double start_rate, double unbounded
 void Contacts::freeze(size_t i, double inverse_mass) {
     Active& c = active_[i];
     c.inverse_mass = inverse_mass;
-    c.frozen = space::freeze(law(c), inverse_mass, c.normal_impulse);
+    c.frozen = spatial::freeze(law(c), inverse_mass, c.normal_impulse);
 }
 
 bool Contacts::settle(const double* impulse, const double* rate0, const double* rate) {
@@ -317,4 +317,4 @@ bool Contacts::impact_follows(const double* gap, const double* rate) const {
     return false;
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -12,7 +12,7 @@
 #include "spatial/contact/contact.hpp"
 #include "spatial/model/joint.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 using std::size_t;
 
@@ -142,4 +142,4 @@ private:
     double closed_gap_ = 1e-6, negligible_energy_ = 0, restitution_share_ = 1;
 };
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

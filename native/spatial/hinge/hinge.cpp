@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -15,19 +15,19 @@ constexpr double smallest_episode = 1e-2;
 // Rates within so many ramps count as rest where the turning of the hinge's axis is judged.
 constexpr double at_rest = 10;
 
-Form form_of(const SpaceHinge& hinge) { return hinge.components[0].law.form; }
-const multibody::Hinge& law_of(const SpaceHinge& hinge, int k) { return hinge.components[static_cast<size_t>(k)].law; }
-bool rotates(const SpaceHinge& hinge, int k) { return hinge.components[static_cast<size_t>(k)].freedom >= 3; }
-bool on_flange(const SpaceHinge& hinge) { return hinge.surface.coupling == Coupling::tension_flange; }
-const multibody::Curve& curve_of(const multibody::Hinge& law, int sense) { return sense == 0 ? law.positive : law.negative; }
+Form form_of(const SpatialHinge& hinge) { return hinge.components[0].law.form; }
+const hinge::Hinge& law_of(const SpatialHinge& hinge, int k) { return hinge.components[static_cast<size_t>(k)].law; }
+bool rotates(const SpatialHinge& hinge, int k) { return hinge.components[static_cast<size_t>(k)].freedom >= 3; }
+bool on_flange(const SpatialHinge& hinge) { return hinge.surface.coupling == Coupling::tension_flange; }
+const hinge::Curve& curve_of(const hinge::Hinge& law, int sense) { return sense == 0 ? law.positive : law.negative; }
 
-double first_capacity(const SpaceHinge& hinge, int k, int sense) {
+double first_capacity(const SpatialHinge& hinge, int k, int sense) {
     int hint = 0;
     return law_of(hinge, k).scale * curve_of(law_of(hinge, k), sense).at(0, hint);
 }
 
 // Work D_0(e) that turning straight by e takes at the first capacities.
-double measure(const SpaceHinge& hinge, const double* e) {
+double measure(const SpatialHinge& hinge, const double* e) {
     const int n = size(hinge);
     const double none[most] = {};
     double y[most];
@@ -37,35 +37,35 @@ double measure(const SpaceHinge& hinge, const double* e) {
 
 // Plastic rotation that a coupled hinge softens by: integrated rates; for the ball the relative rotation itself, so that its
 // angle is meant whatever the axis did.
-void plastic_rotation(const SpaceHinge& hinge, const SpaceHingeState& s, const double* q, double* e) {
+void plastic_rotation(const SpatialHinge& hinge, const SpatialHingeState& s, const double* q, double* e) {
     for (int k = 0; k < size(hinge); k++) {
-        const multibody::HingeState& c = s.component[k];
+        const hinge::HingeState& c = s.component[k];
         e[k] = c.plastic;
         if (hinge.surface.coupling != Coupling::ball) continue;
         e[k] = form_of(hinge) == Form::elastic_plastic ? q[k] - c.moment / law_of(hinge, k).stiffness : q[k];
     }
 }
 
-double length_of_rotation(const SpaceHinge& hinge, const double* e) {
+double length_of_rotation(const SpatialHinge& hinge, const double* e) {
     double square = 0;
     for (int k = 0; k < size(hinge); k++) square += rotates(hinge, k) ? e[k] * e[k] : 0;
     return std::sqrt(square);
 }
 
 // Mean of a capacity while its variable goes from a to b; at b for the elastic form.
-double capacity_over(const multibody::Curve& curve, double a, double b, bool at_end, int& hint) {
+double capacity_over(const hinge::Curve& curve, double a, double b, bool at_end, int& hint) {
     if (at_end) return curve.at(b, hint);
     if (std::fabs(b - a) < smallest_mean) return curve.at((a + b) / 2, hint);
     return (curve.integral(b, hint) - curve.integral(a, hint)) / (b - a);
 }
 
 // Capacities of a coupled hinge over a plastic flow from e: the mean over it, for the elastic form that at its end.
-void set_coupled_capacity(const SpaceHinge& hinge, const SpaceHingeState& s, const double* e, const double* flow,
-                          FrozenSpaceHinge& f) {
+void set_coupled_capacity(const SpatialHinge& hinge, const SpatialHingeState& s, const double* e, const double* flow,
+                          FrozenSpatialHinge& f) {
     const int n = size(hinge);
     const bool at_end = form_of(hinge) == Form::elastic_plastic;
     if (on_flange(hinge)) {
-        for (int k = 0; k < n; k++) multibody::set_capacity(law_of(hinge, k), s.component[k], flow[k], f.hint[k], f.component[k]);
+        for (int k = 0; k < n; k++) hinge::set_capacity(law_of(hinge, k), s.component[k], flow[k], f.hint[k], f.component[k]);
         return;
     }
     double end[most];
@@ -83,7 +83,7 @@ void set_coupled_capacity(const SpaceHinge& hinge, const SpaceHingeState& s, con
     }
     for (int k = 0; k < n; k++) {
         for (int sense = 0; sense < 2; sense++) {
-            const multibody::Curve& curve = curve_of(law_of(hinge, k), sense);
+            const hinge::Curve& curve = curve_of(law_of(hinge, k), sense);
             const double per_work = 1 / first_capacity(hinge, k, sense);
             const double ahead = capacity_over(curve, from * per_work, to * per_work, at_end, f.hint[k][sense]);
             const double here = held > 0 && !at_end ? curve.at(from * per_work, f.hint[k][sense]) : 0;
@@ -93,12 +93,12 @@ void set_coupled_capacity(const SpaceHinge& hinge, const SpaceHingeState& s, con
 }
 
 // Of coupled components by the rates about their own axes that would each take all the power.
-void apply_rate_factor(const SpaceHinge& hinge, const double* rate, FrozenSpaceHinge& f) {
+void apply_rate_factor(const SpatialHinge& hinge, const double* rate, FrozenSpatialHinge& f) {
     const double power = on_flange(hinge) ? 0 : measure(hinge, rate);
     for (int k = 0; k < size(hinge); k++) {
         for (int sense = 0; sense < 2; sense++) {
             const double first = first_capacity(hinge, k, sense);
-            const double factor = multibody::rate_factor(law_of(hinge, k), on_flange(hinge) ? rate[k] : power / first);
+            const double factor = hinge::rate_factor(law_of(hinge, k), on_flange(hinge) ? rate[k] : power / first);
             f.component[k].capacity[sense] *= factor;
             if (on_flange(hinge) && rotates(hinge, k)) f.top[sense] = factor * first;
         }
@@ -106,7 +106,7 @@ void apply_rate_factor(const SpaceHinge& hinge, const double* rate, FrozenSpaceH
 }
 
 // Share of a plastic flow from e before the rotation reaches that of fracture: |e + t flow| = fracture.
-double share_before_fracture(const SpaceHinge& hinge, const double* e, const double* flow) {
+double share_before_fracture(const SpatialHinge& hinge, const double* e, const double* flow) {
     if (!std::isfinite(hinge.fracture)) return 1;
     const double limit = hinge.fracture, start = length_of_rotation(hinge, e), way = length_of_rotation(hinge, flow);
     if (start >= limit) return 0;
@@ -117,17 +117,17 @@ double share_before_fracture(const SpaceHinge& hinge, const double* e, const dou
     return root + along > 0 ? std::min(1.0, far / (along + root)) : 1;
 }
 
-void break_open(const SpaceHinge& hinge, FrozenSpaceHinge& f) {
+void break_open(const SpatialHinge& hinge, FrozenSpatialHinge& f) {
     if (f.intact >= 1) return;
     const double left = form_of(hinge) == Form::elastic_plastic ? 0 : f.intact;
-    for (multibody::FrozenHinge& c : f.component) {
+    for (hinge::FrozenHinge& c : f.component) {
         for (double& capacity : c.capacity) capacity *= left;
     }
     for (double& top : f.top) top *= left;
 }
 
 // The mean rate's direction serves a hinge whose axis turns while it slides; the end rate's, one that comes to rest.
-double lead_of(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w1) {
+double lead_of(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w1) {
     double square0 = 0, square1 = 0, product = 0;
     for (int k = 0; k < size(hinge); k++) {
         const double c = std::max(f.component[k].capacity[0], f.component[k].capacity[1]);
@@ -141,7 +141,7 @@ double lead_of(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double*
     return alike * alike * (3 - 2 * alike) / 2;
 }
 
-void set_reference(const SpaceHinge& hinge, FrozenSpaceHinge& f) {
+void set_reference(const SpatialHinge& hinge, FrozenSpatialHinge& f) {
     bool any_rotation = false;
     for (int k = 0; k < size(hinge); k++) any_rotation = any_rotation || rotates(hinge, k);
     f.reference = 0;
@@ -151,8 +151,8 @@ void set_reference(const SpaceHinge& hinge, FrozenSpaceHinge& f) {
     }
 }
 
-void freeze_coupled(const SpaceHinge& hinge, const SpaceHingeState& s, const double* q0, const double* w1,
-                    FrozenSpaceHinge& f) {
+void freeze_coupled(const SpatialHinge& hinge, const SpatialHingeState& s, const double* q0, const double* w1,
+                    FrozenSpatialHinge& f) {
     const int n = size(hinge);
     double e[most], flow[most], mean[most];
     const double none[most] = {};
@@ -179,18 +179,18 @@ void freeze_coupled(const SpaceHinge& hinge, const SpaceHingeState& s, const dou
     if (form_of(hinge) == Form::regularised && f.intact > 0) f.power0 = power_at_capacity(hinge, f, f.w0);
 }
 
-void freeze_separate(const SpaceHinge& hinge, const SpaceHingeState& s, const double* q0, const double* w1,
-                     FrozenSpaceHinge& f) {
+void freeze_separate(const SpatialHinge& hinge, const SpatialHingeState& s, const double* q0, const double* w1,
+                     FrozenSpatialHinge& f) {
     const int n = size(hinge);
     double e[most], flow[most];
     for (int k = 0; k < n; k++) {
-        const multibody::Hinge& one = law_of(hinge, k);
-        multibody::FrozenHinge& c = f.component[k];
-        c = multibody::freeze(one, s.component[k], f.h, q0[k], f.w0[k], w1[k], f.hint[k]);
+        const hinge::Hinge& one = law_of(hinge, k);
+        hinge::FrozenHinge& c = f.component[k];
+        c = hinge::freeze(one, s.component[k], f.h, q0[k], f.w0[k], w1[k], f.hint[k]);
         e[k] = s.component[k].plastic;
         flow[k] = f.h * (f.w0[k] + w1[k]) / 2;
         if (form_of(hinge) == Form::elastic_plastic) {
-            flow[k] -= (2 * multibody::law_response(one, c, w1[k]).impulse / f.h - 2 * c.m0) / one.stiffness;
+            flow[k] -= (2 * hinge::law_response(one, c, w1[k]).impulse / f.h - 2 * c.m0) / one.stiffness;
         }
     }
     f.intact = s.fracture_time >= 0 ? 0 : share_before_fracture(hinge, e, flow);
@@ -199,11 +199,11 @@ void freeze_separate(const SpaceHinge& hinge, const SpaceHingeState& s, const do
 }
 
 // Of a hinge without coupling: what its components tell of their flow.
-void gather_separate(const SpaceHinge& hinge, const FrozenSpaceHinge& f, SpaceHingeState& s, double t0, const double* before,
+void gather_separate(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHingeState& s, double t0, const double* before,
                      double arrest) {
     s.sliding = false;
     for (int k = 0; k < size(hinge); k++) {
-        multibody::HingeState& c = s.component[k];
+        hinge::HingeState& c = s.component[k];
         s.sliding = s.sliding || c.sliding;
         if (c.rest_time == before[k]) continue;
         if (!c.sliding) c.rest_time = std::min(c.rest_time, arrest);
@@ -213,7 +213,7 @@ void gather_separate(const SpaceHinge& hinge, const FrozenSpaceHinge& f, SpaceHi
 }
 
 // Flow of a coupled hinge: times, episodes, the softening measure.
-void follow_flow(const SpaceHinge& hinge, const FrozenSpaceHinge& f, SpaceHingeState& s, double t0, const double* w1,
+void follow_flow(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHingeState& s, double t0, const double* w1,
                  const double* flow, double arrest) {
     const bool elastic = form_of(hinge) == Form::elastic_plastic;
     const double load = load_factor(hinge, f, w1), work = on_flange(hinge) ? 0 : measure(hinge, flow);
@@ -231,7 +231,7 @@ void follow_flow(const SpaceHinge& hinge, const FrozenSpaceHinge& f, SpaceHingeS
         }
         s.sliding = flowed && !turned_back;
     } else {
-        FrozenSpaceHinge still = f;
+        FrozenSpatialHinge still = f;
         still.lead = 0;
         s.sliding = load_factor(hinge, still, w1) > 1;
         flowed = s.sliding || load_factor(hinge, still, f.w0) > 1;
@@ -250,13 +250,13 @@ void follow_flow(const SpaceHinge& hinge, const FrozenSpaceHinge& f, SpaceHingeS
 
 }  // namespace
 
-bool coupled(const SpaceHinge& hinge) { return hinge.surface.coupling != Coupling::none && size(hinge) > 1; }
+bool coupled(const SpatialHinge& hinge) { return hinge.surface.coupling != Coupling::none && size(hinge) > 1; }
 
-double ramp_width(const SpaceHinge& hinge) { return multibody::ramp_width(law_of(hinge, 0)); }
+double ramp_width(const SpatialHinge& hinge) { return hinge::ramp_width(law_of(hinge, 0)); }
 
-FrozenSpaceHinge freeze(const SpaceHinge& hinge, const SpaceHingeState& s, double h, const double* q0, const double* w0,
+FrozenSpatialHinge freeze(const SpatialHinge& hinge, const SpatialHingeState& s, double h, const double* q0, const double* w0,
                         const double* w1) {
-    FrozenSpaceHinge f;
+    FrozenSpatialHinge f;
     const int n = size(hinge);
     f.h = h;
     f.width = ramp_width(hinge);
@@ -270,20 +270,20 @@ FrozenSpaceHinge freeze(const SpaceHinge& hinge, const SpaceHingeState& s, doubl
         return f;
     }
     for (int k = 0; k < n; k++) {
-        multibody::FrozenHinge& c = f.component[k];
+        hinge::FrozenHinge& c = f.component[k];
         c.h = h, c.w0 = w0[k], c.m0 = f.tau0[k], c.width = f.width;
-        multibody::freeze_beside(law_of(hinge, k), q0[k], h * (w0[k] + w1[k]) / 2, c);
+        hinge::freeze_beside(law_of(hinge, k), q0[k], h * (w0[k] + w1[k]) / 2, c);
     }
     freeze_coupled(hinge, s, q0, w1, f);
     return f;
 }
 
-void widen(const SpaceHinge& hinge, FrozenSpaceHinge& f, double width) {
+void widen(const SpatialHinge& hinge, FrozenSpatialHinge& f, double width) {
     f.width = width;
     for (int k = 0; k < size(hinge); k++) f.component[k].width = width;
 }
 
-void commit(const SpaceHinge& hinge, const FrozenSpaceHinge& f, SpaceHingeState& s, double t0, const double* q0,
+void commit(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHingeState& s, double t0, const double* q0,
             const double* w1, double* turn) {
     const int n = size(hinge);
     const bool elastic = form_of(hinge) == Form::elastic_plastic, apart = !coupled(hinge);
@@ -293,19 +293,19 @@ void commit(const SpaceHinge& hinge, const FrozenSpaceHinge& f, SpaceHingeState&
     for (int k = 0; k < n; k++) carried[k] = !elastic && f.intact > 0 ? impulse[k] / (f.intact * f.h) : f.tau0[k];
     const double held = elastic_energy(hinge, s);
     bool stopped = false;
-    for (int k = 0; k < n; k++) stopped = stopped || multibody::stop_response(law_of(hinge, k), f.component[k], w1[k]).impulse != 0;
+    for (int k = 0; k < n; k++) stopped = stopped || hinge::stop_response(law_of(hinge, k), f.component[k], w1[k]).impulse != 0;
     // a hinge at rest stopped when its capacity had given the impulse
     const double load = load_factor(hinge, f, w1);
     const bool by_itself = form_of(hinge) == Form::set_valued && !stopped && load < 1;
     const double arrest = t0 + (by_itself ? load : 1) * f.h;
     for (int k = 0; k < n; k++) {
-        multibody::HingeState& c = s.component[k];
+        hinge::HingeState& c = s.component[k];
         for (int sense = 0; sense < 2; sense++) c.hint[sense] = f.hint[k][sense];
         before[k] = c.rest_time;
         turn[k] = f.h * (f.w0[k] + w1[k]) / 2;
         q1[k] = q0[k] + turn[k];
         if (apart) {
-            multibody::commit(law_of(hinge, k), f.component[k], c, t0, q0[k], w1[k], &f.component[k].h);
+            hinge::commit(law_of(hinge, k), f.component[k], c, t0, q0[k], w1[k], &f.component[k].h);
             continue;
         }
         const double end = elastic ? 2 * impulse[k] / f.h - f.tau0[k] : impulse[k] / f.h;
@@ -317,7 +317,7 @@ void commit(const SpaceHinge& hinge, const FrozenSpaceHinge& f, SpaceHingeState&
         c.accumulated += std::fabs(flow[k]);
         c.peak[0] = std::max(c.peak[0], c.plastic);
         c.peak[1] = std::max(c.peak[1], -c.plastic);
-        multibody::commit_beside(law_of(hinge, k), f.component[k], c, q0[k], turn[k], w1[k]);
+        hinge::commit_beside(law_of(hinge, k), f.component[k], c, q0[k], turn[k], w1[k]);
     }
     plastic_rotation(hinge, s, q1, e);
     if (apart) {
@@ -334,43 +334,43 @@ void commit(const SpaceHinge& hinge, const FrozenSpaceHinge& f, SpaceHingeState&
     }
 }
 
-double elastic_energy(const SpaceHinge& hinge, const SpaceHingeState& s) {
+double elastic_energy(const SpatialHinge& hinge, const SpatialHingeState& s) {
     double sum = 0;
-    for (int k = 0; k < size(hinge); k++) sum += multibody::elastic_energy(law_of(hinge, k), s.component[k]);
+    for (int k = 0; k < size(hinge); k++) sum += hinge::elastic_energy(law_of(hinge, k), s.component[k]);
     return sum;
 }
 
-double stop_energy(const SpaceHinge& hinge, const double* q) {
+double stop_energy(const SpatialHinge& hinge, const double* q) {
     double sum = 0;
-    for (int k = 0; k < size(hinge); k++) sum += multibody::stop_energy(law_of(hinge, k), q[k]);
+    for (int k = 0; k < size(hinge); k++) sum += hinge::stop_energy(law_of(hinge, k), q[k]);
     return sum;
 }
 
-double dissipated(const SpaceHinge& hinge, const SpaceHingeState& s) {
+double dissipated(const SpatialHinge& hinge, const SpatialHingeState& s) {
     double sum = 0;
     for (int k = 0; k < size(hinge); k++) sum += s.component[k].dissipated;
     return sum;
 }
 
-double damped(const SpaceHinge& hinge, const SpaceHingeState& s) {
+double damped(const SpatialHinge& hinge, const SpatialHingeState& s) {
     double sum = 0;
     for (int k = 0; k < size(hinge); k++) sum += s.component[k].damped;
     return sum;
 }
 
-double stop_dissipated(const SpaceHinge& hinge, const SpaceHingeState& s) {
+double stop_dissipated(const SpatialHinge& hinge, const SpatialHingeState& s) {
     double sum = 0;
     for (int k = 0; k < size(hinge); k++) sum += s.component[k].stop_dissipated;
     return sum;
 }
 
-bool turning(const SpaceHinge& hinge, const SpaceHingeState& s) {
+bool turning(const SpatialHinge& hinge, const SpatialHingeState& s) {
     if (!coupled(hinge)) {
         bool any = false;
-        for (int k = 0; k < size(hinge); k++) any = any || multibody::turning(law_of(hinge, k), s.component[k]);
+        for (int k = 0; k < size(hinge); k++) any = any || hinge::turning(law_of(hinge, k), s.component[k]);
         return any;
     }
     return s.sliding && (form_of(hinge) != Form::elastic_plastic || s.episode > smallest_episode * s.accumulated);
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -3,7 +3,7 @@
 // A component is one of the six relative freedoms of a joint: axial slip, or a rotation about the member's local x, y
 // or z.  Forces and moments tau, one per component, lie in a convex set K = {tau : g(tau_k/C_k) <= 1}; C_k is the
 // capacity of a component in the sense in which it is loaded, g the section's surface (`Surface`).  As in the planar
-// hinge (multibody/hinge.hpp) all that is not convex is frozen over a step of length h.  What remains, with x = tau/C,
+// hinge (hinge/hinge.hpp) all that is not convex is frozen over a step of length h.  What remains, with x = tau/C,
 //   set-valued       P = h tau,  tau = argmax over K of tau.w_e - (width C_ref/2) |x|^2
 //   regularised      P = h Q(D(w_e)/(C_ref w_reg)) tau,  tau = argmax over K of tau.w_e,  D that maximum, Q HAVSIN
 //   elastic-plastic  P = h (tau_0 + tau_1)/2,  tau_1 the point of K nearest in elastic energy to tau_0 + k h (w_0 + w)/2
@@ -23,22 +23,22 @@
 #include "hinge/hinge.hpp"
 #include "spatial/hinge/surface.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 constexpr int most_components = 4;
 
-using multibody::Form;
-using multibody::Softening;
+using hinge::Form;
+using hinge::Softening;
 
 // A component: which of the relative freedoms (translations along x, y, z: 0, 1, 2; rotations about them: 3, 4, 5), and
 // its curves, stiffness, rate factor, damper and stops, as of a planar hinge.  `dof` of the law is not used.
 struct Component {
     int freedom = 4;
-    multibody::Hinge law;
+    hinge::Hinge law;
 };
 
 // Constants of one hinge.  Form and softening are the first component's; all have the same.
-struct SpaceHinge {
+struct SpatialHinge {
     std::vector<Component> components;
     Surface surface;
     double fracture = std::numeric_limits<double>::infinity();  // plastic rotation [rad] at which it opens for good
@@ -46,8 +46,8 @@ struct SpaceHinge {
 
 // What one hinge remembers.  Of each component: plastic rotation, moment (mean over the last step; elastic-plastic: at its
 // end), total_moment (with damper and stops), capacity, energies dissipated, damped and stop_dissipated.
-struct SpaceHingeState {
-    multibody::HingeState component[most_components];
+struct SpatialHingeState {
+    hinge::HingeState component[most_components];
     double softening = 0;       // coupled: the measure s [J], largest or accumulated
     double episode = 0, accumulated = 0;  // coupled: work since it last came to rest, and ever [J]
     double rotation_max = 0;    // of the length of the rotation vector [rad]
@@ -59,7 +59,7 @@ struct SpaceHingeState {
 };
 
 // A hinge over one step, all that is not convex frozen.
-struct FrozenSpaceHinge {
+struct FrozenSpatialHinge {
     double h = 0;
     double width = 0;           // half-width of the ramp [rad/s]; change it with `widen`
     double reference = 0;       // C_ref: the largest capacity of a rotation (of the slip, where it is alone)
@@ -68,51 +68,51 @@ struct FrozenSpaceHinge {
     double intact = 1;          // share of the step before it opens; 0: open
     double w0[most_components] = {}, tau0[most_components] = {};
     double top[2] = {0, 0};     // tension flange: the first capacity of the moment in both senses
-    multibody::FrozenHinge component[most_components];  // capacities of both senses, stops, damper
+    hinge::FrozenHinge component[most_components];  // capacities of both senses, stops, damper
     int hint[most_components][2] = {};
 };
 
 // number of components
-inline int size(const SpaceHinge& hinge) { return static_cast<int>(hinge.components.size()); }
+inline int size(const SpatialHinge& hinge) { return static_cast<int>(hinge.components.size()); }
 // whether one surface joins its components
-bool coupled(const SpaceHinge& hinge);
+bool coupled(const SpatialHinge& hinge);
 // half-width of the ramp of the rigid forms [rad/s]
-double ramp_width(const SpaceHinge& hinge);
+double ramp_width(const SpatialHinge& hinge);
 // q0, w0, w1: relative rotation (components of the rotation vector) or slip at the start, rates at start and (predicted) end
-FrozenSpaceHinge freeze(const SpaceHinge& hinge, const SpaceHingeState& state, double h, const double* q0, const double* w0,
+FrozenSpatialHinge freeze(const SpatialHinge& hinge, const SpatialHingeState& state, double h, const double* q0, const double* w0,
                         const double* w1);
-void widen(const SpaceHinge& hinge, FrozenSpaceHinge& f, double width);
+void widen(const SpatialHinge& hinge, FrozenSpatialHinge& f, double width);
 // impulse (n), tangent (n x n, symmetric and positive semidefinite) and potential at end rates w, of everything and of the
 // law alone, without dampers and stops; any may be null.  The potential's derivative is the impulse
-void respond(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+void respond(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* impulse, double* tangent,
              double* potential);
-void law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+void law(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* impulse, double* tangent,
          double* potential);
 // adds what dampers and stops give
-void add_beside(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+void add_beside(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* impulse, double* tangent,
                 double* potential);
 // g of the trial state: below 1 the hinge is locked (or elastic), above it flows, and the more the farther above
-double load_factor(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w);
+double load_factor(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w);
 // power D(w) that a coupled hinge takes at rates w where it flows
-double power_at_capacity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w);
+double power_at_capacity(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w);
 // Of a ball or an ellipsoid that slides, rigid and set-valued: the rates at which to linearise next, with the direction of the
 // impulse that the tangent gave and the power of the rates w (in and out) on it.  False where that is no forward motion
-bool round(const SpaceHinge& hinge);
-bool follow_impulse(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* impulse, double* w);
+bool round(const SpatialHinge& hinge);
+bool follow_impulse(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* impulse, double* w);
 // scale [N m s or N s] against which an error of a component's impulse counts, at rates w
-double impulse_scale(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, int k);
+double impulse_scale(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, int k);
 // d impulse_i / d ln C_j at fixed rates and ramp (n x n, row i): for implicit differentiation of a converged step
-void capacity_sensitivity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* derivative);
+void capacity_sensitivity(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* derivative);
 // advances the memory; `turn` (n): the rotations and slip over the step, h (w0 + w1)/2
-void commit(const SpaceHinge& hinge, const FrozenSpaceHinge& f, SpaceHingeState& state, double t0, const double* q0,
+void commit(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHingeState& state, double t0, const double* q0,
             const double* w1, double* turn);
 // energies [J]: in the elastic springs; in the stops at relative rotations q; lost so far to plastic flow, dampers and stops
-double elastic_energy(const SpaceHinge& hinge, const SpaceHingeState& state);
-double stop_energy(const SpaceHinge& hinge, const double* q);
-double dissipated(const SpaceHinge& hinge, const SpaceHingeState& state);
-double damped(const SpaceHinge& hinge, const SpaceHingeState& state);
-double stop_dissipated(const SpaceHinge& hinge, const SpaceHingeState& state);
+double elastic_energy(const SpatialHinge& hinge, const SpatialHingeState& state);
+double stop_energy(const SpatialHinge& hinge, const double* q);
+double dissipated(const SpatialHinge& hinge, const SpatialHingeState& state);
+double damped(const SpatialHinge& hinge, const SpatialHingeState& state);
+double stop_dissipated(const SpatialHinge& hinge, const SpatialHingeState& state);
 // whether it is in plastic flow that counts
-bool turning(const SpaceHinge& hinge, const SpaceHingeState& state);
+bool turning(const SpatialHinge& hinge, const SpatialHingeState& state);
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

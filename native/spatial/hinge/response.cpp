@@ -5,7 +5,7 @@
 
 #include "spatial/hinge/hinge.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -21,9 +21,9 @@ struct Trial {
     Flange flange;
 };
 
-bool on_flange(const SpaceHinge& hinge) { return hinge.surface.coupling == Coupling::tension_flange; }
+bool on_flange(const SpatialHinge& hinge) { return hinge.surface.coupling == Coupling::tension_flange; }
 
-Flange flange_of(const SpaceHinge& hinge, const FrozenSpaceHinge& f, double moment_sign) {
+Flange flange_of(const SpatialHinge& hinge, const FrozenSpatialHinge& f, double moment_sign) {
     Flange out;
     out.axial = hinge.components[0].freedom < 3 ? 0 : 1;
     const int sense = moment_sign < 0 ? 1 : 0;
@@ -37,20 +37,20 @@ Flange flange_of(const SpaceHinge& hinge, const FrozenSpaceHinge& f, double mome
 
 // A component's capacity in the sense of its load.  The tension flange joins both senses of N, so it keeps to plain
 // forces, weighed by the larger capacity.
-Trial trial_of(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w) {
+Trial trial_of(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w) {
     Trial t;
     const int n = size(hinge);
     const Form form = hinge.components[0].law.form;
     double drive[most], load = 0;
     for (int k = 0; k < n; k++) {
-        const multibody::Hinge& law = hinge.components[static_cast<size_t>(k)].law;
+        const hinge::Hinge& law = hinge.components[static_cast<size_t>(k)].law;
         drive[k] = form == Form::elastic_plastic ? f.tau0[k] + law.stiffness * f.h * (f.w0[k] + w[k]) / 2
                                                  : f.lead * f.w0[k] + (1 - f.lead) * w[k];
         if (hinge.components[static_cast<size_t>(k)].freedom >= 3) load = drive[k];
     }
     if (on_flange(hinge)) t.flange = flange_of(hinge, f, load);
     for (int k = 0; k < n; k++) {
-        const multibody::Hinge& law = hinge.components[static_cast<size_t>(k)].law;
+        const hinge::Hinge& law = hinge.components[static_cast<size_t>(k)].law;
         const double* both = f.component[k].capacity;
         const double capacity = on_flange(hinge) ? std::max(both[0], both[1]) : both[drive[k] < 0 ? 1 : 0];
         const double c = on_flange(hinge) ? 1 : capacity;
@@ -69,7 +69,7 @@ Trial trial_of(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double*
     return t;
 }
 
-SurfacePoint point_of(const SpaceHinge& hinge, const Trial& t, double* derivative) {
+SurfacePoint point_of(const SpatialHinge& hinge, const Trial& t, double* derivative) {
     if (on_flange(hinge)) return nearest(t.flange, t.y, t.m, derivative);
     return nearest(hinge.surface, size(hinge), t.y, t.m, t.guess, derivative);
 }
@@ -81,17 +81,17 @@ void scaled_block(int n, const Trial& t, double factor, const double* block, dou
 }
 
 // Capacity times ramp, the ramp over the power that the hinge would take at full capacity.
-void regularised_law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+void regularised_law(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* impulse, double* tangent,
                      double* potential) {
     const int n = size(hinge);
     const Trial t = trial_of(hinge, f, w);
     const double full = f.width * f.reference;
     double block[most * most];
     const SurfacePoint p = point_of(hinge, t, tangent != nullptr ? block : nullptr);
-    const multibody::Ramp ramp = multibody::ramp_over(f.power0 / full, p.value / full);
+    const hinge::Ramp ramp = hinge::ramp_over(f.power0 / full, p.value / full);
     for (int k = 0; k < n && impulse != nullptr; k++) impulse[k] = f.h * ramp.value * t.scale[k] * p.x[k];
     if (potential != nullptr) {
-        *potential = f.h * full * multibody::ramp_over_integral(f.power0 / full, p.value / full) / (1 - f.lead);
+        *potential = f.h * full * hinge::ramp_over_integral(f.power0 / full, p.value / full) / (1 - f.lead);
     }
     if (tangent == nullptr) return;
     scaled_block(n, t, f.h * ramp.value, block, tangent);
@@ -102,7 +102,7 @@ void regularised_law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const d
     }
 }
 
-void coupled_law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+void coupled_law(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* impulse, double* tangent,
                  double* potential) {
     const int n = size(hinge);
     const Form form = hinge.components[0].law.form;
@@ -123,7 +123,7 @@ void coupled_law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const doubl
 }
 
 // Open, what is left of an elastic moment acts as if it fell to zero over the step.
-void open_law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+void open_law(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* impulse, double* tangent,
               double* potential) {
     const int n = size(hinge);
     const bool elastic = hinge.components[0].law.form == Form::elastic_plastic;
@@ -137,58 +137,58 @@ void open_law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* 
     if (tangent != nullptr) std::fill(tangent, tangent + n * n, 0.0);
 }
 
-void separate_law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+void separate_law(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* impulse, double* tangent,
                   double* potential) {
     const int n = size(hinge);
     if (tangent != nullptr) std::fill(tangent, tangent + n * n, 0.0);
     if (potential != nullptr) *potential = 0;
     for (int k = 0; k < n; k++) {
-        const multibody::Hinge& law = hinge.components[static_cast<size_t>(k)].law;
-        const multibody::Response r = multibody::law_response(law, f.component[k], w[k]);
+        const hinge::Hinge& law = hinge.components[static_cast<size_t>(k)].law;
+        const hinge::Response r = hinge::law_response(law, f.component[k], w[k]);
         if (impulse != nullptr) impulse[k] = r.impulse;
         if (tangent != nullptr) tangent[k * n + k] = r.slope;
-        if (potential != nullptr) *potential += multibody::law_potential(law, f.component[k], w[k]);
+        if (potential != nullptr) *potential += hinge::law_potential(law, f.component[k], w[k]);
     }
 }
 
-bool falls_open(const SpaceHinge& hinge, const FrozenSpaceHinge& f) {
+bool falls_open(const SpatialHinge& hinge, const FrozenSpatialHinge& f) {
     return f.intact <= 0 || (f.intact < 1 && hinge.components[0].law.form == Form::elastic_plastic);
 }
 
 }  // namespace
 
-void law(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+void law(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* impulse, double* tangent,
          double* potential) {
     if (falls_open(hinge, f)) return open_law(hinge, f, w, impulse, tangent, potential);
     if (coupled(hinge)) return coupled_law(hinge, f, w, impulse, tangent, potential);
     separate_law(hinge, f, w, impulse, tangent, potential);
 }
 
-void respond(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+void respond(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* impulse, double* tangent,
              double* potential) {
     law(hinge, f, w, impulse, tangent, potential);
     add_beside(hinge, f, w, impulse, tangent, potential);
 }
 
-void add_beside(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* impulse, double* tangent,
+void add_beside(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* impulse, double* tangent,
                 double* potential) {
     const int n = size(hinge);
     for (int k = 0; k < n; k++) {
-        const multibody::Hinge& one = hinge.components[static_cast<size_t>(k)].law;
-        const multibody::Response r = multibody::beside_response(one, f.component[k], w[k]);
+        const hinge::Hinge& one = hinge.components[static_cast<size_t>(k)].law;
+        const hinge::Response r = hinge::beside_response(one, f.component[k], w[k]);
         if (impulse != nullptr) impulse[k] += r.impulse;
         if (tangent != nullptr) tangent[k * n + k] += r.slope;
-        if (potential != nullptr) *potential += multibody::beside_potential(one, f.component[k], w[k]);
+        if (potential != nullptr) *potential += hinge::beside_potential(one, f.component[k], w[k]);
     }
 }
 
-double power_at_capacity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w) {
+double power_at_capacity(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w) {
     Trial t = trial_of(hinge, f, w);
     std::fill(t.m, t.m + most, 0.0);
     return point_of(hinge, t, nullptr).value;
 }
 
-bool round(const SpaceHinge& hinge) {
+bool round(const SpatialHinge& hinge) {
     const bool smooth = hinge.surface.coupling == Coupling::ball || hinge.surface.coupling == Coupling::ellipsoid;
     return smooth && coupled(hinge) && hinge.components[0].law.form == Form::set_valued;
 }
@@ -196,14 +196,14 @@ bool round(const SpaceHinge& hinge) {
 // Newton's method on x = y/|y|, the point of the sphere that rates y load, knows directions only as well as |y|: started
 // from rates too small it holds them and can but double |y| a time.  On y = s x, |x| = 1, with x and s as unknowns it takes
 // the direction from the impulse, as on any smooth problem; both have the same solutions and tangents.
-bool follow_impulse(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* impulse, double* w) {
+bool follow_impulse(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* impulse, double* w) {
     if (falls_open(hinge, f)) return true;
     const int n = size(hinge);
     const Trial t = trial_of(hinge, f, w);
     double x[most], square = 0, along = 0;
     for (int k = 0; k < n; k++) {
-        const multibody::Hinge& one = hinge.components[static_cast<size_t>(k)].law;
-        x[k] = (impulse[k] - multibody::beside_response(one, f.component[k], w[k]).impulse) / (f.h * t.scale[k]);
+        const hinge::Hinge& one = hinge.components[static_cast<size_t>(k)].law;
+        x[k] = (impulse[k] - hinge::beside_response(one, f.component[k], w[k]).impulse) / (f.h * t.scale[k]);
         square += x[k] * x[k];
         along += x[k] * t.y[k];
     }
@@ -212,14 +212,14 @@ bool follow_impulse(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const do
     return true;
 }
 
-double load_factor(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w) {
+double load_factor(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w) {
     if (falls_open(hinge, f)) return std::numeric_limits<double>::infinity();
     const int n = size(hinge);
     const Form form = hinge.components[0].law.form;
     if (!coupled(hinge)) {
         double most_loaded = 0;
         for (int k = 0; k < n; k++) {
-            const multibody::FrozenHinge& c = f.component[k];
+            const hinge::FrozenHinge& c = f.component[k];
             double share = std::fabs(w[k]) / f.width;
             if (form == Form::elastic_plastic) {
                 const double stiffness = hinge.components[static_cast<size_t>(k)].law.stiffness;
@@ -239,7 +239,7 @@ double load_factor(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const dou
 
 // On a flat side of a surface the tangent is as large as in a locked hinge while the rates are not small, so that their
 // rounding counts.
-double impulse_scale(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, int k) {
+double impulse_scale(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, int k) {
     const double plain = f.h * (f.component[k].capacity[0] + f.component[k].capacity[1]);
     if (!coupled(hinge) || hinge.components[0].law.form != Form::set_valued || f.reference == 0) return plain;
     double power = 0;
@@ -247,7 +247,7 @@ double impulse_scale(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const d
     return plain * std::max(1.0, rounding_weight * power / (f.width * f.reference));
 }
 
-void capacity_sensitivity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* w, double* derivative) {
+void capacity_sensitivity(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* derivative) {
     const int n = size(hinge);
     std::fill(derivative, derivative + n * n, 0.0);
     if (falls_open(hinge, f)) return;
@@ -257,8 +257,8 @@ void capacity_sensitivity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, co
     if (!coupled(hinge)) {
         for (int k = 0; k < n; k++) {
             const double end = 2 * impulse[k] / f.h - f.component[k].m0;
-            const multibody::Hinge& one = hinge.components[static_cast<size_t>(k)].law;
-            const bool bound = multibody::law_response(one, f.component[k], w[k]).slope == 0;
+            const hinge::Hinge& one = hinge.components[static_cast<size_t>(k)].law;
+            const bool bound = hinge::law_response(one, f.component[k], w[k]).slope == 0;
             derivative[k * n + k] = !elastic ? impulse[k] : bound ? f.h * end / 2 : 0;
         }
         return;
@@ -269,7 +269,7 @@ void capacity_sensitivity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, co
         for (int j = 0; j < n; j++) {
             double ends[2][most];
             for (int side = 0; side < 2; side++) {
-                FrozenSpaceHinge other = f;
+                FrozenSpatialHinge other = f;
                 const double factor = side == 0 ? 1 - change : 1 + change;
                 for (double& capacity : other.component[j].capacity) capacity *= factor;
                 for (double& top : other.top) top *= hinge.components[static_cast<size_t>(j)].freedom < 3 ? 1 : factor;
@@ -284,7 +284,7 @@ void capacity_sensitivity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, co
     const SurfacePoint p = point_of(hinge, t, block);
     const double full = f.width * f.reference;
     const bool ramped = hinge.components[0].law.form == Form::regularised;
-    const multibody::Ramp ramp = ramped ? multibody::ramp_over(f.power0 / full, p.value / full) : multibody::Ramp{1, 0};
+    const hinge::Ramp ramp = ramped ? hinge::ramp_over(f.power0 / full, p.value / full) : hinge::Ramp{1, 0};
     const double share = (elastic ? f.h / 2 : f.h) * ramp.value;
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) {
@@ -296,4 +296,4 @@ void capacity_sensitivity(const SpaceHinge& hinge, const FrozenSpaceHinge& f, co
     }
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

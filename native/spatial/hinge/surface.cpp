@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -397,4 +397,4 @@ SurfacePoint nearest(const Flange& f, const double* y, const double* m, double* 
     return finish();
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 enum class Coupling {
     none,            // each component for itself
@@ -47,4 +47,4 @@ struct Flange {
 double gauge(const Flange& f, const double* x);
 SurfacePoint nearest(const Flange& f, const double* y, const double* m, double* derivative);
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

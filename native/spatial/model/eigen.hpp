@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 // a (n x n, n <= 4, symmetric; destroyed), columns of v its eigenvectors
 inline void eigenvectors(int n, double* a, double* value, double* v) {
@@ -41,4 +41,4 @@ inline void eigenvectors(int n, double* a, double* value, double* v) {
     for (int i = 0; i < n; i++) value[i] = a[i * (n + 1)];
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

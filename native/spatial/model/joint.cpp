@@ -1,6 +1,6 @@
 #include "spatial/model/joint.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -69,4 +69,4 @@ double target_rate(const Joint& joint, const Pose& a, const JointGeometry& g, co
     return dot(g.row[row].mb, turned(a.q * joint.axes, speed + c1 * across + c2 * cross(turn, across)));
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

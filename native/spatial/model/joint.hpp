@@ -1,4 +1,4 @@
-// A joint between two bodies: the directions of its relative motion, and how far held ones have gone astray.
+// A joint between two bodies: the directions of its relative motion, and the drift of the held ones.
 //
 // Held and hinged directions are rows: rate = t.(v_b - v_a) + m_b.w_b - m_a.w_a, (t, m_b) acting on body b as a force and
 // a moment at its centre does.  They refer to the frame in the middle between the joint's axes on both bodies: with the
@@ -8,7 +8,7 @@
 
 #include "spatial/model/math.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 constexpr int most_rows = 6;
 
@@ -51,4 +51,4 @@ inline double rate(const Row& row, const Twist& a, const Twist& b) {
 // rate that a driven row should have
 double target_rate(const Joint& joint, const Pose& a, const JointGeometry& g, const Target& target, int row);
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 struct Vec3 {
     double x = 0, y = 0, z = 0;
@@ -117,4 +117,4 @@ inline Twist operator*(double s, const Twist& a) { return {s * a.w, s * a.v}; }
 
 inline Pose moved(const Pose& p, const Twist& step) { return {p.x + step.v, normalised(rotation(step.w) * p.q)}; }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

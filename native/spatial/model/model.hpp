@@ -7,9 +7,9 @@
 #include "spatial/hinge/hinge.hpp"
 #include "spatial/model/joint.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
-using multibody::Curve;
+using hinge::Curve;
 using std::size_t;
 
 struct Body {
@@ -45,7 +45,7 @@ struct Drive {
 struct Model {
     std::vector<Body> bodies;
     std::vector<Joint> joints;
-    std::vector<SpaceHinge> hinges;
+    std::vector<SpatialHinge> hinges;
     std::vector<int> hinge_joint;
     std::vector<Load> loads;
     std::vector<Spring> springs;
@@ -70,7 +70,7 @@ struct State {
     double t = 0, stage_start = 0;
     std::vector<Pose> pose;
     std::vector<Twist> velocity, acceleration;  // at the centres, world axes; of the last step
-    std::vector<SpaceHingeState> hinge;
+    std::vector<SpatialHingeState> hinge;
     std::vector<double> rotation;               // of every hinge component, see JointGeometry::error
     std::vector<double> turned;                 // the same as hinges count it: for several rotations the sum of their rates,
                                                 // which unlike the rotation vector is what their moments do work on
@@ -101,4 +101,4 @@ struct Energies {
 
 Energies energies(const Model& model, const State& state);
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -3,7 +3,7 @@
 
 #include "spatial/step/stepper.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -58,4 +58,4 @@ double Stepper::relative(const State& s, int joint, int freedom) const {
     return rotation_vector(conjugate(first) * second)[freedom - 3];
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -6,7 +6,7 @@
 
 #include "common/tasks.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -67,7 +67,7 @@ bool sensible(const Model& model) {
     for (const Body& body : model.bodies) {
         if (!positive(body)) return false;
     }
-    for (const SpaceHinge& hinge : model.hinges) {
+    for (const SpatialHinge& hinge : model.hinges) {
         for (const Component& c : hinge.components) {
             if (!(c.law.scale > 0 && std::isfinite(c.law.scale))) return false;
         }
@@ -95,7 +95,7 @@ void put(std::vector<double>& all, size_t row, const std::vector<double>& values
 // A run through the stages of its case, stored in a row.
 class Tour {
 public:
-    Tour(const Variations& v, size_t row, const Settings& settings, Finals& out)
+    Tour(const Variations& v, size_t row, const Settings& settings, EndValues& out)
         : of_(*v.cases[v.case_of ? static_cast<size_t>(v.case_of[row]) : 0]), row_(row), out_(out) {
         out_.outcome[row] = static_cast<int>(Outcome::refused);
         Model model = varied(v, of_, row);
@@ -105,12 +105,12 @@ public:
         impulse_ = twists(v.impulse, row, count, all_finite);
         if (all_finite && sensible(model)) simulation_.emplace(std::move(model), settings);
     }
-    // the steps of every stage are kept in `journeys`, where given
-    void run(const std::function<bool(double)>& go_on, std::vector<Journey>* journeys) {
+    // the steps of every stage are kept in `step_records`, where given
+    void run(const std::function<bool(double)>& go_on, std::vector<StepRecords>* step_records) {
         Outcome outcome = Outcome::complete;
         for (size_t k = 0; simulation_ && k < of_.stages.size() && outcome == Outcome::complete; k++) {
             begin(k);
-            if (journeys) simulation_->keep(&journeys->emplace_back());
+            if (step_records) simulation_->keep(&step_records->emplace_back());
             const Record record = simulation_->run({simulation_->state().t + of_.stages[k].duration}, go_on);
             simulation_->keep(nullptr);
             outcome = record.outcome;
@@ -119,12 +119,12 @@ public:
         }
         store(outcome);
     }
-    void follow(const std::vector<Journey>& journeys) {
+    void follow(const std::vector<StepRecords>& step_records) {
         bool solved = true;
-        for (size_t k = 0; simulation_ && k < journeys.size() && solved; k++) {
+        for (size_t k = 0; simulation_ && k < step_records.size() && solved; k++) {
             begin(k);
-            solved = simulation_->follow(journeys[k]);
-            out_.steps[row_] += static_cast<int64_t>(journeys[k].size());
+            solved = simulation_->follow(step_records[k]);
+            out_.steps[row_] += static_cast<int64_t>(step_records[k].size());
         }
         store(solved ? Outcome::complete : Outcome::step_collapsed);
     }
@@ -140,7 +140,7 @@ private:
 
     const Case& of_;
     size_t row_;
-    Finals& out_;
+    EndValues& out_;
     std::vector<Twist> velocity_, impulse_;
     std::optional<Simulation> simulation_;
 };
@@ -180,11 +180,11 @@ bool alike(const Case& a, const Case& b) {
     return same;
 }
 
-Finals sized(const Case& of, size_t n) {
+EndValues sized(const Case& of, size_t n) {
     const size_t bodies = of.model.bodies.size(), hinges = of.model.hinges.size();
     size_t components = 0;
-    for (const SpaceHinge& hinge : of.model.hinges) components += static_cast<size_t>(size(hinge));
-    Finals out;
+    for (const SpatialHinge& hinge : of.model.hinges) components += static_cast<size_t>(size(hinge));
+    EndValues out;
     for (auto* column : {&out.time, &out.residual, &out.lost}) column->assign(n, 0.0);
     for (auto* column : {&out.start, &out.centre}) column->assign(n * bodies * 3, 0.0);
     out.rotation.assign(n * bodies * 4, 0.0);
@@ -200,22 +200,22 @@ Finals sized(const Case& of, size_t n) {
     return out;
 }
 
-Finals solve_many(const Variations& v, const Settings& settings, int threads, const std::function<bool(double)>& poll) {
-    Finals out = sized(*v.cases.front(), v.count);
+EndValues solve_many(const Variations& v, const Settings& settings, int threads, const std::function<bool(double)>& poll) {
+    EndValues out = sized(*v.cases.front(), v.count);
     auto solve = [&](size_t row, const std::function<bool(double)>& go_on) { Tour(v, row, settings, out).run(go_on, nullptr); };
     // a variant takes a millisecond or more, so threads take them one by one
-    multibody::share_out(v.count, 1, threads, solve, poll);
+    share_out(v.count, 1, threads, solve, poll);
     return out;
 }
 
-Finals solve_led(const Variations& v, const Settings& settings, int threads, const std::function<bool(double)>& poll) {
-    Finals out = sized(*v.cases.front(), v.count);
-    std::vector<Journey> journeys;
-    auto lead = [&](size_t row, const std::function<bool(double)>& go_on) { Tour(v, row, settings, out).run(go_on, &journeys); };
-    multibody::share_out(std::min<size_t>(v.count, 1), 1, 1, lead, poll);
-    auto follow = [&](size_t row, const std::function<bool(double)>&) { Tour(v, row + 1, settings, out).follow(journeys); };
-    if (v.count > 1) multibody::share_out(v.count - 1, 1, threads, follow, poll);
+EndValues solve_led(const Variations& v, const Settings& settings, int threads, const std::function<bool(double)>& poll) {
+    EndValues out = sized(*v.cases.front(), v.count);
+    std::vector<StepRecords> step_records;
+    auto lead = [&](size_t row, const std::function<bool(double)>& go_on) { Tour(v, row, settings, out).run(go_on, &step_records); };
+    share_out(std::min<size_t>(v.count, 1), 1, 1, lead, poll);
+    auto follow = [&](size_t row, const std::function<bool(double)>&) { Tour(v, row + 1, settings, out).follow(step_records); };
+    if (v.count > 1) share_out(v.count - 1, 1, threads, follow, poll);
     return out;
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

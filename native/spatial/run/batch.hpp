@@ -7,7 +7,7 @@
 
 #include "spatial/run/simulation.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 // A stage as every variant of a case passes it; motion that it adds is the variant's.
 struct CaseStage {
@@ -40,7 +40,7 @@ struct Variations {
 };
 
 // Where every variant ended, row by row; a row of a variant that was not solved holds zeros.
-struct Finals {
+struct EndValues {
     std::vector<double> time;                                     // (count)
     std::vector<double> start;                                    // (count, bodies, 3): centres at the start
     std::vector<double> centre, rotation, velocity;               // (count, bodies, 3), (.., 4), (.., 6)
@@ -54,12 +54,12 @@ struct Finals {
 // whether cases have the same bodies, hinges, loads and stages, so that one set of arrays serves all
 bool alike(const Case& a, const Case& b);
 // rows of zeros, not begun
-Finals sized(const Case& of, size_t count);
+EndValues sized(const Case& of, size_t count);
 // `poll` gets the share done, now and then, on the calling thread, and returns false to cancel.
-Finals solve_many(const Variations& variations, const Settings& settings, int threads, const std::function<bool(double)>& poll);
+EndValues solve_many(const Variations& variations, const Settings& settings, int threads, const std::function<bool(double)>& poll);
 
-// The first variant, a leader, and the others, which take its steps (journey.hpp), each on its own.  A follower whose
+// The first variant, a leader, and the others, which take its steps (step_record.hpp), each on its own.  A follower whose
 // equations cannot be solved has the outcome `step_collapsed`.
-Finals solve_led(const Variations& variations, const Settings& settings, int threads, const std::function<bool(double)>& poll);
+EndValues solve_led(const Variations& variations, const Settings& settings, int threads, const std::function<bool(double)>& poll);
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -1,13 +1,13 @@
-// A run that takes another's steps; see journey.hpp.
+// A run that takes another's steps; see step_record.hpp.
 #include <cmath>
 
 #include "spatial/run/simulation.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 void Stepper::keep_pass(bool settled) {
     Pass pass{w_, {}, settled};
-    for (const FrozenSpaceHinge& f : frozen_) pass.lead.push_back(f.lead);
+    for (const FrozenSpatialHinge& f : frozen_) pass.lead.push_back(f.lead);
     for (size_t c = 0; c < connections_.size(); c++) {
         const size_t first = static_cast<size_t>(start(c) + system_.links()[c].held);
         if (hinge_of(c)) seen_rate(c, &w_[first], &pass.rates[first]);
@@ -21,7 +21,7 @@ bool Stepper::follow_pass() {
     for (size_t c = 0; c < connections_.size(); c++) {
         if (!hinge_of(c)) continue;
         const size_t hinge = static_cast<size_t>(hinge_index(c));
-        FrozenSpaceHinge& f = frozen_[hinge];
+        FrozenSpatialHinge& f = frozen_[hinge];
         // a hinge that rests weighs its rates otherwise than one that slides, and does not rest or slide by itself here
         if (f.lead == 0 || leader.lead[hinge] == 0) f.lead = leader.lead[hinge];
         double* w = &w_[static_cast<size_t>(start(c) + system_.links()[c].held)];
@@ -35,20 +35,20 @@ bool Stepper::follow_pass() {
     return std::isfinite(sum);
 }
 
-bool Simulation::follow(const Journey& journey) {
+bool Simulation::follow(const StepRecords& steps) {
     Record record;
-    if (!journey.empty()) prepare(journey.back().end);
-    for (const Stride& stride : journey) {
-        stepper_.follow(&stride.passes);
-        const bool solved = solve(stride.length);
+    if (!steps.empty()) prepare(steps.back().end);
+    for (const StepRecord& step : steps) {
+        stepper_.follow(&step.passes);
+        const bool solved = solve(step.length);
         stepper_.follow(nullptr);
         if (!solved) return false;
         std::swap(state_, fine_);
-        state_.t = stride.end;
+        state_.t = step.end;
         watch(record);
-        set_critical_damping(stride.soon);
+        set_critical_damping(step.soon);
     }
     return true;
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

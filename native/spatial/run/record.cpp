@@ -3,7 +3,7 @@
 
 #include "spatial/run/simulation.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -28,8 +28,8 @@ void Simulation::store(Record& r) {
     }
     size_t first = 0;
     for (size_t j = 0; j < state_.hinge.size(); j++) {
-        const SpaceHinge& hinge = model_.hinges[j];
-        const SpaceHingeState& s = state_.hinge[j];
+        const SpatialHinge& hinge = model_.hinges[j];
+        const SpatialHingeState& s = state_.hinge[j];
         for (int k = 0; k < size(hinge); k++) {
             r.hinge_plastic.push_back(s.component[k].plastic);
             r.hinge_moment.push_back(s.component[k].total_moment);
@@ -73,8 +73,8 @@ std::vector<double> Simulation::summary() const {
     std::vector<double> out;
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     for (size_t j = 0; j < state_.hinge.size(); j++) {
-        const SpaceHinge& hinge = model_.hinges[j];
-        const SpaceHingeState& s = state_.hinge[j];
+        const SpatialHinge& hinge = model_.hinges[j];
+        const SpatialHingeState& s = state_.hinge[j];
         double moment = 0;
         for (int k = 0; k < size(hinge); k++) {
             const size_t c = static_cast<size_t>(stepper_.first_component(j) + k);
@@ -89,4 +89,4 @@ std::vector<double> Simulation::summary() const {
 
 std::vector<double> Simulation::peaks() const { return peak_; }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -64,11 +64,11 @@ Simulation::Simulation(Model model, const Settings& settings)
 // The inertia that a damper feels is taken at the start.
 void Simulation::set_damping() {
     for (size_t j = 0; j < model_.hinges.size(); j++) {
-        SpaceHinge& hinge = model_.hinges[j];
+        SpatialHinge& hinge = model_.hinges[j];
         for (int k = 0; k < size(hinge); k++) {
-            multibody::Hinge& law = hinge.components[static_cast<size_t>(k)].law;
+            hinge::Hinge& law = hinge.components[static_cast<size_t>(k)].law;
             if (law.damping > 0) law.damped_inertia = stepper_.effective_inertia(state_, j, k);
-            for (multibody::Stop& stop : law.stop) {
+            for (hinge::Stop& stop : law.stop) {
                 if (std::isnan(stop.damping)) critical_.push_back({j, k, &stop});
             }
         }
@@ -79,7 +79,7 @@ void Simulation::set_damping() {
 // A stop without a damper of its own gets the critical one, c = 2 sqrt(k m), m the inertia felt just before the
 // stop is touched (at the start, should that come without notice).
 bool Simulation::touched_soon(const Critical& c) const {
-    const SpaceHinge& hinge = model_.hinges[c.hinge];
+    const SpatialHinge& hinge = model_.hinges[c.hinge];
     const double sign = c.stop == &hinge.components[static_cast<size_t>(c.component)].law.stop[0] ? 1 : -1;
     const size_t k = static_cast<size_t>(stepper_.first_component(c.hinge) + c.component);
     const double gap = sign * state_.turned[k] - c.stop->rotation;
@@ -87,11 +87,11 @@ bool Simulation::touched_soon(const Critical& c) const {
 }
 
 // After an accepted step of length h: dampers of stops that may be touched in the next one, and what followers need.
-void Simulation::end_stride(double h) {
+void Simulation::record_step(double h) {
     std::vector<bool> soon;
     for (const Critical& c : critical_) soon.push_back(touched_soon(c));
     set_critical_damping(soon);
-    if (journey_) journey_->push_back({h, state_.t, passes_, soon});
+    if (step_records_) step_records_->push_back({h, state_.t, passes_, soon});
 }
 
 void Simulation::set_critical_damping(const std::vector<bool>& which) {
@@ -109,7 +109,7 @@ double Simulation::worst_place(const State& a, const State& b, bool obstacles) c
         worst = std::max({worst, norm(a.pose[i].x - b.pose[i].x) / model_.length, angle_between(a.pose[i].q, b.pose[i].q)});
     }
     size_t k = 0;
-    for (const SpaceHinge& hinge : model_.hinges) {
+    for (const SpatialHinge& hinge : model_.hinges) {
         for (const Component& c : hinge.components) {
             const double e = std::fabs(a.rotation[k] - b.rotation[k]);
             worst = std::max(worst, c.freedom < 3 ? e / model_.length : e);
@@ -141,7 +141,7 @@ double Simulation::error(const State& coarse, const State& fine) const {
 bool Simulation::solve(double h) {
     coarse_ = state_;
     passes_.clear();
-    stepper_.keep(journey_ ? &passes_ : nullptr);
+    stepper_.keep(step_records_ ? &passes_ : nullptr);
     if (!stepper_.step(coarse_, h, nullptr)) return false;
     const std::vector<Twist>& end = stepper_.end_velocity();
     guess_.resize(end.size());
@@ -172,7 +172,7 @@ bool Simulation::strike(Record& record) {
     return false;
 }
 
-// Whether a step of error e (infinite: not solved) cannot be mended by a shorter one.
+// Whether a step of error e (infinite: not solved) cannot be replaced by a shorter one.
 bool Simulation::failed(double e, bool smallest, Record& record) const {
     if (std::isnan(e)) {
         record.outcome = Outcome::not_finite;
@@ -245,7 +245,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
             record.ended_by = which;
             return false;
         }
-        end_stride(h);
+        record_step(h);
     }
     return true;
 }
@@ -286,7 +286,7 @@ void Simulation::show_first_moments() {
     if (state_.t > 0 || !stepper_.step(probe, 100 * settings_.minimum_step, nullptr)) return;
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         for (int k = 0; k < size(model_.hinges[j]); k++) {
-            multibody::HingeState &seen = probe.hinge[j].component[k], &own = state_.hinge[j].component[k];
+            hinge::HingeState &seen = probe.hinge[j].component[k], &own = state_.hinge[j].component[k];
             own.capacity = seen.capacity;
             if (model_.hinges[j].components.front().law.form != Form::elastic_plastic) own.total_moment = seen.total_moment;
         }
@@ -341,4 +341,4 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     return record;
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

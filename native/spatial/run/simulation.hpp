@@ -8,7 +8,7 @@
 
 #include "spatial/step/stepper.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 enum class Outcome { complete, step_collapsed, not_finite, cancelled, refused, unheld, limit_load };
 
@@ -65,9 +65,9 @@ public:
     // the present state alone
     Record present();
     // the steps to come are kept; null for no longer
-    void keep(Journey* journey) { journey_ = journey; }
+    void keep(StepRecords* steps) { step_records_ = steps; }
     // takes the steps that another run of this model or of one near by has kept; false if one cannot be solved
-    bool follow(const Journey& journey);
+    bool follow(const StepRecords& steps);
     // per hinge, and per component
     std::vector<double> summary() const;
     std::vector<double> peaks() const;
@@ -76,11 +76,11 @@ private:
     struct Critical {
         size_t hinge;
         int component;
-        multibody::Stop* stop;
+        hinge::Stop* stop;
     };
     void set_damping();
     void prepare(double end);
-    void end_stride(double h);
+    void record_step(double h);
     bool touched_soon(const Critical& stop) const;
     void set_critical_damping(const std::vector<bool>& which);
     bool cancelled(Record& record, const std::function<bool(double)>& poll);
@@ -125,9 +125,9 @@ private:
     State held_;
     std::vector<Vec3> stored_impulse_;  // on every obstacle when last stored, and when that was
     double stored_time_ = -1;
-    Journey* journey_ = nullptr;
+    StepRecords* step_records_ = nullptr;
     std::vector<Pass> passes_;        // of the step last solved, where they are kept
     long poll_at_ = 0;                // work at which `poll` is asked next
 };
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -4,7 +4,7 @@
 
 #include "spatial/run/simulation.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -133,4 +133,4 @@ bool Simulation::lost(const State& before, Record& record) {
     return true;
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

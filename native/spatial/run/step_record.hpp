@@ -11,10 +11,10 @@
 
 #include <vector>
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 // A pass over a step: rates along all rows once they had converged, those of hinges as their laws see them;
-// `FrozenSpaceHinge::lead` of every hinge; and whether no pass followed.
+// `FrozenSpatialHinge::lead` of every hinge; and whether no pass followed.
 struct Pass {
     std::vector<double> rates, lead;
     bool settled = false;
@@ -22,12 +22,12 @@ struct Pass {
 
 // An accepted step: its length and end [s], the passes of the whole and its halves, and which of the stops without a
 // damper of their own were given one after it.
-struct Stride {
+struct StepRecord {
     double length = 0, end = 0;
     std::vector<Pass> passes;
     std::vector<bool> soon;
 };
 
-using Journey = std::vector<Stride>;
+using StepRecords = std::vector<StepRecord>;
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -13,7 +13,7 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 // Rows of a node, at most: six of a joint.
 constexpr int most_block = 6;
-// Share of the diagonal below which a difference is no number; where a pivot is put up to it, refinement has to mend.
+// Share of the diagonal below which a difference is no number; where a pivot is put up to it, refinement has to correct.
 constexpr double rounding = 2.2e-16;
 
 // Sizes known to the compiler for the commonest block, six rows.
@@ -263,4 +263,4 @@ void BlockCholesky::solve(double* x) const {
     }
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 using std::size_t;
 
@@ -51,4 +51,4 @@ private:
     std::vector<char> redundant_;
 };
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -20,7 +20,7 @@ struct Part {
     double reference, width, lead;
 };
 
-int parts_of(const SpaceHinge& hinge, const FrozenSpaceHinge& f, Part* parts) {
+int parts_of(const SpatialHinge& hinge, const FrozenSpatialHinge& f, Part* parts) {
     if (coupled(hinge)) {
         parts[0] = {0, size(hinge), &hinge.surface, f.reference, f.width, f.lead};
         return 1;
@@ -29,12 +29,12 @@ int parts_of(const SpaceHinge& hinge, const FrozenSpaceHinge& f, Part* parts) {
     return size(hinge);
 }
 
-double capacity(const FrozenSpaceHinge& f, int k, double share) { return f.component[k].capacity[share < 0 ? 1 : 0]; }
+double capacity(const FrozenSpatialHinge& f, int k, double share) { return f.component[k].capacity[share < 0 ? 1 : 0]; }
 
-double seen(const Part& p, const FrozenSpaceHinge& f, int k, double w) { return p.lead * f.w0[k] + (1 - p.lead) * w; }
+double seen(const Part& p, const FrozenSpatialHinge& f, int k, double w) { return p.lead * f.w0[k] + (1 - p.lead) * w; }
 
 // capacity of a component over the part's reference
-double weight(const Part& p, const FrozenSpaceHinge& f, int k, double share) {
+double weight(const Part& p, const FrozenSpatialHinge& f, int k, double share) {
     return p.reference > 0 ? capacity(f, k, share) / p.reference : 1;
 }
 
@@ -97,7 +97,7 @@ Linear linearised(const Part& p, const CentralPoint& at, int i, double mu) {
 
 }  // namespace
 
-bool has_path(const SpaceHinge& hinge, const FrozenSpaceHinge& f) {
+bool has_path(const SpatialHinge& hinge, const FrozenSpatialHinge& f) {
     if (hinge.components[0].law.form != Form::set_valued || hinge.surface.coupling == Coupling::tension_flange || f.intact <= 0) return false;
     for (int k = 0; k < size(hinge); k++) {
         if (!(std::min(f.component[k].capacity[0], f.component[k].capacity[1]) > 0)) return false;
@@ -105,7 +105,7 @@ bool has_path(const SpaceHinge& hinge, const FrozenSpaceHinge& f) {
     return true;
 }
 
-CentralPoint near_path(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* impulse, const double* w, double mu) {
+CentralPoint near_path(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* impulse, const double* w, double mu) {
     CentralPoint out;
     Part parts[most];
     const int number = parts_of(hinge, f, parts);
@@ -127,7 +127,7 @@ CentralPoint near_path(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const
     return out;
 }
 
-void path_tangent(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const CentralPoint& at, double mu, double* offset, double* tangent) {
+void path_tangent(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const CentralPoint& at, double mu, double* offset, double* tangent) {
     Part parts[most];
     const int n = size(hinge), number = parts_of(hinge, f, parts);
     std::fill(tangent, tangent + n * n, 0.0);
@@ -148,7 +148,7 @@ void path_tangent(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const Cent
     }
 }
 
-CentralPoint path_step(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const CentralPoint& at, double mu, const double* w) {
+CentralPoint path_step(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const CentralPoint& at, double mu, const double* w) {
     CentralPoint next;
     Part parts[most];
     const int number = parts_of(hinge, f, parts);
@@ -172,7 +172,7 @@ CentralPoint path_step(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const
     return next;
 }
 
-double path_share(const SpaceHinge& hinge, const CentralPoint& at, const CentralPoint& next) {
+double path_share(const SpatialHinge& hinge, const CentralPoint& at, const CentralPoint& next) {
     double share = 1;
     for (int i = 0; i < surfaces(hinge); i++) {
         if (next.slide[i] < (1 - inside) * at.slide[i]) share = std::min(share, inside * at.slide[i] / (at.slide[i] - next.slide[i]));
@@ -181,13 +181,13 @@ double path_share(const SpaceHinge& hinge, const CentralPoint& at, const Central
     return share;
 }
 
-double path_gap(const SpaceHinge& hinge, const CentralPoint& at) {
+double path_gap(const SpatialHinge& hinge, const CentralPoint& at) {
     double sum = 0;
     for (int i = 0; i < surfaces(hinge); i++) sum += at.slide[i] * at.room[i];
     return sum;
 }
 
-CentralPoint along_path(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const CentralPoint& at, const CentralPoint& next, double share) {
+CentralPoint along_path(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const CentralPoint& at, const CentralPoint& next, double share) {
     CentralPoint out;
     for (int k = 0; k < size(hinge); k++) {
         out.x[k] = at.x[k] + share * (next.x[k] - at.x[k]);
@@ -198,7 +198,7 @@ CentralPoint along_path(const SpaceHinge& hinge, const FrozenSpaceHinge& f, cons
     return out;
 }
 
-void rates_of_path(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const CentralPoint& at, double* w) {
+void rates_of_path(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const CentralPoint& at, double* w) {
     Part parts[most];
     const int number = parts_of(hinge, f, parts);
     for (int i = 0; i < number; i++) {
@@ -214,4 +214,4 @@ void rates_of_path(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const Cen
     }
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -8,7 +8,7 @@
 
 #include "spatial/hinge/hinge.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 // Shares x; s, and what stands for 1 - g^2 on the way, per surface: the first for coupled components, else one each.
 struct CentralPoint {
@@ -16,21 +16,21 @@ struct CentralPoint {
 };
 
 // whether the hinge has such a path: rigid and set-valued, whole, with a smooth surface and some capacity in every sense
-bool has_path(const SpaceHinge& hinge, const FrozenSpaceHinge& f);
+bool has_path(const SpatialHinge& hinge, const FrozenSpatialHinge& f);
 // number of its surfaces: one, or one for each component
-inline int surfaces(const SpaceHinge& hinge) { return coupled(hinge) ? 1 : size(hinge); }
+inline int surfaces(const SpatialHinge& hinge) { return coupled(hinge) ? 1 : size(hinge); }
 // a point of the path for impulses and rates that are known roughly, drawn inside where the impulses are too large
-CentralPoint near_path(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const double* impulse, const double* w, double mu);
+CentralPoint near_path(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* impulse, const double* w, double mu);
 // linearised at a point: impulse = offset + tangent w, tangent (n x n) symmetric and positive definite; dampers and stops apart
-void path_tangent(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const CentralPoint& at, double mu, double* offset, double* tangent);
+void path_tangent(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const CentralPoint& at, double mu, double* offset, double* tangent);
 // the point that the linearisation gives at rates w
-CentralPoint path_step(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const CentralPoint& at, double mu, const double* w);
+CentralPoint path_step(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const CentralPoint& at, double mu, const double* w);
 // share of the way to `next`, at most all of it, that keeps s and 1 - g^2 positive
-double path_share(const SpaceHinge& hinge, const CentralPoint& at, const CentralPoint& next);
-CentralPoint along_path(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const CentralPoint& at, const CentralPoint& next, double share);
+double path_share(const SpatialHinge& hinge, const CentralPoint& at, const CentralPoint& next);
+CentralPoint along_path(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const CentralPoint& at, const CentralPoint& next, double share);
 // sum of s (1 - g^2) over its surfaces
-double path_gap(const SpaceHinge& hinge, const CentralPoint& at);
+double path_gap(const SpatialHinge& hinge, const CentralPoint& at);
 // rates at which to linearise the law itself from here: within the ramp or beyond it
-void rates_of_path(const SpaceHinge& hinge, const FrozenSpaceHinge& f, const CentralPoint& at, double* w);
+void rates_of_path(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const CentralPoint& at, double* w);
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -3,13 +3,13 @@
 // Every hinge has a point of its own (central.hpp); the bodies' velocities are those of the problem linearised at the points, so
 // only the points know how far along the path they are.  Newton steps go on while mu falls; each point goes as far towards its
 // next one as keeps it inside, by itself, or, where that loses the way, all by the same share.  The end of the path is a
-// start for whole steps on the laws themselves, which decide alone whether the step is solved.
+// start for full steps on the laws themselves, which decide alone whether the step is solved.
 #include <algorithm>
 #include <cmath>
 
 #include "spatial/step/stepper.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -23,7 +23,7 @@ constexpr double half_way = 0.5, some_way = 0.1;
 // Newton steps before a path is lost, each way; and growth of the mean s (1 - g^2) that tells the same.
 constexpr int path_limit = 16, path_limit_together = 60;
 constexpr double lost = 10;
-// whole steps on the laws, from the path's end
+// full steps on the laws, from the path's end
 constexpr int polish_limit = 12;
 
 size_t at(int i) { return static_cast<size_t>(i); }
@@ -46,7 +46,7 @@ double Stepper::enter_path(bool warm) {
     for (size_t c = 0; c < connections_.size(); c++) {
         if (!on_path_[c]) continue;
         const size_t hinge = at(hinge_index(c));
-        const FrozenSpaceHinge& f = frozen_[hinge];
+        const FrozenSpatialHinge& f = frozen_[hinge];
         double impulse[most_components];
         for (int k = 0; k < size(*hinge_of(c)); k++) impulse[k] = f.h * f.tau0[k];
         point_[hinge] = warm ? kept_point_[hinge] : near_path(*hinge_of(c), f, impulse, &w_[at(start(c) + system_.links()[c].held)], mu_);
@@ -115,4 +115,4 @@ bool Stepper::follow_path(bool together) {
     return arrived && descend(polish_limit, true);
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -4,19 +4,19 @@
 
 #include "spatial/step/stepper.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
-// Newton steps that bring positions back to the held rows; the matrix is that of the unmended end.
-constexpr int mending_limit = 4;
+// Newton steps that bring positions back to the held rows; the matrix is that of the end before projection.
+constexpr int projection_limit = 4;
 // Share of the model's length to which held points meet: rounding.
-constexpr double closed = 1e-14;
-// The same, or angle [rad], by which they miss each other where mending has no solution.  Mending goes to rounding; a drive against
-// what cannot give way misses by all its way, however short the steps.
-constexpr double unmet = 1e-6;
+constexpr double gap_tolerance = 1e-14;
+// The same, or angle [rad]: above it the projection's Newton steps have found no solution.  Where there is one they go to rounding; a
+// drive against what cannot give way misses by all its way, however short the steps.
+constexpr double newton_tolerance = 1e-6;
 // Rates of held rows at the end of a step, relative to the speed.
-constexpr double mended = 1e-12;
+constexpr double projection_tolerance = 1e-12;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -34,7 +34,7 @@ Energies energies(const Model& model, const State& s) {
     }
     size_t first = 0;
     for (size_t j = 0; j < model.hinges.size(); j++) {
-        const SpaceHinge& hinge = model.hinges[j];
+        const SpatialHinge& hinge = model.hinges[j];
         e.elastic += elastic_energy(hinge, s.hinge[j]);
         e.dissipated += dissipated(hinge, s.hinge[j]);
         e.damped += damped(hinge, s.hinge[j]);
@@ -60,7 +60,7 @@ bool Stepper::commit(State& s, double h) {
     for (size_t i = 0; i < end_.size(); i++) end_[i] = moved(s.pose[i], (h / 2) * (s.velocity[i] + velocity_[i]));
     commit_contacts(s, h);
     work_on_links(s, h);
-    if (!mend_end(s, h)) return false;
+    if (!project_positions(s, h)) return false;
     turn_hinges(s);
     work_of_loads(s, h);
     show_forces(s, h);
@@ -100,7 +100,7 @@ void Stepper::turn_hinges(State& s) {
         const size_t k = at(component_[j]);
         const size_t row = at(start(hinge_link_[j]) + joint.held);
         double turn[most_components];
-        space::commit(model_.hinges[j], frozen_[j], s.hinge[j], s.t, &s.turned[k], &w_[row], turn);
+        spatial::commit(model_.hinges[j], frozen_[j], s.hinge[j], s.t, &s.turned[k], &w_[row], turn);
         for (int i = 0; i < joint.laws; i++) {
             s.rotation[k + at(i)] = error_[row + at(i)];
             s.turned[k + at(i)] = joint.laws == 1 ? error_[row + at(i)] : s.turned[k + at(i)] + turn[i];
@@ -137,7 +137,7 @@ void Stepper::work_of_loads(State& s, double h) {
 
 // Positions and velocities back to the held rows at the end of the step, the nearest in kinetic energy with the laws'
 // tangents kept: a locked hinge stays locked.  False where they cannot be met.
-bool Stepper::mend_end(State& s, double h) {
+bool Stepper::project_positions(State& s, double h) {
     const std::vector<Link>& links = system_.links();
     bool any = false;
     locate_all(s, end_, s.t + h, rows_, error_.data());
@@ -161,7 +161,7 @@ bool Stepper::mend_end(State& s, double h) {
     };
     set_rows();
     system_.factor();
-    for (int pass = 0; pass < mending_limit; pass++) {
+    for (int pass = 0; pass < projection_limit; pass++) {
         double worst = 0;
         for (size_t c = 0; c < links.size(); c++) {
             const size_t first = at(start(c)), held = at(links[c].held);
@@ -171,7 +171,7 @@ bool Stepper::mend_end(State& s, double h) {
                 worst = std::max(worst, i < held ? std::fabs(error_[first + i]) : -deep);
             }
         }
-        if (worst <= closed * model_.length) break;
+        if (worst <= gap_tolerance * model_.length) break;
         system_.solve(x_.data(), 1e-3 * worst);
         std::fill(direction_.begin(), direction_.end(), Twist{});
         system_.push(x_.data(), direction_.data());
@@ -179,7 +179,7 @@ bool Stepper::mend_end(State& s, double h) {
         locate_all(s, end_, s.t + h, rows_, error_.data());
     }
     if (!meets()) return false;
-    if (!stage_.quasi_static) mend_rates(s, h);
+    if (!stage_.quasi_static) project_rates(s, h);
     return true;
 }
 
@@ -189,14 +189,14 @@ bool Stepper::meets() const {
         for (int i = 0; i < system_.links()[c].held; i++) {
             const size_t k = at(start(c) + i);
             const bool turns = dot(rows_[k].t, rows_[k].t) == 0;
-            if (!(std::fabs(error_[k]) <= unmet * (turns ? 1 : model_.length))) return false;
+            if (!(std::fabs(error_[k]) <= newton_tolerance * (turns ? 1 : model_.length))) return false;
         }
     }
     return true;
 }
 
 // Its impulses belong to the step: those of drives do work, at rates that are not zero.
-void Stepper::mend_rates(State& s, double h) {
+void Stepper::project_rates(State& s, double h) {
     const std::vector<Link>& links = system_.links();
     rates(rows_, velocity_.data(), x_.data());
     for (size_t c = 0; c < links.size(); c++) {
@@ -213,7 +213,7 @@ void Stepper::mend_rates(State& s, double h) {
         }
     }
     work_ = x_;
-    system_.solve(x_.data(), mended * speed_);
+    system_.solve(x_.data(), projection_tolerance * speed_);
     system_.push(x_.data(), velocity_.data());
     push_obstacles(s, h);
     for (size_t c = 0; c < links.size(); c++) {
@@ -255,4 +255,4 @@ void Stepper::show_forces(State& s, double h) {
     }
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

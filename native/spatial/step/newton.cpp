@@ -5,12 +5,12 @@
 #include "spatial/model/eigen.hpp"
 #include "spatial/step/stepper.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
-// Whole Newton steps before the guaranteed way is taken, and before the central path is tried; they fail only by cycling.
-constexpr int bold_limit = 32, bold_limit_before_path = 12;
+// Full Newton steps before the guaranteed way is taken, and before the central path is tried; they fail only by cycling.
+constexpr int full_step_limit = 32, full_step_limit_before_path = 12;
 // Newton steps per width of the ramps before the step is given up and shortened: a fixed number, and some per hinge,
 // since in the worst case (an impulse on the end of a long chain) hinges lock and let go one at a time.
 constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
@@ -23,7 +23,7 @@ constexpr double impulse_tolerance = 1e-9, widened_tolerance = 1e-1;
 constexpr double energy_rounding = 1e-14;
 // Energy [J] that is no motion at all: what friction leaves of a speed dies away below the smallest number.
 constexpr double no_energy = 1e-60;
-// Rates of held rows and of stiff laws are met to this share of the speed; what is left is mended at the step's end.
+// Rates of held rows and of stiff laws are met to this share of the speed; what is left is projected out at the step's end.
 constexpr double rate_tolerance = 1e-10;
 
 size_t at(int i) { return static_cast<size_t>(i); }
@@ -32,14 +32,14 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 void Stepper::respond(size_t link, const double* w, double* impulse, double* tangent) const {
     const size_t index = at(connections_[link].index);
-    if (is(link, Kind::contact)) return space::respond(contacts_.frozen(index), w, impulse, tangent, nullptr);
+    if (is(link, Kind::contact)) return spatial::respond(contacts_.frozen(index), w, impulse, tangent, nullptr);
     if (is(link, Kind::spring)) {
         impulse[0] = spring_force_[index] + spring_tangent_[index] * w[0];
         if (tangent) tangent[0] = spring_tangent_[index];
         return;
     }
     const size_t hinge = at(hinge_index(link));
-    space::respond(model_.hinges[hinge], frozen_[hinge], w, impulse, tangent, nullptr);
+    spatial::respond(model_.hinges[hinge], frozen_[hinge], w, impulse, tangent, nullptr);
 }
 
 // above 1: a locked hinge must give way
@@ -49,10 +49,10 @@ double Stepper::load(size_t link, const double* w) const {
     return load_factor(model_.hinges[hinge], frozen_[hinge], w);
 }
 
-// Rates that a law sees, a w_0 + (1 - a) w for a coupled hinge that slides on; see `FrozenSpaceHinge::lead`.
+// Rates that a law sees, a w_0 + (1 - a) w for a coupled hinge that slides on; see `FrozenSpatialHinge::lead`.
 void Stepper::seen_rate(size_t link, const double* w, double* seen) const {
     const int n = system_.links()[link].laws;
-    const FrozenSpaceHinge* f = hinge_of(link) ? &frozen_[at(hinge_index(link))] : nullptr;
+    const FrozenSpatialHinge* f = hinge_of(link) ? &frozen_[at(hinge_index(link))] : nullptr;
     const double lead = f ? f->lead : 0;
     for (int k = 0; k < n; k++) seen[k] = lead > 0 ? lead * f->w0[k] + (1 - lead) * w[k] : w[k];
 }
@@ -62,12 +62,12 @@ void Stepper::scale_rate(size_t link, double factor, double* w) const {
     const int n = system_.links()[link].laws;
     double seen[most_components];
     seen_rate(link, w, seen);
-    const FrozenSpaceHinge* f = hinge_of(link) ? &frozen_[at(hinge_index(link))] : nullptr;
+    const FrozenSpatialHinge* f = hinge_of(link) ? &frozen_[at(hinge_index(link))] : nullptr;
     const double lead = f ? f->lead : 0;
     for (int k = 0; k < n; k++) w[k] = lead > 0 ? (factor * seen[k] - lead * f->w0[k]) / (1 - lead) : factor * w[k];
 }
 
-// Whole steps are tried first, unless they cycled before in this step, then the central path; the guaranteed way is the last.
+// Full steps are tried first, unless they cycled before in this step, then the central path; the guaranteed way is the last.
 bool Stepper::newton() {
     tolerance_ = impulse_tolerance;
     energy_ = 0;
@@ -86,10 +86,10 @@ bool Stepper::newton() {
     if (!all_set_valued_) {
         if (descend(newton_steps(), false)) return true;
     } else if (!has_paths_ || contacts_.size() > 0) {
-        if (descend(bold_limit, true)) return true;
+        if (descend(full_step_limit, true)) return true;
     } else {
-        if (bold_ && descend(bold_limit_before_path, true)) return true;
-        bold_ = false;
+        if (full_steps_ && descend(full_step_limit_before_path, true)) return true;
+        full_steps_ = false;
         for (const bool together : {false, true}) {
             start_anew();
             if (follow_path(together)) return true;
@@ -127,13 +127,13 @@ void Stepper::widen(double width, bool& narrowest) {
     }
     for (size_t c = 0; c < connections_.size(); c++) {
         if (!hinge_of(c)) continue;
-        const SpaceHinge& hinge = *hinge_of(c);
-        FrozenSpaceHinge& f = frozen_[at(hinge_index(c))];
+        const SpatialHinge& hinge = *hinge_of(c);
+        FrozenSpatialHinge& f = frozen_[at(hinge_index(c))];
         const double least = least_width(hinge), wanted = std::max(width, least);
         double* w = &w_[at(start(c) + system_.links()[c].held)];
         // inside the ramp the moment is kept, so the rate shrinks with the width
         if (wanted < f.width && load(c, w) < 1) scale_rate(c, wanted / f.width, w);
-        space::widen(hinge, f, wanted);
+        spatial::widen(hinge, f, wanted);
         if (wanted > least) narrowest = false;
     }
 }
@@ -183,8 +183,8 @@ void Stepper::linearise(size_t link) {
     }
 }
 
-// Newton steps, bold (whole steps, no guarantee) or with exact line search on the potential (always downhill).
-bool Stepper::descend(int limit, bool bold) {
+// Newton steps, either full (no guarantee) or with exact line search on the potential (always downhill).
+bool Stepper::descend(int limit, bool full_steps) {
     for (int iteration = 0; iteration < limit; iteration++) {
         solve_once();
         double slope = 0;
@@ -195,8 +195,8 @@ bool Stepper::descend(int limit, bool bold) {
             w_.swap(w_next_);
             return true;
         }
-        if (bold) {
-            take_whole_step();
+        if (full_steps) {
+            take_full_step();
         } else if (iteration == 0 || slope <= 0) {
             // the first step leads to the held rows
             velocity_.swap(next_);
@@ -298,7 +298,7 @@ void Stepper::stop_reversing(size_t link) {
 // Whether a sliding hinge would turn back; if it slides on its next rates follow its impulse.
 bool Stepper::reverses(size_t link) {
     const size_t first = at(start(link) + system_.links()[link].held);
-    const SpaceHinge* hinge = hinge_of(link);
+    const SpatialHinge* hinge = hinge_of(link);
     if (hinge && round(*hinge)) return !follow_impulse(*hinge, frozen_[at(hinge_index(link))], &impulse_[first], &w_next_[first]);
     double along = 0, before[most_components], after[most_components];
     seen_rate(link, &w_[first], before);
@@ -310,7 +310,7 @@ bool Stepper::reverses(size_t link) {
 // Takes the whole Newton step, except that a hinge which would reverse is first put to rest, and that of
 // neighbouring locked hinges loaded beyond their capacity only the one loaded most is released: the moment falls
 // beside it, and releasing all of them would only send most back.
-void Stepper::take_whole_step() {
+void Stepper::take_full_step() {
     const std::vector<Link>& links = system_.links();
     std::fill(overload_.begin(), overload_.end(), 0.0);
     std::fill(worst_near_.begin(), worst_near_.end(), 0.0);
@@ -393,4 +393,4 @@ double Stepper::search(double slope_end) {
     return hi;
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -3,7 +3,7 @@
 
 #include "spatial/step/stepper.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -12,12 +12,12 @@ size_t at(int i) { return static_cast<size_t>(i); }
 }  // namespace
 
 // Whether a coupled hinge came to rest or turned back in a step that took it for sliding on: it weighs its rates otherwise
-// then, see `FrozenSpaceHinge::lead`.
+// then, see `FrozenSpatialHinge::lead`.
 bool Stepper::turned_back() {
     bool any = false;
     for (size_t c = 0; c < connections_.size(); c++) {
         if (!hinge_of(c)) continue;
-        const FrozenSpaceHinge& f = frozen_[at(hinge_index(c))];
+        const FrozenSpatialHinge& f = frozen_[at(hinge_index(c))];
         if (f.lead == 0) continue;
         double along = 0;
         for (int k = 0; k < size(*hinge_of(c)); k++) along += f.w0[k] * w_[at(start(c) + system_.links()[c].held + k)];
@@ -38,4 +38,4 @@ void Stepper::keep_locked() {
     }
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -38,14 +38,14 @@ Stepper::Stepper(const Model& model) : model_(model), contacts_(model.contact), 
     }
     link_all();
     int components = 0;
-    for (const SpaceHinge& hinge : model.hinges) {
+    for (const SpatialHinge& hinge : model.hinges) {
         component_.push_back(components);
         components += size(hinge);
         all_set_valued_ = all_set_valued_ && hinge.components.front().law.form == Form::set_valued;
     }
     component_.push_back(components);
     has_paths_ = all_set_valued_ && !model.hinges.empty();
-    for (const SpaceHinge& hinge : model.hinges) has_paths_ = has_paths_ && hinge.surface.coupling != Coupling::tension_flange;
+    for (const SpatialHinge& hinge : model.hinges) has_paths_ = has_paths_ && hinge.surface.coupling != Coupling::tension_flange;
     const size_t bodies = model.bodies.size();
     frozen_.resize(model.hinges.size());
     for (auto* v : {&spring_force_, &spring_tangent_, &spring_weight_}) v->assign(model.springs.size(), 0.0);
@@ -110,7 +110,7 @@ State Stepper::start() {
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         for (int k = 0; k < size(model_.hinges[j]); k++) {
             int hint = 0;
-            const multibody::Hinge& law = model_.hinges[j].components[at(k)].law;
+            const hinge::Hinge& law = model_.hinges[j].components[at(k)].law;
             s.hinge[j].component[k].capacity = law.scale * law.positive.at(0, hint);
         }
     }
@@ -123,7 +123,7 @@ int Stepper::held_rows() const {
     return held;
 }
 
-const SpaceHinge* Stepper::hinge_of(size_t link) const {
+const SpatialHinge* Stepper::hinge_of(size_t link) const {
     if (!is(link, Kind::joint)) return nullptr;
     const int hinge = hinge_index(link);
     return hinge < 0 ? nullptr : &model_.hinges[at(hinge)];
@@ -247,7 +247,7 @@ void Stepper::hold_rows() {
 
 // Brings the predicted middle back to the held rows.  Needed where redundant constraints leave mobility only at
 // consistent places: Bricard's mechanism is locked at any other.
-void Stepper::mend_middle(const State& s, double t) {
+void Stepper::project_middle(const State& s, double t) {
     locate_all(s, middle_, t, rows_, error_.data());
     set_mobilities(middle_);
     hold_rows();
@@ -323,9 +323,9 @@ void Stepper::freeze(const State& s, double h) {
         const int hinge = hinge_index(c);
         if (hinge < 0) continue;
         const size_t held = at(system_.links()[c].held), k = at(component_[at(hinge)]);
-        frozen_[at(hinge)] = space::freeze(model_.hinges[at(hinge)], s.hinge[at(hinge)], h, &s.turned[k], &rate0_[first + held],
+        frozen_[at(hinge)] = spatial::freeze(model_.hinges[at(hinge)], s.hinge[at(hinge)], h, &s.turned[k], &rate0_[first + held],
                                            &w_[first + held]);
-        space::widen(model_.hinges[at(hinge)], frozen_[at(hinge)], least_width(model_.hinges[at(hinge)]));
+        spatial::widen(model_.hinges[at(hinge)], frozen_[at(hinge)], least_width(model_.hinges[at(hinge)]));
         // once is enough: a hinge that turned back in one pass and on in the next would go on so
         if (turned_back_[at(hinge)]) frozen_[at(hinge)].lead = 0;
     }
@@ -349,7 +349,7 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
     turned_back_.assign(frozen_.size(), false);
     if (!guess) {
         kept_mu_ = 0;
-        bold_ = true;
+        full_steps_ = true;
     }
     // a guess comes from a step that has just been solved
     solved_ = solved_ && guess;
@@ -357,7 +357,7 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
     for (int pass = guess ? 1 : 0; pass < passes || (!settled && pass < most_passes); pass++) {
         // positions, free-flight velocities and loads at the predicted middle
         predict(s, h, guess_);
-        if (redundant_ > 0 || system_.redundant() > 0) mend_middle(s, s.t + h / 2);
+        if (redundant_ > 0 || system_.redundant() > 0) project_middle(s, s.t + h / 2);
         set_mobilities(middle_);
         set_free(s);
         // directions there, and the rates they must have
@@ -381,4 +381,4 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
     return commit(s, h);
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -16,7 +16,7 @@
 #include "spatial/model/model.hpp"
 #include "spatial/step/system.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 // Drag of quasi-static stages over mass [1/s], all that resists what is out of equilibrium.  A step begins at rest and ends
 // with twice its mean velocity, so drag h/2 of the inertia gives the force drag m v whatever the step's length; motion out of
@@ -84,7 +84,7 @@ private:
     double inertia() const { return stage_.quasi_static ? std::max(drag * length_ / 2, least_inertia) : 1; }
     bool is(size_t link, Kind kind) const { return connections_[link].kind == kind; }
     double mobility(size_t link, const Row& row) const;
-    // touching.cpp
+    // contact_step.cpp
     size_t contact_rows() const { return static_cast<size_t>(start(connections_.size() - contacts_.size())); }
     void allow_closing(double h);
     bool settle();
@@ -100,7 +100,7 @@ private:
     Target target(const Joint& joint, const State& s, double t) const;
     void aim(const State& s, double h);
     void hold_rows();
-    void mend_middle(const State& s, double t);
+    void project_middle(const State& s, double t);
     void rates(const std::vector<Row>& rows, const Twist* v, double* out) const;
     void freeze(const State& s, double h);
     // passes.cpp
@@ -114,11 +114,11 @@ private:
     bool narrow_ramps();
     int newton_steps() const;
     void tangent_of(size_t link, double* offset, double* tangent) const;
-    bool descend(int limit, bool bold);
+    bool descend(int limit, bool full_steps);
     void linearise(size_t link);
     void solve_once();
     bool balanced(double& slope);
-    void take_whole_step();
+    void take_full_step();
     void seen_rate(size_t link, const double* w, double* seen) const;
     void scale_rate(size_t link, double factor, double* w) const;
     void stop_reversing(size_t link);
@@ -127,26 +127,26 @@ private:
     void widen(double width, bool& narrowest);
     void respond(size_t link, const double* w, double* impulse, double* tangent) const;
     double load(size_t link, const double* w) const;
-    // path.cpp
+    // central_path.cpp
     bool follow_path(bool together);
     double enter_path(bool warm);
     double step_on_path(bool together, double& least);
     void leave_path();
-    // finish.cpp
+    // end_of_step.cpp
     bool commit(State& s, double h);
     void work_on_links(State& s, double h);
     void turn_hinges(State& s);
     void work_of_loads(State& s, double h);
-    bool mend_end(State& s, double h);
+    bool project_positions(State& s, double h);
     bool meets() const;
-    void mend_rates(State& s, double h);
+    void project_rates(State& s, double h);
     void show_forces(State& s, double h);
     bool drives_obstacle(size_t joint) const;
     double inertial_energy(size_t body) const;
     double stand_in_energy(size_t joint) const;
     int start(size_t link) const { return system_.start(link); }
-    double least_width(const SpaceHinge& hinge) const { return std::max(ramp_width(hinge), narrowest_ramp_); }
-    const SpaceHinge* hinge_of(size_t link) const;
+    double least_width(const SpatialHinge& hinge) const { return std::max(ramp_width(hinge), narrowest_ramp_); }
+    const SpatialHinge* hinge_of(size_t link) const;
     int hinge_index(size_t link) const { return model_.joints[static_cast<size_t>(connections_[link].index)].hinge; }
 
     const Model& model_;
@@ -156,7 +156,7 @@ private:
     std::vector<Connection> connections_;    // contacts come last
     std::vector<size_t> hinge_link_;         // link of every hinge
     std::vector<int> component_;             // first component of every hinge in State::rotation
-    std::vector<FrozenSpaceHinge> frozen_;   // per hinge
+    std::vector<FrozenSpatialHinge> frozen_;   // per hinge
     std::vector<char> turned_back_;          // per hinge: in a pass over the present step
     std::vector<double> spring_force_, spring_tangent_;  // impulse at zero rate, and its slope
     std::vector<double> spring_weight_;      // of the end rate in the damper's
@@ -182,7 +182,7 @@ private:
     std::vector<double> allowed_;            // normal rate per contact, in this pass
     double energy_ = 0;                      // kinetic energy of the free motion [J]
     long solves_ = 0;
-    bool bold_ = true;                       // whole Newton steps have not cycled in this step
+    bool full_steps_ = true;                       // full Newton steps have not cycled in this step
     bool has_paths_ = false;                 // all hinges are rigid and have smooth surfaces
     std::vector<char> on_path_;              // per link: whether it is linearised on the central path
     std::vector<CentralPoint> point_, next_point_, kept_point_;  // per hinge
@@ -193,4 +193,4 @@ private:
     size_t next_pass_ = 0;                   // of those followed
 };
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

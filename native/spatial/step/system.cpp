@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 namespace {
 
@@ -195,4 +195,4 @@ void System::push(const std::vector<Row>& rows, const double* x, bool laws_only,
     for (size_t i = 0; i < bodies_.size(); i++) v[i] = v[i] + mobility(i, sum[i]);
 }
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

@@ -16,7 +16,7 @@
 #include "spatial/step/block_cholesky.hpp"
 #include "spatial/model/joint.hpp"
 
-namespace crumple::space {
+namespace crumple::spatial {
 
 struct Link {
     int body[2] = {-1, -1};
@@ -82,4 +82,4 @@ private:
     std::vector<Twist> impulse_, impulse_sum_;
 };
 
-}  // namespace crumple::space
+}  // namespace crumple::spatial

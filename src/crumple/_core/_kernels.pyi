@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-class _Multibody:
+class _Planar:
     class Model:
         def __init__(
             self,
@@ -25,7 +25,7 @@ class _Multibody:
 
     class Simulation:
         def __init__(
-            self, model: _Multibody.Model, accuracy: float, minimum_step: float, maximum_step: float
+            self, model: _Planar.Model, accuracy: float, minimum_step: float, maximum_step: float
         ) -> None: ...
         def set_motion(self, velocity: NDArray[np.float64], impulse: NDArray[np.float64]) -> float: ...
         def set_rates(self, w: Sequence[float]) -> None: ...
@@ -61,7 +61,7 @@ class _Multibody:
         poll: Callable[[float], bool] | None,
     ) -> dict[str, Any]: ...
 
-class _Space:
+class _Spatial:
     class Simulation:
         def __init__(
             self, model: dict[str, Any], accuracy: float, minimum_step: float, maximum_step: float
@@ -112,6 +112,6 @@ class _Space:
     surface_point: Any
     surface_gauge: Any
 
-multibody: _Multibody
-space: _Space
+planar: _Planar
+spatial: _Spatial
 shell: Any

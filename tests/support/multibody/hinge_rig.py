@@ -52,7 +52,7 @@ class Rig:
     """A hinge between the ground and a mass that feels nothing else."""
 
     def __init__(self, constants, inertia=1.0, w=None):
-        self.element = _kernels.space.HingeElement(constants)
+        self.element = _kernels.spatial.HingeElement(constants)
         self.n = len(constants["components"])
         self.inertia = np.diag(np.broadcast_to(np.asarray(inertia, float), self.n))
         self.w = np.zeros(self.n) if w is None else np.array(w, float)

@@ -93,7 +93,7 @@ def solve_many(
     ``poll(share)`` is asked now and then with the share done and returns False to cancel; variants that were
     not begun then have the outcome CANCELLED.
     """
-    out = _kernels.multibody.solve_many(
+    out = _kernels.planar.solve_many(
         [kernel_model(model) for model in variants.models],
         np.ascontiguousarray(variants.model_of, dtype=np.int64),
         end,

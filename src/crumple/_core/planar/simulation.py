@@ -237,7 +237,7 @@ class Simulation:
         compiled: Any = None,
     ) -> None:
         self.model = model
-        self._kernel = _kernels.multibody.Simulation(
+        self._kernel = _kernels.planar.Simulation(
             compiled or kernel_model(model), accuracy, minimum_step, maximum_step
         )
 
@@ -286,7 +286,7 @@ class Simulation:
 
 def kernel_model(model: TreeModel, kind: Callable[..., Any] | None = None) -> Any:
     """The compiled form of a model, plain or of another arithmetic; any number of runs share it."""
-    return (kind or _kernels.multibody.Model)(
+    return (kind or _kernels.planar.Model)(
         np.array([b.parent for b in model.bodies], dtype=np.int64),
         np.array([b.joint for b in model.bodies], dtype=np.int64),
         np.array([(*b.anchor, *b.centre, b.mass, b.inertia) for b in model.bodies], dtype=float),

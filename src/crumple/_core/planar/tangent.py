@@ -76,7 +76,7 @@ def solve_tangent(
 
     Directions are taken a few at a time, each time with the whole run.
     """
-    kernel = _kernels.multibody.tangent
+    kernel = _kernels.planar.tangent
     parts = []
     for first in range(0, max(len(directions), 1), kernel.directions):
         some = directions[first : first + kernel.directions]

@@ -129,7 +129,7 @@ def solve_many(
     above and below the leader is the derivative of the run, see docs/theory/sensitivities.md.  Runs with
     contact have no followers.
     """
-    out = _kernels.space.solve_many(
+    out = _kernels.spatial.solve_many(
         [kernel_case(case) for case in variants.cases],
         np.ascontiguousarray(variants.case_of, dtype=np.int64),
         as_rows(variants.velocity),
@@ -148,10 +148,10 @@ def solve_many(
     return SpaceFinals(**out)
 
 
-def kernel_case(case: SpaceCase) -> _kernels._Space.Case:
+def kernel_case(case: SpaceCase) -> _kernels._Spatial.Case:
     """A case as the kernel holds it."""
     model = case.model
-    kernel = _kernels.space.Case(as_dict(model))
+    kernel = _kernels.spatial.Case(as_dict(model))
     for stage in case.stages:
         kernel.add_stage(
             stage.duration,

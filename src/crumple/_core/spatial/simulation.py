@@ -150,7 +150,7 @@ class SpaceSimulation:
         maximum_step: float = math.inf,
     ) -> None:
         self.model = model
-        self._kernel = _kernels.space.Simulation(as_dict(model), accuracy, minimum_step, maximum_step)
+        self._kernel = _kernels.spatial.Simulation(as_dict(model), accuracy, minimum_step, maximum_step)
 
     def set_motion(self, velocity: Floats, impulse: Floats) -> float:
         """Add velocities of the bodies and impulses on them, both (bodies, 6): (omega, v), (moment, force).

@@ -27,7 +27,7 @@ def solid(shape, *, point=(0.0, 0.0, 0.0), direction=Z, edge=(0.0, 0.0, 0.0), ra
 
 def touches(body, first, second, radius):
     """Points of contact by slot: (gap, normal, point)."""
-    found = _kernels.space.touches(body, list(map(float, first)), list(map(float, second)), radius)
+    found = _kernels.spatial.touches(body, list(map(float, first)), list(map(float, second)), radius)
     return {slot: (gap, np.array(normal), np.array(point)) for gap, normal, point, slot in found}
 
 

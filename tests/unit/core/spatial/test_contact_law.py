@@ -13,7 +13,7 @@ INVERSE_MASS = 0.5
 
 def answer(rates, friction=0.4, normal=3.0):
     """Impulse (3,), tangent (3, 3) and potential at rates (normal, two tangents)."""
-    impulse, tangent, potential = _kernels.space.contact_response(
+    impulse, tangent, potential = _kernels.spatial.contact_response(
         friction, INVERSE_MASS, normal, list(map(float, rates))
     )
     return np.array(impulse), np.array(tangent).reshape(3, 3), potential
@@ -66,13 +66,13 @@ def test_sticks_below_the_limit():
     ],
 )
 def test_rate_that_a_step_allows(gap, rate, expected):
-    allowed = _kernels.space.allowed_rate(0.6, gap, rate, 0.01, 1e-6, 1e-3)
+    allowed = _kernels.spatial.allowed_rate(0.6, gap, rate, 0.01, 1e-6, 1e-3)
     assert allowed == pytest.approx(expected, abs=1e-12)
 
 
 @given(gap=st.floats(1e-5, 1.0), rate=st.floats(-5.0, 5.0), h=st.floats(1e-6, 1e-2))
 def test_open_contact_does_not_overlap_at_the_end_nor_gain_speed(gap, rate, h):
-    allowed = _kernels.space.allowed_rate(0.6, gap, rate, h, 1e-6, 1e-3)
+    allowed = _kernels.spatial.allowed_rate(0.6, gap, rate, h, 1e-6, 1e-3)
     assert allowed <= 0
     if allowed < 0:
         assert gap + h * (rate + allowed) / 2 == pytest.approx(0.0, abs=1e-12)

@@ -243,4 +243,4 @@ def test_fracture_opens_the_hinge_for_good(form, coupling):
 )
 def test_constants_that_make_no_sense_are_refused(change, message):
     with pytest.raises(ValueError, match=message):
-        _kernels.space.HingeElement(made(SET_VALUED, NONE, 2) | change)
+        _kernels.spatial.HingeElement(made(SET_VALUED, NONE, 2) | change)

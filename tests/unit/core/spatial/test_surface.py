@@ -11,7 +11,7 @@ from tests.support.multibody.hinge_rig import BALL, ELLIPSOID, SECTION
 
 from crumple._core import _kernels
 
-space = _kernels.space
+space = _kernels.spatial
 RNG = np.random.default_rng(3)
 ROWS = np.column_stack([RNG.normal(size=(12, 3)), np.zeros(12)])
 
