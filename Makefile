@@ -3,7 +3,7 @@
 #   make demo     solve the first example with both engines, compare, and say where the report is (AXIS=strong)
 #   make test     unit, verification and regression tests
 #   make check    format, lint, types, import contract, sizes
-#   make verify   slow verification too, the native code under sanitizers, and docs/verification.md anew
+#   make verify   slow verification too, the native code under sanitizers, and docs/verification.md written again
 #   make bench    speed, as ratios within one run
 #   make clean    remove what make made
 
@@ -43,7 +43,7 @@ check: $(VENV)/installed-test $(VENV)/installed-check
 verify: $(VENV)/installed-test $(SANITIZED)/address/installed $(SANITIZED)/thread/installed
 	mkdir -p out
 	$(BIN)/python -m pytest --figures out/figures.json
-	$(BIN)/python tools/verification_table.py out/figures.json docs/verification.md
+	$(BIN)/python tools/verification_table.py out/figures.json docs
 	tools/sanitized.sh address $(SANITIZED)/address/bin/python -m pytest tests/verification $(KERNEL_TESTS) -m "not slow" --capture=sys
 	tools/sanitized.sh thread $(SANITIZED)/thread/bin/python -m pytest $(KERNEL_TESTS) -k "threads or team" --capture=sys
 

@@ -49,11 +49,11 @@ NEEDS_CURVE = frozenset({"file", "table"})
 HEAD = """# Gallery of sections
 
 One picture per section type: the walls to scale (dot: centroid, cross: shear centre, thin lines: principal
-axes), and every collapse law that fits it, faint beyond the range that backs it. Written by
-`python tools/gallery.py docs`; a change by hand is lost. Metal: {metal}.
+axes) and every collapse law that applies to it, drawn faintly beyond its range of validity. This page is written
+by `python tools/gallery.py docs`; a change by hand is lost. Material: {metal}.
 
-What backs each law is said in its page under [theory](theory). Positive bending about y stretches the
-upper side, about z the left one."""
+The evidence for each law is described in its page under [theory](theory). Positive bending about y stretches
+the upper side, and positive bending about z the left side."""
 
 
 @dataclass(frozen=True)
@@ -149,7 +149,7 @@ def _laws(exhibit: Exhibit, metal: Material) -> list[str]:
             f"| `{name}` | {law.source.citation} ({law.source.trust.name.lower()}) | {backed} | "
             f"{'-' if band is None else f'{100 * band:.0f} %'} |"
         )
-    table = ["| law | source (trust) | backed to | band |", "|---|---|---|---|", *rows]
+    table = ["| law | source (trust) | valid up to | band |", "|---|---|---|---|", *rows]
     crushing = []
     for name in axial_law_types():
         try:

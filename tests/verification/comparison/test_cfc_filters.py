@@ -8,6 +8,8 @@ Nominal cut-offs of 100, 300, 1000 and 1650 Hz at -3 dB, least sampling frequenc
 stop band of -30 dB (60, 180) and -40 dB (600, 1000): as Weisang documents the CFC filters of FlexPro, after
 ISO 6487:2000 and SAE J211/1 MAR95 (weisang.com, "CFC Filter Analysis Object").  The corridor is that of the
 standards' figure as it is widely quoted; the standards themselves were not seen.
+
+Kind: closed form; published.  Source: derived here; quoted.
 """
 
 import math

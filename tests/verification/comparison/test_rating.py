@@ -3,6 +3,8 @@
 Ten pairs of curves of different lengths, shifts, sizes and oscillations are rated by both.  The figures that
 the package gave are kept with its version in rating_reference.json, since it brings a compiler of its own
 (numba) along; where it is installed it is asked again.  All four parts agree to rounding.
+
+Kind: other code.  Source: run here.
 """
 
 import importlib.util

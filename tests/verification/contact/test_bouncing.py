@@ -2,6 +2,8 @@
 
 From height H it hits after t0 = sqrt(2H/g) and rises to e^2 H, e^4 H, ...; bounce n comes at
 t0 (1 + 2e + ... + 2e^n), and bouncing ends at t0 (1+e)/(1-e).
+
+Kind: closed form.  Source: derived here.
 """
 
 import itertools

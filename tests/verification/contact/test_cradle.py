@@ -3,6 +3,8 @@
 With e = 1 the last ball of equal ones goes on with the whole speed.  With less, pairs strike one after
 another; those behind catch up and strike again until nothing approaches: three balls are followed pair by
 pair here.  With e = 0 all go on together at v/n.
+
+Kind: closed form.  Source: derived here.
 """
 
 import numpy as np

@@ -4,6 +4,8 @@ Closed forms: a block thrown at v stops after v^2/(2 mu g); on a slope a it stic
 else goes with g (sin a - mu cos a); a solid sphere that starts sliding rolls at 5/7 v after 2v/(7 mu g),
 a solid rod at 2/3 v after v/(3 mu g).  Friction takes the normal impulse from the pass before; the last
 test measures what that would cost if passes were not repeated.
+
+Kind: closed form.  Source: derived here.
 """
 
 import math

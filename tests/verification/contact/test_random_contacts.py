@@ -1,4 +1,7 @@
-"""Random falls of capsules on planes, poles, balls and one another: finite, balanced, no gain of energy."""
+"""Random falls of capsules on planes, poles, balls and one another: finite, balanced, no gain of energy.
+
+Kind: invariant.  Source: derived here.
+"""
 
 import numpy as np
 from hypothesis import example, given, settings

@@ -1,4 +1,7 @@
-"""Rods that meet planes, poles, edges and one another, against closed forms of impact and statics."""
+"""Rods that meet planes, poles, edges and one another, against closed forms of impact and statics.
+
+Kind: closed form.  Source: derived here.
+"""
 
 import math
 

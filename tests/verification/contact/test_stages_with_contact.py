@@ -4,6 +4,8 @@ The bar stands upright from the origin, length L, a hinge of constant moment M a
 ball at its tip.  A smooth vertical wall that has pushed the tip by u turns it to sin a = u/L; then the
 force is M/(L cos a) and the work M a.  A wall of mass m on a guide that strikes it at v loses m m'
 v^2/(2 (m + m')) in the impact, m' = I/L^2, and the rest in the hinge.
+
+Kind: closed form.  Source: derived here.
 """
 
 import math

@@ -2,6 +2,8 @@
 
 No closed form; what must hold: the wall's impulse is the change of momentum, energy is balanced, the wall is
 not passed, and the answer settles with the accuracy.
+
+Kind: invariant.  Source: derived here.
 """
 
 import itertools

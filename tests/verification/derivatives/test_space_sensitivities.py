@@ -10,6 +10,8 @@ them), each solved by Newton's method from scratch: the cube frame M4; an arm wh
 both axes and twist, in every form, softening and coupling, with stops, and until it breaks; a four-bar with
 three redundant constraints; loads and drives; two stages.  What comes before the model, section to law, is in
 `test_space_sensitivities_structure.py`.
+
+Kind: closed form; independent calculation.  Source: derived here; derived here.
 """
 
 from dataclasses import replace

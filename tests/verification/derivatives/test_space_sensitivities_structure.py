@@ -3,6 +3,8 @@
 Laws, surfaces and geometry follow the parameters, so a structure is lowered anew beside each of them. There
 is no closed form: a table of variants with a parameter moved by 0.1 or 0.01 % gives the differences, from
 runs that choose their own steps.
+
+Kind: independent calculation.  Source: derived here.
 """
 
 from dataclasses import replace

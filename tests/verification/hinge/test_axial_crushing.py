@@ -6,6 +6,8 @@ originals not seen, so nothing here confirms a level.  What can be checked is th
 38.12/0.73; the three constants of the superfolding element belong to one minimum with 4 pi of straight hinge
 lines; both hats follow from the square tube; Alexander's short form is the leading term of the long one.  No
 test result was obtained.
+
+Kind: published; closed form.  Source: quoted; derived here.
 """
 
 import math

@@ -3,6 +3,8 @@
 Brazier's limit is checked against the curve it is the top of (elastic energy of an ovalising tube, one term);
 the plastic ovalisation against the equilibrium of a ring of four hinges by plain sums.  The kinked branch is
 a scaled mechanism and has no independent figure.
+
+Kind: closed form; independent calculation.  Source: quoted; derived here.
 """
 
 import math

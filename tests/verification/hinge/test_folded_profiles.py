@@ -3,6 +3,8 @@
 Nothing published: derived mechanisms.  Checked are the isometry of the free edge's plates, its fold angles
 against normals of the planes, the moment against a difference of the work, the best half length, and that a
 profile with all its faces is the tube of the Kecman-type law.
+
+Kind: independent calculation; invariant.  Source: derived here; derived here.
 """
 
 import math

@@ -6,6 +6,8 @@ dimensions, flow stress equal to yield stress; E enters only the buckling stress
 
 The finite-element figures are of one mesh of solid elements of the flat tube (quarter of half the fold,
 perfect plasticity, no contact); they are not reproduced but bound what the law may claim.
+
+Kind: independent calculation; other code.  Source: derived here; quoted.
 """
 
 import numpy as np

@@ -5,6 +5,8 @@ every plate keeps its lengths, hinge lines turn by the angles between plate norm
 follow the leading terms.  Tolerances are rounding, amplified by the square root at small rotation.  Shares
 and limit of M sqrt(theta) of the 40x40x2 tube come from the same derivation made separately; its shares are
 printed as whole numbers that add up to 100, its limit to three digits, not rounded up.
+
+Kind: invariant; independent calculation.  Source: derived here; derived here.
 """
 
 import numpy as np

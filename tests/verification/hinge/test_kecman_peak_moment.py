@@ -3,6 +3,8 @@
 The bracket of the first regime is compared with the section calculation that it abbreviates (linear stress,
 compression edge at yield, flange reduced, walls as lines), to rounding.  The limits of a/t for the third
 regime (46 at 235 MPa, 32 at 488 MPa with k = 5.4) are printed as whole numbers, so they are met within 0.5.
+
+Kind: independent calculation; published.  Source: derived here; quoted.
 """
 
 import math

@@ -2,6 +2,8 @@
 
 The modulus is held against a sum over fibres; the fold has no independent figure, only its ends (the law of
 each side), its bound by the largest moment, and its continuity in the angle.
+
+Kind: independent calculation; invariant.  Source: derived here; derived here.
 """
 
 import math

@@ -3,6 +3,8 @@
 T_i = 3.72 s_y t^1.25 b^1.75 and T_s = 5.58 s_0 t^1.4 b^2.2 L^-0.6 after Chen & Wierzbicki (2000), read in a
 paper that quotes them.  That T_i passes Bredt's plastic torque wherever b/t < 107.7 is derived; the law caps
 it.
+
+Kind: published; closed form.  Source: quoted; derived here.
 """
 
 import dataclasses

@@ -7,6 +7,8 @@ With omega^2 = k/I and x_y = M_y/k, a start from x = 0 with rate r omega x_y, r 
 then harmonic vibration of amplitude x_y about the residual; with r <= 1 it stays elastic. The tolerance
 is the accuracy asked for, 1e-4 of the largest rotation; the elastic swing itself keeps its energy to
 rounding.
+
+Kind: closed form.  Source: derived here.
 """
 
 import math

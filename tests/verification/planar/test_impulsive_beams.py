@@ -7,6 +7,8 @@ chain of bars follows from bar to bar: it converges from above, the faster the s
 order grows towards one, as in Parkes' problem). One end may slide along the beam, so that the
 deflection asks for no stretching. The deflection is a five-hundredth of half the span, and the section
 so small that its rotary inertia does not count.
+
+Kind: closed form.  Source: textbook.
 """
 
 import math

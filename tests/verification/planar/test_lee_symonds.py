@@ -4,6 +4,8 @@ With p = P L/M_p the beam moves as one up to p = 4; then it folds at its middle;
 hinge forms in each half too. A free chain of bars meets the first figure wherever its hinges lie, the
 second as closely as a hinge lies to the largest moment of the halves (2nd order in the distance). Loads
 are varied in one call.
+
+Kind: published.  Source: quoted.
 """
 
 import math

@@ -4,6 +4,8 @@ Figures: the set-valued closed form (kinetic energy = area under the law) 0.4241
 0.064005833 s; with the HAVSIN ramp of 0.05 rad/s 0.424130871579 rad (tight integration by a separate
 code). The law is sampled so finely (1e-8) that it does not count. The error must stay below the accuracy
 asked for, and halving the step must quarter it while the hinge slides.
+
+Kind: closed form; independent calculation.  Source: derived here; derived here.
 """
 
 import math

@@ -5,6 +5,8 @@ rad with 5e-4 rad/s, nearly set-valued (tight integrations by a separate code). 
 no outside figure; it must lie where the ramps lead: the shift goes with the ramp's width, 3.5e-3 rad
 from 0.05, so 3.5e-5 rad from 5e-4. Nearly all rotation gathers in the second hinge. The errors of every
 hinge and of the tip must stay below the accuracy asked for, as shares of the largest rotation.
+
+Kind: independent calculation.  Source: derived here.
 """
 
 import numpy as np

@@ -5,6 +5,8 @@ the four-bar linkage, integrated by SciPy to 1e-10: I(a) a'' + I'(a) a'^2/2 = -s
 hinges' own derivatives by a. Set-valued: until the coordinate stops, when all hinges lock at once. With the
 HAVSIN ramp: to 100 ms, creep included; that form converges with first order, see
 docs/theory/multibody_stepper.md.
+
+Kind: independent calculation.  Source: derived here.
 """
 
 import math

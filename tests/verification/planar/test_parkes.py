@@ -10,6 +10,8 @@ A chain of N rigid bars converges to it from above. Figures of a separate code r
 their rounding. Here the deflection is a thousandth of the length (finite rotations count 1e-6), the
 section is so small that its rotary inertia counts 2e-3 of a bar's, and the blow takes 10 ms, so that
 locked hinges do not creep.
+
+Kind: published; independent calculation.  Source: quoted; derived here.
 """
 
 import math

@@ -5,6 +5,8 @@ at rest at the horizontal: there its rate is g/L times the time by which it is e
 accuracy is held against the largest rotation step by step; where nothing dissipates, the errors of 100
 periods add up. So the period may err by ten times the accuracy and the energy by fifty times: found are
 3 and 27 times at 1e-5 and less below, shrinking in proportion.
+
+Kind: closed form.  Source: textbook.
 """
 
 import numpy as np

@@ -6,6 +6,8 @@ closure of the four-bar linkage, solved here by itself; the time of rest is the 
 over its rate.
 Frame A(0,0) B(0,.5) C(1,.6) D(1,0) with 20 kg at the middle of BC; BC starts with 10 m/s along x, the columns
 turn with it.  Tolerances: the accuracy asked for, 1e-4.
+
+Kind: independent calculation.  Source: derived here.
 """
 
 from __future__ import annotations

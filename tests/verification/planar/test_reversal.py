@@ -11,6 +11,8 @@ alike.
 
 Rate factor 1 + w/w_r on a constant moment C stops a wheel after (I w_r/C) (w0 - w_r ln(1 + w0/w_r)); a
 viscous damper c beside it after (I/c) (w0 - (C/c) ln(1 + c w0/C)).
+
+Kind: closed form.  Source: derived here.
 """
 
 import math

@@ -9,6 +9,8 @@ k/I. The stop pushes but does not pull, so it separates where k g + c g' = 0. Cl
 
 The damped IMPACT form is integrated by DOP853. A damper acts with the rate at the end of the step, which
 makes it first order: the rate errs by up to ten times the accuracy asked for, 1e-5.
+
+Kind: closed form; independent calculation.  Source: derived here; derived here.
 """
 
 import math

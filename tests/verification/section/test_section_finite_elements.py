@@ -5,6 +5,8 @@ the product.  Area, centroid, second moments and plastic moduli: 0.1 % (the arcs
 sharp corners agree to 1e-9).  Torsion constant, shear centre and warping are mid-line values there and plane
 elasticity here: they differ by the stiffness of corners and by end effects of order t/b, so their tolerances
 say how far the thin-wall theory carries: 2 % in J, 0.5 % of the depth in the shear centre of these sections.
+
+Kind: other code.  Source: run here.
 """
 
 import numpy as np

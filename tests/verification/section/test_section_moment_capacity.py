@@ -4,6 +4,8 @@ Stout tubes: the exact plastic moment (1696 N m for 50x25x2.65 mm at 488 MPa).  
 with reduced plates, put together from rectangles by hand with its own iteration of the neutral axis; 2 %,
 as yield is looked for in the outer fibre here and in the mid-line there.  Axial force: exact limit analysis
 of the thin box.
+
+Kind: closed form; independent calculation.  Source: derived here; derived here.
 """
 
 import math

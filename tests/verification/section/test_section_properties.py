@@ -3,6 +3,8 @@
 Mid-line closed forms derived from the definitions (channel, slit tube, angle, cells): rounding (1e-9) where
 the mid-line is straight, 1e-3 where chords stand for arcs.  Solid closed forms (differences of rectangles,
 parallel axes): rounding.
+
+Kind: closed form.  Source: derived here.
 """
 
 import math

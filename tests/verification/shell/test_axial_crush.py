@@ -8,6 +8,8 @@ it they fold outwards on all four sides at once (the extensional mode of stout t
 Tolerance 20 %: the formula is that of an assumed mechanism, held against tests of steel tubes, which harden;
 which folds mix in a perfectly plastic tube depends on the imperfection (docs/theory/shell_axial_crush.md).
 The folds' independent check: no side of an element passes through another element.
+
+Kind: published.  Source: quoted.
 """
 
 import numpy as np

@@ -2,6 +2,8 @@
 
 Example 01 on 5 mm to 83 mm from the root, then growing by 1.2 to 25 mm.  Where the elements are longer than
 10 mm they may be 9 mm wide too.  Tolerance: 3 % of rotation and plastic energy, as for grading itself.
+
+Kind: invariant.  Source: derived here.
 """
 
 import numpy as np

@@ -11,6 +11,8 @@
   inertia (tests/verification/shell/test_linear.py, where its mesh is refined).
 - Longitudinal wave in a bar: speed sqrt(E/rho), stress rho c v.
 Tolerances are those of the mesh (stated beside each), not of the integration.
+
+Kind: closed form; published.  Source: textbook; quoted.
 """
 
 from dataclasses import replace

@@ -9,6 +9,8 @@
   the exact solution of Mindlin's plate for this load.
 Tolerances are those of the mesh. The tangent comes from the elements that step through time
 (`shell_statics`).
+
+Kind: published; closed form.  Source: quoted; textbook.
 """
 
 import numpy as np

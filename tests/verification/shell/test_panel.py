@@ -18,6 +18,8 @@ Tolerance 2 % of the largest deflection, the sum of what is open: four elements 
 two move the coarse bricks by 1.6 % and the fine ones by 0.5 % (half the step: 0.04 %), ten points in place of
 five the shells by 0.5 %.
 The middle moves by 0.3 % in 40 us about its largest deflection, so the time of it is known to 4 %.
+
+Kind: other code.  Source: run here.
 """
 
 import json

@@ -8,6 +8,8 @@
   tanh(sqrt(3) G gamma/Y), sigma = Y/cosh(sqrt(3) G gamma/Y) (derived below).
 - A tube on the same mesh in OpenRadioss (Belytschko-Tsay); skipped unless the environment variable
   CRUMPLE_REFERENCE names the folder of its deck and histories.
+
+Kind: closed form; other code.  Source: derived here; run here.
 """
 
 import os

@@ -10,6 +10,8 @@ Tolerance: 6 % throughout. Ours returns hourglass forces with the plastic stress
 between 200 and 300 mm a little differently, and softening is sensitive to such choices: the other code's own
 second element turns by 0.576 rad on 5 mm. Moments are means over 4 ms, since bending vibration of the tube
 passes through the root section.
+
+Kind: other code.  Source: run here.
 """
 
 import numpy as np

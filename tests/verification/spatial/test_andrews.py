@@ -2,6 +2,8 @@
 
 Data and figures: test set for initial value problems (IVP Test Set), problem "Andrews' squeezing mechanism",
 the seven angles at 0.03 s, with its names. The crank turns two and a half times in 30 ms, from rest.
+
+Kind: published.  Source: quoted.
 """
 
 from __future__ import annotations

@@ -3,6 +3,8 @@
 What a hinge does may not depend on where the structure lies, which way it points or how fast its
 observer moves. Turning and moving change nothing but rounding; a steady velocity changes the size of the
 steps, so hinge quantities agree to the accuracy asked for, and to rounding with equal steps.
+
+Kind: invariant.  Source: derived here.
 """
 
 import numpy as np

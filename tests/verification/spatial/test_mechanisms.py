@@ -5,6 +5,8 @@ IFToMM library of computational benchmark problems (lim.ii.udc.es/mbsbenchmark).
 have is taken from its specification of A02 and from models published for OpenSim (RehabEngGroup,
 MBSbenchmarksInOpenSim) and MATLAB; their motion from integrations of our own in the fewest coordinates, with
 the energy or Lagrange's equations. Slider-crank and four-bar linkage have closed forms of their places.
+
+Kind: independent calculation; closed form.  Source: read; derived here.
 """
 
 from __future__ import annotations

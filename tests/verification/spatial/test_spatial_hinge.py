@@ -12,6 +12,8 @@ is an ordinary differential equation of as many rates as the hinge has component
     tension flange     |M| + N b/2 = C(rotation) with axial slip b/2 |rotation|; under a dead axial force
                        (I + m b^2/4) w' = M_ext + N b/2 - C
     fracture           I w^2/2 falls by C times the angle at fracture, then the wheel runs on
+
+Kind: closed form; independent calculation.  Source: derived here; derived here.
 """
 
 import math

@@ -4,6 +4,8 @@ A point moved by a HAVSIN starts and ends at rest, so the work of its force is t
 absorb: for constant moments the sum of M |rotation|, known from the geometry where one hinge turns. What
 the drive does not reach by its rate alone it makes up as drift correction, so the place is met to the
 accuracy asked for.
+
+Kind: closed form.  Source: derived here.
 """
 
 import math

@@ -8,6 +8,8 @@ hinges balance every body, with no moment beyond its capacity, by linear program
 - Elastic hinges need turns for all to yield, so theirs keep their capacity over 10 mrad before they soften.
 
 Beyond, there is no equilibrium near: the run ends, tells the limit load, and its ledger closes.
+
+Kind: independent calculation.  Source: derived here.
 """
 
 import itertools

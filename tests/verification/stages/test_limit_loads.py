@@ -6,6 +6,8 @@
 - With a constant moment the columns' arm shrinks as they turn, so the portal finds equilibrium beyond, at
   cos(theta) = limit load/force (virtual work at the turned place, derived here): the run follows it.
 - With a moment that falls as a hinge turns there is none: the run ends and names the limit load.
+
+Kind: closed form.  Source: derived here.
 """
 
 import re

@@ -3,6 +3,8 @@
 Nothing but drag resists, 0.1/s times the inertia times the rate (docs/theory/spatial_kernel.md): with I
 turning along, 0.1/s I w = M, so w = I^-1 M/(0.1/s), integrated here by scipy.  A body has no momentum in
 such a stage: its rate does not depend on how its inertia turns.
+
+Kind: independent calculation.  Source: derived here.
 """
 
 import numpy as np

@@ -3,6 +3,8 @@
 - Sway of a portal by a ram at height z, by virtual work: all four hinges turn alike, H = 4 M_p/(z - 0.02)
   on the column between its hinges, 4 M_p/0.96 at the level of the beam.
 - What rigid-plastic structures take up is what the ram gives, whatever gap is closed first.
+
+Kind: closed form; invariant.  Source: derived here; derived here.
 """
 
 import numpy as np
