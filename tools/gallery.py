@@ -49,7 +49,7 @@ NEEDS_CURVE = frozenset({"file", "table"})
 HEAD = """# Gallery of sections
 
 One picture per section type: the walls to scale (dot: centroid, cross: shear centre, thin lines: principal
-axes) and every collapse law that applies to it, drawn faintly beyond its range of validity. This page is written
+axes) and every collapse law that applies to it, drawn faintly beyond its range of validity. Written
 by `python tools/gallery.py docs`; a change by hand is lost. Material: {metal}.
 
 The evidence for each law is described in its page under [theory](theory). Positive bending about y stretches
