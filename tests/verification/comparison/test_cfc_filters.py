@@ -1,13 +1,14 @@
-"""CFC filters of SAE J211-1 and ISO 6487 against the response that their formula has in closed form.
+"""CFC filters of SAE J211-1 and ISO 6487 have the gain and phase of their closed form.
 
-Each run is the bilinear transform of a two-pole Butterworth filter, so both runs together have the gain
-1/(1 + (tan(pi f dt)/tan(pi f_d dt))^4), design frequency f_d = 2.0775 CFC (SAE) or 1.25/0.6 CFC (ISO), and
-no phase at all.  Tolerance 1e-6 on the gain: rounding, and the start of the runs after it has decayed.
+Each run is the bilinear transform of a two-pole Butterworth filter.  Both runs together have the gain 1/(1
++ (tan(pi f dt)/tan(pi f_d dt))^4), with the design frequency f_d = 2.0775 CFC (SAE) or 1.25/0.6 CFC (ISO),
+and no phase.  The tolerance of the gain is 1e-6: rounding, and the start of the runs after it has decayed.
 
-Nominal cut-offs of 100, 300, 1000 and 1650 Hz at -3 dB, least sampling frequency of six times the cut-off,
-stop band of -30 dB (60, 180) and -40 dB (600, 1000): as Weisang documents the CFC filters of FlexPro, after
-ISO 6487:2000 and SAE J211/1 MAR95 (weisang.com, "CFC Filter Analysis Object").  The corridor is that of the
-standards' figure as it is widely quoted; the standards themselves were not seen.
+The nominal cut-offs of 100, 300, 1000 and 1650 Hz at -3 dB, the least sampling frequency of six times the
+cut-off, and the stop band of -30 dB (60, 180) and -40 dB (600, 1000) are those that Weisang documents for
+the CFC filters of FlexPro, after ISO 6487:2000 and SAE J211/1 MAR95 (weisang.com, "CFC Filter Analysis
+Object").  The corridor is that of the figure of the standards as it is widely quoted; the standards
+themselves were not seen.
 
 Kind: closed form; published.  Source: derived here; quoted.
 """

@@ -1,8 +1,8 @@
-"""Rating after ISO/TS 18571:2014 against the published package objective-rating-metrics.
+"""Ratings after ISO/TS 18571:2014 equal those of the package objective-rating-metrics.
 
-Ten pairs of curves of different lengths, shifts, sizes and oscillations are rated by both.  The figures that
-the package gave are kept with its version in rating_reference.json, since it brings a compiler of its own
-(numba) along; where it is installed it is asked again.  All four parts agree to rounding.
+Ten pairs of curves of different lengths, shifts, amplitudes and oscillations are rated by both.  The
+figures of the package are stored with its version in rating_reference.json, because it needs a compiler of
+its own (numba); where it is installed it is called again.  All four scores agree to rounding.
 
 Kind: other code.  Source: run here.
 """

@@ -1,7 +1,7 @@
-"""A ball dropped on a plane: rebound heights and times against the closed form.
+"""A ball dropped on a plane rebounds with the heights and times of the closed form.
 
-From height H it hits after t0 = sqrt(2H/g) and rises to e^2 H, e^4 H, ...; bounce n comes at
-t0 (1 + 2e + ... + 2e^n), and bouncing ends at t0 (1+e)/(1-e).
+From the height H it hits the plane after t0 = sqrt(2H/g) and rises to e^2 H, e^4 H, ...; bounce n occurs at
+t0 (1 + 2e + ... + 2e^n), and the bouncing ends at t0 (1+e)/(1-e).
 
 Kind: closed form.  Source: derived here.
 """

@@ -1,8 +1,8 @@
-"""Newton's cradle: balls in a row that touch at rest, struck by one more.
+"""Newton's cradle: an impact passes along a row of balls that touch at rest.
 
-With e = 1 the last ball of equal ones goes on with the whole speed.  With less, pairs strike one after
-another; those behind catch up and strike again until nothing approaches: three balls are followed pair by
-pair here.  With e = 0 all go on together at v/n.
+With e = 1 the last ball of equal balls continues with the whole velocity.  With smaller e, pairs collide
+one after another; the balls behind catch up and collide again until nothing approaches.  Three balls are
+followed pair by pair here.  With e = 0 all continue together at v/n.
 
 Kind: closed form.  Source: derived here.
 """

@@ -1,9 +1,9 @@
 """Coulomb friction on a plane: sliding to rest, sticking on a slope, and a sphere that begins to roll.
 
-Closed forms: a block thrown at v stops after v^2/(2 mu g); on a slope a it sticks below tan a = mu and
-else goes with g (sin a - mu cos a); a solid sphere that starts sliding rolls at 5/7 v after 2v/(7 mu g),
-a solid rod at 2/3 v after v/(3 mu g).  Friction takes the normal impulse from the pass before; the last
-test measures what that would cost if passes were not repeated.
+Closed forms: a block thrown at v stops after v^2/(2 mu g).  On a slope of angle a it sticks below tan a =
+mu and otherwise accelerates with g (sin a - mu cos a).  A solid sphere that starts sliding rolls at 5/7 v
+after 2v/(7 mu g), a solid rod at 2/3 v after v/(3 mu g).  Friction uses the normal impulse of the previous
+pass; the last test measures the error without repeated passes.
 
 Kind: closed form.  Source: derived here.
 """

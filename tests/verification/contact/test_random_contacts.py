@@ -1,4 +1,4 @@
-"""Random falls of capsules on planes, poles, balls and one another: finite, balanced, no gain of energy.
+"""Random falls of capsules on planes, poles, balls and each other stay finite and balance their energy.
 
 Kind: invariant.  Source: derived here.
 """

@@ -1,4 +1,4 @@
-"""Rods that meet planes, poles, edges and one another, against closed forms of impact and statics.
+"""Rods that hit planes, poles, edges and each other follow closed forms of impact and statics.
 
 Kind: closed form.  Source: derived here.
 """

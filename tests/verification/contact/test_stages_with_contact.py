@@ -1,9 +1,9 @@
-"""Obstacles that move, and stages on one structure: a rigid bar on a plastic hinge, pushed and struck.
+"""Moving obstacles and stages: a rigid bar on a plastic hinge, pushed and struck.
 
-The bar stands upright from the origin, length L, a hinge of constant moment M at its foot (axis y), a
-ball at its tip.  A smooth vertical wall that has pushed the tip by u turns it to sin a = u/L; then the
-force is M/(L cos a) and the work M a.  A wall of mass m on a guide that strikes it at v loses m m'
-v^2/(2 (m + m')) in the impact, m' = I/L^2, and the rest in the hinge.
+The bar stands upright from the origin, with length L, a hinge of constant moment M at its foot (axis y) and
+a ball at its tip.  A smooth vertical wall that has pushed the tip by u rotates it to sin a = u/L; then the
+force is M/(L cos a) and the work M a.  A wall of mass m on a guide that strikes it at v loses m m' v^2/(2
+(m + m')) in the impact, with m' = I/L^2, and the rest in the hinge.
 
 Kind: closed form.  Source: derived here.
 """

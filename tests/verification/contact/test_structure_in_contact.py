@@ -1,7 +1,8 @@
-"""A chain of bars with plastic hinges and a mass behind runs into a wall, its members touching one another.
+"""A chain of bars with plastic hinges runs into a wall: momentum, energy and convergence.
 
-No closed form; what must hold: the wall's impulse is the change of momentum, energy is balanced, the wall is
-not passed, and the answer settles with the accuracy.
+There is no closed form.  What must hold: the impulse of the wall is the change of momentum, the energy is
+balanced, the wall is not penetrated, and the result converges with the accuracy.  The members of the chain
+touch each other.
 
 Kind: invariant.  Source: derived here.
 """

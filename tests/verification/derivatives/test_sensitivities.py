@@ -1,11 +1,11 @@
-"""Derivatives of final quantities against closed forms and central differences.
+"""Derivatives of final quantities equal closed forms and central differences (planar kernel).
 
-A wheel of inertia I that a hinge of moment M stops from w0 turns by I w0^2/(2 M) in I w0/M; so do all its
-derivatives follow, and the step is exact for it. Trees, loops, drives, stops, dampers, rate factors and the
-three forms have no closed form: there the derivatives must be those of the discrete motion itself, that is
-of central differences of runs with the very same steps (a loose accuracy and a longest step fix them),
-up to the differences' own error. Through the structure, laws and geometry follow the parameters: there a
-table of variants with parameters moved by 0.1 % gives the differences.
+A wheel of inertia I that a hinge of moment M stops from the rate w0 rotates by I w0^2/(2 M) in the time I
+w0/M; all its derivatives follow, and the step is exact for it.  Trees, loops, drives, stops, dampers, rate
+factors and the three forms have no closed form.  There the derivatives must be those of the discrete motion
+itself, that is, of central differences of runs with the same steps (fixed by a loose accuracy and a longest
+step), up to the error of the differences.  Through the structure, laws and geometry depend on the
+parameters: there a table of variants with parameters changed by 0.1 % gives the differences.
 
 Kind: closed form; independent calculation.  Source: derived here; derived here.
 """

@@ -1,15 +1,15 @@
-"""Derivatives of runs in space against closed forms and central differences.
+"""Derivatives of final quantities equal closed forms and central differences (spatial kernel).
 
-A wheel of inertia I that a hinge of moment M stops from w0 turns by I w0^2/(2 M) in I w0/M; all derivatives
-follow. The step in which it comes to rest is taken as a whole, so that its slopes err by the share of this
-step in the motion, not by its square as the values do.
+A wheel of inertia I that a hinge of moment M stops from the rate w0 rotates by I w0^2/(2 M) in the time I
+w0/M; all derivatives follow.  The step in which it comes to rest is taken as a whole, so the relative error
+of its derivatives is the share of this step in the motion, and not its square as for the values.
 
-For the rest there is no closed form: there the derivatives must be those of the discrete motion itself, that
-is of central differences of plain runs with the very same steps (a loose accuracy and a longest step fix
-them), each solved by Newton's method from scratch: the cube frame M4; an arm whose two hinges bend about
-both axes and twist, in every form, softening and coupling, with stops, and until it breaks; a four-bar with
-three redundant constraints; loads and drives; two stages.  What comes before the model, section to law, is in
-`test_space_sensitivities_structure.py`.
+For the rest there is no closed form.  There the derivatives must be those of the discrete motion itself,
+that is, of central differences of ordinary runs with the same steps (fixed by a loose accuracy and a
+longest step), each solved by Newton's method from the beginning: the cube frame M4; an arm whose two hinges
+bend about both axes and twist, in every form, softening and coupling, with stops, and until it breaks; a
+four-bar linkage with three redundant constraints; loads and drives; two stages.  What comes before the
+model, from section to law, is in `test_space_sensitivities_structure.py`.
 
 Kind: closed form; independent calculation.  Source: derived here; derived here.
 """

@@ -1,8 +1,8 @@
-"""Derivatives of runs in space by parameters of a structure, against tables of its variants.
+"""Derivatives with respect to parameters of a structure equal differences of its variants (spatial kernel).
 
-Laws, surfaces and geometry follow the parameters, so a structure is lowered anew beside each of them. There
-is no closed form: a table of variants with a parameter moved by 0.1 or 0.01 % gives the differences, from
-runs that choose their own steps.
+Laws, surfaces and geometry depend on the parameters, so a structure is converted again for each of them.
+There is no closed form: a table of variants with a parameter changed by 0.1 or 0.01 % gives the
+differences, from runs that choose their own steps.
 
 Kind: independent calculation.  Source: derived here.
 """

@@ -1,11 +1,11 @@
-"""Axial crushing: quoted coefficients, what they say of each other, and the effective-width peak.
+"""Axial crushing: the quoted coefficients are consistent with each other, and the peak with effective widths.
 
 Square tubes after Abramowicz & Jones (1984, 1986), superfolding elements after Wierzbicki & Abramowicz,
-circular tubes after Alexander (1960), hats after White, Jones & Abramowicz (1999): coefficients as quoted,
-originals not seen, so nothing here confirms a level.  What can be checked is that they agree: 52.22 is
-38.12/0.73; the three constants of the superfolding element belong to one minimum with 4 pi of straight hinge
-lines; both hats follow from the square tube; Alexander's short form is the leading term of the long one.  No
-test result was obtained.
+circular tubes after Alexander (1960), hats after White, Jones & Abramowicz (1999).  The coefficients are
+quoted and the originals were not seen, so nothing here confirms the level of a force.  What can be checked
+is their consistency: 52.22 is 38.12/0.73; the three constants of the superfolding element belong to one
+minimum with 4 pi of straight hinge lines; both hats follow from the square tube; Alexander's short form is
+the leading term of the long one.  No test result was obtained.
 
 Kind: published; closed form.  Source: quoted; derived here.
 """

@@ -1,8 +1,8 @@
 """Circular tube in bending: plastic moment, Brazier's limit, plastic ovalisation.
 
-Brazier's limit is checked against the curve it is the top of (elastic energy of an ovalising tube, one term);
-the plastic ovalisation against the equilibrium of a ring of four hinges by plain sums.  The kinked branch is
-a scaled mechanism and has no independent figure.
+Brazier's limit is compared with the maximum of its own curve (elastic energy of an ovalising tube, one
+term), and the plastic ovalisation with the equilibrium of a ring of four hinges computed by sums.  The
+kinked branch is a scaled mechanism and has no independent figure.
 
 Kind: closed form; independent calculation.  Source: quoted; derived here.
 """

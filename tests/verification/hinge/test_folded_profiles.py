@@ -1,8 +1,8 @@
-"""Channels and hats: the tube as a limit, and the folding of free edges held against its geometry.
+"""Channels and hats: the tube is a limit case, and the folding of free edges satisfies its geometry.
 
-Nothing published: derived mechanisms.  Checked are the isometry of the free edge's plates, its fold angles
-against normals of the planes, the moment against a difference of the work, the best half length, and that a
-profile with all its faces is the tube of the Kecman-type law.
+The mechanisms are derived, and nothing is published.  Checked are the lengths of the plates of the free
+edge, its fold angles from the normals of the planes, the moment as a difference of the work, the best half
+length, and that a profile with all its faces is the tube of the Kecman-type law.
 
 Kind: independent calculation; invariant.  Source: derived here; derived here.
 """

@@ -1,11 +1,11 @@
-"""Kecman-type law of the 50x25x2.65 mm tube: the whole table of moments, energies, stopping angles.
+"""Kecman-type law of the 50x25x2.65 mm tube: the table of moments, energies and jamming angles.
 
-The figures were computed by a separate implementation of the same derivation at E = 206 GPa, 488 MPa, outer
-dimensions, flow stress equal to yield stress; E enters only the buckling stress.  Moments are printed to
-1 N m, energies to 1 J, angles to 0.1 deg, so they are met within half a unit.
+The figures were computed with a separate implementation of the same derivation at E = 206 GPa, 488 MPa,
+outer dimensions, flow stress equal to yield stress; E enters only the buckling stress.  Moments are printed
+to 1 N m, energies to 1 J and angles to 0.1 deg, so they are reproduced within half a unit.
 
-The finite-element figures are of one mesh of solid elements of the flat tube (quarter of half the fold,
-perfect plasticity, no contact); they are not reproduced but bound what the law may claim.
+The finite-element figures are those of one mesh of solid elements of the flat tube (a quarter of half the
+fold, perfect plasticity, no contact).  They are not reproduced, but they limit what the law may claim.
 
 Kind: independent calculation; other code.  Source: derived here; quoted.
 """

@@ -1,10 +1,11 @@
-"""Folding mechanism of a rectangular tube: isometry, energies by an independent route, limits, jamming.
+"""Folding mechanism of a rectangular tube: lengths, energies by an independent method, limits, jamming.
 
-The mechanism is derived in docs/theory/kecman.md, so it is checked against geometry, not a publication:
-every plate keeps its lengths, hinge lines turn by the angles between plate normals, and small rotations
-follow the leading terms.  Tolerances are rounding, amplified by the square root at small rotation.  Shares
-and limit of M sqrt(theta) of the 40x40x2 tube come from the same derivation made separately; its shares are
-printed as whole numbers that add up to 100, its limit to three digits, not rounded up.
+The mechanism is derived in docs/theory/kecman.md, so it is checked by geometry and not by a publication:
+every plate keeps its lengths, hinge lines rotate by the angles between the normals of the plates, and small
+rotations follow the leading terms.  Tolerances are rounding, amplified by the square root at small
+rotation.  The shares of the terms and the limit of M sqrt(theta) of the 40x40x2 tube come from the same
+derivation made separately; its shares are printed as whole numbers that add up to 100, its limit to three
+digits, not rounded up.
 
 Kind: invariant; independent calculation.  Source: derived here; derived here.
 """

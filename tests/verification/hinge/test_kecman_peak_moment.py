@@ -1,8 +1,9 @@
-"""Largest moment of rectangular tubes: effective section by its own integration, joins, regime limits.
+"""Largest moment of rectangular tubes: effective section by integration, continuity, limits of the regimes.
 
-The bracket of the first regime is compared with the section calculation that it abbreviates (linear stress,
-compression edge at yield, flange reduced, walls as lines), to rounding.  The limits of a/t for the third
-regime (46 at 235 MPa, 32 at 488 MPa with k = 5.4) are printed as whole numbers, so they are met within 0.5.
+The formula of the first regime is compared with the section calculation that it abbreviates (linear stress,
+compression edge at yield, reduced flange, walls as lines), to rounding.  The limits of a/t of the third
+regime (46 at 235 MPa, 32 at 488 MPa with k = 5.4) are printed as whole numbers, so they are reproduced
+within 0.5.
 
 Kind: independent calculation; published.  Source: derived here; quoted.
 """

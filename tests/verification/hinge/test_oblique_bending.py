@@ -1,7 +1,7 @@
-"""Rectangular tube bent about an oblique axis: exact plastic modulus, the laws of the sides at the ends.
+"""Rectangular tube bent about an oblique axis: exact plastic modulus, and the laws of the sides as limits.
 
-The modulus is held against a sum over fibres; the fold has no independent figure, only its ends (the law of
-each side), its bound by the largest moment, and its continuity in the angle.
+The modulus is compared with a sum over fibres.  The fold has no independent figure, only its limits (the
+law of each side), its bound by the largest moment, and its continuity in the angle.
 
 Kind: independent calculation; invariant.  Source: derived here; derived here.
 """

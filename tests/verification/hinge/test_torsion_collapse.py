@@ -1,7 +1,7 @@
-"""Torsional collapse of a square tube: the quoted torques, their plastic cap, and the ends of the decay.
+"""Torsional collapse of a square tube: the quoted torques, their plastic limit, and the limits of the decay.
 
 T_i = 3.72 s_y t^1.25 b^1.75 and T_s = 5.58 s_0 t^1.4 b^2.2 L^-0.6 after Chen & Wierzbicki (2000), read in a
-paper that quotes them.  That T_i passes Bredt's plastic torque wherever b/t < 107.7 is derived; the law caps
+paper that quotes them.  That T_i exceeds Bredt's plastic torque if b/t < 107.7 is derived; the law limits
 it.
 
 Kind: published; closed form.  Source: quoted; derived here.

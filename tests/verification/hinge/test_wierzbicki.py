@@ -1,8 +1,8 @@
-"""Closed form of a square tube: its bracket, its joins with the largest moment, half fold length and jamming.
+"""Closed form of a square tube after Wierzbicki et al.: its bracket, continuity, fold length and jamming.
 
-M = C (0.576 + 1/(2 sqrt(theta))), C = 4.65 s0 b^(4/3) t^(5/3), as it is quoted; the coefficient 4.65 was not
-found in a text that could be read, so nothing here confirms it.  H_b = 1.276 b^(2/3) t^(1/3) is as read in
-a public text.  The only independent comparison is with the Kecman-type law of the same tube: two
+M = C (0.576 + 1/(2 sqrt(theta))), C = 4.65 s0 b^(4/3) t^(5/3), as it is quoted.  The coefficient 4.65 was
+not found in a text that could be read, so nothing here confirms it.  H_b = 1.276 b^(2/3) t^(1/3) is as read
+in a public text.  The only independent comparison is with the Kecman-type law of the same tube: two
 derivations of one fold.
 
 Kind: published.  Source: quoted.

@@ -1,9 +1,10 @@
-"""Constant moment: a body with inertia I and rate w0 stops after I w0^2/(2 M) at the time I w0/M.
+"""Constant moment: a body of inertia I and rate w0 stops after I w0^2/(2 M) at the time I w0/M.
 
-Closed form of a rigid-plastic hinge whose capacity does not change. With a constant capacity the
-trapezoidal motion of a wheel is exact and a set-valued hinge that stops within a step is put where it
-stops, so the figures are met to the creep of a locked hinge (at most 1e-8 rad/s), whatever the step. The
-bars of a structure move on arcs, whose midpoint rule errs by less than the accuracy asked for.
+This is the closed form of a rigid-plastic hinge whose capacity does not change.  With a constant capacity
+the trapezoidal motion of a wheel is exact, and a set-valued hinge that stops within a step is placed where
+it stops.  The figures are therefore reproduced up to the creep of a locked hinge (at most 1e-8 rad/s), for
+any step.  The bars of a structure move on arcs, and the error of their midpoint rule is below the requested
+accuracy.
 
 Kind: closed form.  Source: derived here.
 """

@@ -1,11 +1,11 @@
-"""Elastic-perfectly plastic oscillator: largest rotation, residual, then free vibration within yield.
+"""Elastic-perfectly plastic oscillator: largest rotation, residual rotation, then free vibration.
 
 With omega^2 = k/I and x_y = M_y/k, a start from x = 0 with rate r omega x_y, r > 1, gives
 
     x_max/x_y = (1 + r^2)/2,   residual = x_max - x_y,   reached at (asin(1/r) + sqrt(r^2 - 1))/omega,
 
-then harmonic vibration of amplitude x_y about the residual; with r <= 1 it stays elastic. The tolerance
-is the accuracy asked for, 1e-4 of the largest rotation; the elastic swing itself keeps its energy to
+then harmonic vibration of amplitude x_y about the residual; for r <= 1 it stays elastic.  The tolerance is
+the requested accuracy, 1e-4 of the largest rotation; the elastic vibration itself keeps its energy to
 rounding.
 
 Kind: closed form.  Source: derived here.

@@ -1,9 +1,8 @@
-"""Free flight of chains: momentum, angular momentum and energy of bars on hinges that carry nothing.
+"""Free flight of chains conserves momentum, angular momentum and energy.
 
-Nothing acts on a floating chain, so its linear momentum, its angular momentum about a fixed point and
-its energy stay what they were. All drift with the square of the step, by no more than the accuracy asked
-for; energy, which goes with the square of the velocity, by no more than twice that. The hinges carry
-1e-12 N m.
+Nothing acts on a floating chain, so its linear momentum, its angular momentum about a fixed point and its
+energy are constant.  Their drift is of second order in the step and at most the requested accuracy; for the
+energy, which depends on the square of the velocity, at most twice that.  The hinges carry 1e-12 N m.
 
 Kind: invariant.  Source: derived here.
 """

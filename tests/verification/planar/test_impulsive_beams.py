@@ -1,12 +1,12 @@
-"""Rigid-plastic beams of span 2L struck uniformly: simply supported and clamped.
+"""Rigid-plastic beams of span 2L under a uniform impulse, simply supported and clamped.
 
-For small deflections a beam with mass m per length, moment M_p and uniform start velocity V0 ends with
-the mid deflection m V0^2 L^2/(3 M_p) after m V0 L^2/(2 M_p) if simply supported, and with m V0^2 L^2/(6
-M_p) after m V0 L^2/(4 M_p) if clamped. Hinges travel from the supports to the middle at first, which a
-chain of bars follows from bar to bar: it converges from above, the faster the shorter the bars (the
-order grows towards one, as in Parkes' problem). One end may slide along the beam, so that the
-deflection asks for no stretching. The deflection is a five-hundredth of half the span, and the section
-so small that its rotary inertia does not count.
+For small deflections a beam with mass m per length, moment M_p and uniform initial velocity V0 has the
+final mid deflection m V0^2 L^2/(3 M_p) after m V0 L^2/(2 M_p) if simply supported, and m V0^2 L^2/(6 M_p)
+after m V0 L^2/(4 M_p) if clamped.  Hinges travel from the supports to the middle at first, which a chain of
+bars follows from bar to bar: it converges from above, the faster the shorter the bars (the order tends to
+one, as in Parkes' problem).  One end may slide along the beam, so that the deflection needs no stretching.
+The deflection is a five-hundredth of half the span, and the section so small that its rotary inertia is
+negligible.
 
 Kind: closed form.  Source: textbook.
 """

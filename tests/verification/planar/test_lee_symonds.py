@@ -1,9 +1,9 @@
 """Lee & Symonds (1952): free rigid-plastic beam of length 2L under a central force P.
 
-With p = P L/M_p the beam moves as one up to p = 4; then it folds at its middle; above p = 22.887 a
-hinge forms in each half too. A free chain of bars meets the first figure wherever its hinges lie, the
-second as closely as a hinge lies to the largest moment of the halves (2nd order in the distance). Loads
-are varied in one call.
+With p = P L/M_p the beam moves as a rigid body up to p = 4; then it folds in its middle; above p = 22.887 a
+hinge forms in each half too.  A free chain of bars reproduces the first figure wherever its hinges are, and
+the second as closely as a hinge is to the largest moment of the halves (second order in the distance).
+Loads are varied in one call.
 
 Kind: published.  Source: quoted.
 """

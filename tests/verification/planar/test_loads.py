@@ -1,8 +1,9 @@
 """Loads, gravity and impulses: pendulum from the horizontal, forces, impulse as velocity.
 
-Simple pendulum from the horizontal: period 4 sqrt(L/g) K(1/2) = 2.3678419475762373 s for L = 1 m, g =
-9.81 m/s^2. A constant moment C on a wheel against a hinge M: rate (C - M) t/I. A force F(t) on the tip
-of a bar that is free to turn: its work is the kinetic energy. An impulse is the velocity that it gives.
+Simple pendulum from the horizontal: period 4 sqrt(L/g) K(1/2) = 2.3678419475762373 s for L = 1 m, g = 9.81
+m/s^2.  A constant moment C on a wheel against a hinge M gives the rate (C - M) t/I.  The work of a force
+F(t) on the tip of a bar that is free to rotate is its kinetic energy.  An impulse is the velocity that it
+gives.
 
 Kind: closed form.  Source: derived here.
 """

@@ -1,9 +1,9 @@
 """Model M1: one bar with a softening hinge and a mass at its tip, stopped from 15 rad/s.
 
 Figures: the set-valued closed form (kinetic energy = area under the law) 0.424127729101 rad, at rest at
-0.064005833 s; with the HAVSIN ramp of 0.05 rad/s 0.424130871579 rad (tight integration by a separate
-code). The law is sampled so finely (1e-8) that it does not count. The error must stay below the accuracy
-asked for, and halving the step must quarter it while the hinge slides.
+0.064005833 s; with the HAVSIN ramp of 0.05 rad/s 0.424130871579 rad (accurate integration with a separate
+code).  The law is sampled so finely (1e-8) that the sampling is negligible.  The error must stay below the
+requested accuracy, and half the step must give a quarter of the error while the hinge slides.
 
 Kind: closed form; independent calculation.  Source: derived here; derived here.
 """

@@ -1,10 +1,11 @@
-"""Model M2(N): chain of N bars with softening hinges and a mass at its tip, turning as one with 15 rad/s.
+"""Model M2(N): chain of N bars with softening hinges and a mass at its tip, rotating as one with 15 rad/s.
 
-Figures for N = 10: sum of rotations 0.6656451692 rad with a HAVSIN ramp of 0.05 rad/s and 0.6621691528
-rad with 5e-4 rad/s, nearly set-valued (tight integrations by a separate code). The set-valued chain has
-no outside figure; it must lie where the ramps lead: the shift goes with the ramp's width, 3.5e-3 rad
-from 0.05, so 3.5e-5 rad from 5e-4. Nearly all rotation gathers in the second hinge. The errors of every
-hinge and of the tip must stay below the accuracy asked for, as shares of the largest rotation.
+Figures for N = 10: sum of rotations 0.6656451692 rad with a HAVSIN ramp of 0.05 rad/s and 0.6621691528 rad
+with 5e-4 rad/s, nearly set-valued (accurate integrations with a separate code).  For the set-valued chain
+there is no independent figure.  It must be the limit of the ramps: the difference is proportional to the
+width of the ramp, 3.5e-3 rad for 0.05, so 3.5e-5 rad for 5e-4.  Nearly all rotation occurs in the second
+hinge.  The errors of every hinge and of the tip must stay below the requested accuracy, relative to the
+largest rotation.
 
 Kind: independent calculation.  Source: derived here.
 """

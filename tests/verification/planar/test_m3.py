@@ -1,9 +1,9 @@
-"""Model M3: a portal with softening hinges struck sideways, against an integration in its one coordinate.
+"""Model M3: a portal with softening hinges struck sideways equals an integration in its one coordinate.
 
-Reference: Lagrange's equation in the angle of the left column, with the other two angles from the closure of
-the four-bar linkage, integrated by SciPy to 1e-10: I(a) a'' + I'(a) a'^2/2 = -sum of moments times the
-hinges' own derivatives by a. Set-valued: until the coordinate stops, when all hinges lock at once. With the
-HAVSIN ramp: to 100 ms, creep included; that form converges with first order, see
+Reference: Lagrange's equation in the angle of the left column, with the other two angles from the closure
+of the four-bar linkage, integrated by SciPy to 1e-10: I(a) a'' + I'(a) a'^2/2 = -sum of moments times the
+derivatives of the hinge rotations by a.  Set-valued: until the coordinate stops, when all hinges lock at
+once.  With the HAVSIN ramp: to 100 ms, including creep; that form converges with first order, see
 docs/theory/multibody_stepper.md.
 
 Kind: independent calculation.  Source: derived here.

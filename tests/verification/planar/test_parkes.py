@@ -1,15 +1,15 @@
 """Parkes (1955): rigid-plastic cantilever struck at its tip.
 
 A cantilever of length L, mass m per length and moment M_p carries a mass G = gamma m L at its tip, which
-starts with V0. For small deflections the tip ends at
+starts with V0.  For small deflections the final deflection of the tip is
 
     G^2 V0^2/(3 m M_p) [2 ln(1 + 1/(2 gamma)) + 1/(1 + 2 gamma)]   after   G V0 L/M_p.
 
-A chain of N rigid bars converges to it from above. Figures of a separate code run to 1e-3: gamma = 1,
-+3.6 % at N = 10 and +1.7 % at N = 40; gamma = 10, +0.32 % and +0.13 %; so they are met within 1e-3 and
-their rounding. Here the deflection is a thousandth of the length (finite rotations count 1e-6), the
-section is so small that its rotary inertia counts 2e-3 of a bar's, and the blow takes 10 ms, so that
-locked hinges do not creep.
+A chain of N rigid bars converges to it from above.  Figures of a separate code run to 1e-3: gamma = 1, +3.6
+% at N = 10 and +1.7 % at N = 40; gamma = 10, +0.32 % and +0.13 %; they are reproduced within 1e-3 and their
+rounding.  The deflection is a thousandth of the length (finite rotations contribute 1e-6), the section is
+so small that its rotary inertia is 2e-3 of that of a bar, and the motion lasts 10 ms, so that locked hinges
+do not creep.
 
 Kind: published; independent calculation.  Source: quoted; derived here.
 """

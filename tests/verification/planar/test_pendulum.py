@@ -1,10 +1,10 @@
-"""Simple pendulum from horizontal: 4 sqrt(L/g) K(1/2) = 2.3678419475762373 s for L = 1 m.
+"""Simple pendulum from the horizontal: period 4 sqrt(L/g) K(1/2) = 2.3678419475762373 s for L = 1 m.
 
-A body whose inertia makes its equivalent length 1 m falls from rest. After 100 periods it must be back
-at rest at the horizontal: there its rate is g/L times the time by which it is early or late. The
-accuracy is held against the largest rotation step by step; where nothing dissipates, the errors of 100
-periods add up. So the period may err by ten times the accuracy and the energy by fifty times: found are
-3 and 27 times at 1e-5 and less below, shrinking in proportion.
+A body whose inertia makes its equivalent length 1 m falls from rest.  After 100 periods it must be back at
+rest at the horizontal, where its rate is g/L times its error in time.  The accuracy refers to the largest
+rotation step by step; without dissipation the errors of 100 periods add up.  The error of the period may
+therefore be ten times the accuracy and that of the energy fifty times: 3 and 27 times were found at 1e-5,
+and less below, in proportion.
 
 Kind: closed form.  Source: textbook.
 """

@@ -1,11 +1,10 @@
 """Portal frame with four hinges struck sideways: a closed loop with one degree of freedom.
 
-Source: energy balance, exact for a mechanism of one coordinate whose hinges turn one way: the frame stops
-where the areas under the hinges' curves have taken up the kinetic energy.  The angles follow from the
-closure of the four-bar linkage, solved here by itself; the time of rest is the integral of the coordinate
-over its rate.
-Frame A(0,0) B(0,.5) C(1,.6) D(1,0) with 20 kg at the middle of BC; BC starts with 10 m/s along x, the columns
-turn with it.  Tolerances: the accuracy asked for, 1e-4.
+Source: energy balance, exact for a mechanism of one coordinate whose hinges rotate in one sense: the frame
+stops when the areas under the curves of the hinges equal the kinetic energy.  The angles follow from the
+closure of the four-bar linkage, solved here independently; the time of rest is the integral of the
+coordinate over its rate.  Frame A(0,0) B(0,.5) C(1,.6) D(1,0) with 20 kg at the middle of BC; BC starts
+with 10 m/s along x, and the columns rotate with it.  The tolerance is the requested accuracy, 1e-4.
 
 Kind: independent calculation.  Source: derived here.
 """

@@ -1,16 +1,15 @@
-"""Reversal: what the softening variable means, and the closed forms of rate factor and viscous damper.
+"""Reversed rotation: the three softening variables, and closed forms of rate factor and viscous damper.
 
-A hinge is led to and fro, 0 to 0.4 to -0.3 to 0.6 to 0 rad, at a prescribed motion. The energy that it
-absorbs on each leg is the area under its capacity. Law: M(x) = 1000 - 600 x N m up to x = 1, both senses
-alike.
+The rotation of a hinge is prescribed, 0 to 0.4 to -0.3 to 0.6 to 0 rad.  The energy that it absorbs on each
+part is the area under its capacity.  Law: M(x) = 1000 - 600 x N m up to x = 1, both senses alike.
 
     rotation     x = |plastic rotation|: bent back, the hinge regains its strength
     accumulated  x = sum of all plastic rotation
-    peak         x = largest plastic rotation of the sense into which it turns; while it is straightened, the
-                 larger of both senses, so that a fold bent back keeps the strength that it had lost
+    peak         x = largest plastic rotation of the present sense; while the hinge is straightened, the
+                 larger of both senses, so that a fold bent back does not regain its strength
 
-Rate factor 1 + w/w_r on a constant moment C stops a wheel after (I w_r/C) (w0 - w_r ln(1 + w0/w_r)); a
-viscous damper c beside it after (I/c) (w0 - (C/c) ln(1 + c w0/C)).
+The rate factor 1 + w/w_r on a constant moment C stops a wheel after (I w_r/C) (w0 - w_r ln(1 + w0/w_r)); a
+viscous damper c in addition after (I/c) (w0 - (C/c) ln(1 + c w0/C)).
 
 Kind: closed form.  Source: derived here.
 """

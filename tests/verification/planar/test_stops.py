@@ -1,14 +1,14 @@
-"""Stops: rebound and contact time of a linear stop, IMPACT exponents, and IMPACT's ramp of the damper.
+"""Stops: rebound and contact time of a linear stop, exponents of IMPACT, and its ramp of the damper.
 
-A wheel of inertia I turns into a stop of stiffness k and damping ratio zeta with the rate w0; omega^2 =
-k/I. The stop pushes but does not pull, so it separates where k g + c g' = 0. Closed forms:
+A wheel of inertia I runs into a stop of stiffness k and damping ratio zeta with the rate w0; omega^2 = k/I.
+The stop pushes but does not pull, so it separates where k g + c g' = 0.  Closed forms:
 
     critical (zeta = 1)   separates at omega t = 2 with e^-2 = 0.1353 of the rate
     underdamped           rebound e^(-zeta tau), d tau = atan2(2 zeta d, 2 zeta^2 - 1), d^2 = 1 - zeta^2
     undamped, exponent e  rebound 1, deepest penetration ((e+1) I w0^2/(2 k))^(1/(e+1))
 
-The damped IMPACT form is integrated by DOP853. A damper acts with the rate at the end of the step, which
-makes it first order: the rate errs by up to ten times the accuracy asked for, 1e-5.
+The damped IMPACT form is integrated by DOP853.  A damper acts with the rate at the end of the step, which
+makes it first order: the error of the rate is up to ten times the requested accuracy, 1e-5.
 
 Kind: closed form; independent calculation.  Source: derived here; derived here.
 """

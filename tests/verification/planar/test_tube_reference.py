@@ -1,12 +1,12 @@
-"""Example 01's tube with the default law against finite-element runs: a comparison, not a verification.
+"""The tube of example 01 with the default law compared with finite elements: differences, not a verification.
 
-Reference: OpenRadioss runs of the same tube with 6 kg at its tip and 15 rad/s: QEPH shells, 2.5 mm mesh
-up to 150 mm; Belytschko-Tsay shells, 5 mm mesh up to 200 mm; 5 points through the thickness, thickness
-update on. Elastic-perfectly plastic, 488 MPa. Like is compared with like: the tip rotation is atan2 of
-the tip's position, the plastic part of it is less by M/k, and the plastic energy is the internal energy
-less M^2/(2 k), M the root moment (averaged over 5 ms), k = 3 E I/L. Two elements differ by 1 % here,
-meshes and thickness update by up to 8 %. The law is not tuned on this tube; docs/tube_comparison.md says
-where the differences come from. What is required is that the figures stay what that page states.
+Reference: OpenRadioss runs of the same tube with 6 kg at its tip and 15 rad/s: QEPH shells, 2.5 mm mesh up
+to 150 mm; Belytschko-Tsay shells, 5 mm mesh up to 200 mm; 5 points through the thickness, thickness update
+on. Elastic-perfectly plastic, 488 MPa.  Equal quantities are compared: the tip rotation is atan2 of the
+position of the tip, its plastic part is smaller by M/k, and the plastic energy is the internal energy minus
+M^2/(2 k), with the root moment M (averaged over 5 ms) and k = 3 E I/L.  Two elements differ by 1 % here,
+meshes and thickness update by up to 8 %.  The law is not fitted to this tube; docs/tube_comparison.md
+describes the causes of the differences.  The tests require that the figures remain those of that page.
 
 Kind: other code; own past numbers.  Source: run here; run here.
 """

@@ -1,11 +1,11 @@
-"""Example 01's tube integrated independently: one equation of motion, SciPy's Radau, the same hinge law.
+"""The tube of example 01 equals an independent integration of one equation of motion with the same law.
 
 The tube (50x25x2.65 mm, 1 m, 6 kg at its tip, 15 rad/s about its root) with one hinge half a fold length
-from its root is a body that turns about that hinge: I theta'' = -M. I and the start are worked out here
-from outer dimensions: I = m L'^3/3 + rho I_y L' + 6 L'^2, L' = 1 - 0.0231 m, and the rate from the
-angular momentum about the hinge of what lies beyond it. Of the law the plain formula is used, not its
-samples. The tolerance is the sampling error of the law, 1e-4 of the moment and so of the rotation,
-beside an accuracy of 1e-5.
+from its root is a body that rotates about that hinge: I theta'' = -M, integrated by SciPy's Radau method.
+I and the initial rate are computed here from outer dimensions: I = m L'^3/3 + rho I_y L' + 6 L'^2, L' = 1 -
+0.0231 m, and the rate from the angular momentum about the hinge of what lies beyond it.  The law is used as
+a formula, not as samples.  The tolerance is the sampling error of the law, 1e-4 of the moment and so of the
+rotation, in addition to an accuracy of 1e-5.
 
 Kind: independent calculation.  Source: derived here.
 """

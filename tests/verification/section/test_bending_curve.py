@@ -1,7 +1,7 @@
-"""Moment over curvature against closed forms: a rectangle, tubes by their exact widths, limits, hardening.
+"""Moment over curvature: a rectangle, tubes by their exact widths, limits, hardening.
 
 A solid rectangle of elastic-perfectly plastic metal carries M/M_y = 3/2 - (kappa_y/kappa)^2/2 (textbook).
-Tubes are held against a quadrature over their exact widths, which knows neither polygons nor layers.  The
+Tubes are compared with a quadrature over their exact widths, which uses neither polygons nor layers.  The
 tolerance is that of the layers, 400 over the depth.
 
 Kind: closed form; independent calculation.  Source: textbook; derived here.

@@ -1,9 +1,10 @@
-"""Buckling coefficients of plates under a stress gradient against a Rayleigh-Ritz solution.
+"""Buckling coefficients of plates under a stress gradient compared with a Rayleigh-Ritz solution.
 
-The formulas are those of cold-formed steel rules, remembered, not seen.  Here: Kirchhoff plate, one half-wave
-of length a along the load, Legendre polynomials across, supported edges hinged, free edges free; k is the
-minimum over a, nu = 0.3.  Held at both edges the formula is within 3 % (6 % at psi = 0.5); with one free edge
-within 6 %, except where the held edge is compressed and psi is about -0.5: there it is 35 % on the safe side.
+The formulas are those of rules for cold-formed steel, from memory; the rules were not seen.  The solution
+here: Kirchhoff plate, one half-wave of length a along the load, Legendre polynomials across, supported
+edges hinged, free edges free; k is the minimum over a, nu = 0.3.  For plates held at both edges the formula
+is within 3 % (6 % at psi = 0.5); with one free edge within 6 %, except if the held edge is compressed and
+psi is about -0.5: there it is 35 % on the safe side.
 
 Kind: independent calculation; published.  Source: derived here; quoted.
 """

@@ -1,10 +1,11 @@
-"""Properties of thin-walled sections against finite elements of the cross-section (sectionproperties, MIT).
+"""Properties of thin-walled sections compared with finite elements of the cross-section.
 
-The solids are built here with shapely from the mid-lines, arcs with 64 chords a quarter turn, independent of
-the product.  Area, centroid, second moments and plastic moduli: 0.1 % (the arcs' chords here;
-sharp corners agree to 1e-9).  Torsion constant, shear centre and warping are mid-line values there and plane
-elasticity here: they differ by the stiffness of corners and by end effects of order t/b, so their tolerances
-say how far the thin-wall theory carries: 2 % in J, 0.5 % of the depth in the shear centre of these sections.
+The finite elements are those of sectionproperties (MIT).  The solids are built here with shapely from the
+mid-lines, arcs with 64 chords per quarter circle, independently of the product.  Area, centroid, second
+moments and plastic moduli: 0.1 % (the chords of the arcs; sharp corners agree to 1e-9).  Torsion constant,
+shear centre and warping are mid-line values in the product and plane elasticity here.  They differ by the
+stiffness of corners and by end effects of order t/b, so their tolerances state how accurate the thin-wall
+theory is: 2 % in J, 0.5 % of the depth in the shear centre of these sections.
 
 Kind: other code.  Source: run here.
 """

@@ -1,9 +1,9 @@
-"""Plastic interaction of axial force, moments and torque against closed forms and a fibre sum.
+"""Plastic interaction of axial force, moments and torque: closed forms and a sum over fibres.
 
 Thin 50 x 25 box about the axis parallel to its long side: m = 1 - n^2 (a+b)^2/(b (2a+b)) up to n = b/(a+b),
-then 2 (a+b)(1-n)/(2a+b): m = 1, 0.928, 0.8, 0.6, 0 at n = 0, 0.2, 1/3, 0.5, 1.  Tolerance 2e-4: the wall
-has a thickness.  Torque: all direct resultants times sqrt(1 - (T/T_p)^2), T_p = 2 a b t sigma_y/sqrt(3).
-Fibre sum: points of the metal, tolerance 2 % of the largest values.
+then 2 (a+b) (1-n)/(2a+b): m = 1, 0.928, 0.8, 0.6, 0 at n = 0, 0.2, 1/3, 0.5, 1.  Tolerance 2e-4, because
+the wall has a thickness. Torque: all direct resultants times sqrt(1 - (T/T_p)^2), T_p = 2 a b t
+sigma_y/sqrt(3).  Sum over fibres: points of the metal, tolerance 2 % of the largest values.
 
 Kind: closed form; independent calculation.  Source: derived here; derived here.
 """

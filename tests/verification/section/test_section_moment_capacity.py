@@ -1,9 +1,9 @@
-"""Moment capacity of sections of walls against closed forms.
+"""Moment capacity of sections of walls: closed forms, and effective sections assembled by hand.
 
-Stout tubes: the exact plastic moment (1696 N m for 50x25x2.65 mm at 488 MPa).  Slender ones: linear stress
-with reduced plates, put together from rectangles by hand with its own iteration of the neutral axis; 2 %,
-as yield is looked for in the outer fibre here and in the mid-line there.  Axial force: exact limit analysis
-of the thin box.
+Thick-walled tubes: the exact plastic moment (1696 N m for 50x25x2.65 mm at 488 MPa).  Thin-walled ones:
+linear stress with reduced plates, assembled from rectangles by hand with its own iteration of the neutral
+axis; 2 %, because yield is checked in the outer fibre in the product and in the mid-line here.  Axial
+force: exact limit analysis of the thin box.
 
 Kind: closed form; independent calculation.  Source: derived here; derived here.
 """

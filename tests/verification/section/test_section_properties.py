@@ -1,7 +1,7 @@
-"""Properties of thin-walled sections against closed forms.
+"""Properties of thin-walled sections equal closed forms.
 
 Mid-line closed forms derived from the definitions (channel, slit tube, angle, cells): rounding (1e-9) where
-the mid-line is straight, 1e-3 where chords stand for arcs.  Solid closed forms (differences of rectangles,
+the mid-line is straight, 1e-3 where chords represent arcs.  Solid closed forms (differences of rectangles,
 parallel axes): rounding.
 
 Kind: closed form.  Source: derived here.

@@ -1,10 +1,10 @@
-"""Properties of rectangular and circular tubes against closed forms and numerical integration.
+"""Properties of rectangular and circular tubes equal closed forms and numerical integration.
 
-Sharp corners: textbook differences of two rectangles; the 50 x 25 x 2.65 mm tube has an area of 369.41 mm^2.
-Rounded corners: Gauss integration of the chord width over the depth, tolerance 1e-10 (rounding).
+Sharp corners: textbook differences of two rectangles; the 50 x 25 x 2.65 mm tube has an area of 369.41
+mm^2.  Rounded corners: Gauss integration of the chord width over the depth, tolerance 1e-10 (rounding).
 Torsion: finite elements of Prandtl's membrane over the wall of the tube with a free constant in the hole,
 extrapolated from two meshes (converged to 1e-4).  Bredt's formula with the term of the wall is approximate:
-it lacks the stiffness of sharp corners, 2.8 % in the 50x25x2.65 tube, 0.4 % in a thin one.
+it neglects the stiffness of sharp corners, 2.8 % in the 50x25x2.65 tube, 0.4 % in a thin one.
 
 Kind: closed form; independent calculation.  Source: textbook; derived here.
 """

@@ -1,13 +1,15 @@
-"""Axial crush of a square tube in shells against the mean force of Abramowicz and Jones.
+"""Axial crush of a square tube in shells compared with the mean force of Abramowicz and Jones.
 
 examples/07_axial_crush.yaml: tube 50 x 50 x 1.5 mm, 200 mm, perfectly plastic at 300 MPa; 200 kg guided at
 its head, 10 m/s against a rigid plane with friction 0.2.  Symmetric mode, Int. J. Impact Engng 2 (1984)
-179-208: P = 52.22 (c/h)^(1/3) s_0 h^2/4 = 28.4 kN.  Walls carry an imperfection of at most 0.02 mm; without
-it they fold outwards on all four sides at once (the extensional mode of stout tubes), as no real tube does.
+179-208: P = 52.22 (c/h)^(1/3) s_0 h^2/4 = 28.4 kN.  The walls have an imperfection of at most 0.02 mm;
+without it they fold outwards on all four sides at the same time (the extensional mode of stocky tubes), as
+no real tube does.
 
-Tolerance 20 %: the formula is that of an assumed mechanism, held against tests of steel tubes, which harden;
-which folds mix in a perfectly plastic tube depends on the imperfection (docs/theory/shell_axial_crush.md).
-The folds' independent check: no side of an element passes through another element.
+Tolerance 20 %: the formula is that of an assumed mechanism, compared by its authors with tests of steel
+tubes, which harden; the mode of the folds in a perfectly plastic tube depends on the imperfection
+(docs/theory/shell_axial_crush.md).  The independent check of the folds: no side of an element passes
+through another element.
 
 Kind: published.  Source: quoted.
 """

@@ -1,7 +1,8 @@
-"""Sections that get coarser away from the fold, with triangles between, against the same mesh without.
+"""Sections with fewer elements away from the fold give the result of the same mesh without them.
 
-Example 01 on 5 mm to 83 mm from the root, then growing by 1.2 to 25 mm.  Where the elements are longer than
-10 mm they may be 9 mm wide too.  Tolerance: 3 % of rotation and plastic energy, as for grading itself.
+Example 01 with 5 mm to 83 mm from the root, then growing by 1.2 to 25 mm.  Where the elements are longer
+than 10 mm they may be 9 mm wide too, with triangles in between.  Tolerance: 3 % of rotation and plastic
+energy, as for grading itself.
 
 Kind: invariant.  Source: derived here.
 """

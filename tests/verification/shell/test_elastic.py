@@ -1,16 +1,18 @@
-"""Shell engine, stepping through time, against closed forms of elasticity.
+"""Elastic shells in motion: frequencies, large rotations, twisted beam, pinched cylinder, waves.
 
-- Cantilever strip, first bending frequency: (1.8751/L)^2 sqrt(EI/rho A), Euler-Bernoulli; L/t = 100, nu = 0.
+- Cantilever strip, first bending frequency: (1.8751/L)^2 sqrt(EI/rho A), Euler-Bernoulli; L/t = 100, nu =
+  0.
 - Square plate, simply supported, first frequency: 2 (pi/a)^2 sqrt(D/rho t), Kirchhoff; a/t = 100.
 - Cantilever under an end moment 2 pi EI/L: it closes to a circle of radius L/2 pi.
-- Cantilever under a dead end load P L^2/EI = 2, the elastica: tip 0.4935 L aside, 0.1606 L back
-  (Mattiasson, Int. J. Num. Meth. Eng. 17, 1981, 145-153).
+- Cantilever under a dead end load P L^2/EI = 2, the elastica: tip displaced by 0.4935 L across and 0.1606 L
+  along (Mattiasson, Int. J. Num. Meth. Eng. 17, 1981, 145-153).
 - Twisted beam, 90 degrees over 12 x 1.1 x 0.32, unit end loads: 5.424e-3 in the plane of the end, 1.754e-3
   across (MacNeal and Harder, Finite Elements in Analysis and Design 1, 1985, 3-20).
 - Pinched cylinder with diaphragms, quasi-static by damping: the deflection that the same mesh has without
   inertia (tests/verification/shell/test_linear.py, where its mesh is refined).
 - Longitudinal wave in a bar: speed sqrt(E/rho), stress rho c v.
-Tolerances are those of the mesh (stated beside each), not of the integration.
+
+Tolerances are those of the mesh (stated beside each), not of the time integration.
 
 Kind: closed form; published.  Source: textbook; quoted.
 """

@@ -1,4 +1,4 @@
-"""Linear benchmarks of the shell elements, solved without time: pinched cylinder, twisted beam, bent plate.
+"""Linear benchmarks of the shell elements, solved statically: pinched cylinder, twisted beam, bent plate.
 
 - Pinched cylinder with diaphragms, R/t = 100, L/R = 2, nu = 0.3: 164.24 P/(E t) under the load (Lindberg,
   Olson and Cowper, Quarterly Bulletin of the National Aeronautical Establishment of Canada, 1969), which is
@@ -7,8 +7,9 @@
   across (MacNeal and Harder, Finite Elements in Analysis and Design 1, 1985, 3-20).
 - Simply supported square plate under q sin(pi x/a) sin(pi y/a): q a^4/(4 pi^4 D) + q a^2/(2 pi^2 k G t),
   the exact solution of Mindlin's plate for this load.
-Tolerances are those of the mesh. The tangent comes from the elements that step through time
-(`shell_statics`).
+
+Tolerances are those of the mesh.  The tangent stiffness comes from the elements of the time integration
+(`tests/support/shell/statics.py`).
 
 Kind: published; closed form.  Source: quoted; textbook.
 """

@@ -1,23 +1,24 @@
-"""Cylindrical panel thrown inwards over its middle, against CalculiX with solid elements.
+"""A cylindrical panel thrown inwards deflects as in CalculiX with solid elements.
 
-shell_panel.py: 120 degrees of a cylinder, clamped along its sides, hinged at its ends, perfectly plastic,
-143.5 m/s over the middle 60 degrees.  The kind of panel that tests with sheet explosive made a classic of
-shell codes (Belytschko, Lin and Tsay, Comput. Methods Appl. Mech. Eng. 42, 1984, 225-251).  No source with
-data and measured deflection was at hand: the data are this project's own, and no test is claimed to be met.
+tests/support/shell/panel.py: 120 degrees of a cylinder, clamped along its sides, hinged at its ends, perfectly plastic,
+143.5 m/s over the middle 60 degrees.  Tests of such panels with sheet explosive are a classic of shell
+codes (Belytschko, Lin and Tsay, Comput. Methods Appl. Mech. Eng. 42, 1984, 225-251).  No source with data
+and measured deflection was available: the data are this project's own, and no agreement with a test is
+claimed.
 
 Reference: panel_reference.json, CalculiX 2.20, a quarter in 20-node bricks, implicit, made by
-tests/benchmark/foreign/calculix_panel.py.  It assumes no shell; stretch and shear of the wall are part of
-yielding.
+tests/benchmark/foreign/calculix_panel.py.  It makes no shell assumption; stretch and shear of the wall are
+part of yielding.
 
-The speed jumps at the border of the thrown part, where a mesh spreads it over an element: momentum is exact,
-but energy is missing, of first order in the element's size, in both codes.  So meshes of the same energy
-are compared: 32 x 64 shells and the fine mesh of bricks, 1697 and 1699 J of 1769 J.  A finer pair, too slow
-for a test, and what its difference is made of, is in docs/theory/shell_panel.md.
+The velocity jumps at the border of the thrown part, where a mesh spreads it over an element: the momentum
+is exact, but energy is missing, of first order in the element size, in both codes.  Meshes of the same
+energy are therefore compared: 32 x 64 shells and the fine mesh of bricks, 1697 and 1699 J of 1769 J.  A
+finer pair, too slow for a test, and the causes of its difference, are in docs/theory/shell_panel.md.
 
-Tolerance 2 % of the largest deflection, the sum of what is open: four elements through the wall in place of
-two move the coarse bricks by 1.6 % and the fine ones by 0.5 % (half the step: 0.04 %), ten points in place of
-five the shells by 0.5 %.
-The middle moves by 0.3 % in 40 us about its largest deflection, so the time of it is known to 4 %.
+Tolerance 2 % of the largest deflection, the sum of the known effects: four elements through the wall
+instead of two change the coarse bricks by 1.6 % and the fine ones by 0.5 % (half the step: 0.04 %), ten
+points instead of five the shells by 0.5 %.  The middle moves by 0.3 % in 40 us about its largest
+deflection, so its time is known to 4 %.
 
 Kind: other code.  Source: run here.
 """

@@ -1,13 +1,15 @@
-"""Shell engine against limit loads, and against another explicit code.
+"""Plastic shells: limit loads, a closed form of combined loading, and another explicit code.
 
-- Strip of an elastic-perfectly plastic metal: plastic moment M_p = yield b t^2/4 as the points see it (five
-  Gauss points have 94.5 % of it, ten 100.8 %); limit load of a cantilever between M_p/L and 1.155 M_p/L.
-- Circular plate under pressure, simply supported: between 6 M_p/R^2, exact for Tresca's yield condition, and
-  2/sqrt(3) times that: von Mises' ellipse lies between Tresca's hexagon and the hexagon that much larger.
+- Strip of an elastic-perfectly plastic metal: plastic moment M_p = yield b t^2/4 as the integration points
+  represent it (five Gauss points have 94.5 % of it, ten 100.8 %); limit load of a cantilever between M_p/L
+  and 1.155 M_p/L.
+- Circular plate under pressure, simply supported: between 6 M_p/R^2, exact for Tresca's yield condition,
+  and 2/sqrt(3) times that: the ellipse of von Mises lies between Tresca's hexagon and the hexagon larger by
+  this factor.
 - Bar of an incompressible metal pulled to yield and then sheared at constant length: tau = Y/sqrt(3)
   tanh(sqrt(3) G gamma/Y), sigma = Y/cosh(sqrt(3) G gamma/Y) (derived below).
 - A tube on the same mesh in OpenRadioss (Belytschko-Tsay); skipped unless the environment variable
-  CRUMPLE_REFERENCE names the folder of its deck and histories.
+  CRUMPLE_REFERENCE names the folder of its input and histories.
 
 Kind: closed form; other code.  Source: derived here; run here.
 """

@@ -1,13 +1,15 @@
-"""Spot welds in shells against statics: strength in shear and tension, peel, bending of a welded hat.
+"""Spot welds in shells satisfy statics: strength in shear and tension, peeling, bending of a welded hat.
 
-- Strength: one spot between two strips of 40 x 1.5 mm.  Pulled along themselves (single lap), or apart where
-  they cross, the spot alone carries what the supports feel: it fails when that is its strength.  Tolerance:
-  4 % of the support's force at the last output before failure, which still swings; 0.5 % of the weld's own.
-- Both together: the left side of (Fn/Sn)^2 + (Fs/Ss)^2 is 1 within an output's interval, 2 %.
-- Peel: a plate is torn from a hat; spots fail one by one from the loaded end; the energy balance closes.
-- Bending: the tip of a cantilever of hat and plate, welded along both flanges, against one closed section
-  tied at every ring.  With the pitch to nothing they are the same (2 %); the compliance grows with the pitch.
-  Sheets that slide on each other bend 1.67 times as far (the hat's second moment of area alone).
+- Strength: one spot between two strips of 40 x 1.5 mm.  Pulled along the strips (single lap), or apart
+  where they cross, the spot alone carries the force at the supports: it fails when that is its strength.
+  Tolerance: 4 % of the support force at the last output before failure, which still oscillates; 0.5 % of
+  the force of the weld itself.
+- Both together: the left side of (Fn/Sn)^2 + (Fs/Ss)^2 is 1 within an output interval, 2 %.
+- Peeling: a plate is torn from a hat; spots fail one by one from the loaded end; the energy balance closes.
+- Bending: the tip of a cantilever of hat and plate, welded along both flanges, compared with one closed
+  section tied at every ring.  For a pitch of zero they are the same (2 %); the compliance grows with the
+  pitch. Sheets that slide on each other deflect 1.67 times as far (the second moment of area of the hat
+  alone).
 
 Kind: closed form; invariant.  Source: derived here; derived here.
 """

@@ -1,8 +1,8 @@
-"""The thrown tube of example 01 as shells on other meshes: what each changes, and how little.
+"""The tube of example 01 as shells on other meshes: the effect of each change.
 
-No outside reference: the uniform mesh of 5 mm is what the others are held against, within the 3 % that a
-graded mesh is allowed. That the thickness of the walls matters (6 to 9 % of the rotation, here and in the
-other code's runs) is the reason for which it follows the strain unless told not to.
+There is no outside reference: the uniform mesh of 5 mm is the reference for the others, within the 3 % that
+a graded mesh is allowed.  The thickness of the walls changes the rotation by 6 to 9 %, here and in the runs
+of the other code; for this reason it follows the strain unless switched off.
 
 Kind: invariant.  Source: derived here.
 """

@@ -1,15 +1,15 @@
-"""The thrown tube of example 01 as shells against another explicit code on the same mesh.
+"""The tube of example 01 as shells agrees with another explicit code on the same mesh.
 
-Reference: OpenRadioss (source of August 2026, double precision), Belytschko-Tsay element, 5 mm to 200 mm and
-then growing to 15.7 mm, 10 x 4 elements per flange and web, 5 thickness points, thickness update on, wall on
-its mid-line with sharp corners, 6 kg at the centroid of a rigid end section. Figures, read from its
-histories: largest rotation of the tip 0.6075 rad at 87.8 ms, internal energy against the tip's rotation and
-root moment against time as in the tables below.
+Reference: OpenRadioss (source of August 2026, double precision), Belytschko-Tsay element, 5 mm to 200 mm
+and then growing to 15.7 mm, 10 x 4 elements per flange and web, 5 thickness points, thickness update on,
+wall on its mid-line with sharp corners, 6 kg at the centroid of a rigid end section.  Figures, read from
+its histories: largest rotation of the tip 0.6075 rad at 87.8 ms, internal energy against the rotation of
+the tip and root moment against time as in the tables below.
 
-Tolerance: 6 % throughout. Ours returns hourglass forces with the plastic stress and spaces the elements
-between 200 and 300 mm a little differently, and softening is sensitive to such choices: the other code's own
-second element turns by 0.576 rad on 5 mm. Moments are means over 4 ms, since bending vibration of the tube
-passes through the root section.
+Tolerance: 6 % throughout.  The product reduces hourglass forces with the plastic stress and spaces the
+elements between 200 and 300 mm a little differently, and softening is sensitive to such choices: the second
+element of the other code gives 0.576 rad with 5 mm.  Moments are means over 4 ms, because bending vibration
+of the tube passes through the root section.
 
 Kind: other code.  Source: run here.
 """

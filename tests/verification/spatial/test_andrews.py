@@ -1,7 +1,8 @@
-"""Andrews' squeezing mechanism: seven bodies, ten pins, three loops, one freedom.
+"""Andrews' squeezing mechanism: seven bodies, ten pins, three loops, one degree of freedom.
 
-Data and figures: test set for initial value problems (IVP Test Set), problem "Andrews' squeezing mechanism",
-the seven angles at 0.03 s, with its names. The crank turns two and a half times in 30 ms, from rest.
+Data and figures: test set for initial value problems (IVP Test Set), problem "Andrews' squeezing
+mechanism", the seven angles at 0.03 s, with its names.  The crank rotates two and a half times in 30 ms,
+from rest.
 
 Kind: published.  Source: quoted.
 """

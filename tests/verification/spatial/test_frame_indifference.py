@@ -1,8 +1,8 @@
-"""Independence of the frame: the same structure turned, moved or in steady motion folds alike.
+"""Frame indifference: a structure that is rotated, translated or in steady motion folds alike.
 
-What a hinge does may not depend on where the structure lies, which way it points or how fast its
-observer moves. Turning and moving change nothing but rounding; a steady velocity changes the size of the
-steps, so hinge quantities agree to the accuracy asked for, and to rounding with equal steps.
+The behaviour of a hinge may not depend on the position and direction of the structure, or on the velocity
+of the observer.  Rotation and translation change nothing but rounding.  A steady velocity changes the step
+lengths, so hinge quantities agree to the requested accuracy, and to rounding with equal steps.
 
 Kind: invariant.  Source: derived here.
 """

@@ -1,10 +1,10 @@
-"""Plastic hinges in the spatial kernel: closed forms, models M2 to M4, turned models, momentum.
+"""Plastic hinges in the spatial kernel: closed forms, models M2 to M4, rotated models, momentum.
 
-Constant moment: a rod stops after I w0^2/(2 M) at the time I w0/M. M2 has the figures of the planar kernel's
-tests. M3, a portal that is a loop of one coordinate, stops where the hinges' curves have taken up the energy;
-the angles follow from its closure, solved by itself. M4, a cube frame of four loops with twelve ball
-hinges, has no outside figure: a coarse run must agree with a tight one within the accuracy asked for, and
-neighbours must agree by symmetry.
+Constant moment: a rod stops after I w0^2/(2 M) at the time I w0/M.  M2 has the figures of the tests of the
+planar kernel. M3, a portal that is a loop of one coordinate, stops when the curves of the hinges have
+absorbed the energy; the angles follow from its closure, solved independently.  M4, a cube frame of four
+loops with twelve ball hinges, has no outside figure: a coarse run must agree with an accurate one within
+the requested accuracy, and symmetric hinges with each other.
 
 Kind: closed form; independent calculation; invariant.  Source: derived here; derived here; derived here.
 """

@@ -1,10 +1,10 @@
-"""Mechanisms without dissipation: closed loops, redundant joints, singular positions, stiff springs, drives.
+"""Mechanisms without dissipation: closed loops, redundant joints, singular positions, springs, drives.
 
 Bricard's mechanism, the N four-bar mechanism and the flyball governor are problems A04, A02 and A05 of the
-IFToMM library of computational benchmark problems (lim.ii.udc.es/mbsbenchmark). What bodies and joints they
-have is taken from its specification of A02 and from models published for OpenSim (RehabEngGroup,
-MBSbenchmarksInOpenSim) and MATLAB; their motion from integrations of our own in the fewest coordinates, with
-the energy or Lagrange's equations. Slider-crank and four-bar linkage have closed forms of their places.
+IFToMM library of computational benchmark problems (lim.ii.udc.es/mbsbenchmark).  Their bodies and joints
+are taken from its specification of A02 and from models published for OpenSim (RehabEngGroup,
+MBSbenchmarksInOpenSim) and MATLAB; their motion from our own integrations in the fewest coordinates, with
+the energy or Lagrange's equations.  Slider-crank and four-bar linkage have closed forms of their positions.
 
 Kind: independent calculation; closed form.  Source: read; derived here.
 """

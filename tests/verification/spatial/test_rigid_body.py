@@ -1,10 +1,11 @@
-"""Rigid bodies of the spatial kernel without hinges: closed forms and what must be kept.
+"""Rigid bodies of the spatial kernel without hinges: closed forms and conserved quantities.
 
-A body free of torque keeps its energy and its angular momentum in the world; the errors of both must shrink
-with the square of the step. A slender rod of 1.5 m on its end swings from horizontal rest like a point on
-1 m, with the period 4 sqrt(L/g) K(1/2) = 2.3678419475762373 s for g = 9.81 m/s^2 (simple pendulum of the
-IFToMM library, A01). A rod that circles at a constant angle to the vertical, without spin about itself, does
-so with omega^2 = (3/2) (g/l) / cos(angle): gravity turns its angular momentum about the pivot.
+A body free of torque conserves its energy and its angular momentum in the global frame; the errors of both
+must be of second order in the step.  A slender rod of 1.5 m on its end swings from horizontal rest like a
+point on 1 m, with the period 4 sqrt(L/g) K(1/2) = 2.3678419475762373 s for g = 9.81 m/s^2 (simple pendulum
+of the IFToMM library, A01).  A rod that circles at a constant angle to the vertical, without spin about
+itself, does so with omega^2 = (3/2) (g/l) / cos(angle): gravity rotates its angular momentum about the
+pivot.
 
 Kind: closed form; invariant.  Source: derived here; derived here.
 """

@@ -1,17 +1,17 @@
-"""The hinge of several components against the planar hinge, closed forms and fine explicit integration.
+"""The hinge of several components: the planar hinge, closed forms and accurate explicit integration.
 
-Rig: one hinge between the ground and a mass that moves freely in the hinge's own directions, so every history
-is an ordinary differential equation of as many rates as the hinge has components.
+Rig: one hinge between the ground and a mass that moves freely in the directions of the hinge, so every
+history is an ordinary differential equation of as many rates as the hinge has components.
 
-    one component      the planar kernel's wheel, step by step
+    one component      the wheel of the planar kernel, step by step
     proportional       inertia I_k ~ C_k^2 keeps the direction; with capacities C_k f(s), s the work at the
-                       first capacities, the hinge takes the integral of f: f = 1 - s/L stops it at
+                       first capacities, the hinge absorbs the integral of f: f = 1 - s/L stops it at
                        s = L (1 - sqrt(1 - 2 E/L)), E the energy at the start
-    non-proportional   SciPy's DOP853; the set-valued step is second order in its size
+    non-proportional   SciPy's DOP853; the set-valued step is of second order in its length
     axial collapse     peak force over a first shortening, mean force after, stop at the stroke: energies
     tension flange     |M| + N b/2 = C(rotation) with axial slip b/2 |rotation|; under a dead axial force
                        (I + m b^2/4) w' = M_ext + N b/2 - C
-    fracture           I w^2/2 falls by C times the angle at fracture, then the wheel runs on
+    fracture           I w^2/2 decreases by C times the angle at fracture, then the wheel continues
 
 Kind: closed form; independent calculation.  Source: derived here; derived here.
 """

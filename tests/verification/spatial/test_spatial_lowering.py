@@ -1,7 +1,7 @@
-"""Structures by the spatial kernel: against the planar kernel, limit theorems and beam theory, and turned.
+"""Structures in the spatial kernel: planar kernel, limit theorems, beam theory, rotated frames.
 
-- Both kernels solve the same planar frame; rotations agree within the accuracy asked for.
-- Turned and moved as a whole, a frame in space folds alike.
+- Both kernels solve the same planar frame; rotations agree within the requested accuracy.
+- Rotated and translated as a whole, a frame in space folds alike.
 - Fixed beam under a force in its middle, span L between its hinges: P = 8 M_p/L by virtual work, M_p (theta +
   2 theta + theta) = P L theta/2.  Rigid bars lock unless one end may slide along; the test counts the hinges
   where the model has them.

@@ -1,9 +1,9 @@
-"""Prescribed motion: the driven point goes where it is told, and its work is what the structure takes up.
+"""Prescribed motion: the driven point follows it, and its work is what the structure absorbs.
 
 A point moved by a HAVSIN starts and ends at rest, so the work of its force is the energy that the hinges
-absorb: for constant moments the sum of M |rotation|, known from the geometry where one hinge turns. What
-the drive does not reach by its rate alone it makes up as drift correction, so the place is met to the
-accuracy asked for.
+absorb: for constant moments the sum of M |rotation|, known from the geometry if one hinge rotates.  What
+the drive does not reach by its rate alone is corrected as drift, so the position is reached to the
+requested accuracy.
 
 Kind: closed form.  Source: derived here.
 """

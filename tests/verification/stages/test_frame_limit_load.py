@@ -2,12 +2,14 @@
 
 The limit load is that of the static theorem: the largest force for which some forces and moments of all
 hinges balance every body, with no moment beyond its capacity, by linear programming on the undeformed frame
-(derived here).  Every hinge bends about both axes of its tube, each with a capacity of its own.
+(derived here).  Every hinge bends about both axes of its tube, each with its own capacity.
 
 - Rigid hinges that soften at once: the first motion is the mechanism of the limit load.
-- Elastic hinges need turns for all to yield, so theirs keep their capacity over 10 mrad before they soften.
+- Elastic hinges need some rotation for all to yield, so theirs keep their capacity over 10 mrad before they
+  soften.
 
-Beyond, there is no equilibrium near: the run ends, tells the limit load, and its ledger closes.
+Beyond the limit load there is no equilibrium nearby: the run ends and reports the limit load, and its
+ledger closes.
 
 Kind: independent calculation.  Source: derived here.
 """

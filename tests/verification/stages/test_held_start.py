@@ -1,8 +1,9 @@
-"""A given motion that a support forbids: what is left is the nearest motion, and the support does no work.
+"""An initial motion that a support forbids: the nearest admissible motion remains.
 
 Source: an inelastic arrest is orthogonal in kinetic energy.  A bar thrown about its end while its other end
-rests on a roller keeps nothing; a bar with a hinge in the middle keeps the part of its momentum along the
-one coordinate that is left, T = J^2/(2 I), derived in the test.  Tolerance: round-off, 1e-9.
+rests on a roller keeps no motion; a bar with a hinge in the middle keeps the part of its momentum along the
+one remaining coordinate, T = J^2/(2 I), derived in the test.  The support does no work.  Tolerance:
+rounding, 1e-9.
 
 Kind: closed form.  Source: derived here.
 """

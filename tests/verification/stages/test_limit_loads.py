@@ -1,11 +1,12 @@
 """Portal and fixed beam under forces that grow beyond their limit load in a quasi-static stage.
 
-- Limit loads by virtual work: portal under a force at the level of its beam 4 M_p/h, h between the two hinges
-  of a column; beam between clamps whose far one slides along, under a force P in its middle: M_p (theta +
-  2 theta + theta) = P times the middle's sink.
-- With a constant moment the columns' arm shrinks as they turn, so the portal finds equilibrium beyond, at
-  cos(theta) = limit load/force (virtual work at the turned place, derived here): the run follows it.
-- With a moment that falls as a hinge turns there is none: the run ends and names the limit load.
+- Limit loads by virtual work: portal under a force at the level of its beam 4 M_p/h, h between the two
+  hinges of a column; beam between clamps of which the far one slides along, under a force P in its middle:
+  M_p (theta + 2 theta + theta) = P times the deflection of the middle.
+- With a constant moment the lever arm of the columns decreases as they rotate, so the portal finds
+  equilibrium beyond, at cos(theta) = limit load/force (virtual work in the rotated position, derived here):
+  the run follows it.
+- With a moment that decreases as a hinge rotates there is none: the run ends and names the limit load.
 
 Kind: closed form.  Source: derived here.
 """

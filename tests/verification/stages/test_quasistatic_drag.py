@@ -1,8 +1,8 @@
-"""Motion out of equilibrium in a quasi-static stage: a body of three inertias under a slant moment.
+"""Motion out of equilibrium in a quasi-static stage: a body of three inertias under an inclined moment.
 
 Nothing but drag resists, 0.1/s times the inertia times the rate (docs/theory/spatial_kernel.md): with I
-turning along, 0.1/s I w = M, so w = I^-1 M/(0.1/s), integrated here by scipy.  A body has no momentum in
-such a stage: its rate does not depend on how its inertia turns.
+rotating with the body, 0.1/s I w = M, so w = I^-1 M/(0.1/s), integrated here by SciPy.  A body has no
+momentum in such a stage: its rate does not depend on how its inertia rotates.
 
 Kind: independent calculation.  Source: derived here.
 """

@@ -1,8 +1,8 @@
-"""Portals pushed by rams without inertia: the load of the limit theorems, and a ledger that closes.
+"""Portals pushed by rams without inertia: the load of the limit theorems, and an energy balance.
 
-- Sway of a portal by a ram at height z, by virtual work: all four hinges turn alike, H = 4 M_p/(z - 0.02)
+- Sway of a portal by a ram at height z, by virtual work: all four hinges rotate alike, H = 4 M_p/(z - 0.02)
   on the column between its hinges, 4 M_p/0.96 at the level of the beam.
-- What rigid-plastic structures take up is what the ram gives, whatever gap is closed first.
+- Rigid-plastic structures absorb what the ram provides, whichever gap closes first.
 
 Kind: closed form; invariant.  Source: derived here; derived here.
 """

@@ -1,4 +1,4 @@
-"""Motion that a later stage adds acts where the bodies have come to: a free bar in flight, by momentum.
+"""Motion that a later stage adds acts on the bodies in their present position: a free bar in flight.
 
 Kind: closed form.  Source: derived here.
 """
