@@ -1,10 +1,10 @@
 """A cylindrical panel thrown inwards deflects as in CalculiX with solid elements.
 
-tests/support/shell/panel.py: 120 degrees of a cylinder, clamped along its sides, hinged at its ends, perfectly plastic,
-143.5 m/s over the middle 60 degrees.  Tests of such panels with sheet explosive are a classic of shell
-codes (Belytschko, Lin and Tsay, Comput. Methods Appl. Mech. Eng. 42, 1984, 225-251).  No source with data
-and measured deflection was available: the data are this project's own, and no agreement with a test is
-claimed.
+tests/support/shell/panel.py: 120 degrees of a cylinder, clamped along its sides, hinged at its ends,
+perfectly plastic, 143.5 m/s over the middle 60 degrees. Tests of such panels with sheet explosive are a
+classic of shell codes (Belytschko, Lin and Tsay, Comput. Methods Appl. Mech. Eng. 42, 1984, 225-251). No
+source with data and measured deflection was available: the data are this project's own, and no agreement
+with a test is claimed.
 
 Reference: panel_reference.json, CalculiX 2.20, a quarter in 20-node bricks, implicit, made by
 tests/benchmark/foreign/calculix_panel.py.  It makes no shell assumption; stretch and shear of the wall are
