@@ -2,7 +2,7 @@
 #
 #   make demo     solve the first example with both engines, compare, and say where the report is (AXIS=strong)
 #   make test     unit, verification and regression tests
-#   make check    format, lint, types, import contract, sizes
+#   make check    format, lint, types, import contract, sizes, circles of imports
 #   make verify   slow verification too, the native code under sanitizers, and docs/verification.md written again
 #   make bench    speed, as ratios within one run
 #   make clean    remove what make made
@@ -39,6 +39,7 @@ check: $(VENV)/installed-test $(VENV)/installed-check
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python tools/sizes.py
+	$(BIN)/python tools/circles.py
 
 verify: $(VENV)/installed-test $(SANITIZED)/address/installed $(SANITIZED)/thread/installed
 	mkdir -p out

@@ -7,6 +7,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field, model_validator
 
+from crumple.analysis.filters import filter_problems
 from crumple.errors import Problem
 from crumple.structure import (
     MultibodySettings,
@@ -130,8 +131,6 @@ class Analysis(Spec):
 
     @model_validator(mode="after")
     def _sound(self) -> Analysis:
-        from crumple.analysis.filters import filter_problems  # noqa: PLC0415  (filters know this class)
-
         problems = output_problems(self.outputs, self.structure)
         problems += run_problems(self.outputs, self.duration)
         problems += shell_problems(self.shell, self.structure)

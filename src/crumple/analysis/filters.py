@@ -8,11 +8,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from crumple.analysis.analysis import Analysis
 from crumple.errors import Problem
 from crumple.result import Channel, Result, cfc
 from crumple.result.filters import CUT_OFF, SAMPLES_PER_CUT_OFF
-from crumple.structure import Filter, Outputs, Structure, hinge_places
+from crumple.structure import Filter, Outputs, hinge_places
+from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import one_of, suggestion
 
 HINGE_QUANTITIES = ("rotation", "rotation_rate", "plastic_rotation", "moment", "capacity", "energy")
@@ -22,7 +22,7 @@ LEAST_SAMPLES = 4
 
 
 def filter_problems(
-    structure: Structure, outputs: Outputs, duration: float, interval: float
+    structure: StructureParts, outputs: Outputs, duration: float, interval: float
 ) -> list[Problem]:
     """Filters of channels that the run will not have, or that are sampled too coarsely.
 
@@ -45,24 +45,33 @@ def filter_problems(
     ]
 
 
-def with_filters(result: Result, analysis: Analysis) -> Result:
-    """Result with the filtered channels added; those too short to filter are left out with a warning."""
+def with_filters(result: Result, outputs: Outputs, interval: float) -> Result:
+    """Result with the filtered channels added; those too short to filter are left out with a warning.
+
+    Parameters
+    ----------
+    result
+        As the solver gave it.
+    outputs
+        What is reported.
+    interval
+        Of the histories [s].
+    """
     channels, warnings = dict(result.channels), list(result.warnings)
-    interval = analysis.output_interval
     # pictures may have added times between: filter the regular samples alone
     regular = np.arange(math.floor(result.time[-1] / interval + 1e-9) + 1) * interval
-    for name, wanted in analysis.outputs.filters.items():
+    for name, wanted in outputs.filters.items():
         if regular.size < LEAST_SAMPLES or wanted.channel not in channels:
             warnings.append(f"{name} could not be filtered: the run ended too early")
             continue
         raw = channels[wanted.channel]
         smooth = cfc(np.interp(regular, result.time, raw.values), interval, wanted.cfc)
         channels[name] = Channel(name, raw.unit, np.interp(result.time, regular, smooth))
-    names = (*result.output_names, *(name for name in analysis.outputs.filters if name in channels))
+    names = (*result.output_names, *(name for name in outputs.filters if name in channels))
     return replace(result, channels=channels, warnings=tuple(warnings), output_names=names)
 
 
-def _channels(structure: Structure, outputs: Outputs) -> Iterator[str]:
+def _channels(structure: StructureParts, outputs: Outputs) -> Iterator[str]:
     """Names of the channels that a run will have and that can be filtered."""
     for place in hinge_places(structure):
         yield from (f"hinge.{place.name}.{quantity}" for quantity in HINGE_QUANTITIES)

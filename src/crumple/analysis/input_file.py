@@ -23,6 +23,7 @@ from crumple.structure import (
     shell_problems,
     stage_problems,
 )
+from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import Place, path_of, placed_problems, shown
 
 FORMAT = 1
@@ -31,7 +32,7 @@ MOST_PROBLEMS = 100
 """Problems that one refusal lists; whoever has more mends these first."""
 
 
-class InputFile(Structure):
+class InputFile(StructureParts):
     """Keys of an input file: those of the structure, and the run."""
 
     crumple: Literal[1]
@@ -44,7 +45,7 @@ class InputFile(Structure):
     """What to report."""
 
 
-_OF_THE_RUN = set(InputFile.model_fields) - set(Structure.model_fields)
+_OF_THE_RUN = set(InputFile.model_fields) - set(StructureParts.model_fields)
 """Keys whose mistakes leave the structure whole."""
 
 
@@ -185,12 +186,12 @@ def _validated(
         return None, placed_problems(error, model)
 
 
-def _sound_part(data: dict[str, Any], context: dict[str, Any]) -> Structure:
+def _sound_part(data: dict[str, Any], context: dict[str, Any]) -> StructureParts:
     """Structure of the parts that are valid by themselves, so that the others do not hide mistakes."""
-    parts = {key: data[key] for key in Structure.model_fields if key in data}
+    parts = {key: data[key] for key in StructureParts.model_fields if key in data}
     while True:
-        structure, problems = _validated(Structure, parts, context)
-        if isinstance(structure, Structure):
+        structure, problems = _validated(StructureParts, parts, context)
+        if isinstance(structure, StructureParts):
             return structure
         for place, _ in problems:
             _remove(parts, place)

@@ -6,13 +6,13 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from crumple import __version__
 from crumple.analysis.analysis import Analysis
 from crumple.analysis.canonical import canonical, hash_of
 from crumple.analysis.filters import with_filters
 from crumple.errors import InputError, Problem, Status
 from crumple.structure.schema.spec import raise_all
 from crumple.units import format_quantity
+from crumple.version import __version__
 
 if TYPE_CHECKING:
     from crumple.result import Result
@@ -76,7 +76,7 @@ def solve(
         solved = _shell(analysis, threads, progress, cancel, long_run)
     else:
         solved = _multibody(analysis, progress, cancel)
-    result = with_filters(solved, analysis)
+    result = with_filters(solved, analysis.outputs, analysis.output_interval)
     plain = canonical(analysis)
     settings = {**plain[fidelity], **result.provenance.settings}
     provenance = replace(

@@ -133,9 +133,9 @@ def _measured(shape: Section, metal: Material, axis: Axis, files: list[Path]) ->
 
 def _law_file(laws: dict[str, HingeLaw], shape: Section, metal: Material, axis: str) -> str:
     """Text of the law file of the only law that is shown."""
-    from crumple import __version__
     from crumple.errors import InputError, Problem
     from crumple.hinge import Trust, stored_law, write_law
+    from crumple.version import __version__
 
     if len(laws) != 1:
         todo = "name one with --law"

@@ -10,7 +10,6 @@ from typing import Annotated
 
 import typer
 
-from crumple import __version__
 from crumple.cli.check import check
 from crumple.cli.compare import compare
 from crumple.cli.console.refusal import show_refusal
@@ -20,6 +19,7 @@ from crumple.cli.run import run
 from crumple.cli.schema import schema
 from crumple.cli.section import section
 from crumple.errors import InputError
+from crumple.version import __version__
 
 app = typer.Typer(
     name="crumple",

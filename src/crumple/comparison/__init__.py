@@ -1,7 +1,7 @@
 """Two results, or a result and a measured curve: metrics, rating, verdict."""
 
-from crumple.comparison.cautions.trust import Trust
-from crumple.comparison.comparison import Comparison, Opening, Source, Timing, compare
+from crumple.comparison.comparing import compare
+from crumple.comparison.comparison import Comparison, Opening, Source, Timing, Trust
 from crumple.comparison.measure.energy import energy_put_in
 from crumple.comparison.measure.metrics import HingeComparison, HingeMetrics
 from crumple.comparison.measure.motion import HingeMotion, rate_of

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crumple.analysis import Analysis, input_hash, solve
-from crumple.comparison.comparison import Comparison, Timing, compare
+from crumple.comparison.comparing import compare
+from crumple.comparison.comparison import Comparison, Timing
 from crumple.comparison.measure.sections import at_times
 from crumple.comparison.rating.curve_file import CurveFile
 from crumple.comparison.variant import (

@@ -117,7 +117,7 @@ _BENDING = Family(
         "crumple.hinge.bending.kecman",
         "crumple.hinge.bending.oblique",
         "crumple.hinge.bending.wierzbicki",
-        "crumple.hinge.measured.stored",
+        "crumple.hinge.measured.law_file",
         "crumple.hinge.measured.tabulated",
     ),
     "hinge law",

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from crumple import __version__
 from crumple.report.report import write_figures
 from crumple.result.files import write_text
+from crumple.version import __version__
 
 if TYPE_CHECKING:
     from crumple.report.wording.wording import Table

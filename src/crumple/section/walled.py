@@ -92,7 +92,7 @@ class WalledSection(ByAxis):
     def warnings(self) -> tuple[str, ...]:
         """Sentences about walls beyond what plate formulas were tested on."""
         sentences = []
-        for plate in plates_of(self):
+        for plate in plates_of(self.walls, self.skeleton):
             limit = SLENDER_HELD if plate.held == 2 else SLENDER_FREE
             if plate.width > limit * plate.thickness:
                 edges = "both edges held" if plate.held == 2 else "one edge free"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +14,8 @@ Triple = tuple[float, ...]
 
 NEARLY_PARALLEL = 1e-6
 """Sine of the angle between member and `up` below which the direction across the member is noise."""
+FLAT = 1e-6
+"""Ratio of singular values of the node positions below which they count as in line or in a plane."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,3 +116,35 @@ def _frame(first: Triple, second: Triple, up: Triple | None, roll: float) -> Fra
 def cross(a: Sequence[float] | Floats, b: Sequence[float] | Floats) -> Floats:
     """Cross product of two vectors, (3,); for a single pair NumPy's own takes ten times as long."""
     return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+
+
+def plane_normal(points: Floats, reasons: Iterable[tuple[Floats, Floats]]) -> Floats | None:
+    """Normal of the plane in which a structure bends, (3,); None where nothing says so.
+
+    Parameters
+    ----------
+    points
+        Ends of its members [m], (n, 3).
+    reasons
+        Axis (3,) and direction (3,) of what turns and pushes it, the strongest reason first; they
+        decide where the points lie in line.
+    """
+    if len(points) < 2:
+        return None
+    _, sizes, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
+    if sizes[1] > FLAT * sizes[0]:
+        in_plane = len(sizes) < 3 or sizes[2] <= FLAT * sizes[0]
+        return axes[2] if in_plane else None
+    line = axes[0]
+    for axis, push in reasons:
+        for across in (_across(axis, line), np.cross(line, push)):
+            size = float(np.linalg.norm(across))
+            if size > 0.0:
+                normal: Floats = across / size
+                return normal
+    return None
+
+
+def _across(vector: Floats, line: Floats) -> Floats:
+    across: Floats = vector - (vector @ line) * line
+    return across if float(np.linalg.norm(across)) > FLAT * float(np.linalg.norm(vector)) else 0.0 * line

@@ -2,124 +2,18 @@
 
 from __future__ import annotations
 
-import math
-from functools import cached_property
+from pydantic import model_validator
 
-from pydantic import ValidationInfo, model_validator
-
-from crumple.material import Material
-from crumple.section import Axis, Section
-from crumple.structure.bending import bending_normal
-from crumple.structure.geometry import Frame, frame_of
-from crumple.structure.keys.joint import Joint
-from crumple.structure.keys.law import LawSpec
-from crumple.structure.keys.load import Load, Mass, NodalImpulse
-from crumple.structure.keys.material import MaterialSpec
-from crumple.structure.keys.member import Member, OnlyAutomatic
-from crumple.structure.keys.motion import InitialVelocity, Support
-from crumple.structure.keys.obstacles import MemberContact, ObstacleSpec
-from crumple.structure.keys.section import SectionSpec
-from crumple.structure.keys.spot_welds import SpotWelds
-from crumple.structure.schema.mapping import FrozenMapping
-from crumple.structure.schema.quantity import Acceleration, Position
-from crumple.structure.schema.spec import Named, Spec, raise_all
+from crumple.structure.checks.checks import problems_in
+from crumple.structure.parts import StructureParts
+from crumple.structure.schema.spec import raise_all
 
 
-class Structure(Spec):
-    """Nodes joined by members, held by supports, loaded by masses and motion.
-
-    Every part is plain data in SI; ``section``, ``material`` and ``frame`` give what follows from it.
-    """
-
-    materials: Named[MaterialSpec] = FrozenMapping()
-    """Materials by name."""
-    sections: Named[SectionSpec] = FrozenMapping()
-    """Cross-sections by name."""
-    nodes: Named[Position] = FrozenMapping()
-    """Positions by node name."""
-    members: Named[Member] = FrozenMapping()
-    """Members by name."""
-    joints: Named[Joint] = FrozenMapping()
-    """Joints between members' ends and their nodes, by name; every other end is joined rigidly."""
-    spot_welds: Named[SpotWelds] = FrozenMapping()
-    """Spot welds of members with members, or along the weld lines of members' own sections, by name."""
-    hinges: OnlyAutomatic | None = None
-    """`auto`: candidate hinges, wherever a fold can form, in every member that has no hinges of its own."""
-    hinge_laws: Named[LawSpec] = FrozenMapping()
-    """Hinge laws by name."""
-    supports: Named[Support] = FrozenMapping()
-    """Supports by name."""
-    masses: Named[Mass] = FrozenMapping()
-    """Lumped masses by name."""
-    initial_velocity: tuple[InitialVelocity, ...] = ()
-    """Velocity fields at the start; they add up."""
-    impulses: tuple[NodalImpulse, ...] = ()
-    """Impulses at the start."""
-    loads: tuple[Load, ...] = ()
-    """Forces and moments."""
-    gravity: tuple[Acceleration, Acceleration, Acceleration] = (0.0, 0.0, 0.0)
-    """Acceleration of free fall."""
-    obstacles: Named[ObstacleSpec] = FrozenMapping()
-    """What the structure can hit, by name."""
-    member_contact: MemberContact | None = None
-    """Contact of members with members that share no node; without it they pass through each other in the
-    multibody model, while shells have `analysis.shell.self_contact`."""
+class Structure(StructureParts):
+    """Parts that fit together: every name exists, every member has a length, nothing hangs in the air."""
 
     @model_validator(mode="after")
-    def _sound(self, info: ValidationInfo) -> Structure:
-        """Refuse what cannot be solved, every problem at once; a file's reader does so itself, with lines."""
-        if not (info.context and info.context.get("file")):
-            from crumple.structure.checks.checks import problems_in  # noqa: PLC0415  (checks import this class)
-
-            raise_all(problems_in(self))
+    def _sound(self) -> Structure:
+        """Refuse what cannot be solved, every problem at once."""
+        raise_all(problems_in(self))
         return self
-
-    def section_of(self, member: str) -> Section:
-        """Cross-section of a member."""
-        return self.sections[self.members[member].section].section(self.materials)
-
-    def material_of(self, member: str) -> Material:
-        """Material of a member."""
-        name = self.members[member].material
-        return self.materials[name].material(name)
-
-    def flexural_rigidity(self, member: str, axis: Axis) -> float:
-        """Bending stiffness E I of a member about a section axis [N m^2], walls of other metals by theirs."""
-        section, material = self.section_of(member), self.material_of(member)
-        if any(wall.material is not None for wall in getattr(section, "walls", ())):
-            from crumple.section import walls_of  # noqa: PLC0415  (tubes need none of it)
-
-            angle = 0.0 if axis == "y" else math.pi / 2.0
-            return material.youngs_modulus * walls_of(section).transformed(material).second_moment(angle)
-        return material.youngs_modulus * section.second_moment(axis)
-
-    def has_line(self, member: str) -> bool:
-        """Whether a member's nodes exist and its axes are defined; always so in a sound structure."""
-        if member not in self.members or not all(node in self.nodes for node in self.members[member].nodes):
-            return False
-        try:
-            self.frame_of(member)
-        except ValueError:
-            return False
-        return True
-
-    def frame_of(self, member: str) -> Frame:
-        """Origin, axes and length of a member at the start."""
-        spec = self.members[member]
-        first, second = (self.nodes[name] for name in spec.nodes)
-        return frame_of(first, second, up=spec.up, roll=spec.roll)
-
-    @property
-    def mass_of_members(self) -> float:
-        """Mass of all members, without lumped masses [kg]."""
-        return sum(
-            self.section_of(name).mass_per_length(self.material_of(name).density) * self.frame_of(name).length
-            for name in self.members
-        )
-
-    @cached_property
-    def bending_normal(self) -> tuple[float, float, float] | None:
-        """Normal of the plane in which it bends; None where nothing says so."""
-        normal = bending_normal(self)
-        # a tuple: kept beside the fields, where an array would spoil the comparison of two structures
-        return None if normal is None else (float(normal[0]), float(normal[1]), float(normal[2]))

@@ -7,14 +7,14 @@ import numpy as np
 from crumple.numeric.arrays import Floats
 from crumple.section import Section
 from crumple.structure.geometry import Frame
-from crumple.structure.structure import Structure
+from crumple.structure.parts import StructureParts
 
 FLAT = np.cos(np.radians(30.0))
 """Cosine of the angle by which a wall may turn and still be the one on which a spot lies: two sheets may be
 as far from parallel."""
 
 
-def spot_places(structure: Structure, name: str) -> Floats:
+def spot_places(structure: StructureParts, name: str) -> Floats:
     """Places of every spot of an entry of a sound structure [m], (k, 3)."""
     welds = structure.spot_welds[name]
     frame = structure.frame_of(welds.members[0])
@@ -24,7 +24,7 @@ def spot_places(structure: Structure, name: str) -> Floats:
     return np.concatenate([along + middle @ frame.axes[1:] for middle in _lines(structure, welds.members[0])])
 
 
-def widest_spot(structure: Structure, name: str) -> tuple[float, str]:
+def widest_spot(structure: StructureParts, name: str) -> tuple[float, str]:
     """Largest diameter [m] that every spot of an entry has room for, and the member that has the least.
 
     A spot has room up to the nearer edge of the wall on which it lies; a bend is an edge.
@@ -43,7 +43,7 @@ def widest_spot(structure: Structure, name: str) -> tuple[float, str]:
     return min(found, key=lambda one: round(one[0], 9))
 
 
-def _lines(structure: Structure, member: str) -> Floats:
+def _lines(structure: StructureParts, member: str) -> Floats:
     """Middles of the weld lines of a member's section (y, z) [m], (n, 2)."""
     lines = getattr(structure.section_of(member), "welds", ())
     return np.asarray(

@@ -86,7 +86,9 @@ def test_a_run_that_ended_early_says_which_filters_it_lacks():
     whole = solve(analysis)
     channels = {name: replace(channel, values=channel.values[:3]) for name, channel in whole.channels.items()}
     channels.pop("smooth")
-    short = with_filters(replace(whole, time=whole.time[:3], channels=channels), analysis)
+    short = with_filters(
+        replace(whole, time=whole.time[:3], channels=channels), analysis.outputs, analysis.output_interval
+    )
     assert "smooth" not in short.channels
     assert any("smooth" in warning for warning in short.warnings)
 

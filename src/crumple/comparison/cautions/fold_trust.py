@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from crumple.comparison.comparison import Comparison
 from crumple.comparison.measure.metrics import deg, mm
 from crumple.comparison.measure.motion import REACH, HingeMotion, largest_side
 from crumple.structure import PlacedHinge, Structure
-
-if TYPE_CHECKING:
-    from crumple.comparison.comparison import Comparison
 
 CRUSHED = 0.1
 """Shortening of a fold beyond that of its bend, over its length, from which it is worth a word."""

@@ -5,15 +5,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from crumple.comparison.comparison import Comparison
 from crumple.comparison.measure.energy import energy_put_in
 from crumple.comparison.measure.metrics import OPENED_AT, percent
-
-if TYPE_CHECKING:
-    from crumple.comparison.comparison import Comparison
 
 LEAST_WORK = 0.05
 """Plastic work over the energy put in below which a run is as good as elastic."""

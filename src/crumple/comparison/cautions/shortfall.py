@@ -9,13 +9,10 @@ reference is known.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
+from crumple.comparison.comparison import Comparison
 from crumple.comparison.measure.metrics import HingeComparison, signed
 from crumple.comparison.variant import ELASTIC_MEMBERS, SHELL_LAWS
-
-if TYPE_CHECKING:
-    from crumple.comparison.comparison import Comparison
 
 CLOSE = 0.05
 """Relative error of rotation and plastic energy up to which a model with the right law counts as right."""

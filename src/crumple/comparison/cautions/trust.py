@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,14 +12,12 @@ from crumple.comparison.cautions.fold_trust import across_joint, folds_said, lar
 from crumple.comparison.cautions.run_cautions import said_of_runs
 from crumple.comparison.cautions.shortfall import shortfall
 from crumple.comparison.cautions.verdict import SMALL, agreement, verdict
+from crumple.comparison.comparison import Comparison, Source, Trust
 from crumple.comparison.measure.energy import energy_put_in, largest_of
 from crumple.comparison.measure.metrics import deg, mm, percent
 from crumple.hinge import Form
 from crumple.numeric.arrays import Floats
 from crumple.structure import PlacedHinge, Structure, placed_hinges
-
-if TYPE_CHECKING:
-    from crumple.comparison.comparison import Comparison, Source
 
 ELASTIC = 0.05
 """Share of elastic energy from which rigid bars are worth a word."""
@@ -35,16 +31,6 @@ HOURGLASS = 0.05
 """Hourglass energy over internal energy above which a shell run is no reference."""
 TOUCHED = 0.005
 """Contact energy over the energy put in from which walls count as having touched."""
-
-
-@dataclass(frozen=True)
-class Trust:
-    """Verdict: level ``good``, ``caution`` or ``bad``, a headline, facts, and cautions."""
-
-    level: str
-    headline: str
-    facts: tuple[str, ...]
-    cautions: tuple[str, ...]
 
 
 def trust_of(comparison: Comparison, structure: Structure) -> Trust:

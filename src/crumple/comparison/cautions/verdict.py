@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from crumple.comparison.cautions.run_cautions import outside_folds
+from crumple.comparison.comparison import Comparison
 from crumple.comparison.measure.metrics import HingeComparison, deg, percent, signed
-
-if TYPE_CHECKING:
-    from crumple.comparison.comparison import Comparison
 
 AGREES = 0.12
 """Relative error of largest rotation and plastic energy up to which a concept-stage answer agrees."""

@@ -17,11 +17,8 @@ from crumple.hinge.band import Band, Bound, band_of
 from crumple.hinge.law import HingeLaw, SofteningVariable, Source, Validity
 from crumple.hinge.options import choice
 from crumple.hinge.rate import HingeRate, rate_factor
-from crumple.hinge.registry import law_type
 from crumple.hinge.stop import Stop
-from crumple.material import Material
 from crumple.numeric.arrays import Floats
-from crumple.section import Axis, Section
 
 Points = tuple[tuple[float, ...], tuple[float, ...]]
 
@@ -45,7 +42,6 @@ class StoredCurve:
             raise InputError(problems)
 
 
-@law_type("file")
 @dataclass(frozen=True)
 class StoredLaw:
     """Law of a law file.
@@ -86,33 +82,6 @@ class StoredLaw:
     sampling_error: float = 0.0
     lower: StoredCurve | None = None
     upper: StoredCurve | None = None
-
-    @classmethod
-    def of(
-        cls,
-        section: Section,
-        material: Material,
-        axis: Axis = "y",
-        *,
-        text: str,
-    ) -> StoredLaw:
-        """Law of a file's text.
-
-        Parameters
-        ----------
-        section, material, axis
-            Not used: the curve is already that of a section.
-        text
-            Content of a law file.
-
-        Raises
-        ------
-        InputError
-            With lines, if the text is no law file.
-        """
-        from crumple.hinge.measured.law_file import read_law  # noqa: PLC0415  (the reader builds this class)
-
-        return read_law(text)
 
     def at(self, bound: Bound) -> StoredLaw:
         """Law of a bound: the stored curve, or the nominal one times 1 -+ the uncertainty."""

@@ -220,7 +220,7 @@ class _Bending:
         self.turn = complex(math.cos(angle), -math.sin(angle))
         self.polygons = section.centred_polygons * self.turn
         self.top, self.bottom = section.extent(angle)
-        self.plates = plates_of(section)
+        self.plates = plates_of(section.walls, section.skeleton)
 
     @cached_property
     def _sums(self) -> tuple[float, float, float, float, float]:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from crumple.section.geometry.skeleton import Skeleton
 from crumple.section.section import in_mm
-
-if TYPE_CHECKING:
-    from crumple.section.walled import WalledSection
+from crumple.section.wall import Wall
 
 # A flatter bend does not hold the plates beside it [rad]: chosen, no source.
 HOLDING_BEND = math.radians(10.0)
@@ -56,9 +54,8 @@ class Plate:
         return self.held_at_start + self.held_at_end
 
 
-def plates_of(section: WalledSection) -> list[Plate]:
-    """All plates of a section; arcs belong to none."""
-    skeleton = section.skeleton
+def plates_of(walls: Sequence[Wall], skeleton: Skeleton) -> list[Plate]:
+    """All plates of walls and their skeleton; arcs belong to none."""
     through = {node for node in range(len(skeleton.nodes)) if _passes(skeleton, node)}
     plates: list[Plate] = []
     seen: set[int] = set()
@@ -70,7 +67,7 @@ def plates_of(section: WalledSection) -> list[Plate]:
         while (far := _far_node(skeleton, run[-1])) in through:
             run.append(next(h for h in skeleton.stars[far] if h != run[-1] ^ 1))
         seen.update(h >> 1 for h in run)
-        plates.append(_plate(section, run))
+        plates.append(_plate(walls, skeleton, run))
     return plates
 
 
@@ -92,8 +89,7 @@ def _passes(skeleton: Skeleton, node: int) -> bool:
     return abs(math.atan2(ratio.imag, ratio.real)) < HOLDING_BEND
 
 
-def _plate(section: WalledSection, run: list[int]) -> Plate:
-    skeleton = section.skeleton
+def _plate(walls: Sequence[Wall], skeleton: Skeleton, run: list[int]) -> Plate:
     nodes = [int(skeleton.ends[run[0] >> 1, run[0] & 1]), _far_node(skeleton, run[-1])]
     held = [len(skeleton.stars[node]) > 1 for node in nodes]
     if held[1] and not held[0]:
@@ -102,7 +98,7 @@ def _plate(section: WalledSection, run: list[int]) -> Plate:
     stops = [0.0]
     for edge in edges:
         stops.append(stops[-1] + float(skeleton.length[edge]))
-    wall = section.walls[skeleton.pieces[edges[0]].wall]
+    wall = walls[skeleton.pieces[edges[0]].wall]
     name = wall.name or f"walls[{skeleton.pieces[edges[0]].wall}]"
     start, end = (complex(skeleton.nodes[node]) for node in nodes)
     thickness = min(float(skeleton.thickness[edge]) for edge in edges)

@@ -24,9 +24,9 @@ from crumple.structure.hinges.hinge_axes import AxisLaws, HingeAxes
 from crumple.structure.keys.law import LAW_SPECS
 from crumple.structure.keys.member import AutomaticHinges
 from crumple.structure.keys.outputs import Outputs
+from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import one_of, outside, shown, suggestion, unknown
 from crumple.structure.settings.shell_settings import ShellSettings
-from crumple.structure.structure import Structure
 
 COINCIDENT = 1e-6
 """Distance [m] below which two nodes are one place: a thousandth of a wall, far above rounding."""
@@ -44,7 +44,7 @@ Known = Mapping[str, set[str]]
 
 
 def problems_in(
-    structure: Structure, defined: Names | None = None, *, complete: bool = True
+    structure: StructureParts, defined: Names | None = None, *, complete: bool = True
 ) -> list[Problem]:
     """Every mistake of a structure.
 
@@ -64,7 +64,9 @@ def problems_in(
     return list(dict.fromkeys(problem for check in checks for problem in check(structure, known)))
 
 
-def output_problems(outputs: Outputs, structure: Structure, defined: Names | None = None) -> list[Problem]:
+def output_problems(
+    outputs: Outputs, structure: StructureParts, defined: Names | None = None
+) -> list[Problem]:
     """Every name in the outputs that does not exist, and every place outside its member."""
     nodes = {*structure.nodes, *(defined or {}).get("nodes", ())}
     members = {*structure.members, *(defined or {}).get("members", ())}
@@ -117,7 +119,7 @@ def _shape_problems(corners: Floats, where: str) -> Iterator[Problem]:
 
 
 def shell_problems(
-    settings: ShellSettings, structure: Structure, defined: Names | None = None
+    settings: ShellSettings, structure: StructureParts, defined: Names | None = None
 ) -> list[Problem]:
     """Fine places of members that do not exist, or outside them; what does nothing in this structure."""
     members = {*structure.members, *(defined or {}).get("members", ())}
@@ -138,7 +140,7 @@ def shell_problems(
     return problems
 
 
-def _names(structure: Structure, known: Known) -> Iterator[Problem]:
+def _names(structure: StructureParts, known: Known) -> Iterator[Problem]:
     """Names that members refer to."""
     laws = {*known["hinge_laws"], *LAW_SPECS}
     if structure.hinges is not None:
@@ -162,14 +164,14 @@ def _names(structure: Structure, known: Known) -> Iterator[Problem]:
                 )
 
 
-def _metals(structure: Structure, known: Known) -> Iterator[Problem]:
+def _metals(structure: StructureParts, known: Known) -> Iterator[Problem]:
     """Materials that sections name."""
     for name, section in structure.sections.items():
         for key, material in section.named_materials().items():
             yield from unknown("material", material, known["materials"], f"sections.{name}.{key}")
 
 
-def _carried_names(structure: Structure, known: Known) -> Iterator[Problem]:
+def _carried_names(structure: StructureParts, known: Known) -> Iterator[Problem]:
     """Names that supports, masses, loads and initial motion refer to."""
     for where, node, _ in _carriers(structure):
         yield from unknown("node", node, known["nodes"], where)
@@ -180,7 +182,7 @@ def _carried_names(structure: Structure, known: Known) -> Iterator[Problem]:
             yield from unknown("member", name, known["members"], f"initial_velocity[{i}].members[{j}]")
 
 
-def _members(structure: Structure, known: Known) -> Iterator[Problem]:
+def _members(structure: StructureParts, known: Known) -> Iterator[Problem]:
     """Members without length or direction."""
     if not known["members"]:
         yield Problem("the structure has no members", where="members", todo="add at least one member")
@@ -197,7 +199,7 @@ def _members(structure: Structure, known: Known) -> Iterator[Problem]:
             yield Problem(what, "", "a direction across it", todo, f"{where}.up")
 
 
-def _coincident(structure: Structure, known: Known) -> Iterator[Problem]:
+def _coincident(structure: StructureParts, known: Known) -> Iterator[Problem]:
     """Nodes at one place."""
     cells: dict[tuple[int, ...], list[str]] = defaultdict(list)
     for name, position in structure.nodes.items():
@@ -217,7 +219,7 @@ def _coincident(structure: Structure, known: Known) -> Iterator[Problem]:
             yield Problem(f"the nodes '{first}' and '{second}' coincide", where=f"nodes.{second}", todo=todo)
 
 
-def _connections(structure: Structure, known: Known) -> Iterator[Problem]:
+def _connections(structure: StructureParts, known: Known) -> Iterator[Problem]:
     """Masses, supports, loads and nodes that no member joins to the structure."""
     joined = {node for member in structure.members.values() for node in member.nodes}
     if not joined <= known["nodes"]:
@@ -235,7 +237,7 @@ def _connections(structure: Structure, known: Known) -> Iterator[Problem]:
             )
 
 
-def _supports(structure: Structure, known: Known) -> Iterator[Problem]:
+def _supports(structure: StructureParts, known: Known) -> Iterator[Problem]:
     """Motions that start with a jump, and freedoms that two supports claim."""
     claimed: dict[tuple[str, str], str] = {}
     for name, support in structure.supports.items():
@@ -252,7 +254,7 @@ def _supports(structure: Structure, known: Known) -> Iterator[Problem]:
                 yield Problem(what, f"{start:g}", "0 at the start", todo, where)
 
 
-_CHECKS: tuple[Callable[[Structure, Known], Iterator[Problem]], ...] = (
+_CHECKS: tuple[Callable[[StructureParts, Known], Iterator[Problem]], ...] = (
     _names,
     _metals,
     _carried_names,
@@ -269,7 +271,7 @@ _CHECKS: tuple[Callable[[Structure, Known], Iterator[Problem]], ...] = (
 _CHECKS_OF_WHAT_IS_MISSING = (_connections, inertia_problems, bare_node_problems)
 
 
-def _carriers(structure: Structure) -> Iterator[tuple[str, str, str]]:
+def _carriers(structure: StructureParts) -> Iterator[tuple[str, str, str]]:
     """Path of the key, node and noun of everything that sits on a node."""
     for name, mass in structure.masses.items():
         yield f"masses.{name}.node", mass.node, "the mass"

@@ -17,14 +17,14 @@ from crumple.structure.hinges.hinges import (
     spatial_record_of,
 )
 from crumple.structure.keys.law import LAW_SPECS
+from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import outside
-from crumple.structure.structure import Structure
 
 APART = 1e-6
 """Distance of two hinges, as a share of the member, below which the bar between has next to no inertia."""
 
 
-def place_problems(structure: Structure, known: Mapping[str, set[str]]) -> Iterator[Problem]:
+def place_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
     """Places, names and laws of hinges."""
     where: dict[str, list[str]] = defaultdict(list)
     told: list[Problem] = []
@@ -51,7 +51,7 @@ def place_problems(structure: Structure, known: Mapping[str, set[str]]) -> Itera
             yield Problem(what, name, "a name of its own", todo, f"{named[-1]}.name")
 
 
-def inertia_problems(structure: Structure, known: Mapping[str, set[str]]) -> Iterator[Problem]:
+def inertia_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
     """Hinges at a free end, beyond which there is nothing to turn."""
     joined = Counter(node for member in structure.members.values() for node in member.nodes)
     turning = {m.node for m in structure.masses.values() if any(m.rotary_inertia) or any(m.offset)}
@@ -70,7 +70,7 @@ def inertia_problems(structure: Structure, known: Mapping[str, set[str]]) -> Ite
                 yield Problem(what, where=f"{place.where}.at", todo=todo)
 
 
-def sound_members(structure: Structure) -> Iterator[str]:
+def sound_members(structure: StructureParts) -> Iterator[str]:
     """Members whose nodes, section and materials are there, and whose hinges name no other node."""
     for name, member in structure.members.items():
         named = [hinge.at for hinge in member.given_hinges if isinstance(hinge.at, str)]
@@ -84,7 +84,7 @@ def sound_members(structure: Structure) -> Iterator[str]:
             yield name
 
 
-def _law_problems(structure: Structure, place: HingePlace) -> Iterator[Problem]:
+def _law_problems(structure: StructureParts, place: HingePlace) -> Iterator[Problem]:
     """Why laws and axes do not fit the section of their hinge; an unknown name is another check's."""
     keys = place.keys
     places = [replace(place, axis=axis, law=keys.law_about(axis)) for axis in keys.bending] or [place]

@@ -6,11 +6,11 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping
 
 from crumple.errors import Problem
+from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import one_of, shown, suggestion
-from crumple.structure.structure import Structure
 
 
-def joint_problems(structure: Structure, known: Mapping[str, set[str]]) -> Iterator[Problem]:
+def joint_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
     """Names that do not exist or do not meet, and ends with two joints."""
     ends: dict[tuple[str, str], str] = {}
     for name, joint in structure.joints.items():
@@ -34,7 +34,7 @@ def joint_problems(structure: Structure, known: Mapping[str, set[str]]) -> Itera
             yield Problem(what, where=where, todo="keep one of them")
 
 
-def bare_node_problems(structure: Structure, known: Mapping[str, set[str]]) -> Iterator[Problem]:
+def bare_node_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
     """Nodes at which every member hangs on a joint, and nothing has inertia or holds them."""
     ends: dict[str, list[str]] = defaultdict(list)
     for name, member in structure.members.items():

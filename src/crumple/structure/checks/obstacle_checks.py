@@ -12,8 +12,8 @@ from crumple.numeric.arrays import Floats
 from crumple.structure.checks.start_checks import swallowed
 from crumple.structure.keys.obstacles import CylinderObstacle, Obstacle, PlaneObstacle
 from crumple.structure.keys.stages import Stage, Until
+from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import unknown
-from crumple.structure.structure import Structure
 
 JUMP = 1e-12
 """Prescribed displacement [m] or rotation [rad] at the start that is still rounding."""
@@ -25,7 +25,7 @@ INSIDE = 1e-6
 Names = Mapping[str, Iterable[str]]
 
 
-def obstacle_problems(structure: Structure, known: Mapping[str, set[str]]) -> Iterator[Problem]:
+def obstacle_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
     """Members that do not exist, motions that start with a jump, nodes inside, names taken."""
     for name, obstacle in structure.obstacles.items():
         where = f"obstacles.{name}"
@@ -47,7 +47,7 @@ def obstacle_problems(structure: Structure, known: Mapping[str, set[str]]) -> It
         yield from _members_inside(structure, obstacle, where)
 
 
-def _members_inside(structure: Structure, obstacle: Obstacle, where: str) -> Iterator[Problem]:
+def _members_inside(structure: StructureParts, obstacle: Obstacle, where: str) -> Iterator[Problem]:
     """Members whose line starts inside although their ends do not."""
     for name in structure.members if obstacle.members is None else obstacle.members:
         if not structure.has_line(name):
@@ -79,7 +79,7 @@ def gap(obstacle: Obstacle, point: Floats) -> float:
 
 
 def stage_problems(
-    stages: tuple[Stage, ...], structure: Structure, defined: Names | None = None
+    stages: tuple[Stage, ...], structure: StructureParts, defined: Names | None = None
 ) -> list[Problem]:
     """Every name in the stages that does not exist or is used twice.
 
@@ -131,7 +131,7 @@ def stage_problems(
     return problems
 
 
-def _thrown(stage: Stage, structure: Structure, where: str) -> Iterator[Problem]:
+def _thrown(stage: Stage, structure: StructureParts, where: str) -> Iterator[Problem]:
     """Masses that would start with a velocity in a stage without inertia."""
     for name in structure.obstacles if stage.obstacles is None else stage.obstacles:
         obstacle = structure.obstacles.get(name)
@@ -141,7 +141,7 @@ def _thrown(stage: Stage, structure: Structure, where: str) -> Iterator[Problem]
             yield Problem(what, name, "a driven obstacle, or a mass at rest", todo, f"{where}.kind")
 
 
-def _driven(name: str, structure: Structure, where: str) -> Iterator[Problem]:
+def _driven(name: str, structure: StructureParts, where: str) -> Iterator[Problem]:
     """What a stage drives although it has no prescribed motion."""
     support, obstacle = structure.supports.get(name), structure.obstacles.get(name)
     kind, part = ("support", support) if support is not None else ("obstacle", obstacle)
@@ -154,7 +154,7 @@ def _driven(name: str, structure: Structure, where: str) -> Iterator[Problem]:
     yield Problem(what, name, "an obstacle or a support with a prescribed motion", todo, where)
 
 
-def _pushing(stage: Stage, structure: Structure, where: str) -> Iterator[Problem]:
+def _pushing(stage: Stage, structure: StructureParts, where: str) -> Iterator[Problem]:
     """A first quasi-static stage in which nothing pushes; later ones may let elastic parts spring back."""
     if stage.kind == "dynamic" or structure.loads or any(structure.gravity):
         return
@@ -169,7 +169,7 @@ def _pushing(stage: Stage, structure: Structure, where: str) -> Iterator[Problem
         yield Problem(what, came, "a prescribed motion, a load or gravity", todo, f"{where}.{key}")
 
 
-def _until_problems(until: Until, stage: Stage, structure: Structure, where: str) -> Iterator[Problem]:
+def _until_problems(until: Until, stage: Stage, structure: StructureParts, where: str) -> Iterator[Problem]:
     """Conditions that look at an obstacle that is not there or does not move."""
     there = structure.obstacles if stage.obstacles is None else stage.obstacles
     obstacle = structure.obstacles.get(until.of or "")
@@ -194,7 +194,7 @@ def _functions(obstacle: Obstacle) -> Iterator[tuple[str, TimeFunction]]:
         yield "turning.angle", obstacle.turning.angle
 
 
-def _touching_nodes(structure: Structure, obstacle: Obstacle) -> list[str]:
+def _touching_nodes(structure: StructureParts, obstacle: Obstacle) -> list[str]:
     """Nodes at the ends of the members that can touch an obstacle, in the structure's order."""
     members = structure.members if obstacle.members is None else obstacle.members
     ends = {node for name in members if name in structure.members for node in structure.members[name].nodes}

@@ -10,19 +10,19 @@ from crumple.errors import Problem
 from crumple.numeric.arrays import Floats
 from crumple.structure.keys.load import NodalImpulse
 from crumple.structure.keys.motion import FREEDOMS, InitialVelocity
-from crumple.structure.structure import Structure
+from crumple.structure.parts import StructureParts
 
 ROUNDING = 1e-9
 """Share of a velocity field's largest velocity below which a component is rounding."""
 
 
-def start_problems(structure: Structure, known: Mapping[str, set[str]]) -> Iterator[Problem]:
+def start_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
     """Impulses and velocities at the start that a support swallows."""
     yield from swallowed(structure, structure.impulses, structure.initial_velocity)
 
 
 def swallowed(
-    structure: Structure,
+    structure: StructureParts,
     impulses: Sequence[NodalImpulse],
     fields: Sequence[InitialVelocity],
     where: str = "",
@@ -58,7 +58,7 @@ def swallowed(
 
 
 def _held_velocities(
-    structure: Structure, field: InitialVelocity, node: str, where: str
+    structure: StructureParts, field: InitialVelocity, node: str, where: str
 ) -> Iterator[Problem]:
     if node not in structure.nodes:
         return
@@ -76,7 +76,7 @@ def _held_velocities(
                 yield _nothing_moves("the velocity", node, freedom, support, came, where)
 
 
-def _holder(structure: Structure, node: str, freedom: str) -> str:
+def _holder(structure: StructureParts, node: str, freedom: str) -> str:
     """Support that holds or drives a freedom of a node; empty where it is free."""
     return next(
         (

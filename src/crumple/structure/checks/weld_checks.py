@@ -8,12 +8,12 @@ import numpy as np
 
 from crumple.errors import Problem
 from crumple.structure.keys.spot_welds import MOST_SPOTS
+from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import one_of, outside, unknown
-from crumple.structure.structure import Structure
 from crumple.structure.weld_room import spot_places, widest_spot
 
 
-def spot_weld_problems(structure: Structure, known: Mapping[str, set[str]]) -> Iterator[Problem]:
+def spot_weld_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
     """Mistakes of a structure's spot welds."""
     for name, welds in structure.spot_welds.items():
         where = f"spot_welds.{name}"
@@ -44,7 +44,7 @@ def spot_weld_problems(structure: Structure, known: Mapping[str, set[str]]) -> I
     yield from _twice_welded(structure)
 
 
-def _crowded(structure: Structure, name: str) -> Iterator[Problem]:
+def _crowded(structure: StructureParts, name: str) -> Iterator[Problem]:
     """Spots of an entry nearer to each other than the wall is thick: one would carry all until it fails."""
     welds = structure.spot_welds[name]
     members = [structure.members[member] for member in welds.members if member in structure.members]
@@ -65,7 +65,7 @@ def _crowded(structure: Structure, name: str) -> Iterator[Problem]:
         yield Problem("spots lie nearer than two can", came, allowed, todo, f"spot_welds.{name}.{key}")
 
 
-def _too_wide(structure: Structure, name: str) -> Iterator[Problem]:
+def _too_wide(structure: StructureParts, name: str) -> Iterator[Problem]:
     """A diameter that the walls have no room for."""
     welds = structure.spot_welds[name]
     if not welds.diameter:
@@ -81,7 +81,7 @@ def _too_wide(structure: Structure, name: str) -> Iterator[Problem]:
         yield Problem(what, came, allowed, todo, f"spot_welds.{name}.diameter")
 
 
-def _placed(structure: Structure, name: str) -> bool:
+def _placed(structure: StructureParts, name: str) -> bool:
     """Whether the spots of an entry have places: its members, their sections and weld lines are there."""
     members = structure.spot_welds[name].members
     if not all(structure.has_line(member) for member in members):
@@ -90,7 +90,7 @@ def _placed(structure: Structure, name: str) -> bool:
     return None not in lines and (len(members) > 1 or lines[0] is True)
 
 
-def _twice_welded(structure: Structure) -> Iterator[Problem]:
+def _twice_welded(structure: StructureParts) -> Iterator[Problem]:
     """Spots of two entries that tie the same walls at one place."""
     entries = [(name, welds) for name, welds in structure.spot_welds.items() if _placed(structure, name)]
     places = {name: spot_places(structure, name) for name, _ in entries}
@@ -111,7 +111,7 @@ def _twice_welded(structure: Structure) -> Iterator[Problem]:
             yield Problem(what, came, allowed, "leave one of them out", f"spot_welds.{name}")
 
 
-def pitch_problems(structure: Structure) -> Iterator[Problem]:
+def pitch_problems(structure: StructureParts) -> Iterator[Problem]:
     """A pitch of the shell settings that no line of spots takes."""
     own = {welds.members[0] for welds in structure.spot_welds.values() if len(welds.members) == 1}
     found = {name: has_weld_lines(structure, name) for name in structure.members}
@@ -123,7 +123,7 @@ def pitch_problems(structure: Structure) -> Iterator[Problem]:
     yield Problem(what, "", allowed, todo, "analysis.shell.weld_pitch")
 
 
-def has_weld_lines(structure: Structure, member: str) -> bool | None:
+def has_weld_lines(structure: StructureParts, member: str) -> bool | None:
     """Whether a member's section has lines of spot welds; None where there is no such section."""
     spec = structure.sections.get(structure.members[member].section)
     return None if spec is None else bool(getattr(spec.section(), "welds", ()))

@@ -16,10 +16,10 @@ from crumple.section import Axis, half_fold_length
 from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.hinge_axes import HingeAxes
 from crumple.structure.keys.member import AutomaticHinges, Hinge
-from crumple.structure.structure import Structure
+from crumple.structure.parts import StructureParts
 
 
-def hinges_of(structure: Structure, member: str) -> tuple[Hinge, ...]:
+def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
     """Hinges of a member beside those between its bars: given one by one, or put where folds can form."""
     asked = automatic_of(structure, member)
     if asked is None:
@@ -36,7 +36,7 @@ def hinges_of(structure: Structure, member: str) -> tuple[Hinge, ...]:
     return tuple(Hinge.model_construct(name=name, at=station, **keys) for name, station in stations.items())
 
 
-def automatic_of(structure: Structure, member: str) -> AutomaticHinges | None:
+def automatic_of(structure: StructureParts, member: str) -> AutomaticHinges | None:
     """What is asked for a member: its own wish, else the structure's where it has no hinges of its own."""
     spec = structure.members[member]
     if isinstance(spec.hinges, AutomaticHinges):
@@ -45,7 +45,7 @@ def automatic_of(structure: Structure, member: str) -> AutomaticHinges | None:
     return None if own else structure.hinges
 
 
-def where_automatic(structure: Structure, member: str) -> str | None:
+def where_automatic(structure: StructureParts, member: str) -> str | None:
     """Path of what `automatic_of` finds for a member; None where its hinges are given one by one."""
     if automatic_of(structure, member) is None:
         return None
@@ -53,13 +53,13 @@ def where_automatic(structure: Structure, member: str) -> str | None:
     return f"members.{member}.hinges" if own else "hinges"
 
 
-def any_automatic(structure: Structure) -> bool:
+def any_automatic(structure: StructureParts) -> bool:
     """Whether hinges of any member find their places by themselves."""
     return any(automatic_of(structure, member) is not None for member in structure.members)
 
 
 def automatic_stations(
-    structure: Structure, member: str, axes: tuple[Axis, ...], spacing: float | None
+    structure: StructureParts, member: str, axes: tuple[Axis, ...], spacing: float | None
 ) -> dict[str, float]:
     """Distances of a member's candidates from its first node [m], increasing, by name.
 
@@ -87,7 +87,7 @@ def automatic_stations(
     return found | ({f"{member}-{nodes[1]}": last} if loaded[1] else {})
 
 
-def carries_moment(structure: Structure, member: str, node: str) -> bool:
+def carries_moment(structure: StructureParts, member: str, node: str) -> bool:
     """Whether anything at a member's end can take a bending moment: another member, a support, an inertia."""
     mine = [joint for joint in structure.joints.values() if joint.node == node]
     if any(joint.member == member and joint.type == "spherical" for joint in mine):

@@ -26,8 +26,8 @@ from crumple.structure.hinges.spatial_hinges import spatial_hinge_record
 from crumple.structure.keys.law import LAW_SPECS, LawKeys, LawReference, Stops
 from crumple.structure.keys.member import Hinge
 from crumple.structure.keys.motion import FREEDOMS
+from crumple.structure.parts import StructureParts
 from crumple.structure.remembered import remembered
-from crumple.structure.structure import Structure
 
 PLAIN = HingeAxes()
 """A hinge that bends about one axis, the one across the plane of bending."""
@@ -108,7 +108,7 @@ class PlacedHinge:
     spatial: SpatialHingeRecord | None = None
 
 
-def hinge_places(structure: Structure) -> tuple[HingePlace, ...]:
+def hinge_places(structure: StructureParts) -> tuple[HingePlace, ...]:
     """Every hinge of a sound structure, member by member, along each member.
 
     The structure's members must have nodes that exist and are apart; everything else is not looked at.
@@ -116,7 +116,7 @@ def hinge_places(structure: Structure) -> tuple[HingePlace, ...]:
     return tuple(place for member in structure.members for place in member_hinge_places(structure, member))
 
 
-def member_hinge_places(structure: Structure, member: str) -> list[HingePlace]:
+def member_hinge_places(structure: StructureParts, member: str) -> list[HingePlace]:
     """Hinges of one member by increasing station."""
     spec, length = structure.members[member], structure.frame_of(member).length
     bars, where, axis = spec.bars, f"members.{member}", bending_axis(structure, member)
@@ -141,7 +141,7 @@ def first_axis(keys: HingeAxes) -> Axis | None:
     return keys.bending[0] if keys.bending else keys.axis
 
 
-def hinge_station(structure: Structure, member: str, given: Hinge) -> float:
+def hinge_station(structure: StructureParts, member: str, given: Hinge) -> float:
     """Distance of a hinge from the member's first node [m]; may lie outside the member."""
     spec = structure.members[member]
     if not isinstance(given.at, str):
@@ -154,7 +154,7 @@ def hinge_station(structure: Structure, member: str, given: Hinge) -> float:
     return offset if given.at == spec.nodes[0] else structure.frame_of(member).length - offset
 
 
-def holds_rotation(structure: Structure, node: str, direction: Floats) -> bool:
+def holds_rotation(structure: StructureParts, node: str, direction: Floats) -> bool:
     """Whether supports hold or drive the rotation of a node about a direction."""
     supports = [support for support in structure.supports.values() if support.node == node]
     held = {freedom for support in supports for freedom in (*support.held, *support.driven)}
@@ -162,7 +162,7 @@ def holds_rotation(structure: Structure, node: str, direction: Floats) -> bool:
     return all(freedom in held for freedom in needed)
 
 
-def placed_hinges(structure: Structure) -> tuple[PlacedHinge, ...]:
+def placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
     """Every hinge with its law, ready for a solver.
 
     Raises
@@ -220,7 +220,7 @@ def tributary_lengths(
     return [flexible(a, b) for a, b in pairwise(ends)]
 
 
-def law_spec(structure: Structure, place: HingePlace) -> LawKeys:
+def law_spec(structure: StructureParts, place: HingePlace) -> LawKeys:
     """Law that a hinge refers to.
 
     Raises
@@ -241,7 +241,7 @@ def law_spec(structure: Structure, place: HingePlace) -> LawKeys:
     return structure.hinge_laws[reference] if reference in structure.hinge_laws else LAW_SPECS[reference]()
 
 
-def law_of(structure: Structure, place: HingePlace) -> HingeLaw:
+def law_of(structure: StructureParts, place: HingePlace) -> HingeLaw:
     """Formula of a hinge.
 
     Raises
@@ -264,7 +264,7 @@ def _law(section: Section, material: Material, axis: Axis, spec: LawKeys) -> Hin
     return hinge.bounded(hinge.build_law(kind, section, material, axis, **given), spec.bound)
 
 
-def _bending(structure: Structure, place: HingePlace, share: float) -> tuple[HingeLaw, HingeRecord]:
+def _bending(structure: StructureParts, place: HingePlace, share: float) -> tuple[HingeLaw, HingeRecord]:
     """Law and record about one axis of a hinge that stands for a length of member [m]."""
     spec = law_spec(structure, place)
     rigidity = structure.flexural_rigidity(place.member, place.axis)
@@ -278,7 +278,7 @@ def _bending(structure: Structure, place: HingePlace, share: float) -> tuple[Hin
 
 
 def spatial_record_of(
-    structure: Structure, place: HingePlace, share: float = 1.0, stretch: float = 1.0
+    structure: StructureParts, place: HingePlace, share: float = 1.0, stretch: float = 1.0
 ) -> SpatialHingeRecord | None:
     """All components of a hinge, None if it bends about one axis alone.
 
@@ -305,7 +305,7 @@ def spatial_record_of(
     return spatial_hinge_record(place.keys, record_about, place.axis, section, material, stretch)
 
 
-def _placed(structure: Structure, place: HingePlace, share: float, stretch: float) -> PlacedHinge:
+def _placed(structure: StructureParts, place: HingePlace, share: float, stretch: float) -> PlacedHinge:
     law, record = _bending(structure, place, share)
     frame = structure.frame_of(place.member)
     return PlacedHinge(
@@ -322,7 +322,7 @@ def _placed(structure: Structure, place: HingePlace, share: float, stretch: floa
     )
 
 
-def _direction(structure: Structure, place: HingePlace) -> Floats:
+def _direction(structure: StructureParts, place: HingePlace) -> Floats:
     """Axis of a hinge at the start; a round section has none of its own and takes the plane of bending's."""
     axis = structure.frame_of(place.member).axis(place.axis)
     normal = structure.bending_normal

@@ -1,0 +1,156 @@
+"""Two fidelities of one structure, and curves from elsewhere: what agrees, what does not, whom to believe."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from crumple.comparison.cautions.trust import trust_of
+from crumple.comparison.comparison import Comparison, Opening, Source
+from crumple.comparison.measure.metrics import HingeComparison, compared, metrics_of
+from crumple.comparison.measure.motion import Measured, channel_motions, measured, member_sections
+from crumple.comparison.measure.sections import at_times
+from crumple.comparison.rating.curve_file import CurveFile
+from crumple.comparison.rating.pairing import TELLING, pairs_of
+from crumple.comparison.rating.signal import member_signals, signals_of
+from crumple.errors import InputError, Problem
+from crumple.result import Result
+from crumple.structure import PlacedHinge, Structure, placed_hinges
+
+SAME_TIME = 1e-9
+"""Share of the run below which two shapes are of one time: rounding, far below any output interval."""
+
+
+def compare(
+    candidate: Result,
+    reference: Result,
+    structure: Structure,
+    *,
+    variants: Mapping[str, Result] | None = None,
+    curves: Sequence[CurveFile] = (),
+) -> Comparison:
+    """Compare two results of one structure, and any curves, with each other.
+
+    Parameters
+    ----------
+    candidate
+        The answer that is judged, as a rule multibody.
+    reference
+        What it is judged by, as a rule shell; its hinges are measured in its shapes, so it needs states.
+    structure
+        Of both.
+    variants
+        Further candidates by name.
+    curves
+        Measured curves or those of other codes; columns are paired with histories of the same name.
+
+    Returns
+    -------
+    Comparison
+        Pure data.
+
+    Raises
+    ------
+    InputError
+        If a result holds no histories at all.
+
+    References
+    ----------
+    Definitions in docs/theory/comparison.md.
+    """
+    hinges = placed_hinges(structure)
+    names = _names(candidate, reference, variants or {})
+    results = (candidate, *(variants or {}).values(), reference)
+    sources = [_source(name, result, structure, hinges) for name, result in zip(names, results, strict=True)]
+    first, others, last = sources[0], tuple(sources[1:-1]), sources[-1]
+    until = min(float(source.result.time[-1]) for source in (first, last))
+    short = {source.name: _until(source, until) for source in sources}
+    tables = {name: _hinges(short[name], short[last.name]) for name in (s.name for s in (first, *others))}
+    pairs = pairs_of((first.name, first.signals), (last.name, last.signals))
+    for s in others:
+        pairs += pairs_of((s.name, s.signals), (last.name, last.signals), ranks=TELLING)
+    unpaired = {}
+    for curve in curves:
+        known = {c for source in sources for c in source.signals}
+        unpaired[curve.name] = tuple(c for c in curve.signals if c not in known)
+        pairs += [p for s in sources for p in pairs_of((s.name, s.signals), (curve.name, curve.signals))]
+    opened = {name: openings(source) for name, source in short.items()}
+    found = Comparison(
+        title=candidate.title or reference.title,
+        candidate=first,
+        reference=last,
+        variants=others,
+        curves=tuple(curves),
+        hinges=tables[first.name],
+        variant_hinges={s.name: tables[s.name] for s in others},
+        pairs=tuple(pairs),
+        unpaired=unpaired,
+        opened=opened,
+        until=until,
+    )
+    return replace(found, trust=trust_of(found, structure))
+
+
+def _names(candidate: Result, reference: Result, variants: Mapping[str, Result]) -> list[str]:
+    """Names of the sources: fidelities where they differ."""
+    first, last = candidate.fidelity, reference.fidelity
+    if first == last:
+        first, last = f"{first} (judged)", f"{last} (reference)"
+    return [first, *variants, last]
+
+
+def _source(name: str, result: Result, structure: Structure, hinges: Sequence[PlacedHinge]) -> Source:
+    result = _distinct(result)
+    if not result.time.size:
+        what = f"the {name} result holds no histories"
+        raise InputError(Problem(what, result.status.value, "a run that got past its start", result.reason))
+    if result.fidelity == "multibody":
+        sections = member_sections(result, structure)
+        seen = Measured(sections, (), tuple(channel_motions(result, hinges, sections)), ())
+    else:
+        seen = measured(result, structure, hinges)
+    members = member_signals(structure, seen.sections)
+    signals = signals_of(result, seen.hinges, members)
+    return Source(name, result, seen.hinges, seen.extra, signals)
+
+
+def _distinct(result: Result) -> Result:
+    """The same result with one shape for each time: two that rounding alone tells apart have no rate."""
+    times = np.zeros(0) if result.states is None else result.states.times
+    if result.states is None or times.size < 2:
+        return result
+    apart = np.diff(times, prepend=-np.inf) > SAME_TIME * float(times[-1] - times[0])
+    return result if apart.all() else replace(result, states=at_times(result.states, times[apart]))
+
+
+def _until(source: Source, end: float) -> Source:
+    """The same source with the motion of its hinges up to a time [s]."""
+    return replace(
+        source,
+        hinges=tuple(motion.until(end) for motion in source.hinges),
+        extra=tuple(motion.until(end) for motion in source.extra),
+    )
+
+
+def _hinges(first: Source, second: Source) -> tuple[HingeComparison, ...]:
+    """Hinges of the candidate, each with the reference's, then folds that have none."""
+    names = list(dict.fromkeys(m.name for s in (first, second) for m in (*s.hinges, *s.extra)))
+    found = []
+    for name in names:
+        a, b = first.hinge(name), second.hinge(name)
+        place = a or b
+        if place is not None:
+            found.append(compared(place, a, b))
+    return tuple(found)
+
+
+def openings(source: Source) -> tuple[Opening, ...]:
+    """Hinges and folds of one source that opened, first things first."""
+    found = []
+    for motion in (*source.hinges, *source.extra):
+        time = metrics_of(motion, ()).opened if motion.time.size else None
+        if time is not None and motion.fold:
+            found.append(Opening(motion.name, motion.member, motion.station, time))
+    return tuple(sorted(found, key=lambda opening: opening.time))

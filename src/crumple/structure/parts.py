@@ -1,0 +1,137 @@
+"""The parts of a structure, each valid by itself, and what follows from them: what checks and hinges see."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import cached_property
+
+import numpy as np
+
+from crumple.material import Material
+from crumple.numeric.arrays import Floats
+from crumple.section import Axis, Section
+from crumple.structure.geometry import Frame, frame_of, plane_normal
+from crumple.structure.keys.joint import Joint
+from crumple.structure.keys.law import LawSpec
+from crumple.structure.keys.load import Load, Mass, NodalImpulse
+from crumple.structure.keys.material import MaterialSpec
+from crumple.structure.keys.member import Member, OnlyAutomatic
+from crumple.structure.keys.motion import InitialVelocity, Support
+from crumple.structure.keys.obstacles import MemberContact, ObstacleSpec
+from crumple.structure.keys.section import SectionSpec
+from crumple.structure.keys.spot_welds import SpotWelds
+from crumple.structure.schema.mapping import FrozenMapping
+from crumple.structure.schema.quantity import Acceleration, Position
+from crumple.structure.schema.spec import Named, Spec
+
+
+class StructureParts(Spec):
+    """Nodes joined by members, held by supports, loaded by masses and motion; not yet checked as a whole.
+
+    Every part is plain data in SI; ``section``, ``material`` and ``frame`` give what follows from it.
+    """
+
+    materials: Named[MaterialSpec] = FrozenMapping()
+    """Materials by name."""
+    sections: Named[SectionSpec] = FrozenMapping()
+    """Cross-sections by name."""
+    nodes: Named[Position] = FrozenMapping()
+    """Positions by node name."""
+    members: Named[Member] = FrozenMapping()
+    """Members by name."""
+    joints: Named[Joint] = FrozenMapping()
+    """Joints between members' ends and their nodes, by name; every other end is joined rigidly."""
+    spot_welds: Named[SpotWelds] = FrozenMapping()
+    """Spot welds of members with members, or along the weld lines of members' own sections, by name."""
+    hinges: OnlyAutomatic | None = None
+    """`auto`: candidate hinges, wherever a fold can form, in every member that has no hinges of its own."""
+    hinge_laws: Named[LawSpec] = FrozenMapping()
+    """Hinge laws by name."""
+    supports: Named[Support] = FrozenMapping()
+    """Supports by name."""
+    masses: Named[Mass] = FrozenMapping()
+    """Lumped masses by name."""
+    initial_velocity: tuple[InitialVelocity, ...] = ()
+    """Velocity fields at the start; they add up."""
+    impulses: tuple[NodalImpulse, ...] = ()
+    """Impulses at the start."""
+    loads: tuple[Load, ...] = ()
+    """Forces and moments."""
+    gravity: tuple[Acceleration, Acceleration, Acceleration] = (0.0, 0.0, 0.0)
+    """Acceleration of free fall."""
+    obstacles: Named[ObstacleSpec] = FrozenMapping()
+    """What the structure can hit, by name."""
+    member_contact: MemberContact | None = None
+    """Contact of members with members that share no node; without it they pass through each other in the
+    multibody model, while shells have `analysis.shell.self_contact`."""
+
+    def section_of(self, member: str) -> Section:
+        """Cross-section of a member."""
+        return self.sections[self.members[member].section].section(self.materials)
+
+    def material_of(self, member: str) -> Material:
+        """Material of a member."""
+        name = self.members[member].material
+        return self.materials[name].material(name)
+
+    def flexural_rigidity(self, member: str, axis: Axis) -> float:
+        """Bending stiffness E I of a member about a section axis [N m^2], walls of other metals by theirs."""
+        section, material = self.section_of(member), self.material_of(member)
+        if any(wall.material is not None for wall in getattr(section, "walls", ())):
+            from crumple.section import walls_of  # noqa: PLC0415  (tubes need none of it)
+
+            angle = 0.0 if axis == "y" else math.pi / 2.0
+            return material.youngs_modulus * walls_of(section).transformed(material).second_moment(angle)
+        return material.youngs_modulus * section.second_moment(axis)
+
+    def has_line(self, member: str) -> bool:
+        """Whether a member's nodes exist and its axes are defined; always so in a sound structure."""
+        if member not in self.members or not all(node in self.nodes for node in self.members[member].nodes):
+            return False
+        try:
+            self.frame_of(member)
+        except ValueError:
+            return False
+        return True
+
+    def frame_of(self, member: str) -> Frame:
+        """Origin, axes and length of a member at the start."""
+        spec = self.members[member]
+        first, second = (self.nodes[name] for name in spec.nodes)
+        return frame_of(first, second, up=spec.up, roll=spec.roll)
+
+    @property
+    def mass_of_members(self) -> float:
+        """Mass of all members, without lumped masses [kg]."""
+        return sum(
+            self.section_of(name).mass_per_length(self.material_of(name).density) * self.frame_of(name).length
+            for name in self.members
+        )
+
+    @cached_property
+    def bending_normal(self) -> tuple[float, float, float] | None:
+        """Normal of the plane in which it bends; None where nothing says so."""
+        ends = dict.fromkeys(node for member in self.members.values() for node in member.nodes)
+        points = np.array([self.nodes[node] for node in ends if node in self.nodes], float)
+        normal = plane_normal(points, self._turning_and_pushing())
+        # a tuple: kept beside the fields, where an array would spoil the comparison of two structures
+        return None if normal is None else (float(normal[0]), float(normal[1]), float(normal[2]))
+
+    def _turning_and_pushing(self) -> Iterator[tuple[Floats, Floats]]:
+        """Axis and direction of all that bends a straight structure, strongest reason first; zero: none."""
+        none = np.zeros(3)
+        for field in self.initial_velocity:
+            turns = field.axis is not None and field.rotation
+            yield np.asarray(field.axis, float) if turns else none, np.asarray(field.translation, float)
+        for impulse in self.impulses:
+            yield np.asarray(impulse.angular_impulse, float), np.asarray(impulse.impulse, float)
+        for load in self.loads:
+            moment, force = (
+                [getattr(part, axis) is not None for axis in "xyz"] for part in (load.moment, load.force)
+            )
+            yield np.array(moment, float), np.array(force, float)
+        for support in self.supports.values():
+            turned, pushed = ([f"{kind}{axis}" in support.driven for axis in "xyz"] for kind in ("r", ""))
+            yield np.array(turned, float), np.array(pushed, float)
+        yield none, np.asarray(self.gravity, float)
