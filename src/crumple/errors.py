@@ -70,6 +70,7 @@ class Status(Enum):
 
     COMPLETE = "complete"
     RESIDUAL_EXCEEDED = "ended, but the energy residual passed its bound: do not trust this result"
+    IMPOSSIBLE = "ended, but the result breaks a law of mechanics: do not trust it"
     STEP_COLLAPSED = "stopped: the time step fell below its minimum"
     NOT_CONVERGED = "stopped: the step's equations did not converge"
     NOT_FINITE = "stopped: a state became infinite or not a number"

@@ -133,12 +133,17 @@ def _show(result: Result, folder: Path) -> None:
     from rich.console import Console
     from rich.text import Text
 
+    from crumple.result import sentences
     from crumple.units import format_quantity
 
     console = Console(highlight=False)
     console.print(Text(result.title, style="bold"))
     status = result.status.value + (f": {result.reason}" if result.reason else "")
     console.print(Text(f"Status: {status}", style="green" if result.status.ok else "bold red"))
+    # what breaks a law is the reason of the status
+    first = sentences(caution for caution in result.cautions if not caution.violation)
+    for caution in first:
+        console.print(Text(f"Caution: {caution}", style="bold yellow"))
     if result.hinges:
         console.print(_hinge_table(result))
     if len(result.hinges) > MOST_HINGES:
@@ -148,6 +153,8 @@ def _show(result: Result, folder: Path) -> None:
         f"solved in {format_quantity(result.solve_seconds, 's', 3)}"
     )
     for warning in result.warnings:
+        if warning in first:
+            continue
         console.print(Text(f"Warning: {warning}", style="yellow"))
     console.print(Text(f"Results: {folder}  (open {folder / 'report.html'})"), soft_wrap=True)
 

@@ -25,12 +25,13 @@ from crumple.multibody.bodies.linkage import link
 from crumple.multibody.checks import trust
 from crumple.multibody.checks.collapse import changed_capacities, collapse_log, not_unique
 from crumple.multibody.checks.infinitesimal import infinitesimal
+from crumple.multibody.checks.physics import physics_cautions
 from crumple.multibody.kernel_choice import why_spatial
 from crumple.multibody.planar.solver import TreeSolver
 from crumple.multibody.run import CHECK_FACTOR, Cancel, Progress, Run, outcome_status, picture_times, poll_of
 from crumple.multibody.spatial.solver import SpaceSolver
 from crumple.numeric.arrays import Floats
-from crumple.result import Provenance, Result, missing_pictures
+from crumple.result import Provenance, Result, missing_pictures, sentences
 from crumple.structure import Structure, any_automatic, placed_hinges
 
 
@@ -77,9 +78,11 @@ def solve_multibody(
         rough = solver.run(accuracy, poll, ends_only=True)
         if rough.outcome is Outcome.CANCELLED:
             solved = replace(solved, outcome=rough.outcome, reason=rough.reason)
-    errors = np.array(
-        [abs(a.rotation_max - b.rotation_max) for a, b in zip(rough.hinges, solved.hinges, strict=True)]
-    )
+    errors = None
+    if solved.outcome is Outcome.COMPLETE and rough.outcome is Outcome.COMPLETE:
+        errors = np.array(
+            [abs(a.rotation_max - b.rotation_max) for a, b in zip(rough.hinges, solved.hinges, strict=True)]
+        )
     doubt = _doubt(structure, run, solver, rough, cancel)
     seconds = time.perf_counter() - begin
     return _result(structure, run, solver, solved, errors=errors, doubt=doubt, seconds=seconds)
@@ -117,7 +120,7 @@ def _result(
     solver: Solver,
     solved: Solved,
     *,
-    errors: Floats,
+    errors: Floats | None,
     doubt: str | None,
     seconds: float,
 ) -> Result:
@@ -126,6 +129,10 @@ def _result(
     if status is Status.RESIDUAL_EXCEEDED:
         cause = infinitesimal(link(structure, solver.hinges))
         reason = f"{reason}. {cause}" if cause else reason
+    cautions = physics_cautions(structure, solved)
+    if status.ok and any(caution.violation for caution in cautions):
+        status = Status.IMPOSSIBLE
+        reason = " ".join(sentences(caution for caution in cautions if caution.violation))
     wanted = [
         *node_channels(structure, solved.poses, run.outputs.nodes),
         *section_channels(structure, solved.poses, run.outputs),
@@ -151,7 +158,9 @@ def _result(
         states=states_of(structure, solved.poses, picture_times(run)),
         energy_residual=solved.residual,
         solve_seconds=seconds,
+        cautions=cautions,
         warnings=(
+            *sentences(caution for caution in cautions if not caution.violation),
             *trust.warnings(structure, hinges, solved),
             *([doubt] if doubt else []),
             *missing_pictures(run.outputs.pictures, float(solved.time[-1])),

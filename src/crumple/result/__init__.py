@@ -1,5 +1,6 @@
 """The result room: what a run answered, how to filter it, and how it is stored."""
 
+from crumple.result.caution import Caution, sentences
 from crumple.result.filters import ChannelClass, Standard, cfc
 from crumple.result.pictures import missing_pictures
 from crumple.result.result import (
@@ -16,6 +17,7 @@ from crumple.result.store import read, write
 from crumple.result.summary import summary, summary_json
 
 __all__ = [
+    "Caution",
     "Channel",
     "ChannelClass",
     "HingeSummary",
@@ -29,6 +31,7 @@ __all__ = [
     "cfc",
     "missing_pictures",
     "read",
+    "sentences",
     "summary",
     "summary_json",
     "write",

@@ -12,6 +12,7 @@ import numpy as np
 
 from crumple.errors import InputError, Problem, Status
 from crumple.numeric.arrays import Floats, Integers
+from crumple.result.caution import Caution
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -231,6 +232,9 @@ class Result:
     """Plastic rotation from which a hinge counts as open [rad]."""
     stages: tuple[StageSummary, ...] = ()
     """Stages in their order, as far as the run came; empty where the analysis has none."""
+    cautions: tuple[Caution, ...] = ()
+    """Checks that the result did not pass.  The sentences of violations are the reason, of others the first
+    warnings."""
 
     def __getitem__(self, name: str) -> Floats:
         """Values of one channel, shape (n_times,); KeyError with the nearest names when there is none."""

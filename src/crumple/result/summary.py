@@ -52,6 +52,10 @@ def summary(result: Result) -> dict[str, Any]:
         "outputs": outputs,
         "collapse": [asdict(opening) for opening in result.collapse],
         "collapse_threshold": result.collapse_threshold,
+        "cautions": [
+            {"code": c.code, "value": c.value, "limit": c.limit, "unit": c.unit, "place": c.place}
+            for c in result.cautions
+        ],
         "warnings": result.warnings,
         "assumptions": result.assumptions,
         "provenance": {

@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crumple.errors import Status
+from crumple.result.caution import Caution
 from crumple.result.result import (
     Channel,
     HingeSummary,
@@ -163,6 +164,7 @@ def _write_rest(group: h5py.Group, result: Result, field_names: FieldNames) -> N
         "collapse_threshold": result.collapse_threshold,
         "channels": [[key, channel.name, channel.unit] for key, channel in channels],
         "hinges": hinges,
+        "cautions": [asdict(caution) for caution in result.cautions],
         "stages": [asdict(stage) for stage in result.stages],
         "member_names": None if result.states is None else result.states.member_names,
         "fields": field_names,
@@ -238,6 +240,7 @@ def read_vtkhdf(file: h5py.File) -> Result:
         # absent from files of before there were any
         collapse=tuple(Opening(**opening) for opening in text.get("collapse", ())),
         collapse_threshold=text.get("collapse_threshold", 0.0),
+        cautions=tuple(Caution(**caution) for caution in text.get("cautions", ())),
         stages=tuple(StageSummary(**stage) for stage in text.get("stages", ())),
     )
 

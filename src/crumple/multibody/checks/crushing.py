@@ -17,7 +17,9 @@ from crumple.hinge import Freedom, axial_law_types, build_axial_law
 from crumple.multibody.answer.forces import on_second
 from crumple.multibody.answer.poses import SpacePoses
 from crumple.multibody.answer.solved import Solved
+from crumple.multibody.checks.names import named
 from crumple.numeric.rotation import turned
+from crumple.result import Caution
 from crumple.section import plastic_interaction
 from crumple.structure import Structure
 
@@ -25,37 +27,40 @@ ALONG = np.cos(np.radians(30.0))
 """Cosine of the angle between a blow and a member's axis from which it counts as bending, not crushing."""
 
 
-def crushing_warnings(structure: Structure, solved: Solved, *, struck: bool) -> list[str]:
-    """A sentence for every member that would fold along its axis, and cannot in this model.
+def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> Iterator[Caution]:
+    """Every member that would fold along its axis, and cannot in this model.
 
     Parameters
     ----------
     structure, solved
-        What was solved, and how it went.  Without forces, from the planar kernel, there are no sentences.
+        What was solved, and how it went.  Without forces, from the planar kernel, there are none.
     struck
         Whether impacts took most of the energy.
     """
     found: dict[str, float] = {}
     for member, force in (*_at_hinges(structure, solved), *(_blows(structure, solved) if struck else ())):
         found[member] = max(force, found.get(member, 0.0))
-    texts = []
-    known: dict[tuple[object, object], tuple[str, float]] = {}
+    alike: dict[tuple[str, str], dict[str, float]] = {}
     for member, force in found.items():
         spec = structure.members[member]
-        kind = (spec.section, spec.material)
-        if kind not in known:
-            known[kind] = _folding(structure, member)
-        law, peak = known[kind]
-        if force <= peak:
+        alike.setdefault((spec.section, spec.material), {})[member] = force
+    for members in alike.values():
+        law, peak = _folding(structure, next(iter(members)))
+        beyond = {member: force for member, force in members.items() if force > peak}
+        if not beyond:
             continue
+        one = len(beyond) == 1
+        it = "it" if one else "them"
         what = f"by the law {law}" if law else "the squash load"
-        ask = law or "superfolding"
-        texts.append(
-            f"Member {member} carries up to {force / 1e3:.4g} kN along its axis, and {peak / 1e3:.4g} kN "
-            f"fold its walls ({what}), but nothing in it can shorten: axial folding is not modelled. Give it "
-            f"hinges with 'axial: {{law: {ask}}}', or solve with shells."
+        text = (
+            f"{named('Member', list(beyond))} {'carries' if one else 'carry'} up to "
+            f"{max(beyond.values()) / 1e3:.4g} kN along {'its axis' if one else 'their axes'}, and "
+            f"{peak / 1e3:.4g} kN fold the walls ({what}), but nothing in {it} can shorten: axial folding "
+            f"is not modelled. Give {it} hinges with 'axial: {{law: {law or 'superfolding'}}}', or solve with "
+            "shells."
         )
-    return texts
+        for member, force in beyond.items():
+            yield Caution("axial_compression", force, peak, "N", f"member {member}", text)
 
 
 def _at_hinges(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:

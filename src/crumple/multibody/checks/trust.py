@@ -11,9 +11,10 @@ from crumple.multibody.answer.solved import Solved, Solver
 from crumple.multibody.bodies.linkage import link
 from crumple.multibody.bodies.mobility import free_parts
 from crumple.multibody.checks.broken import broken_warnings
-from crumple.multibody.checks.crushing import crushing_warnings
 from crumple.multibody.checks.held_parts import held_part_warnings
+from crumple.multibody.checks.names import named, shown
 from crumple.multibody.checks.overlap import overlap_warnings
+from crumple.multibody.checks.physics import energy_put_in
 from crumple.result import HingeSummary
 from crumple.structure import PlacedHinge, Structure
 
@@ -25,14 +26,10 @@ ERROR_SHARE = 0.01
 """Estimated error of a rotation over the largest rotation above which an engineer must know."""
 SMALL_ERROR = 1e-5
 """Estimated error [rad] that matters to nobody, however small the rotations are."""
-STRUCK_SHARE = 0.5
-"""Energy lost in impacts over all that was put in above which rigid bodies, not hinges, gave the answer."""
 SLOW_SHARE = 0.05
 """Energy taken out of the motion over that in the structure above which a stage is not quasi-static."""
 OFF_AXIS = 0.5
 """Angle [deg] between a hinge's axis and the plane's normal above which the bending across it counts."""
-MOST_NAMES = 6
-"""Hinges that a warning names one by one."""
 SOFTENING = {
     SofteningVariable.PEAK: "the largest plastic rotation in each sense (bent back, it stays weak)",
     SofteningVariable.ROTATION: "the present plastic rotation (bent back, it regains its strength)",
@@ -79,7 +76,7 @@ def _carries(structure: Structure, hinges: list[PlacedHinge]) -> str:
     rate = ", raised with the strain rate" if math.isfinite(records[0].rate_reference) else ""
     curve = f"run{'s' if len(hinges) == 1 else ''} on {SOFTENING[records[0].softening_variable]}"
     if len(hinges) > 1:
-        names = _shown([hinge.name for hinge in hinges])
+        names = shown([hinge.name for hinge in hinges])
         return f"{len(hinges)} hinges ({names}) are {form.format('their')}{rate}; their curves {curve}."
     (hinge,) = hinges
     first = structure.members[hinge.member].nodes[0]
@@ -114,7 +111,7 @@ def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solv
             by_text.setdefault(text, []).append(hinge.name)
     for text, names in by_text.items():
         turned = _span([math.degrees(hinges[name].rotation_max) for name in names], 3)
-        found.append(f"{_named(names)}: {text.format(turned=turned)}")
+        found.append(f"{named('Hinge', names)}: {text.format(turned=turned)}")
     found += broken_warnings(solved.hinges)
     found += overlap_warnings(structure, tuple(placed))
     found += held_part_warnings(structure, solved)
@@ -131,15 +128,14 @@ def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solv
             "at the start: the given motion does not fit the supports and hinges."
         )
     stored = sum(_elastic_limit(structure, hinge, hinges[hinge.name]) for hinge in placed)
-    total = max(kinetic, solved.given - solved.lost) + float(abs(solved.energy["external_work"]).max())
+    total = energy_put_in(solved)
     if total > 0.0 and stored > ELASTIC_SHARE * total:
         found.append(
             f"The bars are rigid, but the members could store up to {stored:.3g} J elastically "
             f"({_share(stored / total)}): rotations lack the elastic part and the plastic ones are "
             "too large; use form elastic-plastic."
         )
-    struck = _struck(solved, total)
-    found += [*struck, *crushing_warnings(structure, solved, struck=bool(struck)), *_slowed(solved)]
+    found += _slowed(solved)
     if solved.forced:
         found.append(f"{solved.forced} steps were taken at the smallest step without meeting the accuracy.")
     return tuple(found)
@@ -148,17 +144,6 @@ def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solv
 def _share(part: float) -> str:
     """A share of the energy put in, in words where it is more than all of it."""
     return f"{part:.0%} of the energy" if part <= 1.0 else "more than all that was put in"
-
-
-def _struck(solved: Solved, total: float) -> list[str]:
-    """Energy [J] that impacts took, where it is most of all that was put in."""
-    vanished = float(solved.energy.get("contact", np.zeros(1))[-1])
-    if vanished <= STRUCK_SHARE * total:
-        return []
-    return [
-        f"{vanished:.4g} J of the {total:.4g} J put in vanish in impacts between rigid bodies, which keep no "
-        "elastic energy and do not fold where they are hit; shells show where it goes."
-    ]
 
 
 def _slowed(solved: Solved) -> list[str]:
@@ -183,10 +168,9 @@ def _of_hinge(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -
     law = hinge.law
     found = [text.replace("{", "{{").replace("}", "}}") for text in law.validity.warnings]
     turned = "turned by {turned} deg"
-    if law.jamming_angle is not None and summary.rotation_max > law.jamming_angle:
-        jams = math.degrees(law.jamming_angle)
-        found.append(f"{turned}; the walls jam at {jams:.1f} deg, and what follows is a guess")
-    elif summary.rotation_max > law.validity.rotation_max:
+    jammed = law.jamming_angle is not None and summary.rotation_max > law.jamming_angle
+    # a closed fold is a caution of its own
+    if not jammed and summary.rotation_max > law.validity.rotation_max:
         backed = math.degrees(law.validity.rotation_max)
         basis = law.validity.basis.replace("{", "{{").replace("}", "}}")
         found.append(f"{turned}; the law is backed up to {backed:.1f} deg only ({basis})")
@@ -211,16 +195,6 @@ def _inaccurate(hinges: dict[str, HingeSummary], largest: float) -> list[str]:
         f"The rotations of {number} of {len(errors)} hinges err by up to {math.degrees(worst):.2g} deg "
         "(estimated): ask for a tighter accuracy."
     ]
-
-
-def _named(names: list[str]) -> str:
-    """Hinges of a sentence: all names while they are few."""
-    return f"Hinge {names[0]}" if len(names) == 1 else f"Hinges {_shown(names)}"
-
-
-def _shown(names: list[str]) -> str:
-    few = len(names) <= MOST_NAMES
-    return ", ".join(names if few else [*names[: MOST_NAMES - 1], f"{len(names) - MOST_NAMES + 1} more"])
 
 
 def _elastic_limit(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -> float:

@@ -51,7 +51,7 @@ def peak():
 def test_a_column_pressed_beyond_its_folding_force_is_named(peak):
     (text,) = about(column(1.1 * peak))
     assert text.startswith(f"Member ab carries up to {1.1 * peak / 1e3:.4g} kN along its axis")
-    assert f"{peak / 1e3:.4g} kN fold its walls (by the law square)" in text
+    assert f"{peak / 1e3:.4g} kN fold the walls (by the law square)" in text
     assert "'axial: {law: square}'" in text
     assert about(column(0.9 * peak)) == []
     # tension folds nothing, and what can shorten needs no warning

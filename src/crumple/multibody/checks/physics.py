@@ -1,0 +1,292 @@
+"""Results that cannot be: laws of mechanics that a run broke, and states that its members cannot carry.
+
+A violation (dissipation that falls, a rebound that nothing pays for) ends a run with a status.  A caution is
+read before the result: forces that no wall carries, speeds that the energy does not explain, energy that
+vanished where bodies are rigid, folds that are closed.  Formulas and limits: docs/theory/result_checks.md.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from crumple.hinge import Freedom
+from crumple.multibody.answer.forces import on_second
+from crumple.multibody.answer.poses import SpacePoses
+from crumple.multibody.answer.solved import HingeHistory, Solved
+from crumple.multibody.bodies.rigid import lump_mass, piece_mass
+from crumple.multibody.checks.crushing import crushing_cautions
+from crumple.multibody.checks.names import named
+from crumple.numeric.arrays import Floats
+from crumple.numeric.rotation import turned
+from crumple.result import Caution
+from crumple.section import plastic_interaction
+from crumple.structure import Structure
+from crumple.units import format_quantity
+
+FALL = 1e-3
+"""Fall of a dissipated energy over the energy put in that counts: the bound of the energy residual, so that
+what the ledger may leave open is no violation."""
+REBOUND = 0.1
+"""Energy of an obstacle's rebound over its energy at the start that nothing has to pay for: the elastic
+rebound of metal structures, which rigid bars lack, takes less."""
+FAST = 4.0
+"""Speed of a node over the reference speed.  A light part struck by a heavy one at most doubles its speed, a
+lever doubles that again."""
+IMPACT = 0.1
+"""Energy lost in rigid impacts over the energy put in, from which it is told."""
+STRUCK = 0.5
+"""The same share from which the blow itself, a mean between outputs, is held against what folds a member."""
+
+
+def energy_put_in(solved: Solved) -> float:
+    """Energy of the motion at the start, and the largest external work [J]."""
+    kinetic = float(solved.energy["kinetic"][0])
+    return max(kinetic, solved.given - solved.lost) + float(np.abs(solved.energy["external_work"]).max())
+
+
+def physics_cautions(structure: Structure, solved: Solved) -> tuple[Caution, ...]:
+    """Every check of a multibody run that failed.
+
+    Parameters
+    ----------
+    structure, solved
+        What was solved, and how it went.
+    """
+    if len(solved.time) < 2:
+        return ()
+    total = energy_put_in(solved)
+    struck = _lost_in_impacts(solved) > STRUCK * total
+    return (
+        *falling_energies(solved, total),
+        *rebounds(structure, solved),
+        *tensions(structure, solved),
+        *crushing_cautions(structure, solved, struck=struck),
+        *fast_nodes(structure, solved, total),
+        *impact_losses(solved, total),
+        *jammed_folds(solved),
+        *closed_crush_zones(solved),
+    )
+
+
+def falling_energies(solved: Solved, total: float) -> Iterator[Caution]:
+    """Energies that only rise, and fell: of every hinge, of friction."""
+    rising = {f"hinge {history.hinge.name}": history.values("energy") for history in solved.hinges}
+    rising |= {name: solved.energy[name] for name in ("friction",) if name in solved.energy}
+    for place, values in rising.items():
+        fall = largest_fall(values)
+        if fall > FALL * total:
+            yield Caution(
+                "dissipation_falls",
+                fall,
+                FALL * total,
+                "J",
+                place,
+                f"The energy that {place} has dissipated falls by {format_quantity(fall, 'J', 3)}: "
+                "dissipated energy cannot come back.",
+                violation=True,
+            )
+
+
+def largest_fall(values: Floats) -> float:
+    """Largest fall of a history below what it had reached, with zero before its start."""
+    reached = np.maximum.accumulate(np.concatenate([[0.0], values]))
+    return float((reached[1:] - values).max())
+
+
+def rebounds(structure: Structure, solved: Solved) -> Iterator[Caution]:
+    """Masses that come back from an impact without restitution with energy that nothing gives them."""
+    kinetic = float(solved.energy["kinetic"][0])
+    given = float(np.abs(solved.energy["external_work"]).max()) + float(solved.energy["elastic"].max())
+    channels = {channel.name: channel.values for channel in solved.further}
+    for name, obstacle in structure.obstacles.items():
+        speed = float(np.linalg.norm(obstacle.velocity))
+        if obstacle.mass is None or obstacle.restitution > 0.0 or speed == 0.0:
+            continue
+        along = np.asarray(obstacle.velocity, float) / speed
+        velocity = np.column_stack([channels[f"obstacle.{name}.velocity.{axis}"] for axis in "xyz"])
+        back = max(float(-(velocity @ along).min()), 0.0)
+        own, returned = obstacle.mass * speed**2 / 2.0, obstacle.mass * back**2 / 2.0
+        limit = REBOUND * own + given + max(kinetic - own, 0.0)
+        if returned > limit:
+            yield Caution(
+                "rebound",
+                returned,
+                limit,
+                "J",
+                f"obstacle {name}",
+                f"Obstacle {name} rebounds at {format_quantity(back, 'm/s', 3)} with restitution 0: the "
+                f"structure has at most {format_quantity(limit, 'J', 3)} to give back, and the rebound has "
+                f"{format_quantity(returned, 'J', 3)}. Rigid members have passed the energy "
+                "on; solve with shells.",
+                violation=True,
+            )
+
+
+def tensions(structure: Structure, solved: Solved) -> Iterator[Caution]:
+    """Members pulled beyond yield of the whole section for two outputs in a row that cannot lengthen."""
+    pulled: dict[str, float] = {}
+    for member, force in axial_tensions(structure, solved):
+        pulled[member] = max(force, pulled.get(member, 0.0))
+    for member, force in pulled.items():
+        limit = plastic_interaction(structure.section_of(member), structure.material_of(member)).squash_force
+        if force > limit:
+            yield Caution(
+                "axial_tension",
+                force,
+                limit,
+                "N",
+                f"member {member}",
+                f"Member {member} is pulled by up to {force / 1e3:.4g} kN along its axis and yields in "
+                f"tension at {limit / 1e3:.4g} kN, but nothing in it can lengthen: the motion is that of a "
+                "rigid bar. Give it hinges with an axial law, or solve with shells.",
+            )
+
+
+def axial_tensions(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:
+    """Members and the largest axial tension [N] at a hinge without axial slip that stays for two outputs."""
+    poses = solved.poses
+    if not isinstance(poses, SpacePoses):
+        return
+    for i, connection in enumerate(poses.linkage.connections):
+        if connection.hinge is None or int(Freedom.AXIAL) in connection.free:
+            continue
+        axis = turned(poses.quaternion(connection.first), structure.frame_of(connection.hinge.member).x)
+        pulling = -np.einsum("ni,ni->n", on_second(poses, i).force, np.broadcast_to(axis, (len(axis), 3)))
+        yield connection.hinge.member, float(np.minimum(pulling[1:], pulling[:-1]).max())
+
+
+def fast_nodes(structure: Structure, solved: Solved, total: float) -> Iterator[Caution]:
+    """Nodes that move faster than anything that was put in explains."""
+    speeds = node_speeds(structure, solved)
+    channels = {channel.name: channel.values for channel in solved.further}
+    masses = [obstacle.mass for obstacle in structure.obstacles.values() if obstacle.mass is not None]
+    given = [
+        float(np.linalg.norm([channels[f"obstacle.{name}.velocity.{axis}"][0] for axis in "xyz"]))
+        if obstacle.mass is not None
+        else float(np.linalg.norm(obstacle.velocity))
+        for name, obstacle in structure.obstacles.items()
+    ]
+    start = max((float(speed[0]) for speed in speeds.values()), default=0.0)
+    moving = moving_mass(structure, solved) + sum(masses)
+    reference = max([start, *given, math.sqrt(2.0 * total / moving) if moving > 0.0 else 0.0])
+    if reference == 0.0:
+        return
+    found = {node: float(speed.max()) for node, speed in speeds.items() if speed.max() > FAST * reference}
+    if not found:
+        return
+    fastest = max(found.values())
+    text = (
+        f"{named('Node', list(found))} reach{'es' if len(found) == 1 else ''} up to "
+        f"{format_quantity(fastest, 'm/s', 3)}, {fastest / reference:.2g} times the "
+        f"{format_quantity(reference, 'm/s', 3)} of what moves at the start or of all masses together under "
+        "the energy put in: rigid members whip through a dead centre."
+    )
+    for node, speed in found.items():
+        yield Caution("node_speed", speed, FAST * reference, "m/s", f"node {node}", text)
+
+
+def node_speeds(structure: Structure, solved: Solved) -> Mapping[str, Floats]:
+    """Speed of every node over time [m/s], (n,)."""
+    poses = solved.poses
+    return {
+        node: np.linalg.norm(poses.place(poses.node_body[node], np.asarray(position, float))[1], axis=1)
+        for node, position in structure.nodes.items()
+        if node in poses.node_body
+    }
+
+
+def moving_mass(structure: Structure, solved: Solved) -> float:
+    """Mass of everything that is not part of the ground [kg]."""
+    poses = solved.poses
+    pieces = sum(
+        piece_mass(structure, member, piece.start, piece.end).mass
+        for member, pieces in poses.pieces.items()
+        for piece in pieces
+        if piece.body >= 0
+    )
+    lumps = [lump for lump in structure.masses.values() if poses.node_body[lump.node] >= 0]
+    return pieces + sum(lump_mass(structure, lump).mass for lump in lumps)
+
+
+def impact_losses(solved: Solved, total: float) -> Iterator[Caution]:
+    """Energy that impacts between rigid bodies took."""
+    lost = _lost_in_impacts(solved)
+    if lost > IMPACT * total:
+        yield Caution(
+            "impact_loss",
+            lost,
+            IMPACT * total,
+            "J",
+            "",
+            f"{lost:.4g} J of the {total:.4g} J put in ({lost / total:.0%}) vanish in impacts between rigid "
+            "bodies, which keep no elastic energy and do not fold where they are hit; shells show where it "
+            "goes.",
+        )
+
+
+def _lost_in_impacts(solved: Solved) -> float:
+    return float(solved.energy.get("contact", np.zeros(1))[-1])
+
+
+def jammed_folds(solved: Solved) -> Iterator[Caution]:
+    """Hinges turned beyond the rotation at which the walls of the fold touch."""
+    beyond: dict[float, list[HingeHistory]] = {}
+    for history in solved.hinges:
+        jams = history.hinge.law.jamming_angle
+        if jams is not None and history.rotation_max > jams:
+            beyond.setdefault(jams, []).append(history)
+    for jams, histories in beyond.items():
+        turned_by = _span([math.degrees(history.rotation_max) for history in histories])
+        names = named("Hinge", [history.hinge.name for history in histories])
+        text = (
+            f"{names} turned by {turned_by} deg; the walls jam at {math.degrees(jams):.1f} deg, and what "
+            "follows is a guess."
+        )
+        for history in histories:
+            yield Caution(
+                "beyond_jamming", history.rotation_max, jams, "rad", f"hinge {history.hinge.name}", text
+            )
+
+
+def closed_crush_zones(solved: Solved) -> Iterator[Caution]:
+    """Members that crushed until all their folds were closed: the stop of the stroke carries the force."""
+    for history in solved.hinges:
+        stroke, crushed = crush_stroke(history), crush_length(history)
+        if crushed is None or stroke is None or crushed <= stroke:
+            continue
+        yield Caution(
+            "bottomed_out",
+            crushed,
+            stroke,
+            "m",
+            f"hinge {history.hinge.name}",
+            f"Member {history.hinge.member} bottomed out at hinge {history.hinge.name}: it is crushed by "
+            f"{format_quantity(crushed, 'm', 3)}, and its folds are closed at "
+            f"{format_quantity(stroke, 'm', 3)}. The forces from then on are those of the stop.",
+        )
+
+
+def crush_length(history: HingeHistory) -> float | None:
+    """Largest shortening of a hinge that slips along its member [m]; None for all others."""
+    spatial = history.hinge.spatial
+    if spatial is None or Freedom.AXIAL not in spatial.freedoms:
+        return None
+    name = "rotation" if len(spatial.freedoms) == 1 else "slip.x.rotation"
+    return max(float(-history.values(name).min()), 0.0)
+
+
+def crush_stroke(history: HingeHistory) -> float | None:
+    """Shortening at which the folds of a hinge are closed [m]; None where nothing says so."""
+    spatial = history.hinge.spatial
+    if spatial is None or Freedom.AXIAL not in spatial.freedoms:
+        return None
+    stop = spatial.components[spatial.freedoms.index(Freedom.AXIAL)].record.stop_negative
+    return None if stop is None else stop.rotation
+
+
+def _span(values: list[float]) -> str:
+    """The one value of all, or the smallest and the largest."""
+    return " to ".join(dict.fromkeys(f"{value:.3g}" for value in (min(values), max(values))))
