@@ -35,6 +35,13 @@ template <class A> auto to_vector(const A& a) {
     return std::vector<T>(a.data(), a.data() + a.size());
 }
 
+// columns of a record by their names, all of one shape
+template <class R> nanobind::dict to_dict(const R& record, std::initializer_list<std::size_t> shape) {
+    nanobind::dict d;
+    R::each([&](const char* name, auto column) { d[name] = to_array(record.*column, shape); });
+    return d;
+}
+
 inline void require(bool ok, const char* what) {
     if (!ok) throw nanobind::value_error(what);
 }

@@ -61,10 +61,6 @@ std::vector<Twist> twists(const double* rows, size_t row, size_t bodies, bool& f
     return out;
 }
 
-void put(std::vector<double>& all, size_t row, const std::vector<double>& values) {
-    std::copy(values.begin(), values.end(), all.begin() + static_cast<std::ptrdiff_t>(row * values.size()));
-}
-
 void solve_row(const Variations& v, size_t row, double end, const Settings& settings,
                const std::function<bool(double)>& go_on, EndValues& out) {
     Model model = varied(v, row);
@@ -82,9 +78,10 @@ void solve_row(const Variations& v, size_t row, double end, const Settings& sett
     put(out.w, row, last.w);
     put(out.pose, row, last.pose);
     put(out.velocity, row, last.velocity);
-    put(out.hinge, row, last.hinge);
-    put(out.energy, row, last.energy);
-    put(out.summary, row, hinge_summary(simulation));
+    put_row(out.hinge, row, last.hinge);
+    put_row(out.hinge_energy, row, last.hinge_energy);
+    put_row(out.energy, row, last.energy);
+    put_row(out.summary, row, hinge_summary(simulation));
     out.residual[row] = record.residual;
     out.steps[row] = record.steps;
     out.outcome[row] = static_cast<int>(record.outcome);
@@ -97,9 +94,10 @@ EndValues sized(const Variations& v) {
     for (auto* column : {&out.time, &out.residual, &out.lost}) column->assign(n, 0.0);
     for (auto* column : {&out.q, &out.w}) column->assign(n * dofs, 0.0);
     for (auto* column : {&out.pose, &out.velocity}) column->assign(n * bodies * 3, 0.0);
-    out.hinge.assign(n * model.hinges.size() * hinge_columns, 0.0);
-    out.summary.assign(n * model.hinges.size() * summary_columns, 0.0);
-    out.energy.assign(n * 6, 0.0);
+    resize(out.hinge, n * model.hinges.size());
+    resize(out.hinge_energy, n * model.hinges.size());
+    resize(out.summary, n * model.hinges.size());
+    resize(out.energy, n);
     out.steps.assign(n, 0);
     out.outcome.assign(n, static_cast<int>(Outcome::cancelled));
     return out;

@@ -27,9 +27,10 @@ struct EndValues {
     std::vector<double> time, q, w;     // (count), (count, dofs)
     std::vector<double> pose;           // (count, bodies, 3): angle, x, y of the origin
     std::vector<double> velocity;       // (count, bodies, 3), at the centres of mass
-    std::vector<double> hinge;          // (count, hinges, hinge_columns)
-    std::vector<double> summary;        // (count, hinges, summary_columns)
-    std::vector<double> energy;         // (count, 6)
+    ComponentRecord<double> hinge;
+    HingeEnergyRecord<double> hinge_energy;
+    HingeSummary<double> summary;       // (count, hinges)
+    EnergyRecord<double> energy;
     std::vector<double> residual, lost; // (count); lost: energy that the joints took from the motion at the start
     std::vector<int64_t> outcome, steps;
 };

@@ -207,11 +207,24 @@ void Simulation::store(Record& r) const {
     for (size_t j = 0; j < state_.hinge.size(); j++) {
         const Hinge& hinge = model_.hinges[j];
         const HingeState& s = state_.hinge[j];
-        r.hinge.insert(r.hinge.end(), {s.plastic, s.total_moment, s.capacity, s.dissipated + s.damped + s.stop_dissipated,
-                                       elastic_energy(hinge, s), stop_energy(hinge, state_.q[static_cast<size_t>(hinge.dof)])});
+        const Real& rotation = state_.q[static_cast<size_t>(hinge.dof)];
+        r.hinge.rotation.push_back(rotation);
+        r.hinge.rate.push_back(state_.w[static_cast<size_t>(hinge.dof)]);
+        r.hinge.plastic.push_back(s.plastic);
+        r.hinge.moment.push_back(s.total_moment);
+        r.hinge.capacity.push_back(s.capacity);
+        r.hinge_energy.dissipated.push_back(s.dissipated + s.damped + s.stop_dissipated);
+        r.hinge_energy.elastic.push_back(elastic_energy(hinge, s));
+        r.hinge_energy.stop.push_back(stop_energy(hinge, rotation));
     }
     const Energies e = energies(model_, state_);
-    r.energy.insert(r.energy.end(), {e.kinetic, e.elastic, e.dissipated, e.damped, e.stop, e.external_work});
+    r.energy.kinetic.push_back(e.kinetic);
+    r.energy.elastic.push_back(e.elastic);
+    r.energy.dissipated.push_back(e.dissipated);
+    r.energy.damped.push_back(e.damped);
+    r.energy.stop.push_back(e.stop);
+    r.energy.external_work.push_back(e.external_work);
+    for (auto* none : {&r.energy.spring, &r.energy.contact, &r.energy.friction, &r.energy.slowed}) none->push_back(0.0);
     r.drive.insert(r.drive.end(), state_.drive_impulse.begin(), state_.drive_impulse.end());
 }
 
@@ -257,13 +270,18 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     return record;
 }
 
-std::vector<Real> hinge_summary(const Simulation& simulation) {
-    std::vector<Real> out;
+HingeSummary<Real> hinge_summary(const Simulation& simulation) {
+    HingeSummary<Real> out;
     const std::vector<HingeState>& states = simulation.state().hinge;
     for (size_t j = 0; j < states.size(); j++) {
         const HingeState& s = states[j];
-        out.insert(out.end(), {s.rotation_max, s.moment_max, s.rest_time, turning(simulation.model().hinges[j], s) ? 1.0 : 0.0,
-                               s.dissipated + s.damped + s.stop_dissipated});
+        out.rotation_max.push_back(s.rotation_max);
+        out.moment_max.push_back(s.moment_max);
+        out.rest_time.push_back(s.rest_time);
+        out.turning.push_back(turning(simulation.model().hinges[j], s) ? 1.0 : 0.0);
+        out.energy.push_back(s.dissipated + s.damped + s.stop_dissipated);
+        // hinges of a plane do not break, and when they open is not watched
+        for (auto* none : {&out.opening_time, &out.fracture_time, &out.fracture_moment}) none->push_back(NAN);
     }
     return out;
 }

@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "common/records.hpp"
 #include "planar/stepper.hpp"
 
 namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
-
-enum class Outcome { complete, step_collapsed, not_finite, cancelled, refused };
 
 struct Settings {
     double accuracy = 1e-3;      // allowed error of the motion, relative to the largest rotation
@@ -23,20 +22,15 @@ struct Record {
     std::vector<double> time;
     std::vector<Real> q, w;               // (n, dofs)
     std::vector<Real> pose, velocity;     // (n, bodies, 3): angle, x, y of the origin; of the centre of mass
-    std::vector<Real> hinge;              // (n, hinges, 6), see hinge_columns
-    std::vector<Real> energy;             // (n, 6): kinetic, elastic, dissipated, damped, stop, external work
+    ComponentRecord<Real> hinge;          // a component each
+    HingeEnergyRecord<Real> hinge_energy;
+    EnergyRecord<Real> energy;            // none of springs, contact, friction and quasi-static stages
     std::vector<Real> drive;              // (n, drives) [N or N m]
     Outcome outcome = Outcome::complete;
     std::string reason;
     double residual = 0;                   // largest |balance - start| over (start + largest external work)
     long steps = 0, rejected = 0, forced = 0, solves = 0;
 };
-
-// plastic rotation, moment, capacity, dissipated energy, elastic energy, stop energy
-constexpr int hinge_columns = 6;
-
-// largest absolute rotation, largest absolute moment, time of rest, 1 while still turning, dissipated energy
-constexpr int summary_columns = 5;
 
 class Simulation {
 public:
@@ -81,8 +75,8 @@ private:
     long poll_at_ = 0;  // work at which `poll` is asked next
 };
 
-// (hinges, summary_columns) at the present state
-std::vector<Real> hinge_summary(const Simulation& simulation);
+// at the present state
+HingeSummary<Real> hinge_summary(const Simulation& simulation);
 
 }  // namespace CRUMPLE_ARITHMETIC
 }  // namespace crumple::planar

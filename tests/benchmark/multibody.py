@@ -87,7 +87,7 @@ def cube_in_space() -> dict[str, float]:
             times.append(time.perf_counter() - begin)
             steps = run.steps
             error = (
-                float(np.linalg.norm(run.hinge_rotation[-1].reshape(-1, 3), axis=1).sum()) / M4_FIGURE - 1.0
+                float(np.linalg.norm(run.hinge.rotation[-1].reshape(-1, 3), axis=1).sum()) / M4_FIGURE - 1.0
             )
         best[name] = min(times)
         print(f"{name:20}  best {min(times) * 1e6:9.1f} us   {steps} steps   error {error:+.1e}")

@@ -22,11 +22,12 @@ from tests.support.multibody.space_models import m4_parts
 
 from crumple._core.planar import batch
 from crumple._core.spatial import batch as space_batch
+from crumple._core.variants import Variants
 
 COUNT, SPACE_COUNT, BOUND, REPEATS = 4000, 400, 10_000, 5
 
 
-def chains() -> batch.TreeVariants:
+def chains() -> Variants:
     """The chain turning as one, hinges and speed varied."""
     model = m2(10, error=1e-5).model
     rng = np.random.default_rng(1)
@@ -34,7 +35,7 @@ def chains() -> batch.TreeVariants:
     rate = 15.0 * rng.uniform(0.9, 1.1, (COUNT, 1))
     velocity = np.zeros((COUNT, 10, 3))
     velocity[:, :, 0], velocity[:, :, 2] = rate, rate * places
-    return batch.TreeVariants(
+    return Variants(
         [model],
         np.zeros(COUNT, np.int64),
         velocity,
@@ -42,12 +43,12 @@ def chains() -> batch.TreeVariants:
     )
 
 
-def frames() -> space_batch.SpaceVariants:
+def frames() -> Variants:
     """The frame with its ring thrown, hinges and speed varied."""
     model, velocity = m4_parts(error=1e-4)
     rng = np.random.default_rng(1)
-    return space_batch.SpaceVariants(
-        [space_batch.SpaceCase(model, (space_batch.SpaceStage(0.1),))],
+    return Variants(
+        [space_batch.StagedModel(model, (space_batch.SpatialStage(0.1),))],
         np.zeros(SPACE_COUNT, np.int64),
         velocity * rng.uniform(0.9, 1.1, (SPACE_COUNT, 1, 1, 1)),
         capacity_scale=rng.uniform(0.9, 1.1, (SPACE_COUNT, len(model.hinges))),

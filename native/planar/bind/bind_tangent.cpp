@@ -35,6 +35,13 @@ Array rows(const std::vector<Real>& values, size_t count) {
     return to_array(out, {count + 1, values.size()});
 }
 
+// the same of every column of a record
+template <class R> nb::dict rows_of(const R& record, size_t count) {
+    nb::dict d;
+    R::each([&](const char* name, auto column) { d[name] = rows(record.*column, count); });
+    return d;
+}
+
 nb::dict solve(Model& given, const std::vector<Model*>& up, const std::vector<Model*>& down, const Doubles& width,
                const In& velocity, const In& velocity_slopes, const In& impulse, const In& impulse_slopes,
                double end, double accuracy, double minimum_step, double maximum_step, nb::object poll) {
@@ -49,14 +56,17 @@ nb::dict solve(Model& given, const std::vector<Model*>& up, const std::vector<Mo
     simulation.set_motion(v.data(), blow.data());
     const Record record = unlocked(poll, [&](const auto& ask) { return simulation.run({end}, ask); });
     const Record last = simulation.present();
+    nb::dict ends;
+    ends["q"] = rows(last.q, count);
+    ends["w"] = rows(last.w, count);
+    ends["pose"] = rows(last.pose, count);
+    ends["velocity"] = rows(last.velocity, count);
+    ends["hinge"] = rows_of(last.hinge, count);
+    ends["hinge_energy"] = rows_of(last.hinge_energy, count);
+    ends["energy"] = rows_of(last.energy, count);
+    ends["summary"] = rows_of(hinge_summary(simulation), count);
     nb::dict d;
-    d["q"] = rows(last.q, count);
-    d["w"] = rows(last.w, count);
-    d["pose"] = rows(last.pose, count);
-    d["velocity"] = rows(last.velocity, count);
-    d["hinge"] = rows(last.hinge, count);
-    d["energy"] = rows(last.energy, count);
-    d["summary"] = rows(hinge_summary(simulation), count);
+    d["ends"] = ends;
     d["time"] = simulation.state().t;
     d["outcome"] = static_cast<int>(record.outcome);
     d["reason"] = record.reason;

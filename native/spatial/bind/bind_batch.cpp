@@ -25,21 +25,17 @@ void add_stage(Case& of, double duration, bool quasi_static, const std::vector<i
 }
 
 nb::dict to_dict(const EndValues& f, const Case& of, size_t n) {
-    const size_t bodies = of.model.bodies.size(), hinges = of.model.hinges.size(), components = n > 0 ? f.hinge_rate.size() / n : 0;
+    const size_t bodies = of.model.bodies.size(), hinges = of.model.hinges.size(), components = n > 0 ? f.hinge.rate.size() / n : 0;
     nb::dict d;
     d["time"] = to_array(f.time, {n});
     d["start"] = to_array(f.start, {n, bodies, 3});
     d["centre"] = to_array(f.centre, {n, bodies, 3});
     d["rotation"] = to_array(f.rotation, {n, bodies, 4});
     d["velocity"] = to_array(f.velocity, {n, bodies, 6});
-    d["hinge_rotation"] = to_array(f.hinge_rotation, {n, components});
-    d["hinge_rate"] = to_array(f.hinge_rate, {n, components});
-    d["hinge_plastic"] = to_array(f.hinge_plastic, {n, components});
-    d["hinge_moment"] = to_array(f.hinge_moment, {n, components});
-    d["hinge_capacity"] = to_array(f.hinge_capacity, {n, components});
-    d["hinge_energy"] = to_array(f.hinge_energy, {n, hinges, 3});
-    d["summary"] = to_array(f.summary, {n, hinges, static_cast<size_t>(summary_columns)});
-    d["energy"] = to_array(f.energy, {n, static_cast<size_t>(energy_columns)});
+    d["hinge"] = crumple::to_dict(f.hinge, {n, components});
+    d["hinge_energy"] = crumple::to_dict(f.hinge_energy, {n, hinges});
+    d["summary"] = crumple::to_dict(f.summary, {n, hinges});
+    d["energy"] = crumple::to_dict(f.energy, {n});
     d["residual"] = to_array(f.residual, {n});
     d["lost"] = to_array(f.lost, {n});
     d["outcome"] = to_array(f.outcome, {n});

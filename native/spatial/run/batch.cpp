@@ -88,10 +88,6 @@ std::vector<Twist> twists(const double* rows, size_t row, size_t count, bool& al
     return out;
 }
 
-void put(std::vector<double>& all, size_t row, const std::vector<double>& values) {
-    std::copy(values.begin(), values.end(), all.begin() + static_cast<std::ptrdiff_t>(row * values.size()));
-}
-
 // A run through the stages of its case, stored in a row.
 class Tour {
 public:
@@ -155,14 +151,10 @@ void Tour::store(Outcome outcome) {
     put(out_.centre, row_, last.centre);
     put(out_.rotation, row_, last.rotation);
     put(out_.velocity, row_, last.velocity);
-    put(out_.hinge_rotation, row_, last.hinge_rotation);
-    put(out_.hinge_rate, row_, last.hinge_rate);
-    put(out_.hinge_plastic, row_, last.hinge_plastic);
-    put(out_.hinge_moment, row_, last.hinge_moment);
-    put(out_.hinge_capacity, row_, last.hinge_capacity);
-    put(out_.hinge_energy, row_, last.hinge_energy);
-    put(out_.summary, row_, simulation_->summary());
-    put(out_.energy, row_, last.energy);
+    put_row(out_.hinge, row_, last.hinge);
+    put_row(out_.hinge_energy, row_, last.hinge_energy);
+    put_row(out_.summary, row_, simulation_->summary());
+    put_row(out_.energy, row_, last.energy);
     out_.outcome[row_] = static_cast<int>(outcome);
 }
 
@@ -189,12 +181,10 @@ EndValues sized(const Case& of, size_t n) {
     for (auto* column : {&out.start, &out.centre}) column->assign(n * bodies * 3, 0.0);
     out.rotation.assign(n * bodies * 4, 0.0);
     out.velocity.assign(n * bodies * 6, 0.0);
-    for (auto* column : {&out.hinge_rotation, &out.hinge_rate, &out.hinge_plastic, &out.hinge_moment, &out.hinge_capacity}) {
-        column->assign(n * components, 0.0);
-    }
-    out.hinge_energy.assign(n * hinges * 3, 0.0);
-    out.summary.assign(n * hinges * summary_columns, 0.0);
-    out.energy.assign(n * energy_columns, 0.0);
+    resize(out.hinge, n * components);
+    resize(out.hinge_energy, n * hinges);
+    resize(out.summary, n * hinges);
+    resize(out.energy, n);
     out.steps.assign(n, 0);
     out.outcome.assign(n, static_cast<int>(Outcome::cancelled));
     return out;

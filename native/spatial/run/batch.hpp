@@ -44,9 +44,10 @@ struct EndValues {
     std::vector<double> time;                                     // (count)
     std::vector<double> start;                                    // (count, bodies, 3): centres at the start
     std::vector<double> centre, rotation, velocity;               // (count, bodies, 3), (.., 4), (.., 6)
-    std::vector<double> hinge_rotation, hinge_rate, hinge_plastic, hinge_moment, hinge_capacity;  // (count, components)
-    std::vector<double> hinge_energy, summary;                    // (count, hinges, 3), (count, hinges, summary_columns)
-    std::vector<double> energy;                                   // (count, energy_columns)
+    ComponentRecord<double> hinge;
+    HingeEnergyRecord<double> hinge_energy;
+    HingeSummary<double> summary;                                 // (count, hinges)
+    EnergyRecord<double> energy;
     std::vector<double> residual, lost;                           // (count); lost: energy that the joints took from given motion
     std::vector<int64_t> outcome, steps;
 };

@@ -31,17 +31,17 @@ void Simulation::store(Record& r) {
         const SpatialHinge& hinge = model_.hinges[j];
         const SpatialHingeState& s = state_.hinge[j];
         for (int k = 0; k < size(hinge); k++) {
-            r.hinge_plastic.push_back(s.component[k].plastic);
-            r.hinge_moment.push_back(s.component[k].total_moment);
-            r.hinge_capacity.push_back(s.component[k].capacity);
+            r.hinge.plastic.push_back(s.component[k].plastic);
+            r.hinge.moment.push_back(s.component[k].total_moment);
+            r.hinge.capacity.push_back(s.component[k].capacity);
         }
-        r.hinge_energy.push_back(dissipated(hinge, s) + damped(hinge, s) + stop_dissipated(hinge, s));
-        r.hinge_energy.push_back(elastic_energy(hinge, s));
-        r.hinge_energy.push_back(stop_energy(hinge, &state_.turned[first]));
+        r.hinge_energy.dissipated.push_back(dissipated(hinge, s) + damped(hinge, s) + stop_dissipated(hinge, s));
+        r.hinge_energy.elastic.push_back(elastic_energy(hinge, s));
+        r.hinge_energy.stop.push_back(stop_energy(hinge, &state_.turned[first]));
         first += static_cast<size_t>(size(hinge));
     }
-    r.hinge_rotation.insert(r.hinge_rotation.end(), state_.rotation.begin(), state_.rotation.end());
-    r.hinge_rate.insert(r.hinge_rate.end(), state_.rate.begin(), state_.rate.end());
+    r.hinge.rotation.insert(r.hinge.rotation.end(), state_.rotation.begin(), state_.rotation.end());
+    r.hinge.rate.insert(r.hinge.rate.end(), state_.rate.begin(), state_.rate.end());
     for (const Twist& f : state_.joint_force) {
         add(r.joint_force, f.v);
         add(r.joint_force, f.w);
@@ -59,8 +59,16 @@ void Simulation::store(Record& r) {
     }
     stored_time_ = state_.t;
     const Energies e = energies(model_, state_);
-    r.energy.insert(r.energy.end(), {e.kinetic, e.elastic, e.dissipated, e.damped, e.stop, e.spring, e.contact, e.friction,
-                                     e.external_work, e.slowed});
+    r.energy.kinetic.push_back(e.kinetic);
+    r.energy.elastic.push_back(e.elastic);
+    r.energy.dissipated.push_back(e.dissipated);
+    r.energy.damped.push_back(e.damped);
+    r.energy.stop.push_back(e.stop);
+    r.energy.spring.push_back(e.spring);
+    r.energy.contact.push_back(e.contact);
+    r.energy.friction.push_back(e.friction);
+    r.energy.external_work.push_back(e.external_work);
+    r.energy.slowed.push_back(e.slowed);
 }
 
 Record Simulation::present() {
@@ -69,8 +77,8 @@ Record Simulation::present() {
     return r;
 }
 
-std::vector<double> Simulation::summary() const {
-    std::vector<double> out;
+HingeSummary<double> Simulation::summary() const {
+    HingeSummary<double> out;
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     for (size_t j = 0; j < state_.hinge.size(); j++) {
         const SpatialHinge& hinge = model_.hinges[j];
@@ -80,9 +88,15 @@ std::vector<double> Simulation::summary() const {
             const size_t c = static_cast<size_t>(stepper_.first_component(j) + k);
             if (hinge.components[static_cast<size_t>(k)].freedom >= 3) moment = std::max(moment, peak_[2 * c + 1]);
         }
-        out.insert(out.end(), {s.rotation_max, moment, s.opening_time < 0 ? none : s.opening_time, s.rest_time,
-                               turning(hinge, s) ? 1.0 : 0.0, dissipated(hinge, s) + damped(hinge, s) + stop_dissipated(hinge, s),
-                               s.fracture_time < 0 ? none : s.fracture_time, s.fracture_time < 0 ? none : s.fracture_moment});
+        const bool whole = s.fracture_time < 0;
+        out.rotation_max.push_back(s.rotation_max);
+        out.moment_max.push_back(moment);
+        out.opening_time.push_back(s.opening_time < 0 ? none : s.opening_time);
+        out.rest_time.push_back(s.rest_time);
+        out.turning.push_back(turning(hinge, s) ? 1.0 : 0.0);
+        out.energy.push_back(dissipated(hinge, s) + damped(hinge, s) + stop_dissipated(hinge, s));
+        out.fracture_time.push_back(whole ? none : s.fracture_time);
+        out.fracture_moment.push_back(whole ? none : s.fracture_moment);
     }
     return out;
 }

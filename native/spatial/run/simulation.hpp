@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "common/records.hpp"
 #include "spatial/step/stepper.hpp"
 
 namespace crumple::spatial {
-
-enum class Outcome { complete, step_collapsed, not_finite, cancelled, refused, unheld, limit_load };
 
 struct Settings {
     double accuracy = 1e-3;      // allowed error of the motion, relative to the largest rotation
@@ -32,8 +31,10 @@ struct Condition {
 };
 
 struct Record {
-    std::vector<double> time, centre, rotation, velocity, acceleration, hinge_rotation, hinge_rate, hinge_plastic, hinge_moment;
-    std::vector<double> hinge_capacity, hinge_energy, joint_force, obstacle_force, energy;
+    std::vector<double> time, centre, rotation, velocity, acceleration, joint_force, obstacle_force;
+    ComponentRecord<double> hinge;
+    HingeEnergyRecord<double> hinge_energy;
+    EnergyRecord<double> energy;
     Outcome outcome = Outcome::complete;
     std::string reason;
     int ended_by = -1;
@@ -41,8 +42,6 @@ struct Record {
     double residual = 0;         // largest |balance - start| over the energy that the structure was given
     long steps = 0, rejected = 0, forced = 0, solves = 0;
 };
-
-constexpr int energy_columns = 10, summary_columns = 8;
 
 class Simulation {
 public:
@@ -68,8 +67,8 @@ public:
     void keep(StepRecords* steps) { step_records_ = steps; }
     // takes the steps that another run of this model or of one near by has kept; false if one cannot be solved
     bool follow(const StepRecords& steps);
-    // per hinge, and per component
-    std::vector<double> summary() const;
+    HingeSummary<double> summary() const;
+    // per component: largest rotation and moment
     std::vector<double> peaks() const;
 
 private:

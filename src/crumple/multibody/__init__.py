@@ -9,7 +9,7 @@ from crumple.multibody.bodies.mobility import notes
 from crumple.multibody.checks.infinitesimal import infinitesimal
 from crumple.multibody.checks.unheld import unheld_notes
 from crumple.multibody.planar.mechanism import Link, Mechanism, lower
-from crumple.multibody.planar.model import start_of, tree_hinge, tree_model
+from crumple.multibody.planar.model import planar_initial_motion, tree_hinge, tree_model
 from crumple.multibody.planar.plane import Plane
 from crumple.multibody.run import Run
 from crumple.multibody.solve import solve_multibody, solver_of
@@ -32,11 +32,11 @@ __all__ = [
     "link",
     "lower",
     "notes",
+    "planar_initial_motion",
     "sensitivities",
     "solve_multibody",
     "solve_variants",
     "solver_of",
-    "start_of",
     "stepping_seconds",
     "tree_hinge",
     "tree_model",

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from crumple._core.planar.simulation import Outcome
+from crumple._core.outcome import Outcome
 from crumple.errors import Status
 from crumple.numeric.arrays import Floats
 from crumple.structure import MultibodySettings, Outputs, Stage

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from crumple._core.planar.simulation import Outcome
+from crumple._core.outcome import Outcome
 from crumple.errors import InputError, Problem, Status
 from crumple.multibody.answer.histories import (
     clearance_channels,
@@ -29,7 +29,7 @@ from crumple.multibody.checks.physics import physics_cautions
 from crumple.multibody.kernel_choice import why_spatial
 from crumple.multibody.planar.solver import TreeSolver
 from crumple.multibody.run import CHECK_FACTOR, Cancel, Progress, Run, outcome_status, picture_times, poll_of
-from crumple.multibody.spatial.solver import SpaceSolver
+from crumple.multibody.spatial.solver import SpatialSolver
 from crumple.numeric.arrays import Floats
 from crumple.result import Provenance, Result, missing_pictures, sentences
 from crumple.structure import Structure, any_automatic, placed_hinges
@@ -93,7 +93,7 @@ def solver_of(structure: Structure, run: Run) -> Solver:
     hinges = placed_hinges(structure)
     if why_spatial(structure, hinges, run) is None:
         return TreeSolver(structure, run, hinges)
-    return SpaceSolver(structure, run, hinges)
+    return SpatialSolver(structure, run, hinges)
 
 
 def _doubt(
@@ -134,7 +134,7 @@ def _result(
         status = Status.IMPOSSIBLE
         reason = " ".join(sentences(caution for caution in cautions if caution.violation))
     wanted = [
-        *node_channels(structure, solved.poses, run.outputs.nodes),
+        *node_channels(structure, solved.poses, run.outputs.nodes, solved.time),
         *section_channels(structure, solved.poses, run.outputs),
         *distance_channels(structure, solved.poses, run.outputs),
         *clearance_channels(structure, solved.poses, run.outputs),
@@ -155,7 +155,7 @@ def _result(
         time=solved.time,
         channels={channel.name: channel for channel in channels},
         hinges=hinges,
-        states=states_of(structure, solved.poses, picture_times(run)),
+        states=states_of(structure, solved.poses, solved.time, picture_times(run)),
         energy_residual=solved.residual,
         solve_seconds=seconds,
         cautions=cautions,

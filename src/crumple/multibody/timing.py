@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from crumple._core.planar.simulation import Outcome
+from crumple._core.outcome import Outcome
 from crumple.multibody.run import Run
 from crumple.multibody.solve import solver_of
 from crumple.structure import Structure

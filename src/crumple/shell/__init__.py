@@ -6,16 +6,16 @@ structure becomes, `report_of` what the mesh is like.
 
 from crumple.shell.mesh.mesh import Mesh, Tube, mesh_of
 from crumple.shell.mesh.quality import MeshReport, report_of
-from crumple.shell.model.model import Lowered, lower
+from crumple.shell.model.model import ShellCase, lower
 from crumple.shell.solve import solve_shell, start_notes
 from crumple.shell.stepping import LongRun, Moment, ShellRun
 
 __all__ = [
     "LongRun",
-    "Lowered",
     "Mesh",
     "MeshReport",
     "Moment",
+    "ShellCase",
     "ShellRun",
     "Tube",
     "lower",

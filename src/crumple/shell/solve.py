@@ -16,7 +16,7 @@ from crumple.shell.answer.record import ENERGIES, Record, Sampler
 from crumple.shell.answer.shapes import states_of
 from crumple.shell.checks import trust
 from crumple.shell.checks.refusals import refuse_steps
-from crumple.shell.model.model import Lowered, lower
+from crumple.shell.model.model import ShellCase, lower
 from crumple.shell.stepping import Cancel, Hooks, LongRun, Progress, ShellRun, Stepping, with_place
 from crumple.structure import Structure
 
@@ -58,9 +58,9 @@ def solve_shell(
     docs/theory/shell_lowering.md.  Verified in tests/verification/shell/test_tube_reference.py.
     """
     begin = time.perf_counter()
-    lowered, state = _started(structure, run)
+    case, state = _started(structure, run)
     hooks = Hooks(begin, progress, cancel, long_run or LongRun())
-    stepping = Stepping(structure, run, lowered, state, hooks)
+    stepping = Stepping(structure, run, case, state, hooks)
     status, reason = stepping.run_to_end()
     return _result(structure, run, stepping, status, reason)
 
@@ -78,29 +78,29 @@ def start_notes(structure: Structure, run: ShellRun) -> tuple[str, ...]:
     InputError
         As `solve_shell` does.
     """
-    lowered, state = _started(structure, run)
+    case, state = _started(structure, run)
     record = Record()
-    record.add({"at": np.array(0.0), **Sampler.of(lowered, run.outputs).sample(state)})
+    record.add({"at": np.array(0.0), **Sampler.of(case, run.outputs).sample(state)})
     steps = sum(stage.duration for stage in run.sequence) / state.first_time_step
-    mesh = f"Shells: {lowered.report}, some {steps:.2g} steps."
-    return (mesh, *trust.warnings(structure, lowered, record, state))
+    mesh = f"Shells: {case.report}, some {steps:.2g} steps."
+    return (mesh, *trust.warnings(structure, case, record, state))
 
 
-def _started(structure: Structure, run: ShellRun) -> tuple[Lowered, ShellState]:
+def _started(structure: Structure, run: ShellRun) -> tuple[ShellCase, ShellState]:
     """Model and state before the first step, once every setting has been found to fit."""
-    lowered = lower(structure, run.settings, run.outputs, stage=run.sequence[0])
+    case = lower(structure, run.settings, run.outputs, stage=run.sequence[0])
     try:
-        state = ShellState(lowered.model)
+        state = ShellState(case.model)
     except InputError as error:
-        raise _named(error, lowered) from error
+        raise _named(error, case) from error
     refuse_steps(run.settings, run.sequence, state.first_time_step)
-    return replace(lowered, report=replace(lowered.report, time_step=state.first_time_step)), state
+    return replace(case, report=replace(case.report, time_step=state.first_time_step)), state
 
 
 def _result(structure: Structure, run: ShellRun, stepping: Stepping, status: Status, reason: str) -> Result:
-    lowered, record, state = stepping.lowered, stepping.record, stepping.state
+    case, record, state = stepping.case, stepping.record, stepping.state
     if not len(record):
-        record.add({"at": np.array(0.0), **stepping.sampler.sample(ShellState(lowered.model))})
+        record.add({"at": np.array(0.0), **stepping.sampler.sample(ShellState(case.model))})
     channels = channels_of(structure, stepping.sampler, record, run.outputs)
     asked = {*run.outputs.section_rotations, *run.outputs.distances, *run.outputs.clearances}
     prefixes = tuple(f"node.{name}." for name in run.outputs.nodes)
@@ -113,14 +113,14 @@ def _result(structure: Structure, run: ShellRun, stepping: Stepping, status: Sta
         time=times,
         channels={channel.name: _at(channel, times, record["time"]) for channel in channels},
         hinges=summaries(stepping.sampler, record),
-        states=states_of(lowered.mesh, record),
+        states=states_of(case.mesh, record),
         energy_residual=trust.energy_residual(record),
         solve_seconds=stepping.seconds,
-        warnings=trust.warnings(structure, lowered, record, state)
+        warnings=trust.warnings(structure, case, record, state)
         + trust.slow_warnings(run.stages, stepping.ended, record)
         + tuple(missing_pictures(run.outputs.pictures, float(times[-1]))),
-        assumptions=trust.assumptions(structure, lowered, run.settings),
-        provenance=Provenance("", "", state.isa, run.threads, _settings(run, lowered, state, record)),
+        assumptions=trust.assumptions(structure, case, run.settings),
+        provenance=Provenance("", "", state.isa, run.threads, _settings(run, case, state, record)),
         stages=stepping.ended if run.stages else (),
         output_names=tuple(
             channel.name for channel in channels if channel.name in asked or channel.name.startswith(prefixes)
@@ -134,12 +134,12 @@ def _at(channel: Channel, times: Floats, noted: Floats) -> Channel:
 
 
 def _settings(
-    run: ShellRun, lowered: Lowered, state: ShellState, record: Record
+    run: ShellRun, case: ShellCase, state: ShellState, record: Record
 ) -> dict[str, float | int | str]:
     given = {
         key: value for key, value in run.settings.model_dump(mode="json").items() if value not in (None, [])
     }
-    report = lowered.report
+    report = case.report
     return {
         **given,
         "elements": report.elements,
@@ -156,10 +156,10 @@ def _settings(
     }
 
 
-def _named(error: InputError, lowered: Lowered) -> InputError:
+def _named(error: InputError, case: ShellCase) -> InputError:
     problems = [
         Problem(
-            with_place(problem.what, lowered),
+            with_place(problem.what, case),
             problem.came,
             problem.allowed,
             problem.todo,

@@ -18,8 +18,8 @@ from crumple.shell.answer.record import Record, Sampler
 from crumple.shell.answer.shapes import shape_of
 from crumple.shell.checks import trust
 from crumple.shell.model.bodies import moved
-from crumple.shell.model.initial_motion import start_of
-from crumple.shell.model.model import Lowered, model_of_stage
+from crumple.shell.model.initial_motion import shell_initial_motion
+from crumple.shell.model.model import ShellCase, model_of_stage
 from crumple.shell.model.obstacles import appeared_inside
 from crumple.shell.restart import Saved, fingerprint, read_restart, write_restart
 from crumple.shell.until import LOOK_STEPS, Watch
@@ -120,12 +120,12 @@ class Stepping:
     """One run: the moving state, what was noted of it, and the stages that are over."""
 
     def __init__(
-        self, structure: Structure, run: ShellRun, lowered: Lowered, state: ShellState, hooks: Hooks
+        self, structure: Structure, run: ShellRun, case: ShellCase, state: ShellState, hooks: Hooks
     ) -> None:
-        self.structure, self.run, self.lowered, self.state = structure, run, lowered, state
+        self.structure, self.run, self.case, self.state = structure, run, case, state
         self.begin, self.progress, self.cancel = hooks.begin, hooks.progress, hooks.cancel
         self.long_run = hooks.long_run
-        self.sampler, self.record = Sampler.of(lowered, run.outputs), Record()
+        self.sampler, self.record = Sampler.of(case, run.outputs), Record()
         self.mark = fingerprint(structure, run.settings, run.outputs, run.sequence, run.every)
         self.ended: tuple[StageSummary, ...] = ()
         self.watch: Watch | None = None
@@ -163,10 +163,10 @@ class Stepping:
         begin = self.ended[-1].end if self.ended else 0.0
         if self.resumed is None:
             self._enter(stage, begin, number)
-            inside = appeared_inside(self.structure, self.lowered.mesh, self.state)
+            inside = appeared_inside(self.structure, self.case.mesh, self.state)
             if number > 0 and inside:
                 return Status.OVERLAPPING, f"stage {stage.name}: {inside}"
-        self.watch = Watch(self.structure, self.lowered, stage, self.state)
+        self.watch = Watch(self.structure, self.case, stage, self.state)
         if self.resumed is not None:
             self.watch.restore(self.resumed.watch)
             self.resumed = None
@@ -178,7 +178,7 @@ class Stepping:
             if status is Status.CANCELLED:
                 self._save()
             if not status.ok:
-                return status, with_place(self.state.reason, self.lowered)
+                return status, with_place(self.state.reason, self.case)
             if not self._note(self.state.time if why else float(at), bool(why)):
                 return Status.RESIDUAL_EXCEEDED, f"the energies ran away at {self.state.time:.4g} s"
             if why:
@@ -201,19 +201,19 @@ class Stepping:
 
     def _state_of(self, stage: Stage, begin: float) -> ShellState:
         return ShellState(
-            model_of_stage(self.structure, self.run.settings, self.lowered, stage, begin), self.state.isa
+            model_of_stage(self.structure, self.run.settings, self.case, stage, begin), self.state.isa
         )
 
     def _push(self, stage: Stage) -> None:
         """Add a stage's velocity fields and impulses to the deformed structure."""
-        before, now = self.lowered.mesh.position, self.state.position
-        mesh = replace(self.lowered.mesh, position=now)
+        before, now = self.case.mesh.position, self.state.position
+        mesh = replace(self.case.mesh, position=now)
         bodies = tuple(
             moved(body, before[body.nodes[-1]], now[body.nodes[-1]], row)
-            for body, row in zip(self.lowered.bodies, self.state.rigid_sets, strict=True)
+            for body, row in zip(self.case.bodies, self.state.rigid_sets, strict=True)
         )
         fields = {"initial_velocity": stage.initial_velocity, "impulses": stage.impulses}
-        added = start_of(self.structure.model_copy(update=fields), mesh, bodies)
+        added = shell_initial_motion(self.structure.model_copy(update=fields), mesh, bodies)
         self.state.add_motion(added.velocity, added.spin)
 
     def _step_to(self, at: float, watch: Watch) -> tuple[Status, str]:
@@ -244,7 +244,7 @@ class Stepping:
         self.record.add({"at": np.array(at), **self.sampler.sample(self.state)})
         near = np.abs(picture_times(self.run) - at) <= SAME_TIME * self.run.duration
         if shape or near.any():
-            self.record.add_shape(shape_of(self.state, self.lowered.mesh))
+            self.record.add_shape(shape_of(self.state, self.case.mesh))
         return trust.energy_residual(self.record) < RUNAWAY
 
     def _look(self, state: ShellState) -> None:
@@ -282,7 +282,7 @@ class Stepping:
         self.first_time, self.resumed = self.state.time, saved
 
 
-def with_place(reason: str, lowered: Lowered) -> str:
+def with_place(reason: str, case: ShellCase) -> str:
     """A reason that names an element, with where the element lies."""
     found = re.search(r"element (\d+)", reason)
-    return reason if found is None else f"{reason} ({lowered.mesh.place_of(int(found.group(1)))})"
+    return reason if found is None else f"{reason} ({case.mesh.place_of(int(found.group(1)))})"

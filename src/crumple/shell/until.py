@@ -10,7 +10,7 @@ from crumple._core.shell.simulation import ShellState
 from crumple.numeric.arrays import Floats
 from crumple.shell.answer.record import IMPULSE, ring_of_node
 from crumple.shell.mesh.mesh import Mesh
-from crumple.shell.model.model import Lowered
+from crumple.shell.model.model import ShellCase
 from crumple.structure import Stage, Structure, Until
 
 LOOK_STEPS = 5
@@ -24,7 +24,7 @@ class Watch:
 
     Parameters
     ----------
-    structure, lowered
+    structure, case
         What is computed.
     stage
         The stage, and what it waits for.
@@ -32,8 +32,8 @@ class Watch:
         Where it starts.
     """
 
-    def __init__(self, structure: Structure, lowered: Lowered, stage: Stage, state: ShellState) -> None:
-        self.structure, self.lowered, self.stage = structure, lowered, stage
+    def __init__(self, structure: Structure, case: ShellCase, stage: Stage, state: ShellState) -> None:
+        self.structure, self.case, self.stage = structure, case, stage
         self.first = [self._reading(until, state) for until in stage.until]
         self.work = state.external_work
         # impulse of every force condition, at the start of the window and now
@@ -80,7 +80,7 @@ class Watch:
             self.impulse[k] = self.impulse[k] + now - self.mark[k]
             self.mark[k] = now
         else:
-            cut = len(self.lowered.zones) + list(self.lowered.supports).index(str(until.of))
+            cut = len(self.case.zones) + list(self.case.supports).index(str(until.of))
             self.impulse[k] = self.impulse[k] + step * state.cut(cut)[0]
 
     def _impulse(self, until: Until, state: ShellState) -> Floats:
@@ -93,7 +93,7 @@ class Watch:
 
     def _reading(self, until: Until, state: ShellState) -> Floats:
         """Displacement of an obstacle or support, or distance of two nodes (in x), (3,)."""
-        mesh = self.lowered.mesh
+        mesh = self.case.mesh
         if until.between is not None:
             a, b = (place_of(mesh, node, state) for node in until.between)
             return np.array([float(np.linalg.norm(a - b)), 0.0, 0.0])

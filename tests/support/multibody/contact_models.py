@@ -7,13 +7,13 @@ import numpy as np
 from crumple._core.spatial.model import (
     GROUND,
     ObstacleKind,
-    SpaceBody,
-    SpaceCapsule,
-    SpaceContact,
-    SpaceModel,
-    SpaceObstacle,
+    SpatialBody,
+    SpatialCapsule,
+    SpatialContact,
+    SpatialModel,
+    SpatialObstacle,
 )
-from crumple._core.spatial.simulation import SpaceSimulation
+from crumple._core.spatial.simulation import SpatialSimulation
 
 GRAVITY = 9.81
 DOWN = (0.0, 0.0, -GRAVITY)
@@ -23,7 +23,7 @@ MAX_RESIDUAL = 5e-3
 
 def sphere(centre, radius=0.1, mass=2.0):
     """Solid sphere."""
-    return SpaceBody(mass, 0.4 * mass * radius**2 * np.eye(3), np.array(centre, float))
+    return SpatialBody(mass, 0.4 * mass * radius**2 * np.eye(3), np.array(centre, float))
 
 
 def rod(first, second, radius=0.05, mass=4.0):
@@ -33,18 +33,18 @@ def rod(first, second, radius=0.05, mass=4.0):
     along = (second - first) / length
     across = np.eye(3) - np.outer(along, along)
     inertia = mass * (length**2 / 12 + radius**2 / 4) * across + mass * radius**2 / 2 * np.outer(along, along)
-    return SpaceBody(mass, inertia, (first + second) / 2)
+    return SpatialBody(mass, inertia, (first + second) / 2)
 
 
 def ball_shape(body, centre, radius=0.1):
     """Capsule of a sphere."""
     centre = np.array(centre, float)
-    return SpaceCapsule(body, centre, centre, radius)
+    return SpatialCapsule(body, centre, centre, radius)
 
 
 def rod_shape(body, first, second, radius=0.05):
     """Capsule of a rod."""
-    return SpaceCapsule(body, np.array(first, float), np.array(second, float), radius)
+    return SpatialCapsule(body, np.array(first, float), np.array(second, float), radius)
 
 
 def plane(
@@ -57,7 +57,7 @@ def plane(
 ):
     """Plane; its normal need not be a unit vector."""
     normal = np.array(normal, float) / np.linalg.norm(normal)
-    return SpaceObstacle(
+    return SpatialObstacle(
         ObstacleKind.PLANE,
         body,
         np.array(point, float),
@@ -71,17 +71,17 @@ def plane(
 def pole(point, axis, radius, friction=0.0, restitution=0.0, body=GROUND):
     """Cylinder without end."""
     point, axis = np.array(point, float), np.array(axis, float)
-    return SpaceObstacle(
+    return SpatialObstacle(
         ObstacleKind.CYLINDER, body, point, axis, radius=radius, friction=friction, restitution=restitution
     )
 
 
 def simulation(bodies, capsules, obstacles=(), velocity=None, gravity=DOWN, accuracy=1e-3, **model):
     """A run of free bodies with velocities (omega, v), (bodies, 6)."""
-    model = SpaceModel(
+    model = SpatialModel(
         tuple(bodies), obstacles=tuple(obstacles), capsules=tuple(capsules), gravity=gravity, **model
     )
-    run = SpaceSimulation(model, accuracy)
+    run = SpatialSimulation(model, accuracy)
     motion = np.zeros((len(model.bodies), 6)) if velocity is None else np.array(velocity, float)
     run.set_motion(motion, np.zeros_like(motion))
     return run
@@ -90,4 +90,4 @@ def simulation(bodies, capsules, obstacles=(), velocity=None, gravity=DOWN, accu
 def all_pairs(count, friction=0.0, restitution=0.0):
     """Contact between every two of the first capsules."""
     pairs = tuple((i, j) for i in range(count) for j in range(i))
-    return SpaceContact(pairs, friction, restitution)
+    return SpatialContact(pairs, friction, restitution)

@@ -10,15 +10,15 @@ from tests.support.multibody.chains import MASS_PER_LENGTH, PAYLOAD, REGULARISED
 from crumple._core.spatial.model import (
     GROUND,
     Coupling,
-    SpaceBody,
-    SpaceComponent,
-    SpaceHinge,
-    SpaceModel,
-    SpaceSurface,
+    SpatialBody,
+    SpatialComponent,
+    SpatialHinge,
+    SpatialModel,
+    SpatialSurface,
     revolute,
     spherical,
 )
-from crumple._core.spatial.simulation import SpaceSimulation
+from crumple._core.spatial.simulation import SpatialSimulation
 
 GRAVITY = 9.81
 RX, RY, RZ = 3, 4, 5
@@ -33,7 +33,7 @@ def bar(first, second, mass=None, about_axis=1e-4, payload=0.0):
     inertia = own * length**2 / 12 * (np.eye(3) - np.outer(along, along)) + about_axis * np.outer(
         along, along
     )
-    return SpaceBody(own + payload, inertia, (first + second) / 2)
+    return SpatialBody(own + payload, inertia, (first + second) / 2)
 
 
 def with_mass(body, point, mass):
@@ -45,14 +45,14 @@ def with_mass(body, point, mass):
     for own, place in ((body.mass, body.centre), (mass, point)):
         d = place - centre
         inertia = inertia + own * (d @ d * np.eye(3) - np.outer(d, d))
-    return SpaceBody(total, inertia, centre)
+    return SpatialBody(total, inertia, centre)
 
 
 def component(freedom, envelope, stop=(), rate=0.05, **options):
     """A component alike in both senses; `envelope` is a moment or (places, moments)."""
     if not isinstance(envelope, tuple):
         envelope = (np.zeros(1), np.array([float(envelope)]))
-    return SpaceComponent(
+    return SpatialComponent(
         freedom,
         envelope,
         envelope,
@@ -81,7 +81,7 @@ def about(point, omega, body):
 
 def started(model, velocity, accuracy=1e-3, **settings):
     """Simulation of a model with velocities (bodies, 6) at the start."""
-    simulation = SpaceSimulation(model, accuracy, **settings)
+    simulation = SpatialSimulation(model, accuracy, **settings)
     velocity = np.asarray(velocity, float)
     simulation.set_motion(velocity, np.zeros_like(velocity))
     return simulation
@@ -103,9 +103,9 @@ def m2(number, accuracy=1e-3, form=REGULARISED, rate=0.05, error=1e-6, turn=None
         joints.append(revolute(i - 1, i, ends[0], turn @ (0.0, 0.0, 1.0)))
         scale = root if i == 0 else 0.8 * root * (1 - 0.1 * i / length)
         hinges.append(
-            SpaceHinge(i, (softening_component(RX, scale, rate, error),), form=form, softening=ROTATION)
+            SpatialHinge(i, (softening_component(RX, scale, rate, error),), form=form, softening=ROTATION)
         )
-    model = SpaceModel(tuple(bodies), tuple(joints), tuple(hinges), length=length)
+    model = SpatialModel(tuple(bodies), tuple(joints), tuple(hinges), length=length)
     omega = turn @ (0.0, 0.0, 15.0)
     return started(model, [about((0, 0, 0), omega, body) for body in bodies], accuracy)
 
@@ -113,7 +113,7 @@ def m2(number, accuracy=1e-3, form=REGULARISED, rate=0.05, error=1e-6, turn=None
 def ball_hinge(joint, scale, form=0, rate=0.05, error=1e-6):
     """Ball hinge of model M4: capacity on the angle of the relative rotation."""
     components = tuple(softening_component(freedom, scale, rate, error) for freedom in (RX, RY, RZ))
-    return SpaceHinge(joint, components, SpaceSurface(Coupling.BALL), form=form, softening=ROTATION)
+    return SpatialHinge(joint, components, SpatialSurface(Coupling.BALL), form=form, softening=ROTATION)
 
 
 def m4(accuracy=1e-3, form=0, rate=0.05, error=1e-6, turn=None):
@@ -132,7 +132,7 @@ def m4_parts(form=0, rate=0.05, error=1e-6, turn=None):
     joints += [spherical(i, 4 + i, turn @ (corners[i] + up)) for i in range(4)]
     joints += [spherical(4 + i, 4 + (i + 1) % 4, turn @ (corners[(i + 1) % 4] + up)) for i in range(4)]
     hinges = tuple(ball_hinge(k, 0.25, form, rate, error) for k in range(12))
-    model = SpaceModel((*columns, *ring), tuple(joints), hinges, length=0.5)
+    model = SpatialModel((*columns, *ring), tuple(joints), hinges, length=0.5)
     speed, omega = turn @ (10.0, 0.0, 0.0), turn @ (0.0, 20.0, 0.0)
     velocity = [about(turn @ c, omega, body) for c, body in zip(corners, columns, strict=True)]
     velocity += [np.concatenate([np.zeros(3), speed])] * 4
@@ -162,7 +162,7 @@ def tower(storeys, accuracy=1e-3, *, error=1e-6, velocity=(10.0, 0.0, 0.0), sway
         bodies.append(bar(left + (k + 1) * up, right + (k + 1) * up, payload=5.0))
         motion.append(np.concatenate([np.zeros(3), speed(k + 1)]))
     hinges = tuple(ball_hinge(k, 0.25, error=error) for k in range(len(joints)))
-    model = SpaceModel(tuple(bodies), tuple(joints), hinges, length=0.5)
+    model = SpatialModel(tuple(bodies), tuple(joints), hinges, length=0.5)
     return started(model, np.array(motion), accuracy)
 
 
@@ -174,8 +174,8 @@ def pendulum(accuracy=1e-6, joint=revolute):
         if joint is revolute
         else (spherical(GROUND, 0, np.zeros(3)),)
     )
-    model = SpaceModel((body,), joints, gravity=(0.0, 0.0, -GRAVITY), length=1.5)
-    return SpaceSimulation(model, accuracy)
+    model = SpatialModel((body,), joints, gravity=(0.0, 0.0, -GRAVITY), length=1.5)
+    return SpatialSimulation(model, accuracy)
 
 
 def random_turn(seed=0):

@@ -32,10 +32,11 @@ assert bits(one) == bits(many)
 """
 BATCH = """
 import numpy as np
-from crumple._core.planar.batch import TreeVariants, solve_many
+from crumple._core.planar.batch import solve_many
+from crumple._core.variants import Variants
 from tests.support.multibody.chains import m2
 scale = np.linspace(0.5, 2.0, 400).repeat(4).reshape(400, 4)
-variants = TreeVariants((m2(4).model,), np.zeros(400, int), capacity_scale=scale)
+variants = Variants((m2(4).model,), np.zeros(400, int), capacity_scale=scale)
 one = solve_many(variants, 0.01)
 limit()
 many = solve_many(variants, 0.01, threads=16)

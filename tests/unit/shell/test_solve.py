@@ -203,9 +203,9 @@ def test_hopeless_step_ends_with_a_status_and_keeps_the_results():
 
 
 def test_reason_names_the_place_of_an_element():
-    lowered = lower(thrown(), COARSE)
-    assert "(member tube," in with_place("element 12 is not finite", lowered)
-    assert with_place("nothing", lowered) == "nothing"
+    case = lower(thrown(), COARSE)
+    assert "(member tube," in with_place("element 12 is not finite", case)
+    assert with_place("nothing", case) == "nothing"
 
 
 def test_added_mass_is_reported():

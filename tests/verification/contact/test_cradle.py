@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from tests.support.multibody.contact_models import MAX_RESIDUAL, ball_shape, simulation, sphere
 
-from crumple._core.spatial.model import SpaceContact
+from crumple._core.spatial.model import SpatialContact
 
 RADIUS, MASS, SPEED, GAP = 0.1, 2.0, 3.0, 0.05
 
@@ -23,7 +23,7 @@ def cradle(number, restitution, masses=None, accuracy=1e-3):
     bodies = [sphere((x, 0, 0), RADIUS, mass) for x, mass in zip(places, masses, strict=True)]
     capsules = [ball_shape(k, (x, 0, 0), RADIUS) for k, x in enumerate(places)]
     pairs = tuple((i, j) for i in range(number) for j in range(i + 1, number))
-    contact = SpaceContact(pairs, 0.0, restitution)
+    contact = SpatialContact(pairs, 0.0, restitution)
     run = simulation(bodies, capsules, contact=contact, gravity=(0.0, 0.0, 0.0), accuracy=accuracy)
     velocity = np.zeros((number, 6))
     velocity[0, 3] = SPEED

@@ -23,7 +23,7 @@ from tests.support.multibody.contact_models import (
     sphere,
 )
 
-from crumple._core.spatial.model import SpaceBody, SpaceCapsule
+from crumple._core.spatial.model import SpatialBody, SpatialCapsule
 
 FRICTION = 0.4
 
@@ -34,8 +34,8 @@ def block(normal=(0.0, 0.0, 1.0), velocity=(0.0, 0.0, 0.0), friction=FRICTION, a
     along = np.cross((0.0, 1.0, 0.0), normal)
     across = np.cross(normal, along)
     feet = [0.05 * normal + a * 0.3 * along + b * 0.2 * across for a in (-1, 1) for b in (-1, 1)]
-    body = SpaceBody(6.0, np.diag([0.1, 0.2, 0.25]), 0.1 * normal)
-    capsules = [SpaceCapsule(0, foot, foot, 0.05) for foot in feet]
+    body = SpatialBody(6.0, np.diag([0.1, 0.2, 0.25]), 0.1 * normal)
+    capsules = [SpatialCapsule(0, foot, foot, 0.05) for foot in feet]
     obstacle = plane(normal=normal, friction=friction)
     return simulation([body], capsules, [obstacle], [[0, 0, 0, *velocity]], accuracy=accuracy)
 
@@ -51,7 +51,7 @@ def test_stopping_distance(direction, accuracy, record_figure):
     expected = 3.0**2 / (2 * FRICTION * GRAVITY)
     name = f"stopping distance at {direction:g} deg, accuracy {accuracy:g}"
     record_figure(name, distance, expected, accuracy, "m", relative=True)
-    record_figure(f"friction's work, {name}", record.energy[-1, 7], 27.0, 1e-3, "J", relative=True)
+    record_figure(f"friction's work, {name}", record.energy.friction[-1], 27.0, 1e-3, "J", relative=True)
     assert record.residual < MAX_RESIDUAL
 
 

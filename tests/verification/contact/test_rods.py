@@ -20,8 +20,8 @@ from tests.support.multibody.contact_models import (
     sphere,
 )
 
-from crumple._core.spatial.model import GROUND, SpaceBody, SpaceModel, prismatic
-from crumple._core.spatial.simulation import SpaceSimulation
+from crumple._core.spatial.model import GROUND, SpatialBody, SpatialModel, prismatic
+from crumple._core.spatial.simulation import SpatialSimulation
 
 NO_GRAVITY = (0.0, 0.0, 0.0)
 
@@ -128,7 +128,7 @@ def test_central_collision(restitution, record_figure):
     )
     record_figure(f"spin, e = {restitution}", float(np.abs(v[:, :3]).max()), 0.0, 1e-4, "rad/s")
     lost = (1 - restitution**2) * 4.0 * 1.5 / 5.5 * 36 / 2
-    record_figure(f"energy lost, e = {restitution}", record.energy[1, 6], lost, 1e-4 * 20, "J")
+    record_figure(f"energy lost, e = {restitution}", record.energy.contact[1], lost, 1e-4 * 20, "J")
 
 
 def test_crossing_rods_keep_momentum_and_moment_of_momentum(record_figure):
@@ -144,7 +144,7 @@ def test_crossing_rods_keep_momentum_and_moment_of_momentum(record_figure):
         accuracy=1e-4,
     )
     record = run.run(np.array([0.0, 0.2]))
-    assert record.energy[1, 6] > 1
+    assert record.energy.contact[1] > 1
 
     def momenta(k):
         linear, angular = np.zeros(3), np.zeros(3)
@@ -221,14 +221,14 @@ def test_rod_on_an_edge_tips_when_its_centre_is_beyond(over, falls):
 
 def test_obstacle_with_a_mass_on_a_guide(record_figure):
     """A wall of 10 kg on a guide and a ball: they part with e times their approach along the normal."""
-    wall = SpaceBody(10.0, np.eye(3), np.array([1.0, 0, 0]))
-    model = SpaceModel(
+    wall = SpatialBody(10.0, np.eye(3), np.array([1.0, 0, 0]))
+    model = SpatialModel(
         (wall, sphere((0, 0, 0), mass=2.0)),
         joints=(prismatic(GROUND, 0, (1.0, 0, 0), (1, 0, 0)),),
         obstacles=(plane((1.0, 0, 0), (-1, 0, 0.3), restitution=0.5, body=0),),
         capsules=(ball_shape(1, (0, 0, 0)),),
     )
-    run = SpaceSimulation(model)
+    run = SpatialSimulation(model)
     run.set_motion(np.array([[0, 0, 0, -1.0, 0, 0], [0, 0, 0, 4.0, 0, 0]]), np.zeros((2, 6)))
     record = run.run(np.array([0.0, 0.3]))
     n = np.array([-1, 0, 0.3]) / math.hypot(1, 0.3)

@@ -80,18 +80,23 @@ def test_wheel(record_figure):
         0.1,
     )
     figures = {
-        "d rotation/d moment": (tangent.q[1, 0], -INERTIA * RATE**2 / (2 * MOMENT**2)),
-        "d rotation/d inertia": (tangent.q[2, 0], RATE**2 / (2 * MOMENT)),
-        "d rotation/d rate": (tangent.q[3, 0], INERTIA * RATE / MOMENT),
-        "d duration/d moment": (tangent.summary[1, 0, 2], -INERTIA * RATE / MOMENT**2),
-        "d duration/d inertia": (tangent.summary[2, 0, 2], RATE / MOMENT),
-        "d duration/d rate": (tangent.summary[3, 0, 2], INERTIA / MOMENT),
-        "d energy/d inertia": (tangent.hinge[2, 0, 3], RATE**2 / 2),
-        "d energy/d moment": (tangent.hinge[1, 0, 3], 0.0),
+        "d rotation/d moment": (tangent.ends.q[1, 0], -INERTIA * RATE**2 / (2 * MOMENT**2)),
+        "d rotation/d inertia": (tangent.ends.q[2, 0], RATE**2 / (2 * MOMENT)),
+        "d rotation/d rate": (tangent.ends.q[3, 0], INERTIA * RATE / MOMENT),
+        "d duration/d moment": (tangent.ends.summary.rest_time[1, 0], -INERTIA * RATE / MOMENT**2),
+        "d duration/d inertia": (tangent.ends.summary.rest_time[2, 0], RATE / MOMENT),
+        "d duration/d rate": (tangent.ends.summary.rest_time[3, 0], INERTIA / MOMENT),
+        "d energy/d inertia": (tangent.ends.hinge_energy.dissipated[2, 0], RATE**2 / 2),
+        "d energy/d moment": (tangent.ends.hinge_energy.dissipated[1, 0], 0.0),
     }
     for name, (value, expected) in figures.items():
         # the locked hinge's creep of 1e-8 rad/s is what is left
         record_figure(name, value, expected, 1e-7 * max(abs(expected), 1.0))
+
+
+def recorded(rows):
+    """Columns of hinges and energies."""
+    return [column for of in (rows.hinge, rows.hinge_energy, rows.energy) for column in vars(of).values()]
 
 
 def final(model, velocity, end, longest):
@@ -100,7 +105,7 @@ def final(model, velocity, end, longest):
     simulation.set_motion(velocity, np.zeros_like(velocity))
     record = simulation.run(np.array([end]))
     assert record.outcome is Outcome.COMPLETE
-    return np.concatenate([simulation.q, simulation.w, record.hinge.ravel(), record.energy.ravel()])
+    return np.concatenate([simulation.q, simulation.w, *(column.ravel() for column in recorded(record))])
 
 
 def check(model, move, velocity, *, end=0.04, e=1e-5, tolerance=2e-6):
@@ -115,8 +120,9 @@ def check(model, move, velocity, *, end=0.04, e=1e-5, tolerance=2e-6):
         LOOSE,
         maximum_step=longest,
     )
-    values = np.concatenate([getattr(tangent, name)[0].ravel() for name in ("q", "w", "hinge", "energy")])
-    slopes = np.concatenate([getattr(tangent, name)[1].ravel() for name in ("q", "w", "hinge", "energy")])
+    found = (tangent.ends.q, tangent.ends.w, *recorded(tangent.ends))
+    values = np.concatenate([column[0].ravel() for column in found])
+    slopes = np.concatenate([column[1].ravel() for column in found])
     np.testing.assert_array_equal(values, final(model, velocity, end, longest))
     differences = (final(move(e), velocity, end, longest) - final(move(-e), velocity, end, longest)) / (2 * e)
     scale = np.maximum(np.abs(values), 1e-3 * np.abs(values).max())

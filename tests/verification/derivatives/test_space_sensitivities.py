@@ -15,6 +15,7 @@ Kind: closed form; independent calculation.  Source: derived here; derived here.
 """
 
 from dataclasses import replace
+from operator import attrgetter
 
 import numpy as np
 import pytest
@@ -29,27 +30,28 @@ from tests.support.multibody.chains import (
 )
 from tests.support.multibody.space_models import RX, RY, RZ, about, bar, component, m4_parts, with_mass
 
-from crumple._core.planar.simulation import Outcome
-from crumple._core.spatial.batch import SpaceCase, SpaceStage, SpaceVariants, solve_many
+from crumple._core.outcome import Outcome
+from crumple._core.spatial.batch import SpatialStage, StagedModel, solve_many
 from crumple._core.spatial.model import (
     GROUND,
     Coupling,
-    SpaceBody,
-    SpaceDrive,
-    SpaceHinge,
-    SpaceJoint,
-    SpaceLoad,
-    SpaceModel,
-    SpaceSurface,
+    SpatialBody,
+    SpatialDrive,
+    SpatialHinge,
+    SpatialJoint,
+    SpatialLoad,
+    SpatialModel,
+    SpatialSurface,
     revolute,
     spherical,
 )
-from crumple._core.spatial.simulation import SpaceSimulation
+from crumple._core.spatial.simulation import SpatialSimulation
+from crumple._core.variants import Variants
 
 LOOSE = 1e3
 """Accuracy that no step fails, so the longest step fixes all of them."""
 LONGEST = 2e-4
-FEW_DIGITS = ("velocity", "hinge_moment")
+FEW_DIGITS = ("velocity", "hinge.moment")
 """Moments of locked hinges that equilibrium does not determine, and rates of elastic ones."""
 NEAR = 1e-5
 """By this share parameters are moved, for followers as for differences."""
@@ -57,29 +59,30 @@ FIELDS = (
     "centre",
     "rotation",
     "velocity",
-    "hinge_rotation",
-    "hinge_plastic",
-    "hinge_moment",
-    "hinge_energy",
-    "energy",
+    "hinge.rotation",
+    "hinge.plastic",
+    "hinge.moment",
+    "hinge_energy.dissipated",
+    "energy.kinetic",
+    "energy.dissipated",
 )
 
 
 def runs(models, velocities, end, *, led, accuracy=LOOSE, longest=LONGEST, stages=None):
-    """Finals of models with velocities (bodies, 6) at the start."""
-    stages = stages or (SpaceStage(end),)
+    """End values of models with velocities (bodies, 6) at the start."""
+    stages = stages or (SpatialStage(end),)
     motion = np.zeros((len(models), len(stages), *np.shape(velocities[0])))
     motion[:, 0] = velocities
-    variants = SpaceVariants(
-        [SpaceCase(model, stages) for model in models], np.arange(len(models)), velocity=motion
+    variants = Variants(
+        [StagedModel(model, stages) for model in models], np.arange(len(models)), velocity=motion
     )
-    finals = solve_many(variants, accuracy, maximum_step=longest, led=led)
-    assert set(finals.outcome) == {Outcome.COMPLETE}
-    return finals
+    ends = solve_many(variants, accuracy, maximum_step=longest, led=led)
+    assert set(ends.outcome) == {Outcome.COMPLETE}
+    return ends
 
 
-def flat(finals, row):
-    return np.concatenate([np.ravel(getattr(finals, name)[row]) for name in FIELDS])
+def flat(ends, row):
+    return np.concatenate([np.ravel(attrgetter(name)(ends)[row]) for name in FIELDS])
 
 
 def check(move, velocity, *, end=0.02, stages=None, name=None, record_figure=None):
@@ -89,7 +92,7 @@ def check(move, velocity, *, end=0.02, stages=None, name=None, record_figure=Non
     plain = runs(models, [velocity] * 3, end, led=False, stages=stages)
     np.testing.assert_array_equal(flat(led, 0), flat(plain, 0))
     assert (plain.steps == plain.steps[0]).all()
-    parts = np.cumsum([np.ravel(getattr(led, field)[0]).size for field in FIELDS])[:-1]
+    parts = np.cumsum([np.ravel(attrgetter(field)(led)[0]).size for field in FIELDS])[:-1]
     scale = np.concatenate(
         [np.full(part.size, max(np.abs(part).max(), 1e-12)) for part in np.split(flat(led, 0), parts)]
     )
@@ -107,9 +110,9 @@ def test_wheel(record_figure):
     inertia, moment, rate = 2.0, 500.0, 10.0
 
     def model(m=moment, j=inertia):
-        wheel = SpaceBody(1.0, np.diag([j, j, j]), np.zeros(3))
-        hinge = SpaceHinge(0, (component(RX, m),))
-        return SpaceModel((wheel,), (revolute(GROUND, 0, np.zeros(3), (0, 0, 1)),), (hinge,))
+        wheel = SpatialBody(1.0, np.diag([j, j, j]), np.zeros(3))
+        hinge = SpatialHinge(0, (component(RX, m),))
+        return SpatialModel((wheel,), (revolute(GROUND, 0, np.zeros(3), (0, 0, 1)),), (hinge,))
 
     def turning(w=rate):
         return np.array([[0.0, 0.0, w, 0.0, 0.0, 0.0]])
@@ -130,7 +133,11 @@ def test_wheel(record_figure):
         def slope(values, k):
             return (values[1 + 2 * k] - values[2 + 2 * k]) / widths[k]
 
-        rotation, energy, rest = led.hinge_rotation[:, 0], led.hinge_energy[:, 0, 0], led.summary[:, 0, 3]
+        rotation, energy, rest = (
+            led.hinge.rotation[:, 0],
+            led.hinge_energy.dissipated[:, 0],
+            led.summary.rest_time[:, 0],
+        )
         figures = {
             "d rotation/d moment": (slope(rotation, 0), -inertia * rate**2 / (2 * moment**2), tolerance),
             "d rotation/d inertia": (slope(rotation, 1), rate**2 / (2 * moment), tolerance),
@@ -196,10 +203,10 @@ def arm(form=SET_VALUED, softening=PEAK, coupling=Coupling.ELLIPSOID, stop=(), f
         )
         if coupling is Coupling.SECTION:
             rows = rows / (np.abs(rows) ** 4).sum(axis=0).clip(1e-30) ** 0.25
-        surface = SpaceSurface(coupling, rows, 4.0, 2.0, 0 if coupling is Coupling.SECTION else -1)
-        return SpaceHinge(joint, parts, surface, form, softening, fracture)
+        surface = SpatialSurface(coupling, rows, 4.0, 2.0, 0 if coupling is Coupling.SECTION else -1)
+        return SpatialHinge(joint, parts, surface, form, softening, fracture)
 
-    return SpaceModel(bodies, joints, (hinge(0), hinge(1)), gravity=(0.0, 0.0, -9.81), length=0.9)
+    return SpatialModel(bodies, joints, (hinge(0), hinge(1)), gravity=(0.0, 0.0, -9.81), length=0.9)
 
 
 THROWN = (3.0, -9.0, 6.0)
@@ -257,13 +264,13 @@ def four_bar(joint=revolute):
     bodies = tuple(bar(corners[i], corners[i + 1]) for i in range(3))
     joints = tuple(joint(i - 1, i if i < 3 else GROUND, corners[i], (0, 1, 0)) for i in range(4))
     law = softening_law(0.05, 1e-4)
-    hinges = tuple(SpaceHinge(i, (component(RX, law),)) for i in range(4))
-    return SpaceModel(bodies, joints, hinges, gravity=(0.0, 0.0, -9.81), length=0.6)
+    hinges = tuple(SpatialHinge(i, (component(RX, law),)) for i in range(4))
+    return SpatialModel(bodies, joints, hinges, gravity=(0.0, 0.0, -9.81), length=0.6)
 
 
 def test_loop_with_redundant_joints(record_figure):
     model = four_bar()
-    assert SpaceSimulation(model).freedoms == (1, 3)
+    assert SpatialSimulation(model).freedoms == (1, 3)
 
     def move(e):
         return replace(moved_hinge(model, 1, 1 + e), gravity=(0.0, 0.0, -9.81 * (1 - 3 * e)))
@@ -277,14 +284,14 @@ def test_loop_with_redundant_joints(record_figure):
 def test_load_and_drive(record_figure):
     """The arm pushed at its end while its root is carried along."""
     model = arm()
-    held = SpaceJoint(GROUND, 0, np.zeros(3), np.eye(3), (True, True, True, False, False, False))
+    held = SpatialJoint(GROUND, 0, np.zeros(3), np.eye(3), (True, True, True, False, False, False))
     times = np.array([0.0, 0.02])
 
     def move(e):
         values = np.array([100.0, 3000.0]) * (1 + e)
         force, moment = np.array([0.0, 1.0, 1.0]), np.array([0.0, 0.0, 10.0 * e])
-        push = SpaceLoad(1, np.array([0.7, 0.4, 0.1 + e]), force, moment, times, values)
-        carried = SpaceDrive(0, 1, times, np.array([0.0, 4.0 * (1 + e)]))
+        push = SpatialLoad(1, np.array([0.7, 0.4, 0.1 + e]), force, moment, times, values)
+        carried = SpatialDrive(0, 1, times, np.array([0.0, 4.0 * (1 + e)]))
         return replace(model, joints=(held, model.joints[1]), loads=(push,), drives=(carried,))
 
     check(move, np.zeros((2, 6)), name="load and drive", record_figure=record_figure)
@@ -293,7 +300,7 @@ def test_load_and_drive(record_figure):
 def test_two_stages(record_figure):
     """Thrown, then left to itself: what the first stage did counts in the second."""
     model = arm(softening=ROTATION)
-    stages = (SpaceStage(0.008), SpaceStage(0.006))
+    stages = (SpatialStage(0.008), SpatialStage(0.006))
     check(
         lambda e: moved_hinge(model, 1, 1 + e),
         thrown(model),

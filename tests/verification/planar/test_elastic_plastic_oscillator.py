@@ -37,17 +37,17 @@ def test_yields_once_and_swings_about_its_residual(ratio, record_figure):
     allowed = ACCURACY * largest
     residual = largest - X_Y
     name = f"start at {ratio:g} times the yield rate"
-    record_figure(f"largest rotation, {name}", record.summary[0, 0], largest, allowed, "rad")
-    record_figure(f"plastic rotation, {name}", record.hinge[-1, 0, 0], residual, allowed, "rad")
+    record_figure(f"largest rotation, {name}", record.summary.rotation_max[0], largest, allowed, "rad")
+    record_figure(f"plastic rotation, {name}", record.hinge.plastic[-1, 0], residual, allowed, "rad")
     after = record.q[record.time > 2 * PERIOD, 0]
     record_figure(f"middle of the swing, {name}", (after.max() + after.min()) / 2, residual, allowed, "rad")
     # the swing is read off 100 outputs a period: its top is missed by (pi/100)^2/2 of it
     missed = (math.pi / 100) ** 2 / 2 * X_Y
     record_figure(f"amplitude, {name}", (after.max() - after.min()) / 2, X_Y, allowed + missed, "rad")
     stop = (math.asin(1 / ratio) + math.sqrt(ratio**2 - 1)) / OMEGA
-    record_figure(f"time of rest, {name}", record.summary[0, 2], stop, ACCURACY, "s", relative=True)
-    assert record.summary[0, 3] == 0.0
-    assert record.hinge[-1, 0, 3] == pytest.approx(YIELD * residual, rel=10 * ACCURACY)
+    record_figure(f"time of rest, {name}", record.summary.rest_time[0], stop, ACCURACY, "s", relative=True)
+    assert record.summary.turning[0] == 0.0
+    assert record.hinge_energy.dissipated[-1, 0] == pytest.approx(YIELD * residual, rel=10 * ACCURACY)
     assert record.residual < 1e-12
 
 
@@ -59,14 +59,17 @@ def test_below_yield_it_is_a_harmonic_oscillator(ratio, record_figure):
     # the trapezoidal rule lengthens the period by (omega h)^2/12: 0.033 % at 100 steps a period
     drift = 2 * math.pi * 5 * (2 * math.pi / 100) ** 2 / 12
     record_figure(f"departure from a sine over 5 periods, {ratio:g}", worst / (ratio * X_Y), 0.0, drift)
-    assert abs(record.hinge[-1, 0, 3]) < 1e-12 * record.energy[0, 0]
-    np.testing.assert_allclose(record.energy[:, 0] + record.energy[:, 1], record.energy[0, 0], rtol=1e-12)
+    assert abs(record.hinge_energy.dissipated[-1, 0]) < 1e-12 * record.energy.kinetic[0]
+    np.testing.assert_allclose(
+        record.energy.kinetic + record.energy.elastic, record.energy.kinetic[0], rtol=1e-12
+    )
 
 
 def test_senses_mirror():
     one, other = run(3.0), run(3.0, sense=-1.0)
     np.testing.assert_array_equal(one.q, -other.q)
-    np.testing.assert_array_equal(one.hinge[:, 0, :2], -other.hinge[:, 0, :2])
+    np.testing.assert_array_equal(one.hinge.plastic, -other.hinge.plastic)
+    np.testing.assert_array_equal(one.hinge.moment, -other.hinge.moment)
 
 
 @pytest.mark.parametrize("accuracy", [1e-3, 1e-4, 1e-5, 1e-6])
@@ -76,4 +79,4 @@ def test_long_steps_do_not_run_past_the_turning_point(stiffness, accuracy):
     one = hinge(0, YIELD, ELASTIC_PLASTIC, elastic_stiffness=stiffness)
     record = started(TreeModel((wheel(INERTIA),), (one,)), [15.0], accuracy).run(np.array([0.2]))
     plastic = (INERTIA * 15.0**2 - YIELD**2 / stiffness) / (2 * YIELD)
-    assert record.hinge[-1, 0, 0] == pytest.approx(plastic, rel=accuracy)
+    assert record.hinge.plastic[-1, 0] == pytest.approx(plastic, rel=accuracy)

@@ -47,7 +47,7 @@ def test_momentum_and_energy_are_kept(accuracy, record_figure):
     name = f"accuracy {accuracy:g}"
     record_figure(f"drift of momentum, {name}", np.abs(linear - linear[0]).max() / size, 0.0, accuracy)
     record_figure(f"drift of angular momentum, {name}", np.abs(angular / angular[0] - 1).max(), 0.0, accuracy)
-    energy = record.energy[:, 0]
+    energy = record.energy.kinetic
     record_figure(f"drift of energy, {name}", np.abs(energy / energy[0] - 1).max(), 0.0, 2 * accuracy)
     # it must have moved: nothing is shown by a chain that stands still
     assert np.abs(record.q[-1]).max() > 1.0
@@ -62,7 +62,7 @@ def test_second_order(record_figure):
             assert simulation.step(END / number)
         record = simulation.run(np.array([END]))
         linear, angular = momenta(chain(), record)
-        runs[number] = np.array([record.energy[-1, 0], angular[-1], *linear[-1], *simulation.q])
+        runs[number] = np.array([record.energy.kinetic[-1], angular[-1], *linear[-1], *simulation.q])
     errors = [np.abs(runs[n] - runs[3200]) for n in (100, 200, 400)]
     for i, name in enumerate(("energy", "angular momentum", "momentum along x", "momentum along y")):
         record_figure(f"order of {name}", float(np.log2(errors[1][i] / errors[2][i])), 2.0, 0.3)

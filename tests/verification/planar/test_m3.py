@@ -113,7 +113,7 @@ def test_set_valued(accuracy, stopped, record_figure):
         record_figure(
             f"rotation of {name}, accuracy {accuracy:g}", value, expected, accuracy * largest, "rad"
         )
-    rest = record.summary[:, 2].max()
+    rest = record.summary.rest_time.max()
     record_figure(f"time of rest, accuracy {accuracy:g}", rest, time, 2 * accuracy, "s", relative=True)
 
 

@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 from tests.support.multibody.space_models import revolute
 
-from crumple._core.spatial.model import GROUND, SpaceBody, SpaceLoad, SpaceModel, SpaceSpring
-from crumple._core.spatial.simulation import SpaceSimulation
+from crumple._core.spatial.model import GROUND, SpatialBody, SpatialLoad, SpatialModel, SpatialSpring
+from crumple._core.spatial.simulation import SpatialSimulation
 
 END = 0.03
 # beta, Theta, gamma, Phi, delta, Omega, epsilon [rad]
@@ -70,16 +70,16 @@ def squeezer(accuracy=1e-3):
     assert e == pytest.approx(g + along(phi + delta, 0.0, -2e-2), abs=1e-14)
     assert e == pytest.approx(h + along(omega + epsilon, 2e-2), abs=1e-14)
     bodies = tuple(
-        SpaceBody(mass, inertia * np.eye(3), centre)
+        SpatialBody(mass, inertia * np.eye(3), centre)
         for mass, inertia, centre in zip(MASSES, INERTIAS, centres, strict=True)
     )
     pins = [(GROUND, 0, np.zeros(3)), (0, 1, crank), (1, 2, e), (1, 3, e), (1, 5, e)]
     pins += [(GROUND, 2, B), (GROUND, 4, A), (GROUND, 6, A), (3, 4, g), (5, 6, h)]
     joints = tuple(revolute(first, second, place, (0, 0, 1)) for first, second, place in pins)
-    motor = SpaceLoad(0, np.zeros(3), np.zeros(3), np.array([0.0, 0.0, 0.033]), np.zeros(1), np.ones(1))
-    spring = SpaceSpring(GROUND, 2, C, B + along(gamma, 2e-2, -18e-3), 4530.0, 0.07785)
-    return SpaceSimulation(
-        SpaceModel(bodies, joints, loads=(motor,), springs=(spring,), length=0.1), accuracy
+    motor = SpatialLoad(0, np.zeros(3), np.zeros(3), np.array([0.0, 0.0, 0.033]), np.zeros(1), np.ones(1))
+    spring = SpatialSpring(GROUND, 2, C, B + along(gamma, 2e-2, -18e-3), 4530.0, 0.07785)
+    return SpatialSimulation(
+        SpatialModel(bodies, joints, loads=(motor,), springs=(spring,), length=0.1), accuracy
     )
 
 

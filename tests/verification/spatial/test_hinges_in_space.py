@@ -35,7 +35,7 @@ from tests.support.multibody.space_models import (
 )
 from tests.verification.planar.test_portal_loop import HEIGHTS, TOP, turns
 
-from crumple._core.spatial.model import GROUND, Coupling, SpaceHinge, SpaceModel, SpaceSurface
+from crumple._core.spatial.model import GROUND, Coupling, SpatialHinge, SpatialModel, SpatialSurface
 
 END = np.array([0.1])
 
@@ -47,23 +47,23 @@ def test_constant_moment(ball, accuracy, record_figure):
     turn = random_turn(1)
     axis, body = turn[2], bar((0, 0, 0), turn[0])
     components = tuple(component(freedom, 700.0) for freedom in ((RX, RY, RZ) if ball else (RX,)))
-    surface = SpaceSurface(Coupling.BALL if ball else Coupling.NONE)
+    surface = SpatialSurface(Coupling.BALL if ball else Coupling.NONE)
     joint = spherical(GROUND, 0, np.zeros(3)) if ball else revolute(GROUND, 0, np.zeros(3), axis)
-    model = SpaceModel((body,), (joint,), (SpaceHinge(0, components, surface),))
+    model = SpatialModel((body,), (joint,), (SpatialHinge(0, components, surface),))
     record = started(model, [about((0, 0, 0), 15.0 * axis, body)], accuracy).run(END)
     inertia = MASS_PER_LENGTH / 3
     name = f"{'ball' if ball else 'pin'}, accuracy {accuracy:g}"
     stop = inertia * 15.0**2 / (2 * 700.0)
-    record_figure(f"rotation, {name}", record.summary[0, 0], stop, accuracy, "rad", relative=True)
+    record_figure(f"rotation, {name}", record.summary.rotation_max[0], stop, accuracy, "rad", relative=True)
     rest = inertia * 15.0 / 700.0
-    record_figure(f"time of rest, {name}", record.summary[0, 3], rest, accuracy, "s", relative=True)
+    record_figure(f"time of rest, {name}", record.summary.rest_time[0], rest, accuracy, "s", relative=True)
 
 
 @pytest.mark.parametrize("rate", [0.05, 5e-4])
 def test_m2_is_the_planar_chain(rate, record_figure):
     figure = {0.05: 0.6656451692, 5e-4: 0.6621691528}[rate]
     tight = m2(10, 1e-5, REGULARISED, rate, error=1e-7, turn=random_turn(2)).run(END)
-    total = tight.hinge_rotation[-1].sum()
+    total = tight.hinge.rotation[-1].sum()
     record_figure(
         f"sum of rotations of M2(10), ramp {rate:g} rad/s", total, figure, 1e-5, "rad", relative=True
     )
@@ -75,7 +75,7 @@ def test_m2_set_valued(accuracy, record_figure):
     planar = planar_m2(10, 1e-6, SET_VALUED, error=1e-7)
     planar.run(END)
     record = m2(10, accuracy, SET_VALUED).run(END)
-    error = np.abs(record.hinge_rotation[-1] - planar.q).max() / np.abs(planar.q).max()
+    error = np.abs(record.hinge.rotation[-1] - planar.q).max() / np.abs(planar.q).max()
     record_figure(f"error of the worst hinge of M2(10), accuracy {accuracy:g}", error, 0.0, accuracy)
     assert record.residual < accuracy
 
@@ -102,13 +102,13 @@ def m3(accuracy, turn):
         revolute(1, 2, c, y),
         revolute(2, GROUND, d, y),
     )
-    hinges = tuple(SpaceHinge(k, (softening_component(RX, 0.5),), softening=ROTATION) for k in range(4))
+    hinges = tuple(SpatialHinge(k, (softening_component(RX, 0.5),), softening=ROTATION) for k in range(4))
     velocity = [
         about(a, y * 10.0 / HEIGHTS[0], bodies[0]),
         np.concatenate([np.zeros(3), turn @ (10.0, 0.0, 0.0)]),
         about(d, y * 10.0 / HEIGHTS[1], bodies[2]),
     ]
-    return started(SpaceModel(bodies, joints, hinges), velocity, accuracy)
+    return started(SpatialModel(bodies, joints, hinges), velocity, accuracy)
 
 
 @pytest.mark.parametrize("accuracy", [1e-3, 1e-5])
@@ -119,14 +119,14 @@ def test_m3(accuracy, record_figure):
     energy = sum(MASS_PER_LENGTH * h**3 / 6 * (10.0 / h) ** 2 for h in HEIGHTS)
     energy += (MASS_PER_LENGTH * TOP + 20.0) / 2 * 10.0**2
     stop = brentq(lambda a: energy - sum(area(t, 0.5) for t in turns(a)), 1e-3, 1.0, xtol=1e-12)
-    for name, got, turn in zip("ABCD", record.summary[:, 0], turns(stop), strict=True):
+    for name, got, turn in zip("ABCD", record.summary.rotation_max, turns(stop), strict=True):
         text = f"M3, rotation of hinge {name}, accuracy {accuracy:g}"
         record_figure(text, got, turn, accuracy, "rad", relative=True)
     assert record.residual < accuracy
 
 
 def lengths(record):
-    return np.linalg.norm(record.hinge_rotation[-1].reshape(-1, 3), axis=1)
+    return np.linalg.norm(record.hinge.rotation[-1].reshape(-1, 3), axis=1)
 
 
 def test_m4(record_figure):
@@ -164,7 +164,7 @@ def test_m4_from_the_side():
 def test_a_turned_model_moves_alike(model, record_figure):
     """All hinge rotations and energies; a model turned in space takes the same steps but for rounding."""
     straight, turned = model(np.eye(3)).run(END), model(random_turn(4)).run(END)
-    plain, other = straight.summary[:, 0], turned.summary[:, 0]
+    plain, other = straight.summary.rotation_max, turned.summary.rotation_max
     record_figure("largest change of a rotation", float(np.abs(plain - other).max()), 0.0, 1e-9, "rad")
     assert straight.steps == turned.steps
     np.testing.assert_allclose(turned.energy, straight.energy, rtol=0, atol=1e-7)
@@ -176,7 +176,7 @@ def test_free_assembly_keeps_its_momentum(record_figure):
     bodies = tuple(bar(points[k], points[k + 1]) for k in range(3))
     joints = tuple(spherical(k, k + 1, points[k + 1]) for k in range(2))
     hinges = tuple(ball_hinge(k, 0.005) for k in range(2))
-    model = SpaceModel(bodies, joints, hinges)
+    model = SpatialModel(bodies, joints, hinges)
     velocity = np.array([[5, 0, 20, 1, 2, 3], [0, 10, -5, 1, 2, 3], [0, 0, 3, -2, 2, 3]], float)
     errors = []
     for number in (20, 40, 80):
@@ -188,7 +188,7 @@ def test_free_assembly_keeps_its_momentum(record_figure):
         one, two = (momenta(bodies, record) for record in (before, after))
         assert np.abs(one[0] - two[0]).max() < 1e-10
         errors.append(np.linalg.norm(one[1] - two[1]) / np.linalg.norm(one[1]))
-        assert after.energy[-1, 0] < 0.95 * before.energy[-1, 0]
+        assert after.energy.kinetic[-1] < 0.95 * before.energy.kinetic[-1]
     assert math.log2(errors[0] / errors[2]) / 2 > 1.8
     record_figure("angular momentum lost, 80 steps", errors[-1], 0.0, 1e-5)
 

@@ -20,14 +20,14 @@ from tests.support.multibody.space_models import GRAVITY, bar, started, with_mas
 
 from crumple._core.spatial.model import (
     GROUND,
-    SpaceBody,
-    SpaceDrive,
-    SpaceModel,
-    SpaceSpring,
+    SpatialBody,
+    SpatialDrive,
+    SpatialModel,
+    SpatialSpring,
     prismatic,
     revolute,
 )
-from crumple._core.spatial.simulation import SpaceSimulation
+from crumple._core.spatial.simulation import SpatialSimulation
 
 Z = (0.0, 0.0, 1.0)
 DOWN = (0.0, -GRAVITY, 0.0)
@@ -52,7 +52,7 @@ def bricard(accuracy):
     joints = tuple(
         revolute(k - 1 if k > 0 else GROUND, k if k < 5 else GROUND, CORNERS[k], AXES[k]) for k in range(6)
     )
-    return SpaceSimulation(SpaceModel(bodies, joints, gravity=DOWN), accuracy)
+    return SpatialSimulation(SpatialModel(bodies, joints, gravity=DOWN), accuracy)
 
 
 class BricardByHand:
@@ -144,7 +144,7 @@ def four_bars(windows, accuracy):
         top = windows + 1 + i
         joints += [revolute(i, top, (i, 1, 0), Z), revolute(top, i + 1, (i + 1, 1, 0), Z)]
     velocity = [[0, 0, -1, 0.5, 0, 0]] * (windows + 1) + [[0, 0, 0, 1, 0, 0]] * windows
-    return started(SpaceModel(tuple(bodies), tuple(joints), gravity=DOWN), velocity, accuracy)
+    return started(SpatialModel(tuple(bodies), tuple(joints), gravity=DOWN), velocity, accuracy)
 
 
 @pytest.mark.parametrize("windows", [2, pytest.param(40, marks=pytest.mark.slow)])
@@ -184,7 +184,7 @@ def governor(accuracy):
         end = top + slope * (side, 1.0, 1.0)
         rods.append(with_mass(bar(top, end, ROD_MASS, ALONG_ROD), end, BALL))
         tops.append((top, (top + end) / 2))
-    slider = SpaceBody(SLIDER, SLIDER * 0.01 / 6 * np.eye(3), np.array([0.0, 0.0, 0.5]))
+    slider = SpatialBody(SLIDER, SLIDER * 0.01 / 6 * np.eye(3), np.array([0.0, 0.0, 0.5]))
     joints = (
         revolute(GROUND, 0, np.zeros(3), Z),
         prismatic(0, 3, slider.centre, Z),
@@ -192,12 +192,12 @@ def governor(accuracy):
         revolute(0, 2, tops[1][0], (0, 1, 0)),
     )
     springs = tuple(
-        SpaceSpring(
+        SpatialSpring(
             3, 1 + k, slider.centre + np.array([0.05 * side, 0, 0]), tops[k][1], STIFFNESS, FREE, DAMPING
         )
         for k, side in enumerate((1.0, -1.0))
     )
-    model = SpaceModel((shaft, *rods, slider), joints, springs=springs, gravity=(0, 0, -GRAVITY))
+    model = SpatialModel((shaft, *rods, slider), joints, springs=springs, gravity=(0, 0, -GRAVITY))
     omega = (0.0, 0.0, 2 * math.pi)
     velocity = [np.concatenate([omega, np.cross(omega, b.centre)]) for b in model.bodies]
     return started(model, velocity, accuracy)
@@ -253,7 +253,7 @@ def test_flyball_governor(record_figure):
 def slider_crank(rate):
     """Crank of 0.1 m turned at a constant rate from the dead centre, rod of 0.3 m, slider along x."""
     crank, rod = bar((0, 0, 0), (0.1, 0, 0)), bar((0.1, 0, 0), (0.4, 0, 0))
-    slider = SpaceBody(2.0, 0.01 * np.eye(3), np.array([0.4, 0.0, 0.0]))
+    slider = SpatialBody(2.0, 0.01 * np.eye(3), np.array([0.4, 0.0, 0.0]))
     joints = (
         revolute(GROUND, 0, np.zeros(3), Z),
         revolute(0, 1, (0.1, 0, 0), Z),
@@ -262,8 +262,8 @@ def slider_crank(rate):
     )
     held = (True, True, True, True, True, True)
     driven = type(joints[0])(GROUND, 0, np.zeros(3), joints[0].axes, held)
-    drive = SpaceDrive(0, 3, np.zeros(1), np.array([rate]))
-    model = SpaceModel((crank, rod, slider), (driven, *joints[1:]), drives=(drive,), length=0.4)
+    drive = SpatialDrive(0, 3, np.zeros(1), np.array([rate]))
+    model = SpatialModel((crank, rod, slider), (driven, *joints[1:]), drives=(drive,), length=0.4)
     velocity = np.zeros((3, 6))
     return started(model, velocity, 1e-5)
 
@@ -303,8 +303,8 @@ def test_four_bar(record_figure):
     bodies = tuple(bar(points[k], points[k + 1]) for k in range(3))
     joints = [revolute(k - 1, k, points[k], Z) for k in range(3)] + [revolute(2, GROUND, points[3], Z)]
     joints[0] = type(joints[0])(GROUND, 0, points[0], joints[0].axes, (True,) * 6)
-    model = SpaceModel(
-        bodies, tuple(joints), drives=(SpaceDrive(0, 3, np.zeros(1), np.array([rate])),), length=0.3
+    model = SpatialModel(
+        bodies, tuple(joints), drives=(SpatialDrive(0, 3, np.zeros(1), np.array([rate])),), length=0.3
     )
     simulation = started(model, np.zeros((3, 6)), 1e-5)
     times = np.linspace(0.0, 2 * math.pi / rate, 33)[1:]

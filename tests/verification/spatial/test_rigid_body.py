@@ -16,8 +16,8 @@ import numpy as np
 import pytest
 from tests.support.multibody.space_models import GRAVITY, bar, pendulum, started
 
-from crumple._core.spatial.model import GROUND, SpaceBody, SpaceModel, spherical
-from crumple._core.spatial.simulation import SpaceSimulation
+from crumple._core.spatial.model import GROUND, SpatialBody, SpatialModel, spherical
+from crumple._core.spatial.simulation import SpatialSimulation
 
 PERIOD = 2.3678419475762373
 INERTIA = np.diag([1.0, 2.0, 3.5])
@@ -32,10 +32,10 @@ def turned(quaternion, vector):
 
 def test_free_body_keeps_momentum_and_energy(record_figure):
     """Errors after 2 s with steps of 20, 10 and 5 ms; it turns mainly about its unstable middle axis."""
-    body = SpaceBody(2.0, INERTIA, np.zeros(3))
+    body = SpatialBody(2.0, INERTIA, np.zeros(3))
     momentum, energy, places = [], [], []
     for h in (0.02, 0.01, 0.005):
-        simulation = started(SpaceModel((body,)), [[*SPIN, 0.1, 0.0, 0.0]])
+        simulation = started(SpatialModel((body,)), [[*SPIN, 0.1, 0.0, 0.0]])
         for _ in range(round(2.0 / h)):
             assert simulation.step(h)
         record = simulation.run(np.array([2.0]))
@@ -43,7 +43,7 @@ def test_free_body_keeps_momentum_and_energy(record_figure):
         inverse = q * (1.0, -1.0, -1.0, -1.0)
         spin = turned(q, INERTIA @ turned(inverse, w))
         momentum.append(np.linalg.norm(spin - INERTIA @ SPIN))
-        energy.append(abs(record.energy[-1, 0] - SPIN @ INERTIA @ SPIN / 2 - 0.01))
+        energy.append(abs(record.energy.kinetic[-1] - SPIN @ INERTIA @ SPIN / 2 - 0.01))
         places.append(q)
         assert record.centre[-1, 0] == pytest.approx([0.2, 0.0, 0.0], abs=1e-14)
     record_figure("order of the angular momentum's error", math.log2(momentum[0] / momentum[2]) / 2, 2.0, 0.2)
@@ -91,14 +91,14 @@ def test_conical_pendulum(record_figure):
     rate = math.sqrt(1.5 * GRAVITY / length / math.cos(angle))
     end = length * np.array([math.sin(angle), 0.0, -math.cos(angle)])
     body = bar((0, 0, 0), end, mass=2.0, about_axis=0.01)
-    model = SpaceModel(
+    model = SpatialModel(
         (body,), (spherical(GROUND, 0, np.zeros(3)),), gravity=(0.0, 0.0, -GRAVITY), length=length
     )
     # the rod turns about the vertical, less its spin about itself, of which it has none
     along = end / length
     omega = np.array([0.0, 0.0, rate])
     omega = omega - along * (along @ omega)
-    simulation = SpaceSimulation(model, 1e-6)
+    simulation = SpatialSimulation(model, 1e-6)
     simulation.set_motion(np.concatenate([omega, np.cross(omega, body.centre)])[None], np.zeros((1, 6)))
     record = simulation.run(np.linspace(0.0, 10 * 2 * math.pi / rate, 101)[1:])
     heights = record.centre[:, 0, 2] / body.centre[2]

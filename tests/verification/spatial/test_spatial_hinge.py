@@ -81,7 +81,8 @@ def test_one_component_is_the_planar_hinge(form, softening):
         made.step(step, np.interp((i + 0.5) * step, times, 1500.0 * np.sin(12.0 * times)))
         assert made.q[0] == pytest.approx(simulation.q[0], abs=1e-9)
         assert made.w[0] == pytest.approx(simulation.w[0], abs=1e-8)
-    rotation, moment, _, _, lost = simulation._kernel.summary()[0]
+    summary = simulation.summary()
+    rotation, moment, lost = summary.rotation_max[0], summary.moment_max[0], summary.energy[0]
     state = made.state
     assert np.abs(made.q).max() > 0.0
     assert state["rotation_max"] == pytest.approx(rotation, rel=1e-9)

@@ -12,8 +12,8 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from crumple._core.spatial.model import SpaceBody, SpaceJoint, SpaceLoad, SpaceModel
-from crumple._core.spatial.simulation import SpaceSimulation
+from crumple._core.spatial.model import SpatialBody, SpatialJoint, SpatialLoad, SpatialModel
+from crumple._core.spatial.simulation import SpatialSimulation
 
 DRAG = 0.1
 INERTIA = np.array([0.01, 0.02, 0.04])
@@ -43,10 +43,10 @@ def turned(times):
 def test_drag_alone_turns_a_body(record_figure):
     # rates of 1000 rad/s: a snap
     times = np.linspace(0.0, 3e-4, 7)
-    body = SpaceBody(1.0, np.diag(INERTIA), np.zeros(3))
-    ball = SpaceJoint(-1, 0, np.zeros(3), np.eye(3), (True, True, True, False, False, False))
-    load = SpaceLoad(0, np.zeros(3), np.zeros(3), MOMENT, np.array([0.0, 1.0]), np.ones(2))
-    run = SpaceSimulation(SpaceModel((body,), (ball,), loads=(load,)), ACCURACY)
+    body = SpatialBody(1.0, np.diag(INERTIA), np.zeros(3))
+    ball = SpatialJoint(-1, 0, np.zeros(3), np.eye(3), (True, True, True, False, False, False))
+    load = SpatialLoad(0, np.zeros(3), np.zeros(3), MOMENT, np.array([0.0, 1.0]), np.ones(2))
+    run = SpatialSimulation(SpatialModel((body,), (ball,), loads=(load,)), ACCURACY)
     run.stage(quasi_static=True)
     record = run.run(times)
     got = Rotation.from_quat(np.roll(record.rotation[:, 0], -1, axis=-1))

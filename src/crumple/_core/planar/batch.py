@@ -3,57 +3,34 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from crumple._core import _kernels
-from crumple._core.planar.simulation import MINIMUM_STEP, TreeModel, kernel_model
+from crumple._core.planar.simulation import MINIMUM_STEP, TreeModel, TreeRows, kernel_model
+from crumple._core.records import HingeSummary, named
+from crumple._core.variants import Variants
 from crumple.numeric.arrays import Floats
 
 
 @dataclass(frozen=True, eq=False)
-class TreeVariants:
-    """What varies from variant to variant, n rows; None leaves the model's own.
+class TreeEnds(TreeRows):
+    """Where runs end: the last row of each, and what their hinges came to, (n, hinges)."""
 
-    Attributes
-    ----------
-    models
-        Models of one topology: as many as differ in more than the arrays below.
-    model_of
-        (n,) which of the models.
-    velocity, impulse
-        Twists of the bodies at the start and impulses on them, at the centres of mass, (n, bodies, 3).
-    capacity_scale
-        (n, hinges), times the model's capacities; > 0.
-    load_scale
-        (n, loads), times the model's loads.
-    bodies
-        (n, bodies, 4): centre x, y [m], mass [kg], inertia [kg m^2].
-    gravity
-        (n, 2) [m/s^2].
-    """
-
-    models: Sequence[TreeModel]
-    model_of: NDArray[np.int64]
-    velocity: Floats | None = None
-    impulse: Floats | None = None
-    capacity_scale: Floats | None = None
-    load_scale: Floats | None = None
-    bodies: Floats | None = None
-    gravity: Floats | None = None
+    summary: HingeSummary
 
 
 @dataclass(frozen=True, eq=False)
-class TreeFinals:
+class TreeEndValues(TreeEnds):
     """Where every variant ended, n rows; zeros where it was refused or never begun.
 
     Attributes
     ----------
-    time, q, w, pose, velocity, hinge, energy, summary
-        The last row of a `TreeRecord` for each variant: (n,), (n, dofs), (n, bodies, 3), ...
+    time
+        Reached [s], (n,).
     residual
         Energy residual, (n,).
     lost
@@ -65,13 +42,6 @@ class TreeFinals:
     """
 
     time: Floats
-    q: Floats
-    w: Floats
-    pose: Floats
-    velocity: Floats
-    hinge: Floats
-    energy: Floats
-    summary: Floats
     residual: Floats
     lost: Floats
     outcome: NDArray[np.int64]
@@ -79,7 +49,7 @@ class TreeFinals:
 
 
 def solve_many(
-    variants: TreeVariants,
+    variants: Variants[TreeModel],
     end: float,
     accuracy: float = 1e-3,
     minimum_step: float = MINIMUM_STEP,
@@ -87,31 +57,21 @@ def solve_many(
     threads: int = 1,
     *,
     poll: Callable[[float], bool] | None = None,
-) -> TreeFinals:
+) -> TreeEndValues:
     """Solve every variant up to time ``end`` [s], with the very bits of a `Simulation` of it alone.
 
     ``poll(share)`` is asked now and then with the share done and returns False to cancel; variants that were
     not begun then have the outcome CANCELLED.
     """
     out = _kernels.planar.solve_many(
-        [kernel_model(model) for model in variants.models],
-        np.ascontiguousarray(variants.model_of, dtype=np.int64),
+        [kernel_model(model) for model in variants.cases],
+        variants.numbers(),
         end,
-        as_rows(variants.velocity),
-        as_rows(variants.impulse),
-        as_rows(variants.capacity_scale),
-        as_rows(variants.load_scale),
-        as_rows(variants.bodies),
-        as_rows(variants.gravity),
+        *variants.columns(),
         accuracy,
         minimum_step,
         maximum_step,
         threads,
         poll,
     )
-    return TreeFinals(**out)
-
-
-def as_rows(given: Floats | None) -> Floats | None:
-    """What varies as the kernels take it."""
-    return None if given is None else np.ascontiguousarray(given, dtype=float)
+    return TreeEndValues(**named(out))

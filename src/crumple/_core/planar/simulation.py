@@ -16,6 +16,8 @@ from typing import Any
 import numpy as np
 
 from crumple._core import _kernels
+from crumple._core.outcome import Outcome
+from crumple._core.records import ComponentRecord, EnergyRecord, HingeEnergyRecord, HingeSummary, named
 from crumple.numeric.arrays import Floats
 
 MINIMUM_STEP = 1e-9
@@ -27,18 +29,6 @@ class JointKind(IntEnum):
 
     REVOLUTE = 0
     FREE = 1
-
-
-class Outcome(IntEnum):
-    """How the kernel's run ended."""
-
-    COMPLETE = 0
-    STEP_COLLAPSED = 1
-    NOT_FINITE = 2
-    CANCELLED = 3
-    REFUSED = 4
-    UNHELD = 5
-    LIMIT_LOAD = 6
 
 
 @dataclass(frozen=True)
@@ -173,37 +163,51 @@ class TreeModel:
         return sum(body.dofs for body in self.bodies)
 
 
-@dataclass(frozen=True)
-class TreeRecord:
-    """Histories of a run; n output times.
+@dataclass(frozen=True, eq=False)
+class TreeRows:
+    """Where a tree is: one of n rows for every output time, or for every run.
+
+    Attributes
+    ----------
+    q, w
+        Joint coordinates and rates, (n, dofs).
+    pose
+        Angle and origin of every body, (n, bodies, 3); `velocity` has the same shape, at the centres of mass.
+    hinge, hinge_energy, energy
+        One component for every hinge, in the sense of its joint coordinate.
+    """
+
+    q: Floats
+    w: Floats
+    pose: Floats
+    velocity: Floats
+    hinge: ComponentRecord
+    hinge_energy: HingeEnergyRecord
+    energy: EnergyRecord
+
+    @property
+    def rows(self) -> int:
+        """How many."""
+        return len(self.q)
+
+
+@dataclass(frozen=True, eq=False)
+class TreeRecord(TreeRows):
+    """Histories of a run; a row for every output time.
 
     Attributes
     ----------
     time
         (n,) [s].
-    q, w
-        Joint coordinates and rates, (n, dofs).
-    pose
-        Angle and origin of every body, (n, bodies, 3); `velocity` has the same shape, at the centres of mass.
-    hinge
-        (n, hinges, 6): plastic rotation, moment, capacity, dissipated, elastic and stop energy.
-    energy
-        (n, 6): kinetic, elastic, dissipated, damped, stop, external work [J].
     drive
         Forces of the drives, (n, drives).
     summary
-        (hinges, 5): largest rotation and moment, time of rest, 1 if still turning, dissipated energy.
+        Of the whole run.
     """
 
     time: Floats
-    q: Floats
-    w: Floats
-    pose: Floats
-    velocity: Floats
-    hinge: Floats
-    energy: Floats
     drive: Floats
-    summary: Floats
+    summary: HingeSummary
     outcome: Outcome
     reason: str
     residual: float
@@ -258,7 +262,11 @@ class Simulation:
     def run(self, times: Floats, poll: Callable[[float], bool] | None = None) -> TreeRecord:
         """Step to the last of the increasing times [s]; ``poll(time)`` returns False to cancel."""
         out = self._kernel.run(times.tolist(), poll)
-        return TreeRecord(**out | {"outcome": Outcome(out["outcome"]), "summary": self._kernel.summary()})
+        return TreeRecord(**named(out) | {"outcome": Outcome(out["outcome"]), "summary": self.summary()})
+
+    def summary(self) -> HingeSummary:
+        """What every hinge has come to."""
+        return HingeSummary(**self._kernel.summary())
 
     def step(self, time_step: float) -> bool:
         """Take one step of fixed length [s]; False when it did not converge and nothing changed."""

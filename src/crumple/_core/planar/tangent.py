@@ -5,11 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from crumple._core import _kernels
-from crumple._core.planar.simulation import MINIMUM_STEP, Outcome, TreeModel, kernel_model
+from crumple._core.outcome import Outcome
+from crumple._core.planar.batch import TreeEnds
+from crumple._core.planar.simulation import MINIMUM_STEP, TreeModel, kernel_model
+from crumple._core.records import named
 from crumple.numeric.arrays import Floats
 
 
@@ -36,23 +40,13 @@ class TreeTangent:
 
     Attributes
     ----------
-    q, w
-        (1 + k, dofs).
-    pose, velocity
-        (1 + k, bodies, 3).
-    hinge, summary
-        (1 + k, hinges, 6) and (1 + k, hinges, 5), as in `TreeRecord`.
-    energy
-        (1 + k, 6).
+    ends
+        Rows.
+    time
+        Reached [s].
     """
 
-    q: Floats
-    w: Floats
-    pose: Floats
-    velocity: Floats
-    hinge: Floats
-    summary: Floats
-    energy: Floats
+    ends: TreeEnds
     time: float
     outcome: Outcome
     reason: str
@@ -96,21 +90,29 @@ def solve_tangent(
             poll,
         )
         parts.append(out)
-    bodies, hinges = len(model.bodies), len(model.hinges)
-    shapes = {"pose": (bodies, 3), "velocity": (bodies, 3), "hinge": (hinges, 6), "summary": (hinges, 5)}
-    joined = {}
-    for name in ("q", "w", "pose", "velocity", "hinge", "summary", "energy"):
-        rows = np.concatenate([parts[0][name][:1], *(part[name][1:] for part in parts)])
-        joined[name] = rows.reshape(len(rows), *shapes.get(name, (-1,)))
     last = parts[-1]
     return TreeTangent(
-        **joined,
+        TreeEnds(**named(_joined([part["ends"] for part in parts], len(model.bodies)))),
         time=last["time"],
         outcome=Outcome(last["outcome"]),
         reason=last["reason"],
         residual=last["residual"],
         steps=last["steps"],
     )
+
+
+def _joined(parts: Sequence[dict[str, Any]], bodies: int) -> dict[str, Any]:
+    """The values, then all derivatives, of answers that share their values; records in them too."""
+    joined: dict[str, Any] = {}
+    for name, first in parts[0].items():
+        if isinstance(first, dict):
+            joined[name] = _joined([part[name] for part in parts], bodies)
+            continue
+        rows = np.concatenate([first[:1], *(part[name][1:] for part in parts)])
+        joined[name] = rows.reshape(len(rows), bodies, 3) if name in ("pose", "velocity") else rows
+    if "kinetic" in joined:
+        return {name: rows[:, 0] for name, rows in joined.items()}
+    return joined
 
 
 def _slopes(ends: Sequence[tuple[Floats, Floats, float]], shape: tuple[int, ...]) -> Floats:

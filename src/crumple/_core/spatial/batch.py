@@ -3,83 +3,51 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from crumple._core import _kernels
-from crumple._core.planar.batch import as_rows
-from crumple._core.spatial.model import SpaceModel
-from crumple._core.spatial.simulation import MINIMUM_STEP, SpaceUntil, as_dict, as_until
+from crumple._core.records import HingeSummary, named
+from crumple._core.spatial.model import SpatialModel
+from crumple._core.spatial.simulation import MINIMUM_STEP, SpatialRows, SpatialUntil, as_dict, as_until
+from crumple._core.variants import Variants
 from crumple.numeric.arrays import Floats
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceStage:
-    """A stage of a run: duration [s], and the rest as `SpaceSimulation.stage` takes it."""
+class SpatialStage:
+    """A stage of a run: duration [s], and the rest as `SpatialSimulation.stage` takes it."""
 
     duration: float
     quasi_static: bool = False
     drives: tuple[int, ...] | None = None
     obstacles: tuple[int, ...] | None = None
-    until: tuple[SpaceUntil, ...] = ()
+    until: tuple[SpatialUntil, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceCase:
+class StagedModel:
     """A model and the stages of its run."""
 
-    model: SpaceModel
-    stages: tuple[SpaceStage, ...]
+    model: SpatialModel
+    stages: tuple[SpatialStage, ...]
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceVariants:
-    """What varies from variant to variant, n rows; None leaves the model's own.
-
-    Attributes
-    ----------
-    cases
-        Models with as many bodies, joints, hinges, loads, drives, obstacles and stages, between the same
-        bodies: as many as differ in more than the arrays below.
-    case_of
-        (n,) which of the cases.
-    velocity, impulse
-        Motion that every stage adds as it begins: twists of the bodies and impulses on them, at the centres
-        of mass, (n, stages, bodies, 6).
-    capacity_scale
-        (n, hinges), times the capacities of all components; > 0.
-    load_scale
-        (n, loads), times the model's loads.
-    bodies
-        (n, bodies, 13): centre [m], mass [kg], inertia about the centre [kg m^2] row by row.
-    gravity
-        (n, 3) [m/s^2].
-    """
-
-    cases: Sequence[SpaceCase]
-    case_of: NDArray[np.int64]
-    velocity: Floats | None = None
-    impulse: Floats | None = None
-    capacity_scale: Floats | None = None
-    load_scale: Floats | None = None
-    bodies: Floats | None = None
-    gravity: Floats | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class SpaceFinals:
+class SpatialEndValues(SpatialRows):
     """Where every variant ended, n rows; zeros where it was refused or never begun.
 
     Attributes
     ----------
-    time, centre, rotation, velocity, hinge_rotation, hinge_rate, hinge_plastic, hinge_moment, hinge_capacity,
-    hinge_energy, summary, energy
-        The last row of a `SpaceRecord` for each variant: (n,), (n, bodies, 3), (n, bodies, 4), ...
+    time
+        Reached [s], (n,).
     start
         Centres of mass at the start, (n, bodies, 3).
+    summary
+        What the hinges of each variant came to, (n, hinges).
     residual
         Largest energy residual of its stages, (n,).
     lost
@@ -92,17 +60,7 @@ class SpaceFinals:
 
     time: Floats
     start: Floats
-    centre: Floats
-    rotation: Floats
-    velocity: Floats
-    hinge_rotation: Floats
-    hinge_rate: Floats
-    hinge_plastic: Floats
-    hinge_moment: Floats
-    hinge_capacity: Floats
-    hinge_energy: Floats
-    summary: Floats
-    energy: Floats
+    summary: HingeSummary
     residual: Floats
     lost: Floats
     outcome: NDArray[np.int64]
@@ -110,7 +68,7 @@ class SpaceFinals:
 
 
 def solve_many(
-    variants: SpaceVariants,
+    variants: Variants[StagedModel],
     accuracy: float = 1e-3,
     minimum_step: float = MINIMUM_STEP,
     maximum_step: float = math.inf,
@@ -118,8 +76,8 @@ def solve_many(
     *,
     poll: Callable[[float], bool] | None = None,
     led: bool = False,
-) -> SpaceFinals:
-    """Solve every variant through its stages, with the very bits of a `SpaceSimulation` of it alone.
+) -> SpatialEndValues:
+    """Solve every variant through its stages, with the very bits of a `SpatialSimulation` of it alone.
 
     ``poll(share)`` is asked now and then with the share done and returns False to cancel; variants that were
     not begun then have the outcome CANCELLED.
@@ -131,13 +89,8 @@ def solve_many(
     """
     out = _kernels.spatial.solve_many(
         [kernel_case(case) for case in variants.cases],
-        np.ascontiguousarray(variants.case_of, dtype=np.int64),
-        as_rows(variants.velocity),
-        as_rows(variants.impulse),
-        as_rows(variants.capacity_scale),
-        as_rows(variants.load_scale),
-        as_rows(variants.bodies),
-        as_rows(variants.gravity),
+        variants.numbers(),
+        *variants.columns(),
         accuracy,
         minimum_step,
         maximum_step,
@@ -145,10 +98,10 @@ def solve_many(
         poll,
         led,
     )
-    return SpaceFinals(**out)
+    return SpatialEndValues(**named(out))
 
 
-def kernel_case(case: SpaceCase) -> _kernels._Spatial.Case:
+def kernel_case(case: StagedModel) -> _kernels._Spatial.Case:
     """A case as the kernel holds it."""
     model = case.model
     kernel = _kernels.spatial.Case(as_dict(model))

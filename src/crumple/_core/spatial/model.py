@@ -21,7 +21,7 @@ GROUND = -1
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceBody:
+class SpatialBody:
     """Rigid body: mass [kg], inertia about its centre in world axes at the start (3, 3), centre (3,)."""
 
     mass: float
@@ -30,7 +30,7 @@ class SpaceBody:
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceJoint:
+class SpatialJoint:
     """Connection of two bodies at a point.
 
     Attributes
@@ -57,10 +57,10 @@ class SpaceJoint:
     cross: bool = False
 
 
-def _joint(held: str, first: int, second: int, position: ArrayLike, axes: ArrayLike | None) -> SpaceJoint:
+def _joint(held: str, first: int, second: int, position: ArrayLike, axes: ArrayLike | None) -> SpatialJoint:
     rows = np.eye(3) if axes is None else np.asarray(axes, float)
     mask = tuple(letter == "1" for letter in held)
-    return SpaceJoint(first, second, np.asarray(position, float), rows, mask)  # type: ignore[arg-type]
+    return SpatialJoint(first, second, np.asarray(position, float), rows, mask)  # type: ignore[arg-type]
 
 
 def frame_of(axis: ArrayLike) -> Floats:
@@ -71,48 +71,48 @@ def frame_of(axis: ArrayLike) -> Floats:
     return np.array([x, y, np.cross(x, y)])
 
 
-def fixed(first: int, second: int, position: ArrayLike, axes: ArrayLike | None = None) -> SpaceJoint:
+def fixed(first: int, second: int, position: ArrayLike, axes: ArrayLike | None = None) -> SpatialJoint:
     """No relative motion."""
     return _joint("111111", first, second, position, axes)
 
 
-def revolute(first: int, second: int, position: ArrayLike, axis: ArrayLike) -> SpaceJoint:
+def revolute(first: int, second: int, position: ArrayLike, axis: ArrayLike) -> SpatialJoint:
     """Rotation about an axis, which is the joint's local x."""
     return _joint("111011", first, second, position, frame_of(axis))
 
 
-def spherical(first: int, second: int, position: ArrayLike, axes: ArrayLike | None = None) -> SpaceJoint:
+def spherical(first: int, second: int, position: ArrayLike, axes: ArrayLike | None = None) -> SpatialJoint:
     """Any rotation about a point."""
     return _joint("111000", first, second, position, axes)
 
 
 def universal(
     first: int, second: int, position: ArrayLike, first_axis: ArrayLike, second_axis: ArrayLike
-) -> SpaceJoint:
+) -> SpatialJoint:
     """Turns about an axis (local y) of the first body and one (local z) of the second, at right angles."""
     y, z = (np.asarray(a, float) / np.linalg.norm(a) for a in (first_axis, second_axis))
     axes = np.array([np.cross(y, z), y, z])
     held = (True, True, True, True, False, False)
-    return SpaceJoint(first, second, np.asarray(position, float), axes, held, cross=True)
+    return SpatialJoint(first, second, np.asarray(position, float), axes, held, cross=True)
 
 
-def prismatic(first: int, second: int, position: ArrayLike, axis: ArrayLike) -> SpaceJoint:
+def prismatic(first: int, second: int, position: ArrayLike, axis: ArrayLike) -> SpatialJoint:
     """Translation along an axis, which is the joint's local x."""
     return _joint("011111", first, second, position, frame_of(axis))
 
 
-def cylindrical(first: int, second: int, position: ArrayLike, axis: ArrayLike) -> SpaceJoint:
+def cylindrical(first: int, second: int, position: ArrayLike, axis: ArrayLike) -> SpatialJoint:
     """Translation along and rotation about an axis, which is the joint's local x."""
     return _joint("011011", first, second, position, frame_of(axis))
 
 
-def planar(first: int, second: int, position: ArrayLike, normal: ArrayLike) -> SpaceJoint:
+def planar(first: int, second: int, position: ArrayLike, normal: ArrayLike) -> SpatialJoint:
     """Motion in a plane: its normal is the joint's local x."""
     return _joint("100011", first, second, position, frame_of(normal))
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceComponent:
+class SpatialComponent:
     """One component of a hinge: curves (rotation or slip, moment or force) in both senses, and the rest.
 
     A stop is (place, stiffness, exponent, damping, penetration): empty for none, damping NaN for critical.
@@ -141,7 +141,7 @@ class Coupling(IntEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceSurface:
+class SpatialSurface:
     """Surface of interaction; `rows` (k, components), the column of component `torsion` is zero."""
 
     coupling: Coupling = Coupling.NONE
@@ -153,7 +153,7 @@ class SpaceSurface:
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceHinge:
+class SpatialHinge:
     """Plastic hinge in freedoms of a joint that are not held.
 
     Codes of form and softening variable are those of `crumple._core.planar.simulation.TreeHinge`.
@@ -161,15 +161,15 @@ class SpaceHinge:
     """
 
     joint: int
-    components: tuple[SpaceComponent, ...]
-    surface: SpaceSurface = SpaceSurface()
+    components: tuple[SpatialComponent, ...]
+    surface: SpatialSurface = SpatialSurface()
     form: int = 0
     softening: int = 0
     fracture: float = math.inf
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceLoad:
+class SpatialLoad:
     """Force [N] and moment [N m] at a point of a body, fixed in the world's axes, times a factor of time."""
 
     body: int
@@ -181,7 +181,7 @@ class SpaceLoad:
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceSpring:
+class SpatialSpring:
     """Linear spring [N/m] with a damper [N s/m] between two points; a body may be the ground."""
 
     first: int
@@ -194,7 +194,7 @@ class SpaceSpring:
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceDrive:
+class SpatialDrive:
     """Prescribed motion of one held freedom of a joint.
 
     The freedom's displacement is ``start`` plus the integral of ``rates``, piecewise linear over ``times``,
@@ -217,7 +217,7 @@ class ObstacleKind(IntEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceObstacle:
+class SpatialObstacle:
     """Solid on a body (-1: the ground; driven and guided obstacles are bodies with a joint to the ground).
 
     Attributes
@@ -249,7 +249,7 @@ class SpaceObstacle:
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceCapsule:
+class SpatialCapsule:
     """Segment with a radius on a body, ends in the world at the start; a sphere where both are the same."""
 
     body: int
@@ -259,7 +259,7 @@ class SpaceCapsule:
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceContact:
+class SpatialContact:
     """Contact of capsules with one another: pairs of capsule indices that may touch."""
 
     pairs: tuple[tuple[int, int], ...] = ()
@@ -268,18 +268,18 @@ class SpaceContact:
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceModel:
+class SpatialModel:
     """Constants of a spatial model; frozen."""
 
-    bodies: tuple[SpaceBody, ...]
-    joints: tuple[SpaceJoint, ...] = ()
-    hinges: tuple[SpaceHinge, ...] = ()
-    loads: tuple[SpaceLoad, ...] = ()
-    springs: tuple[SpaceSpring, ...] = ()
-    drives: tuple[SpaceDrive, ...] = ()
-    obstacles: tuple[SpaceObstacle, ...] = ()
-    capsules: tuple[SpaceCapsule, ...] = ()
-    contact: SpaceContact = SpaceContact()
+    bodies: tuple[SpatialBody, ...]
+    joints: tuple[SpatialJoint, ...] = ()
+    hinges: tuple[SpatialHinge, ...] = ()
+    loads: tuple[SpatialLoad, ...] = ()
+    springs: tuple[SpatialSpring, ...] = ()
+    drives: tuple[SpatialDrive, ...] = ()
+    obstacles: tuple[SpatialObstacle, ...] = ()
+    capsules: tuple[SpatialCapsule, ...] = ()
+    contact: SpatialContact = SpatialContact()
     gravity: tuple[float, float, float] = (0.0, 0.0, 0.0)
     length: float = 1.0
     """Turns displacements into angles for the error measure [m]."""

@@ -1,4 +1,4 @@
-"""Typed face of the spatial kernel: one run of a `SpaceModel`, in stages."""
+"""Typed face of the spatial kernel: one run of a `SpatialModel`, in stages."""
 
 from __future__ import annotations
 
@@ -11,15 +11,16 @@ from typing import Any
 import numpy as np
 
 from crumple._core import _kernels
-from crumple._core.planar.simulation import Outcome
+from crumple._core.outcome import Outcome
+from crumple._core.records import ComponentRecord, EnergyRecord, HingeEnergyRecord, HingeSummary, named
 from crumple._core.spatial.model import (
-    SpaceComponent,
-    SpaceDrive,
-    SpaceHinge,
-    SpaceJoint,
-    SpaceLoad,
-    SpaceModel,
-    SpaceObstacle,
+    SpatialComponent,
+    SpatialDrive,
+    SpatialHinge,
+    SpatialJoint,
+    SpatialLoad,
+    SpatialModel,
+    SpatialObstacle,
 )
 from crumple.numeric.arrays import Floats
 
@@ -43,7 +44,7 @@ class Until(IntEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceUntil:
+class SpatialUntil:
     """Ends a stage when its quantity reaches `value` (from below if positive, from above if negative).
 
     Attributes
@@ -67,33 +68,49 @@ class SpaceUntil:
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceRecord:
-    """Histories of a run; n output times, b bodies, c components of all hinges in their order.
+class SpatialRows:
+    """Where bodies in space are: one of n rows for every output time, or for every run; b bodies.
+
+    Attributes
+    ----------
+    centre, rotation
+        Centres of mass (n, b, 3) and unit quaternions (w, x, y, z) from the start, (n, b, 4).
+    velocity
+        (omega, v) at the centres, in world axes, (n, b, 6).
+    hinge, hinge_energy, energy
+        Of all components and hinges in their order.
+    """
+
+    centre: Floats
+    rotation: Floats
+    velocity: Floats
+    hinge: ComponentRecord
+    hinge_energy: HingeEnergyRecord
+    energy: EnergyRecord
+
+    @property
+    def rows(self) -> int:
+        """How many."""
+        return len(self.centre)
+
+
+@dataclass(frozen=True, eq=False)
+class SpatialRecord(SpatialRows):
+    """Histories of a run; a row for every output time.
 
     Attributes
     ----------
     time
         (n,) [s].
-    centre, rotation
-        Centres of mass (n, b, 3) and unit quaternions (w, x, y, z) from the start, (n, b, 4).
-    velocity, acceleration
-        (omega, v) at the centres, in world axes, (n, b, 6); the acceleration is the mean of the last step.
-    hinge_rotation, hinge_rate, hinge_plastic, hinge_moment, hinge_capacity
-        Per component, (n, c).
-    hinge_energy
-        Per hinge: dissipated (with dampers and stops), elastic, stop, (n, hinges, 3) [J].
+    acceleration
+        At the centres, in world axes, (n, b, 6): the mean of the last step.
     joint_force
         Force and moment of the held and hinged freedoms on the second body, along the joint's axes (midway
         between both bodies), mean of the last step, (n, joints, 6).
     obstacle_force
         Resultant of contact on every obstacle in world axes, (n, obstacles, 3).
-    energy
-        (n, 10): kinetic, elastic, dissipated, damped, stop, spring, contact, friction, external work, and
-        what quasi-static stages took out of the motion [J].
     summary
-        Per hinge: largest rotation (length of the rotation vector), largest moment, time of first flow
-        (NaN: none), time of rest, 1 if still turning, dissipated energy, time of fracture and moment carried
-        until then (NaN: whole), (hinges, 8).
+        Of the whole run.
     peaks
         Per component: largest absolute rotation, moment, (c, 2).
     ended_by
@@ -103,20 +120,10 @@ class SpaceRecord:
     """
 
     time: Floats
-    centre: Floats
-    rotation: Floats
-    velocity: Floats
     acceleration: Floats
-    hinge_rotation: Floats
-    hinge_rate: Floats
-    hinge_plastic: Floats
-    hinge_moment: Floats
-    hinge_capacity: Floats
-    hinge_energy: Floats
     joint_force: Floats
     obstacle_force: Floats
-    energy: Floats
-    summary: Floats
+    summary: HingeSummary
     peaks: Floats
     outcome: Outcome
     reason: str
@@ -129,7 +136,7 @@ class SpaceRecord:
     solves: int
 
 
-class SpaceSimulation:
+class SpatialSimulation:
     """One run of a model: state and adaptive stepper.
 
     Parameters
@@ -144,7 +151,7 @@ class SpaceSimulation:
 
     def __init__(
         self,
-        model: SpaceModel,
+        model: SpatialModel,
         accuracy: float = 1e-3,
         minimum_step: float = MINIMUM_STEP,
         maximum_step: float = math.inf,
@@ -171,7 +178,7 @@ class SpaceSimulation:
         quasi_static: bool = False,
         drives: Sequence[int] | None = None,
         obstacles: Sequence[int] | None = None,
-        until: Sequence[SpaceUntil] = (),
+        until: Sequence[SpatialUntil] = (),
     ) -> None:
         """Begin a stage: functions of time count from now.
 
@@ -192,10 +199,10 @@ class SpaceSimulation:
             [as_until(condition) for condition in until],
         )
 
-    def run(self, times: Floats, poll: Callable[[float], bool] | None = None) -> SpaceRecord:
+    def run(self, times: Floats, poll: Callable[[float], bool] | None = None) -> SpatialRecord:
         """Step to the last of the increasing times [s]; ``poll(time)`` returns False to cancel."""
         out = self._kernel.run(np.asarray(times, float).tolist(), poll)
-        return SpaceRecord(**out | {"outcome": Outcome(out["outcome"])})
+        return SpatialRecord(**named(out) | {"outcome": Outcome(out["outcome"])})
 
     def step(self, time_step: float) -> bool:
         """Take one step of fixed length [s]; False when it did not converge and nothing changed."""
@@ -217,7 +224,7 @@ class SpaceSimulation:
         return self._kernel.time
 
 
-def as_dict(model: SpaceModel) -> dict[str, Any]:
+def as_dict(model: SpatialModel) -> dict[str, Any]:
     """As the kernel takes it."""
     return {
         "mass": np.array([body.mass for body in model.bodies], float),
@@ -257,12 +264,12 @@ def _stack(rows: list[Floats], shape: tuple[int, ...]) -> Floats:
     return np.ascontiguousarray(rows, float).reshape((len(rows), *shape))
 
 
-def _joint(joint: SpaceJoint) -> tuple[Any, ...]:
+def _joint(joint: SpatialJoint) -> tuple[Any, ...]:
     axes = _list(np.asarray(joint.axes, float).reshape(9))
     return (joint.first, joint.second, _list(joint.position), axes, list(joint.held), joint.cross)
 
 
-def _hinge(hinge: SpaceHinge) -> dict[str, Any]:
+def _hinge(hinge: SpatialHinge) -> dict[str, Any]:
     surface = hinge.surface
     return {
         "joint": hinge.joint,
@@ -279,7 +286,7 @@ def _hinge(hinge: SpaceHinge) -> dict[str, Any]:
     }
 
 
-def _component(component: SpaceComponent) -> dict[str, Any]:
+def _component(component: SpatialComponent) -> dict[str, Any]:
     return {
         "freedom": component.freedom,
         "positive_rotation": _list(component.positive[0]),
@@ -296,16 +303,16 @@ def _component(component: SpaceComponent) -> dict[str, Any]:
     }
 
 
-def _load(load: SpaceLoad) -> tuple[Any, ...]:
+def _load(load: SpatialLoad) -> tuple[Any, ...]:
     arrays = (load.point, load.force, load.moment, load.times, load.values)
     return (load.body, *(_list(values) for values in arrays))
 
 
-def _drive(drive: SpaceDrive) -> tuple[Any, ...]:
+def _drive(drive: SpatialDrive) -> tuple[Any, ...]:
     return (drive.joint, drive.freedom, _list(drive.times), _list(drive.rates), drive.start)
 
 
-def _obstacle(obstacle: SpaceObstacle) -> dict[str, Any]:
+def _obstacle(obstacle: SpatialObstacle) -> dict[str, Any]:
     return {
         "kind": int(obstacle.kind),
         "body": obstacle.body,
@@ -320,6 +327,6 @@ def _obstacle(obstacle: SpaceObstacle) -> dict[str, Any]:
     }
 
 
-def as_until(until: SpaceUntil) -> tuple[Any, ...]:
+def as_until(until: SpatialUntil) -> tuple[Any, ...]:
     points = np.zeros((2, 3)) if until.points is None else until.points
     return (int(until.kind), until.value, until.index, until.freedom, list(until.bodies), _list(points))

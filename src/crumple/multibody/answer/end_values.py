@@ -2,77 +2,77 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
-from typing import TypeVar
+from collections.abc import Sequence
+from typing import Any, Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
-from crumple._core.planar.batch import TreeFinals
-from crumple._core.planar.simulation import Outcome, TreeRecord
-from crumple._core.spatial.batch import SpaceFinals
+from crumple._core.records import HingeSummary
+from crumple.multibody.answer.hinge_histories import RecordedHinge, Rows, hinge_columns, ledger
 from crumple.multibody.answer.histories import (
     clearance_channels,
     distance_channels,
-    node_channels,
+    node_motion,
     section_channels,
 )
-from crumple.multibody.answer.poses import Poses, TreePoses
-from crumple.multibody.planar.case import Lowered
-from crumple.multibody.planar.solver import energy_of, hinge_columns
+from crumple.multibody.answer.poses import Poses
 from crumple.numeric.arrays import Floats
 from crumple.structure import Outputs, Structure
 
-OF_HINGES = ("rotation", "plastic_rotation", "moment", "capacity", "energy")
 OF_NODES = ("displacement", "rotation")
 
 
-Finals = TypeVar("Finals", TreeFinals, SpaceFinals)
+class Ends(Rows, Protocol):
+    """Where runs ended: the last row of each."""
+
+    @property
+    def summary(self) -> HingeSummary:
+        """What hinges came to, (runs, hinges)."""
 
 
-def part_of(finals: Finals, rows: NDArray[np.int64]) -> Finals:
-    """Some of the rows."""
-    return replace(finals, **{field.name: getattr(finals, field.name)[rows] for field in fields(finals)})
+class Ended(Protocol):
+    """What was solved, as its end values are read."""
+
+    @property
+    def structure(self) -> Structure:
+        """What is solved."""
+
+    @property
+    def hinges(self) -> Sequence[RecordedHinge]:
+        """Hinges in the kernel's order."""
+
+    @property
+    def touched(self) -> bool:
+        """Whether members or obstacles can touch."""
+
+    @property
+    def slowed(self) -> bool:
+        """Whether a stage is quasi-static."""
+
+    def end_poses(self, ends: Any) -> Poses:
+        """Where bodies are; no row follows from the one before."""
 
 
-def final_quantities(model: Lowered, finals: TreeFinals, outputs: Outputs) -> dict[str, Floats]:
-    """Named quantities of runs that share a model, (n,) each."""
-    record = TreeRecord(
-        time=np.arange(finals.time.size, dtype=float),  # no row follows from the one before
-        q=finals.q,
-        w=finals.w,
-        pose=finals.pose,
-        velocity=finals.velocity,
-        hinge=finals.hinge,
-        energy=finals.energy,
-        drive=np.zeros((finals.time.size, 0)),
-        summary=finals.summary,
-        outcome=Outcome.COMPLETE,
-        reason="",
-        residual=0.0,
-        steps=0,
-        rejected=0,
-        forced=0,
-        solves=0,
-    )
+def end_quantities(case: Ended, ends: Ends, outputs: Outputs) -> dict[str, Floats]:
+    """Named quantities of runs that share a case, (n,) each."""
     found: dict[str, Floats] = {}
-    poses = TreePoses(model.mechanism, record)
-    for hinge, columns in hinge_columns(model.mechanism, record):
-        found |= {f"hinge.{hinge.name}.{name}": columns[name][1] for name in OF_HINGES}
-    for k, (name, _) in enumerate(model.hinges):
-        found[f"hinge.{name}.rotation_max"] = finals.summary[:, k, 0]
-        found[f"hinge.{name}.moment_max"] = finals.summary[:, k, 1]
-    found |= {f"energy.{name}": values for name, values in energy_of(record).items()}
-    found |= place_quantities(model.structure, poses, outputs)
-    found["energy_residual"] = finals.residual
-    return found
+    for k, (hinge, columns) in enumerate(hinge_columns(case.hinges, ends)):
+        found |= {
+            f"hinge.{hinge.name}.{name}": values
+            for name, (_, values) in columns.items()
+            if not name.startswith("rotation_rate")
+        }
+        found[f"hinge.{hinge.name}.rotation_max"] = ends.summary.rotation_max[:, k]
+        found[f"hinge.{hinge.name}.moment_max"] = ends.summary.moment_max[:, k]
+    energy = ledger(ends, touched=case.touched, slowed=case.slowed)
+    found |= {f"energy.{name}": values for name, values in energy.items()}
+    return found | _places(case.structure, case.end_poses(ends), outputs)
 
 
-def place_quantities(structure: Structure, poses: Poses, outputs: Outputs) -> dict[str, Floats]:
+def _places(structure: Structure, poses: Poses, outputs: Outputs) -> dict[str, Floats]:
     """What outputs ask of nodes, sections, distances and clearances, (n,) each."""
     found = {
         channel.name: channel.values
-        for channel in node_channels(structure, poses, outputs.nodes)
+        for name in outputs.nodes
+        for channel in node_motion(structure, poses, name)
         if channel.name.split(".")[2] in OF_NODES
     }
     for channels in (section_channels, distance_channels, clearance_channels):

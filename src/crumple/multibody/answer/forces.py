@@ -19,7 +19,7 @@ from typing import Literal
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.multibody.answer.poses import SpacePoses, piece_at
+from crumple.multibody.answer.poses import SpatialHistory, piece_at
 from crumple.multibody.bodies.assembly import Piece
 from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.bodies.rigid import piece_mass
@@ -49,7 +49,7 @@ class Wrench:
         return Wrench(-self.force, -self.moment, self.point)
 
 
-def on_second(poses: SpacePoses, number: int) -> Wrench:
+def on_second(poses: SpatialHistory, number: int) -> Wrench:
     """What a connection exerts on its second body, about its place on the first."""
     connection = poses.linkage.connections[number]
     half = vector_quaternion(poses.relative(connection.first, connection.second) / 2.0)
@@ -60,7 +60,7 @@ def on_second(poses: SpacePoses, number: int) -> Wrench:
     return Wrench(np.einsum("nk,nki->ni", force, axes), np.einsum("nk,nki->ni", moment, axes), place)
 
 
-def force_channels(structure: Structure, poses: SpacePoses, local_time: Floats) -> Iterator[Channel]:
+def force_channels(structure: Structure, poses: SpatialHistory, local_time: Floats) -> Iterator[Channel]:
     """What second sides exert on first ones, nodes on members, and the structure on its supports.
 
     Parameters
@@ -82,7 +82,9 @@ def force_channels(structure: Structure, poses: SpacePoses, local_time: Floats) 
         yield from _channels(f"support.{name}", _on_clamp(structure, poses, node, local_time))
 
 
-def section_force_channels(structure: Structure, poses: SpacePoses, outputs: Outputs) -> Iterator[Channel]:
+def section_force_channels(
+    structure: Structure, poses: SpatialHistory, outputs: Outputs
+) -> Iterator[Channel]:
     """Force and moment in sections, in the member's carried axes, and their use of the capacity."""
     for name, asked in outputs.section_forces.items():
         force, moment = _in_section(structure, poses, asked)
@@ -120,7 +122,7 @@ def check_sections(structure: Structure, linkage: Linkage, outputs: Outputs) -> 
         raise InputError(problems)
 
 
-def _in_section(structure: Structure, poses: SpacePoses, asked: SectionForce) -> tuple[Floats, Floats]:
+def _in_section(structure: Structure, poses: SpatialHistory, asked: SectionForce) -> tuple[Floats, Floats]:
     """What the second side exerts on the first, (n, 3) each in the member's carried axes."""
     linkage, frame = poses.linkage, structure.frame_of(asked.member)
     piece = piece_at(linkage.pieces, asked.member, asked.at)
@@ -142,14 +144,14 @@ def _in_section(structure: Structure, poses: SpacePoses, asked: SectionForce) ->
 
 
 def _momentum_rate(
-    structure: Structure, poses: SpacePoses, piece: Piece, ends: tuple[float, float], section: Floats
+    structure: Structure, poses: SpatialHistory, piece: Piece, ends: tuple[float, float], section: Floats
 ) -> tuple[Floats, Floats]:
     """Force [N] and moment about a section [N m], (n, 3), that move a stretch, less those of gravity."""
     stretch = piece_mass(structure, piece.member, *ends)
     gravity = np.asarray(structure.gravity, float)
     centre, _ = poses.place(piece.body, stretch.centre)
     if piece.body == GROUND:
-        force = np.tile(-stretch.mass * gravity, (poses.time.size, 1))
+        force = np.tile(-stretch.mass * gravity, (poses.rows, 1))
         return force, np.cross(centre - section, force)
     spin, _ = np.split(poses.record.velocity[:, piece.body], 2, axis=1)
     turning, moving = np.split(poses.record.acceleration[:, piece.body], 2, axis=1)
@@ -194,11 +196,11 @@ def _clamps(structure: Structure, linkage: Linkage) -> Iterator[tuple[str, str]]
             yield names[0], node
 
 
-def _on_clamp(structure: Structure, poses: SpacePoses, node: str, local_time: Floats) -> Wrench:
+def _on_clamp(structure: Structure, poses: SpatialHistory, node: str, local_time: Floats) -> Wrench:
     """What a rigid part of the ground exerts on the support of its one clamped node, about the node."""
     linkage, part = poses.linkage, poses.linkage.node_part[node]
     place = np.asarray(structure.nodes[node], float)
-    force, moment = np.zeros((poses.time.size, 3)), np.zeros((poses.time.size, 3))
+    force, moment = np.zeros((poses.rows, 3)), np.zeros((poses.rows, 3))
     for i, connection in enumerate(linkage.connections):
         if part in connection.parts:
             wrench = on_second(poses, i)

@@ -35,24 +35,30 @@ def energy_channels(solved: Solved) -> Iterator[Channel]:
     yield from (Channel(f"energy.{name}", "J", values) for name, values in columns.items())
 
 
-def node_channels(structure: Structure, poses: Poses, nodes: Sequence[str]) -> Iterator[Channel]:
+def node_channels(
+    structure: Structure, poses: Poses, nodes: Sequence[str], time: Floats
+) -> Iterator[Channel]:
     """Displacement, velocity, mean acceleration between outputs, and rotation of nodes, in global axes."""
     for name in nodes:
-        body = poses.node_body[name]
-        start = np.asarray(structure.nodes[name], float)
-        place, velocity = poses.place(body, start)
-        rotation, rate = poses.rotation(body)
-        acceleration = np.gradient(velocity, poses.time, axis=0) if poses.time.size > 1 else 0.0 * velocity
-        fields = (
-            ("displacement", "m", place - start),
-            ("velocity", "m/s", velocity),
-            ("acceleration", "m/s^2", acceleration),
-            ("rotation", "rad", rotation),
-            ("rotation_rate", "rad/s", rate),
-        )
-        for field, unit, values in fields:
-            for i, axis in enumerate(AXES):
-                yield Channel(f"node.{name}.{field}.{axis}", unit, np.ascontiguousarray(values[:, i]))
+        yield from node_motion(structure, poses, name, time)
+
+
+def node_motion(
+    structure: Structure, poses: Poses, name: str, time: Floats | None = None
+) -> Iterator[Channel]:
+    """The same of one node; no acceleration where rows have no `time`, (n,)."""
+    body = poses.node_body[name]
+    start = np.asarray(structure.nodes[name], float)
+    place, velocity = poses.place(body, start)
+    rotation, rate = poses.rotation(body)
+    fields = [("displacement", "m", place - start), ("velocity", "m/s", velocity)]
+    if time is not None:
+        acceleration = np.gradient(velocity, time, axis=0) if time.size > 1 else 0.0 * velocity
+        fields.append(("acceleration", "m/s^2", acceleration))
+    fields += [("rotation", "rad", rotation), ("rotation_rate", "rad/s", rate)]
+    for field, unit, values in fields:
+        for i, axis in enumerate(AXES):
+            yield Channel(f"node.{name}.{field}.{axis}", unit, np.ascontiguousarray(values[:, i]))
 
 
 def section_channels(structure: Structure, poses: Poses, outputs: Outputs) -> Iterator[Channel]:

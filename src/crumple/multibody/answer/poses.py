@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
-from crumple._core.planar.simulation import TreeRecord
-from crumple._core.spatial.simulation import SpaceRecord
+from crumple._core.planar.simulation import TreeRows
+from crumple._core.spatial.batch import SpatialEndValues
+from crumple._core.spatial.simulation import SpatialRecord, SpatialRows
 from crumple.multibody.bodies.assembly import Piece
 from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.planar.mechanism import Mechanism
@@ -25,11 +26,11 @@ from crumple.numeric.rotation import (
 
 
 class Poses(Protocol):
-    """Motion of the bodies at n output times; body -1 is the ground."""
+    """Motion of the bodies in n rows, of output times or of runs; body -1 is the ground."""
 
     @property
-    def time(self) -> Floats:
-        """Output times [s], (n,)."""
+    def rows(self) -> int:
+        """How many rows."""
 
     @property
     def pieces(self) -> Mapping[str, tuple[Piece, ...]]:
@@ -61,12 +62,12 @@ class TreePoses:
     """Motion in a plane."""
 
     mechanism: Mechanism
-    record: TreeRecord
+    record: TreeRows
 
     @property
-    def time(self) -> Floats:
+    def rows(self) -> int:
         """See `Poses`."""
-        return self.record.time
+        return self.record.rows
 
     @property
     def pieces(self) -> Mapping[str, tuple[Piece, ...]]:
@@ -86,7 +87,7 @@ class TreePoses:
     def place(self, body: int, point: Floats) -> tuple[Floats, Floats]:
         """See `Poses`."""
         if body == GROUND:
-            return _still(self.time, point)
+            return _still(self.rows, point)
         mechanism, record = self.mechanism, self.record
         plane, of = mechanism.plane, mechanism.bodies[body]
         angle, rate = record.pose[:, body, 0], record.velocity[:, body, 0]
@@ -103,7 +104,7 @@ class TreePoses:
     def rotation(self, body: int) -> tuple[Floats, Floats]:
         """See `Poses`."""
         if body == GROUND:
-            return _still(self.time, np.zeros(3))
+            return _still(self.rows, np.zeros(3))
         normal = self.mechanism.plane.normal
         angle, rate = self.record.pose[:, body, :1], self.record.velocity[:, body, :1]
         return angle * normal, rate * normal
@@ -113,17 +114,20 @@ class TreePoses:
         return self.rotation(second)[0] - self.rotation(first)[0]
 
 
+SpatialKind = TypeVar("SpatialKind", bound=SpatialRows)
+
+
 @dataclass(frozen=True, eq=False)
-class SpacePoses:
+class SpatialPoses(Generic[SpatialKind]):
     """Motion in space."""
 
     linkage: Linkage
-    record: SpaceRecord
+    record: SpatialKind
 
     @property
-    def time(self) -> Floats:
+    def rows(self) -> int:
         """See `Poses`."""
-        return self.record.time
+        return self.record.rows
 
     @property
     def pieces(self) -> Mapping[str, tuple[Piece, ...]]:
@@ -143,7 +147,7 @@ class SpacePoses:
     def place(self, body: int, point: Floats) -> tuple[Floats, Floats]:
         """See `Poses`."""
         if body == GROUND:
-            return _still(self.time, point)
+            return _still(self.rows, point)
         arm = turned(self.quaternion(body), np.asarray(point - self.linkage.bodies[body].centre))
         spin, velocity = np.split(self.record.velocity[:, body], 2, axis=1)
         return self.record.centre[:, body] + arm, velocity + np.cross(spin, arm)
@@ -151,13 +155,13 @@ class SpacePoses:
     def quaternion(self, body: int) -> Floats:
         """See `Poses`."""
         if body == GROUND:
-            return np.tile([1.0, 0.0, 0.0, 0.0], (self.time.size, 1))
+            return np.tile([1.0, 0.0, 0.0, 0.0], (self.rows, 1))
         return self.record.rotation[:, body]
 
     def rotation(self, body: int) -> tuple[Floats, Floats]:
         """See `Poses`."""
         if body == GROUND:
-            return _still(self.time, np.zeros(3))
+            return _still(self.rows, np.zeros(3))
         return continuous(quaternion_vector(self.quaternion(body))), self.record.velocity[:, body, :3]
 
     def relative(self, first: int, second: int) -> Floats:
@@ -167,14 +171,45 @@ class SpacePoses:
         )
 
 
+SpatialHistory = SpatialPoses[SpatialRecord]
+"""Motion of one run."""
+
+
+@dataclass(frozen=True, eq=False)
+class SpatialEndPoses(SpatialPoses[SpatialEndValues]):
+    """Motion at the ends of runs.
+
+    No row follows another, so rotation vectors are the shortest; and every row has its own centres of mass at
+    the start.
+    """
+
+    def place(self, body: int, point: Floats) -> tuple[Floats, Floats]:
+        """See `Poses`."""
+        if body == GROUND:
+            return super().place(body, point)
+        arm = turned(self.quaternion(body), point - self.record.start[:, body])
+        spin, velocity = np.split(self.record.velocity[:, body], 2, axis=1)
+        return self.record.centre[:, body] + arm, velocity + np.cross(spin, arm)
+
+    def rotation(self, body: int) -> tuple[Floats, Floats]:
+        """See `Poses`."""
+        if body == GROUND:
+            return super().rotation(body)
+        return quaternion_vector(self.quaternion(body)), self.record.velocity[:, body, :3]
+
+    def relative(self, first: int, second: int) -> Floats:
+        """See `Poses`."""
+        return quaternion_vector(product(inverse(self.quaternion(first)), self.quaternion(second)))
+
+
 def piece_at(pieces: Mapping[str, tuple[Piece, ...]], member: str, station: float) -> Piece:
     """Piece that holds a station [m] of a member; at a cut the one before it, at the end the last."""
     *inner, last = pieces[member]
     return next((piece for piece in inner if station <= piece.end and station < last.end), last)
 
 
-def _still(time: Floats, vector: Floats) -> tuple[Floats, Floats]:
-    return np.tile(vector, (time.size, 1)), np.zeros((time.size, 3))
+def _still(rows: int, vector: Floats) -> tuple[Floats, Floats]:
+    return np.tile(vector, (rows, 1)), np.zeros((rows, 3))
 
 
 def _rotated(vector: Floats, angle: Floats) -> Floats:

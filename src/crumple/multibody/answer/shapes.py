@@ -18,10 +18,10 @@ LONGEST_QUAD = 2.0
 """Length of a quadrilateral over the section's largest side: smooth enough to draw, few enough to store."""
 
 
-def states_of(structure: Structure, poses: Poses, times: Floats) -> States:
+def states_of(structure: Structure, poses: Poses, output_times: Floats, times: Floats) -> States:
     """Shapes at those of the given times [s] that the run reached; a time is taken at the nearest output."""
-    reached = times[times <= poses.time[-1] * (1 + 1e-12)]
-    rows = np.searchsorted((poses.time[1:] + poses.time[:-1]) / 2.0, reached)
+    reached = times[times <= output_times[-1] * (1 + 1e-12)]
+    rows = np.searchsorted((output_times[1:] + output_times[:-1]) / 2.0, reached)
     points, moved, quads, member, station, contour = [], [], [], [], [], []
     count = 0
     for index, name in enumerate(structure.members):
@@ -46,7 +46,7 @@ def states_of(structure: Structure, poses: Poses, times: Floats) -> States:
         station=np.concatenate(station),
         contour=np.concatenate(contour).astype(np.int64),
         member_names=tuple(structure.members),
-        times=poses.time[rows],
+        times=output_times[rows],
         displacement=np.concatenate(moved, axis=1) - reference,
     )
 

@@ -8,7 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
-from crumple._core.planar.simulation import Outcome
+from crumple._core.outcome import Outcome
 from crumple.multibody.answer.poses import Poses
 from crumple.numeric.arrays import Floats
 from crumple.result import Channel, StageSummary
@@ -27,8 +27,9 @@ class HingeHistory:
         Where it is and what it can carry.
     columns
         Unit and values, (n,), of ``rotation``, ``rotation_rate``, ``plastic_rotation``, ``moment``,
-        ``capacity`` and ``energy``; of a hinge about several axes these are lengths of vectors, and the parts
-        come beside.
+        ``capacity`` and ``energy``; of a hinge of several components these are lengths of the vectors of its
+        rotations, and the components come beside: ``rotation.y`` and so on, and of one along the axis x
+        ``slip.x.travel``, ``.rate``, ``.plastic_travel``, ``.force`` and ``.capacity``.
     rotation_max, moment_max
         Largest magnitudes [rad], [N m].
     time_of_rest
@@ -60,6 +61,8 @@ class Solved:
     ----------
     outcome, reason, residual, steps, rejected, forced
         As the kernel tells them.
+    time
+        Output times [s], (n,).
     given, lost
         Energy of the described start, and what of it the joints took [J].
     struck
@@ -85,6 +88,7 @@ class Solved:
     steps: int
     rejected: int
     forced: int
+    time: Floats
     given: float
     lost: float
     struck: bool
@@ -94,11 +98,6 @@ class Solved:
     stepping_seconds: float
     further: tuple[Channel, ...] = ()
     stages: tuple[StageSummary, ...] = ()
-
-    @property
-    def time(self) -> Floats:
-        """Output times [s], (n,)."""
-        return self.poses.time
 
     @property
     def balance(self) -> Floats:

@@ -23,7 +23,7 @@ FASTEST = 1e5
 
 
 class Parts(Protocol):
-    """A lowered structure: where every piece of a member and every node went."""
+    """Bodies of a structure: where every piece of a member and every node went."""
 
     @property
     def pieces(self) -> Mapping[str, tuple[Piece, ...]]:
@@ -35,7 +35,7 @@ class Parts(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Start:
+class InitialMotion:
     """Motion at the start.
 
     Attributes
@@ -78,13 +78,13 @@ class Placed:
         return tensor if self.quaternion is None else self.turned(body, self.turned(body, tensor).T)
 
 
-def start_in_space(
+def spatial_initial_motion(
     structure: Structure,
     linkage: Linkage,
     fields: Sequence[InitialVelocity],
     impulses: Sequence[NodalImpulse],
     now: Placed | None = None,
-) -> Start:
+) -> InitialMotion:
     """Velocities and impulses of bodies in space, gathered as momentum of every body.
 
     `now` is where the bodies have come to; None: where they start.
@@ -119,7 +119,7 @@ def start_in_space(
     velocity = np.array(twists).reshape(n, 6)
     masses = np.array([body.mass for body in linkage.bodies])
     refuse_speeding(velocity[:, 3:], impulse[:, 3:], masses)
-    return Start(velocity, impulse, energy)
+    return InitialMotion(velocity, impulse, energy)
 
 
 def refuse_speeding(velocity: Floats, impulse: Floats, mass: Floats) -> None:
@@ -133,7 +133,7 @@ def refuse_speeding(velocity: Floats, impulse: Floats, mass: Floats) -> None:
 
 
 def moving_parts(
-    structure: Structure, lowered: Parts, given: Sequence[InitialVelocity]
+    structure: Structure, parts: Parts, given: Sequence[InitialVelocity]
 ) -> Iterator[tuple[RigidMass, int, list[InitialVelocity]]]:
     """Every part with mass, its body, and the velocity fields that act on it."""
 
@@ -144,13 +144,13 @@ def moving_parts(
 
         return [field for field in given if acts(field)]
 
-    for name, pieces in lowered.pieces.items():
+    for name, pieces in parts.pieces.items():
         if found := fields("members", name):
             for piece in pieces:
                 yield piece_mass(structure, name, piece.start, piece.end), piece.body, found
     for mass in structure.masses.values():
         if found := fields("nodes", mass.node):
-            yield lump_mass(structure, mass), lowered.node_body[mass.node], found
+            yield lump_mass(structure, mass), parts.node_body[mass.node], found
 
 
 def motion_of(fields: Sequence[InitialVelocity], point: Floats) -> tuple[Floats, Floats]:

@@ -16,13 +16,13 @@ import numpy as np
 
 from crumple._core.spatial.model import (
     ObstacleKind,
-    SpaceBody,
-    SpaceCapsule,
-    SpaceContact,
-    SpaceDrive,
-    SpaceJoint,
-    SpaceModel,
-    SpaceObstacle,
+    SpatialBody,
+    SpatialCapsule,
+    SpatialContact,
+    SpatialDrive,
+    SpatialJoint,
+    SpatialModel,
+    SpatialObstacle,
     frame_of,
 )
 from crumple.multibody.bodies.assembly import Piece
@@ -54,14 +54,14 @@ class Touching:
         Velocity at the start of every body after those of the linkage [m/s], (obstacle bodies, 3).
     """
 
-    model: SpaceModel
+    model: SpatialModel
     joint: dict[str, int]
     drives: tuple[str, ...]
     velocity: Floats
 
 
 def with_obstacles(
-    structure: Structure, linkage: Linkage, model: SpaceModel, owners: tuple[str, ...], duration: float
+    structure: Structure, linkage: Linkage, model: SpatialModel, owners: tuple[str, ...], duration: float
 ) -> Touching:
     """Add the obstacles of a structure, and the capsules of its members, to a model.
 
@@ -88,7 +88,7 @@ def with_obstacles(
             body, joint[name] = len(bodies), len(joints)
             mass = obstacle.mass or light
             place = np.asarray(obstacle.point, float)
-            bodies.append(SpaceBody(mass, mass * model.length**2 * np.eye(3), place))
+            bodies.append(SpatialBody(mass, mass * model.length**2 * np.eye(3), place))
             velocity.append(obstacle.velocity if obstacle.mass is not None else (0.0, 0.0, 0.0))
             added, driven = _moved(obstacle, body, len(joints), duration)
             joints.append(added)
@@ -99,9 +99,9 @@ def with_obstacles(
             touching = tuple(i for i, owner in enumerate(member) if owner in obstacle.members)
         obstacles.append(_shape(obstacle, body, touching))
     contact = structure.member_contact
-    pairs = SpaceContact()
+    pairs = SpatialContact()
     if contact is not None:
-        pairs = SpaceContact(
+        pairs = SpatialContact(
             tuple(touching_pairs(structure, capsules, member)), contact.friction, contact.restitution
         )
     touching_model = replace(
@@ -116,9 +116,9 @@ def with_obstacles(
     return Touching(touching_model, joint, tuple(names), np.array(velocity, float).reshape(-1, 3))
 
 
-def _shape(obstacle: Obstacle, body: int, touching: tuple[int, ...] | None) -> SpaceObstacle:
+def _shape(obstacle: Obstacle, body: int, touching: tuple[int, ...] | None) -> SpatialObstacle:
     place = np.asarray(obstacle.point, float)
-    plain = SpaceObstacle(
+    plain = SpatialObstacle(
         ObstacleKind.SPHERE,
         body,
         place,
@@ -141,13 +141,15 @@ def _shape(obstacle: Obstacle, body: int, touching: tuple[int, ...] | None) -> S
     return replace(plain, radius=obstacle.radius)
 
 
-def _moved(obstacle: Obstacle, body: int, joint: int, duration: float) -> tuple[SpaceJoint, list[SpaceDrive]]:
+def _moved(
+    obstacle: Obstacle, body: int, joint: int, duration: float
+) -> tuple[SpatialJoint, list[SpatialDrive]]:
     """Joint that guides or drives an obstacle, and its drives."""
     place = np.asarray(obstacle.point, float)
     guide = obstacle.guide_direction
     if guide is not None:
         held = (False, True, True, True, True, True)
-        return SpaceJoint(GROUND, body, place, frame_of(guide), held), []
+        return SpatialJoint(GROUND, body, place, frame_of(guide), held), []
     axes = np.eye(3)
     if obstacle.turning is not None:
         place, axes = np.asarray(obstacle.turning.about, float), frame_of(obstacle.turning.axis)
@@ -155,11 +157,11 @@ def _moved(obstacle: Obstacle, body: int, joint: int, duration: float) -> tuple[
     times, rates = _travel(obstacle, duration)
     for freedom, rate in enumerate(axes @ rates.T):
         if np.any(rate != 0.0):
-            drives.append(SpaceDrive(joint, freedom, times, rate))
+            drives.append(SpatialDrive(joint, freedom, times, rate))
     if obstacle.turning is not None:
         turn_times, _, turn_rates = sampled_motion(obstacle.turning.angle, duration)
-        drives.append(SpaceDrive(joint, 3, turn_times, turn_rates))
-    return SpaceJoint(GROUND, body, place, axes, (True,) * 6), drives
+        drives.append(SpatialDrive(joint, 3, turn_times, turn_rates))
+    return SpatialJoint(GROUND, body, place, axes, (True,) * 6), drives
 
 
 def _travel(obstacle: Obstacle, duration: float) -> tuple[Floats, Floats]:
@@ -179,7 +181,7 @@ def _travel(obstacle: Obstacle, duration: float) -> tuple[Floats, Floats]:
 
 def member_capsules(
     structure: Structure, of_member: Mapping[str, tuple[Piece, ...]], *, held: bool = False
-) -> tuple[list[SpaceCapsule], list[str]]:
+) -> tuple[list[SpatialCapsule], list[str]]:
     """Capsules of all pieces that move, or of all that are held, and the member of each."""
     ends = Counter(node for member in structure.members.values() for node in member.nodes)
     capsules, owner = [], []
@@ -198,7 +200,7 @@ def member_capsules(
             for place in places:
                 shift = place @ frame.axes[1:]
                 first, second = frame.position(start) + shift, frame.position(end) + shift
-                capsules.append(SpaceCapsule(piece.body, first, second, radius))
+                capsules.append(SpatialCapsule(piece.body, first, second, radius))
                 owner.append(name)
     return capsules, owner
 
@@ -216,7 +218,7 @@ def _rows(outline: Floats) -> tuple[Floats, float]:
 
 
 def touching_pairs(
-    structure: Structure, capsules: list[SpaceCapsule], member: list[str]
+    structure: Structure, capsules: list[SpatialCapsule], member: list[str]
 ) -> Iterator[tuple[int, int]]:
     """Capsules of members that share no node, on different bodies."""
     nodes = {name: set(spec.nodes) for name, spec in structure.members.items()}

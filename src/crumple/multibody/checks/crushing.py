@@ -15,7 +15,7 @@ import numpy as np
 from crumple.errors import InputError
 from crumple.hinge import Freedom, axial_law_types, build_axial_law
 from crumple.multibody.answer.forces import on_second
-from crumple.multibody.answer.poses import SpacePoses
+from crumple.multibody.answer.poses import SpatialPoses
 from crumple.multibody.answer.solved import Solved
 from crumple.multibody.checks.names import named
 from crumple.numeric.rotation import turned
@@ -66,7 +66,7 @@ def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> 
 def _at_hinges(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:
     """Members and the largest axial compression [N] that stays for two outputs."""
     poses = solved.poses
-    if not isinstance(poses, SpacePoses):
+    if not isinstance(poses, SpatialPoses):
         return
     for i, connection in enumerate(poses.linkage.connections):
         if connection.hinge is None or int(Freedom.AXIAL) in connection.free:

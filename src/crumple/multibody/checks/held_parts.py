@@ -11,8 +11,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from crumple._core.planar.simulation import Outcome
-from crumple._core.spatial.model import SpaceCapsule
+from crumple._core.outcome import Outcome
+from crumple._core.spatial.model import SpatialCapsule
 from crumple.multibody.answer.solved import Solved
 from crumple.multibody.bodies.obstacle_bodies import member_capsules
 from crumple.multibody.checks.overlap import segment_distance
@@ -61,7 +61,7 @@ def held_part_warnings(structure: Structure, solved: Solved) -> list[str]:
     return found
 
 
-def _gaps(obstacle: Obstacle, travel: Floats, capsule: SpaceCapsule) -> Iterator[float]:
+def _gaps(obstacle: Obstacle, travel: Floats, capsule: SpatialCapsule) -> Iterator[float]:
     """Distance of the surfaces [m] at every output; nothing of a plane with an edge."""
     ends = np.asarray(capsule.first, float), np.asarray(capsule.second, float)
     if isinstance(obstacle, PlaneObstacle):

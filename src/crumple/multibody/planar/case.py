@@ -1,46 +1,128 @@
-"""A structure as the kernel's arrays, and the mass and momentum of its bodies in a form linear in masses."""
+"""A structure as the planar kernel's case; mass and momentum of its bodies in a form linear in masses."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from crumple._core.planar.batch import TreeEnds
 from crumple._core.planar.simulation import TreeModel
 from crumple.errors import InputError
-from crumple.multibody.bodies.initial_motion import Start
+from crumple.multibody.answer.hinge_histories import RecordedHinge
+from crumple.multibody.answer.poses import TreePoses
+from crumple.multibody.bodies.initial_motion import InitialMotion
+from crumple.multibody.bodies.linkage import FREEDOM
 from crumple.multibody.planar.mechanism import Mechanism, hinge_links, lower
-from crumple.multibody.planar.model import start_of, tree_model
+from crumple.multibody.planar.model import planar_initial_motion, tree_model
 from crumple.numeric.arrays import Floats
 from crumple.structure import Structure
 
-RawMass = Floats
-
 
 @dataclass(frozen=True, eq=False)
-class Lowered:
-    """A structure, the mechanism that it becomes, and its arrays."""
+class PlanarCase:
+    """A structure, the mechanism that it becomes, and its arrays; see `Case`."""
 
     structure: Structure
     mechanism: Mechanism
-    tree: TreeModel
-    start: Start
+    model: TreeModel
+    start: InitialMotion
+
+    touched = False
+    slowed = False
 
     @property
-    def hinges(self) -> list[tuple[str, float]]:
-        """Names of the hinges in the kernel's order, and the signs of their rotations there."""
-        return [(hinge.name, sign) for _, hinge, sign in hinge_links(self.mechanism.links)]
+    def kernel_case(self) -> TreeModel:
+        """See `Case`."""
+        return self.model
+
+    @cached_property
+    def hinges(self) -> tuple[RecordedHinge, ...]:
+        """See `Case`."""
+        return recorded_hinges(self.mechanism)
 
     @property
     def topology(self) -> tuple[object, ...]:
-        """What must be the same for two models to be variants of each other."""
-        tree = self.tree
+        """See `Case`."""
+        tree = self.model
+        hinges = tuple((recorded.hinge.name, recorded.sign) for recorded in self.hinges)
         bodies = tuple((body.parent, body.joint) for body in tree.bodies)
         counts = len(tree.loads), len(tree.drives), len(tree.holds), self.mechanism.welds
-        return (*self.hinges, bodies, counts)
+        return (*hinges, bodies, counts)
+
+    @property
+    def velocity(self) -> Floats:
+        """See `Case`."""
+        return self.start.velocity
+
+    @property
+    def impulse(self) -> Floats:
+        """See `Case`."""
+        return self.start.impulse
+
+    @property
+    def own_bodies(self) -> int:
+        """See `Case`."""
+        return len(self.mechanism.bodies)
+
+    @property
+    def reference_points(self) -> Floats:
+        """See `Case`: the joints, from where the kernel counts centres."""
+        return np.zeros((len(self.mechanism.bodies), 2))
+
+    def raw_mass(self, about: Floats) -> Floats:
+        """Mass, momentum and impulse of every body about a place of its frame, (bodies, 10).
+
+        Columns: mass [kg], mass times centre x, y [kg m], inertia about the place [kg m^2]; angular momentum
+        about it [N m s] and momentum x, y [N s] at the start; the same of the impulses.  All are sums
+        over parts, so linear in each lump.
+        """
+        rows = []
+        given = zip(self.model.bodies, about, self.start.velocity, self.start.impulse, strict=True)
+        for body, (ax, ay), (w, x, y), (spin, px, py) in given:
+            cx, cy = body.centre[0] - ax, body.centre[1] - ay
+            m = body.mass
+            about_place = body.inertia + m * (cx * cx + cy * cy)
+            momentum = (body.inertia * w + m * (cx * y - cy * x), m * x, m * y)
+            rows.append((m, m * cx, m * cy, about_place, *momentum, spin + cx * py - cy * px, px, py))
+        return np.array(rows)
+
+    @staticmethod
+    def kernel_arrays(raw: Floats, about: Floats) -> tuple[Floats, Floats, Floats]:
+        """The kernel's arrays of raw masses, (..., bodies, 10), about places, (..., bodies, 2).
+
+        Returns
+        -------
+        bodies
+            Centre x, y, mass, inertia about the centre, (..., bodies, 4).
+        velocity, impulse
+            Of and at the centres, (..., bodies, 3).
+        """
+        m, mx, my, about_place, spin, px, py, blow, bx, by = np.moveaxis(raw, -1, 0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            # a body without mass is refused by the kernel, row by row
+            cx, cy = mx / m, my / m
+            inertia = about_place - m * (cx * cx + cy * cy)
+            velocity = np.stack([(spin - (cx * py - cy * px)) / inertia, px / m, py / m], axis=-1)
+        impulse = np.stack([blow - (cx * by - cy * bx), bx, by], axis=-1)
+        centre = about + np.stack([cx, cy], axis=-1)
+        return np.concatenate([centre, np.stack([m, inertia], axis=-1)], axis=-1), velocity, impulse
+
+    def end_poses(self, ends: TreeEnds) -> TreePoses:
+        """See `Case`."""
+        return TreePoses(self.mechanism, ends)
 
 
-def lowered(structure: Structure, duration: float) -> Lowered:
+def recorded_hinges(mechanism: Mechanism) -> tuple[RecordedHinge, ...]:
+    """Hinges in the kernel's order, a component each."""
+    return tuple(
+        RecordedHinge(hinge, (FREEDOM[hinge.axis],), k, sign)
+        for k, (_, hinge, sign) in enumerate(hinge_links(mechanism.links))
+    )
+
+
+def planar_case(structure: Structure, duration: float) -> PlanarCase:
     """Lower a structure for the planar kernel.
 
     Raises
@@ -51,44 +133,5 @@ def lowered(structure: Structure, duration: float) -> Lowered:
     mechanism = lower(structure)
     if not mechanism.bodies:
         raise InputError("nothing can move: every part is held and no member has a hinge")
-    return Lowered(
-        structure, mechanism, tree_model(structure, mechanism, duration), start_of(structure, mechanism)
-    )
-
-
-def raw_mass(model: Lowered) -> RawMass:
-    """Mass, momentum and impulse of every body about its joint, (bodies, 10).
-
-    Columns: mass [kg], mass times centre x, y [kg m], inertia about the joint [kg m^2]; angular momentum
-    about the joint [N m s] and momentum x, y [N s] at the start; the same of the impulses.  All are sums
-    over parts, so linear in each lump.
-    """
-    rows = []
-    given = zip(model.tree.bodies, model.start.velocity, model.start.impulse, strict=True)
-    for body, (w, x, y), (spin, px, py) in given:
-        cx, cy = body.centre
-        m = body.mass
-        about_joint = body.inertia + m * (cx * cx + cy * cy)
-        momentum = (body.inertia * w + m * (cx * y - cy * x), m * x, m * y)
-        rows.append((m, m * cx, m * cy, about_joint, *momentum, spin + cx * py - cy * px, px, py))
-    return np.array(rows)
-
-
-def tree_arrays(raw: RawMass) -> tuple[Floats, Floats, Floats]:
-    """The kernel's arrays of raw masses, (..., bodies, 10).
-
-    Returns
-    -------
-    bodies
-        Centre x, y, mass, inertia about the centre, (..., bodies, 4).
-    velocity, impulse
-        Of and at the centres, (..., bodies, 3).
-    """
-    m, mx, my, about_joint, spin, px, py, blow, bx, by = np.moveaxis(raw, -1, 0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        # a body without mass is refused by the kernel, row by row
-        cx, cy = mx / m, my / m
-        inertia = about_joint - m * (cx * cx + cy * cy)
-        velocity = np.stack([(spin - (cx * py - cy * px)) / inertia, px / m, py / m], axis=-1)
-    impulse = np.stack([blow - (cx * by - cy * bx), bx, by], axis=-1)
-    return np.stack([cx, cy, m, inertia], axis=-1), velocity, impulse
+    model = tree_model(structure, mechanism, duration)
+    return PlanarCase(structure, mechanism, model, planar_initial_motion(structure, mechanism))

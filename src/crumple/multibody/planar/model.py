@@ -19,7 +19,7 @@ from crumple._core.planar.simulation import (
 )
 from crumple.errors import InputError, Problem
 from crumple.hinge import Envelope, Form, HingeRecord, SofteningVariable, Stop
-from crumple.multibody.bodies.initial_motion import Start, motion_of, moving_parts, refuse_speeding
+from crumple.multibody.bodies.initial_motion import InitialMotion, motion_of, moving_parts, refuse_speeding
 from crumple.multibody.bodies.sampled_functions import sampled, sampled_motion
 from crumple.multibody.planar.mechanism import GROUND, Mechanism
 from crumple.numeric.arrays import Floats
@@ -85,7 +85,7 @@ def tree_hinge(record: HingeRecord, dof: int, sign: float = 1.0) -> TreeHinge:
     )
 
 
-def start_of(structure: Structure, mechanism: Mechanism) -> Start:
+def planar_initial_motion(structure: Structure, mechanism: Mechanism) -> InitialMotion:
     """Velocities and impulses at the start, gathered as momentum of every body."""
     plane, n = mechanism.plane, len(mechanism.bodies)
     momentum, impulse = np.zeros((n, 3)), np.zeros((n, 3))
@@ -121,7 +121,7 @@ def start_of(structure: Structure, mechanism: Mechanism) -> Start:
     for twin, whole in mechanism.welds:
         velocity[twin] = velocity[whole] if whole != GROUND else 0.0
         impulse[twin] = impulse[whole] if whole != GROUND else 0.0
-    return Start(velocity, impulse, energy)
+    return InitialMotion(velocity, impulse, energy)
 
 
 def _in_plane(mechanism: Mechanism, body: int, vector: Floats, where: str) -> None:

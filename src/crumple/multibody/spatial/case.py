@@ -4,25 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from crumple._core.spatial.batch import SpaceCase, SpaceStage
-from crumple._core.spatial.model import SpaceModel
+from crumple._core.spatial.batch import SpatialEndValues, SpatialStage, StagedModel
+from crumple._core.spatial.model import SpatialModel
 from crumple.errors import InputError, Problem
-from crumple.multibody.bodies.initial_motion import Placed, start_in_space
+from crumple.multibody.answer.hinge_histories import RecordedHinge
+from crumple.multibody.answer.poses import SpatialEndPoses
+from crumple.multibody.bodies.initial_motion import Placed, spatial_initial_motion
 from crumple.multibody.bodies.linkage import Linkage, check_inertia, link
 from crumple.multibody.bodies.obstacle_bodies import Touching, with_obstacles
 from crumple.multibody.run import Run
-from crumple.multibody.spatial.model import space_model, support_drives
-from crumple.multibody.spatial.stages import lowered_until, refuse_floating, stages_of
+from crumple.multibody.spatial.model import spatial_model, support_drives
+from crumple.multibody.spatial.stages import kernel_conditions, refuse_floating, stages_of
 from crumple.numeric.arrays import Floats
 from crumple.structure import Stage, Structure
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceLowered:
-    """A structure, the linkage that it becomes, and what the kernel gets.
+class SpatialCase:
+    """A structure, the linkage that it becomes, and what the kernel gets; see `Case`.
 
     Attributes
     ----------
@@ -37,19 +40,44 @@ class SpaceLowered:
     structure: Structure
     linkage: Linkage
     touching: Touching
-    case: SpaceCase
+    case: StagedModel
     velocity: Floats
     impulse: Floats
 
     @property
-    def model(self) -> SpaceModel:
+    def model(self) -> SpatialModel:
         """The kernel's model."""
         return self.case.model
 
     @property
-    def hinges(self) -> list[str]:
-        """Names of the hinges in the kernel's order."""
-        return [c.name for c in self.linkage.connections if c.hinge is not None]
+    def kernel_case(self) -> StagedModel:
+        """See `Case`."""
+        return self.case
+
+    @cached_property
+    def hinges(self) -> tuple[RecordedHinge, ...]:
+        """See `Case`."""
+        return recorded_hinges(self.linkage, self.model)
+
+    @property
+    def touched(self) -> bool:
+        """See `Case`."""
+        return bool(self.model.capsules)
+
+    @property
+    def slowed(self) -> bool:
+        """See `Case`."""
+        return any(stage.quasi_static for stage in self.case.stages)
+
+    @property
+    def own_bodies(self) -> int:
+        """See `Case`: thrown obstacles have a velocity of their own."""
+        return len(self.linkage.bodies)
+
+    @property
+    def reference_points(self) -> Floats:
+        """See `Case`: the centres of mass."""
+        return np.array([body.centre for body in self.model.bodies], float)
 
     @property
     def topology(self) -> tuple[object, ...]:
@@ -63,10 +91,73 @@ class SpaceLowered:
             tuple(self.linkage.node_body.items()),
         )
         counts = len(model.drives), len(model.obstacles), len(model.capsules), len(self.case.stages)
-        return (*self.hinges, joints, hinges, bodies, counts)
+        names = (recorded.hinge.name for recorded in self.hinges)
+        return (*names, joints, hinges, bodies, counts)
+
+    def raw_mass(self, about: Floats) -> Floats:
+        """Mass, momenta and impulses of every body about a fixed point of each, (bodies, 13 + 12 stages).
+
+        Mass [kg], mass times centre [kg m] (3), inertia [kg m^2] (9); of every stage angular momentum [N m s]
+        (3), momentum [N s] (3) and the same of its impulses.  All are sums over parts, so linear in masses.
+        """
+        rows = []
+        for i, (body, point) in enumerate(zip(self.model.bodies, about, strict=True)):
+            arm, mass = np.asarray(body.centre, float) - point, body.mass
+            inertia = body.inertia + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+            row = [[mass], mass * arm, inertia.ravel()]
+            for velocity, impulse in zip(self.velocity[:, i], self.impulse[:, i], strict=True):
+                momentum = mass * velocity[3:]
+                row += [body.inertia @ velocity[:3] + np.cross(arm, momentum), momentum]
+                row += [impulse[:3] + np.cross(arm, impulse[3:]), impulse[3:]]
+            rows.append(np.concatenate(row))
+        return np.array(rows)
+
+    @staticmethod
+    def kernel_arrays(raw: Floats, about: Floats) -> tuple[Floats, Floats, Floats]:
+        """The kernel's arrays of raw masses, (n, bodies, 13 + 12 stages), about points, (n, bodies, 3).
+
+        Returns
+        -------
+        bodies
+            Centre, mass, inertia about the centre, (n, bodies, 13).
+        velocity, impulse
+            Of and at the centres, (n, stages, bodies, 6).
+        """
+        mass = raw[..., :1]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            # a body without mass is refused by the kernel, row by row
+            arm = raw[..., 1:4] / mass
+            square = (
+                np.sum(arm**2, axis=-1)[..., None, None] * np.eye(3) - arm[..., :, None] * arm[..., None, :]
+            )
+            inertia = raw[..., 4:13].reshape(*raw.shape[:-1], 3, 3) - mass[..., None] * square
+            stages = np.moveaxis(raw[..., 13:].reshape(*raw.shape[:-1], -1, 4, 3), 2, 1)
+            spin, momentum, blow, force = np.moveaxis(stages, 3, 0)
+            arm_now = arm[:, None]
+            sound = np.abs(np.linalg.det(inertia)) > 0.0
+            inverse = np.linalg.inv(np.where(sound[..., None, None], inertia, np.nan * np.eye(3)))
+            rate = np.einsum("nbij,nsbj->nsbi", inverse, spin - np.cross(arm_now, momentum))
+            velocity = np.concatenate([rate, momentum / mass[:, None]], axis=-1)
+        impulse = np.concatenate([blow - np.cross(arm_now, force), force], axis=-1)
+        bodies = np.concatenate([about + arm, mass, inertia.reshape(*raw.shape[:-1], 9)], axis=-1)
+        return bodies, velocity, impulse
+
+    def end_poses(self, ends: SpatialEndValues) -> SpatialEndPoses:
+        """See `Case`."""
+        return SpatialEndPoses(self.linkage, ends)
 
 
-def lowered_in_space(structure: Structure, run: Run) -> SpaceLowered:
+def recorded_hinges(linkage: Linkage, model: SpatialModel) -> tuple[RecordedHinge, ...]:
+    """Hinges in the kernel's order."""
+    connections = (connection for connection in linkage.connections if connection.hinge is not None)
+    return tuple(
+        RecordedHinge(connection.hinge, connection.free, first)
+        for connection, first in zip(connections, model.component_offsets[:-1], strict=True)
+        if connection.hinge is not None
+    )
+
+
+def spatial_case(structure: Structure, run: Run) -> SpatialCase:
     """Lower a structure and the stages of its run for the spatial kernel.
 
     Raises
@@ -83,15 +174,15 @@ def lowered_in_space(structure: Structure, run: Run) -> SpaceLowered:
     _refuse_later_motion(stages)
     longest = max(stage.duration for stage in stages)
     owners = tuple(name for name, _ in support_drives(structure, linkage, longest))
-    touching = with_obstacles(structure, linkage, space_model(structure, linkage, longest), owners, longest)
+    touching = with_obstacles(structure, linkage, spatial_model(structure, linkage, longest), owners, longest)
     motions = [
         added_motion(structure, linkage, touching, stage, first=i == 0)[:2] for i, stage in enumerate(stages)
     ]
-    return SpaceLowered(
+    return SpatialCase(
         structure,
         linkage,
         touching,
-        SpaceCase(touching.model, tuple(kernel_stage(structure, linkage, touching, s) for s in stages)),
+        StagedModel(touching.model, tuple(kernel_stage(structure, linkage, touching, s) for s in stages)),
         np.stack([velocity for velocity, _ in motions]),
         np.stack([impulse for _, impulse in motions]),
     )
@@ -111,7 +202,7 @@ def _refuse_later_motion(stages: Sequence[Stage]) -> None:
             raise InputError(Problem(what, stage.name, allowed, todo, key))
 
 
-def kernel_stage(structure: Structure, linkage: Linkage, touching: Touching, stage: Stage) -> SpaceStage:
+def kernel_stage(structure: Structure, linkage: Linkage, touching: Touching, stage: Stage) -> SpatialStage:
     """What acts in a stage, and what ends it, by the kernel's indices."""
     names = list(structure.obstacles)
     drives = obstacles = None
@@ -119,8 +210,8 @@ def kernel_stage(structure: Structure, linkage: Linkage, touching: Touching, sta
         drives = tuple(i for i, owner in enumerate(touching.drives) if owner in stage.drive)
     if stage.obstacles is not None:
         obstacles = tuple(names.index(name) for name in stage.obstacles)
-    conditions = lowered_until(structure, linkage, touching, stage)
-    return SpaceStage(
+    conditions = kernel_conditions(structure, linkage, touching, stage)
+    return SpatialStage(
         stage.duration,
         stage.kind == "quasi-static",
         drives,
@@ -142,7 +233,7 @@ def added_motion(
 
     Bodies are where they are `now`.  Thrown obstacles are thrown in the `first` stage.
     """
-    start = start_in_space(structure, linkage, stage.initial_velocity, stage.impulses, now)
+    start = spatial_initial_motion(structure, linkage, stage.initial_velocity, stage.impulses, now)
     further = np.zeros((len(touching.velocity), 6))
     energy = start.given_energy
     if first:
@@ -151,65 +242,3 @@ def added_motion(
         energy += float(np.sum(masses * np.sum(touching.velocity**2, axis=1)) / 2.0)
     velocity = np.concatenate([start.velocity, further])
     return velocity, np.concatenate([start.impulse, np.zeros_like(further)]), energy
-
-
-def space_raw_mass(model: SpaceLowered, about: Floats) -> Floats:
-    """Mass, momenta and impulses of every body about a fixed point of each, (bodies, 13 + 12 stages).
-
-    Parameters
-    ----------
-    model
-        Lowered.
-    about
-        The points [m], (bodies, 3).
-
-    Returns
-    -------
-    ndarray
-        Mass [kg], mass times centre [kg m] (3), inertia [kg m^2] (9); of every stage angular momentum [N m s]
-        (3), momentum [N s] (3) and the same of its impulses.  All are sums over parts, so linear in masses.
-    """
-    rows = []
-    for i, (body, point) in enumerate(zip(model.model.bodies, about, strict=True)):
-        arm, mass = np.asarray(body.centre, float) - point, body.mass
-        inertia = body.inertia + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-        row = [[mass], mass * arm, inertia.ravel()]
-        for velocity, impulse in zip(model.velocity[:, i], model.impulse[:, i], strict=True):
-            momentum = mass * velocity[3:]
-            row += [body.inertia @ velocity[:3] + np.cross(arm, momentum), momentum]
-            row += [impulse[:3] + np.cross(arm, impulse[3:]), impulse[3:]]
-        rows.append(np.concatenate(row))
-    return np.array(rows)
-
-
-def space_arrays(raw: Floats, about: Floats) -> tuple[Floats, Floats, Floats]:
-    """The kernel's arrays of raw masses, (n, bodies, 13 + 12 stages).
-
-    Parameters
-    ----------
-    raw, about
-        As of `space_raw_mass`; points (n, bodies, 3).
-
-    Returns
-    -------
-    bodies
-        Centre, mass, inertia about the centre, (n, bodies, 13).
-    velocity, impulse
-        Of and at the centres, (n, stages, bodies, 6).
-    """
-    mass = raw[..., :1]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        # a body without mass is refused by the kernel, row by row
-        arm = raw[..., 1:4] / mass
-        square = np.sum(arm**2, axis=-1)[..., None, None] * np.eye(3) - arm[..., :, None] * arm[..., None, :]
-        inertia = raw[..., 4:13].reshape(*raw.shape[:-1], 3, 3) - mass[..., None] * square
-        stages = np.moveaxis(raw[..., 13:].reshape(*raw.shape[:-1], -1, 4, 3), 2, 1)
-        spin, momentum, blow, force = np.moveaxis(stages, 3, 0)
-        arm_now = arm[:, None]
-        sound = np.abs(np.linalg.det(inertia)) > 0.0
-        inverse = np.linalg.inv(np.where(sound[..., None, None], inertia, np.nan * np.eye(3)))
-        rate = np.einsum("nbij,nsbj->nsbi", inverse, spin - np.cross(arm_now, momentum))
-        velocity = np.concatenate([rate, momentum / mass[:, None]], axis=-1)
-    impulse = np.concatenate([blow - np.cross(arm_now, force), force], axis=-1)
-    bodies = np.concatenate([about + arm, mass, inertia.reshape(*raw.shape[:-1], 9)], axis=-1)
-    return bodies, velocity, impulse

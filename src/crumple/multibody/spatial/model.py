@@ -7,17 +7,17 @@ from collections.abc import Iterator
 import numpy as np
 
 from crumple._core.spatial.model import (
-    Coupling as SpaceCoupling,
+    Coupling as SurfaceCoupling,
 )
 from crumple._core.spatial.model import (
-    SpaceBody,
-    SpaceComponent,
-    SpaceDrive,
-    SpaceHinge,
-    SpaceJoint,
-    SpaceLoad,
-    SpaceModel,
-    SpaceSurface,
+    SpatialBody,
+    SpatialComponent,
+    SpatialDrive,
+    SpatialHinge,
+    SpatialJoint,
+    SpatialLoad,
+    SpatialModel,
+    SpatialSurface,
 )
 from crumple.hinge import Coupling, HingeRecord
 from crumple.multibody.bodies.linkage import GROUND, Connection, Linkage
@@ -26,15 +26,15 @@ from crumple.multibody.planar.model import FORMS, SOFTENING, stop_of
 from crumple.structure import FREEDOMS, Structure
 
 COUPLINGS = {
-    Coupling.NONE: SpaceCoupling.NONE,
-    Coupling.ELLIPSOID: SpaceCoupling.ELLIPSOID,
-    Coupling.BALL: SpaceCoupling.BALL,
-    Coupling.SECTION: SpaceCoupling.SECTION,
-    Coupling.TENSION_FLANGE: SpaceCoupling.TENSION_FLANGE,
+    Coupling.NONE: SurfaceCoupling.NONE,
+    Coupling.ELLIPSOID: SurfaceCoupling.ELLIPSOID,
+    Coupling.BALL: SurfaceCoupling.BALL,
+    Coupling.SECTION: SurfaceCoupling.SECTION,
+    Coupling.TENSION_FLANGE: SurfaceCoupling.TENSION_FLANGE,
 }
 
 
-def space_model(structure: Structure, linkage: Linkage, duration: float) -> SpaceModel:
+def spatial_model(structure: Structure, linkage: Linkage, duration: float) -> SpatialModel:
     """Constants of the kernel's model, without obstacles.
 
     Parameters
@@ -45,8 +45,8 @@ def space_model(structure: Structure, linkage: Linkage, duration: float) -> Spac
         Functions of time are sampled over it [s].
     """
     x, y, z = structure.gravity
-    return SpaceModel(
-        bodies=tuple(SpaceBody(body.mass, body.inertia, body.centre) for body in linkage.bodies),
+    return SpatialModel(
+        bodies=tuple(SpatialBody(body.mass, body.inertia, body.centre) for body in linkage.bodies),
         joints=tuple(_joint(connection) for connection in linkage.connections),
         hinges=tuple(
             _hinge(i, connection)
@@ -62,18 +62,21 @@ def space_model(structure: Structure, linkage: Linkage, duration: float) -> Spac
 
 def support_drives(
     structure: Structure, linkage: Linkage, duration: float
-) -> Iterator[tuple[str, SpaceDrive]]:
+) -> Iterator[tuple[str, SpatialDrive]]:
     """Driven freedoms of supports, each with the support's name."""
     for i, connection in enumerate(linkage.connections):
         if connection.kind != "support":
             continue
         for freedom, function in structure.supports[connection.name].driven.items():
             times, _, rates = sampled_motion(function, duration)
-            yield connection.name, SpaceDrive(i, FREEDOMS.index(freedom), times, rates, float(function(0.0)))
+            yield (
+                connection.name,
+                SpatialDrive(i, FREEDOMS.index(freedom), times, rates, float(function(0.0))),
+            )
 
 
-def _joint(connection: Connection) -> SpaceJoint:
-    return SpaceJoint(
+def _joint(connection: Connection) -> SpatialJoint:
+    return SpatialJoint(
         first=connection.first,
         second=connection.second,
         position=connection.position,
@@ -83,17 +86,17 @@ def _joint(connection: Connection) -> SpaceJoint:
     )
 
 
-def _hinge(joint: int, connection: Connection) -> SpaceHinge:
+def _hinge(joint: int, connection: Connection) -> SpatialHinge:
     assert connection.hinge is not None
     spatial, record = connection.hinge.spatial, connection.hinge.record
     form, softening = FORMS[record.form], SOFTENING[record.softening_variable]
     if spatial is None:
-        return SpaceHinge(joint, (_component(connection.free[0], record),), form=form, softening=softening)
+        return SpatialHinge(joint, (_component(connection.free[0], record),), form=form, softening=softening)
     surface = spatial.surface
-    return SpaceHinge(
+    return SpatialHinge(
         joint,
         tuple(_component(int(part.freedom), part.record) for part in spatial.components),
-        SpaceSurface(
+        SpatialSurface(
             COUPLINGS[surface.coupling],
             surface.rows,
             surface.power,
@@ -107,8 +110,8 @@ def _hinge(joint: int, connection: Connection) -> SpaceHinge:
     )
 
 
-def _component(freedom: int, record: HingeRecord) -> SpaceComponent:
-    return SpaceComponent(
+def _component(freedom: int, record: HingeRecord) -> SpatialComponent:
+    return SpatialComponent(
         freedom=freedom,
         positive=(record.positive.rotation, record.positive.moment),
         negative=(record.negative.rotation, record.negative.moment),
@@ -122,7 +125,7 @@ def _component(freedom: int, record: HingeRecord) -> SpaceComponent:
     )
 
 
-def _loads(structure: Structure, linkage: Linkage, duration: float) -> Iterator[SpaceLoad]:
+def _loads(structure: Structure, linkage: Linkage, duration: float) -> Iterator[SpatialLoad]:
     for load in structure.loads:
         body = linkage.node_body[load.node]
         if body == GROUND:
@@ -132,6 +135,6 @@ def _loads(structure: Structure, linkage: Linkage, duration: float) -> Iterator[
             unit, none = np.eye(3)[along], np.zeros(3)
             force, moment = getattr(load.force, axis), getattr(load.moment, axis)
             if force is not None:
-                yield SpaceLoad(body, point, unit, none, *sampled(force, duration))
+                yield SpatialLoad(body, point, unit, none, *sampled(force, duration))
             if moment is not None:
-                yield SpaceLoad(body, point, none, unit, *sampled(moment, duration))
+                yield SpatialLoad(body, point, none, unit, *sampled(moment, duration))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Iterator
 from dataclasses import replace
@@ -10,34 +9,40 @@ from typing import Any
 
 import numpy as np
 
-from crumple._core.planar.simulation import Outcome
-from crumple._core.spatial.simulation import SpaceRecord, SpaceSimulation
+from crumple._core.outcome import Outcome
+from crumple._core.records import joined
+from crumple._core.spatial.simulation import SpatialRecord, SpatialSimulation
 from crumple.multibody.answer.forces import check_sections, force_channels, section_force_channels
-from crumple.multibody.answer.poses import SpacePoses
-from crumple.multibody.answer.solved import HingeHistory, Poll, Solved
+from crumple.multibody.answer.hinge_histories import hinge_histories, ledger
+from crumple.multibody.answer.poses import SpatialHistory
+from crumple.multibody.answer.solved import Poll, Solved
 from crumple.multibody.bodies.initial_motion import Placed
-from crumple.multibody.bodies.linkage import Linkage, check_inertia, link
+from crumple.multibody.bodies.linkage import check_inertia, link
 from crumple.multibody.bodies.mobility import free_parts
 from crumple.multibody.bodies.obstacle_bodies import with_obstacles
 from crumple.multibody.run import Run, output_times
-from crumple.multibody.spatial.case import added_motion, kernel_stage
-from crumple.multibody.spatial.model import space_model, support_drives
-from crumple.multibody.spatial.stages import lost_equilibrium, lowered_until, refuse_floating, stages_of, told
+from crumple.multibody.spatial.case import added_motion, kernel_stage, recorded_hinges
+from crumple.multibody.spatial.model import spatial_model, support_drives
+from crumple.multibody.spatial.stages import (
+    kernel_conditions,
+    lost_equilibrium,
+    refuse_floating,
+    stages_of,
+    told,
+)
 from crumple.numeric.arrays import Floats
 from crumple.result import Channel, StageSummary
 from crumple.structure import PlacedHinge, Stage, Structure
 
 HISTORIES = (
-    "time", "centre", "rotation", "velocity", "acceleration", "hinge_rotation", "hinge_rate", "hinge_plastic",
-    "hinge_moment", "hinge_capacity", "hinge_energy", "joint_force", "obstacle_force", "energy",
+    "time", "centre", "rotation", "velocity", "acceleration", "hinge", "hinge_energy", "joint_force",
+    "obstacle_force", "energy",
 )  # fmt: skip
 """Fields of a record with a row for every output time."""
 COUNTS = ("steps", "rejected", "forced", "solves")
-PARTS = ("slip.x", "slip.y", "slip.z", "x", "y", "z")
-"""Names of a hinge's components by relative freedom."""
 
 
-class SpaceSolver:
+class SpatialSolver:
     """Bodies and connections in space, ready to step.
 
     Parameters
@@ -63,7 +68,7 @@ class SpaceSolver:
         self._stages = stages_of(structure, run)
         refuse_floating(structure, self.linkage, self._stages)
         longest = max(stage.duration for stage in self._stages)
-        plain = space_model(structure, self.linkage, longest)
+        plain = spatial_model(structure, self.linkage, longest)
         owners = tuple(name for name, _ in support_drives(structure, self.linkage, longest))
         self._touching = with_obstacles(structure, self.linkage, plain, owners, longest)
 
@@ -77,9 +82,9 @@ class SpaceSolver:
         """See `Solver`."""
         return self.linkage.hinges
 
-    def with_hinges(self, hinges: tuple[PlacedHinge, ...]) -> SpaceSolver:
+    def with_hinges(self, hinges: tuple[PlacedHinge, ...]) -> SpatialSolver:
         """See `Solver`."""
-        return SpaceSolver(self._structure, self._run, hinges)
+        return SpatialSolver(self._structure, self._run, hinges)
 
     def run(self, accuracy: float, poll: Poll | None, *, ends_only: bool = False) -> Solved:
         """See `Solver`."""
@@ -88,9 +93,9 @@ class SpaceSolver:
         longest = (
             settings.maximum_time_step if ends_only else min(settings.maximum_time_step, self._run.every / 2)
         )
-        simulation = SpaceSimulation(model, accuracy, settings.minimum_time_step, longest)
+        simulation = SpatialSimulation(model, accuracy, settings.minimum_time_step, longest)
         grid = output_times(self._run, ends_only=ends_only)
-        records: list[SpaceRecord] = []
+        records: list[SpatialRecord] = []
         stages: list[StageSummary] = []
         given = lost = seconds = 0.0
         for stage in self._stages:
@@ -101,7 +106,7 @@ class SpaceSolver:
             clock = time.perf_counter()
             records.append(simulation.run(times, poll))
             seconds += time.perf_counter() - clock
-            conditions = lowered_until(self._structure, self.linkage, self._touching, stage)
+            conditions = kernel_conditions(self._structure, self.linkage, self._touching, stage)
             ended = told(stage, conditions, records[-1])
             stages.append(StageSummary(stage.name, begin, float(records[-1].time[-1]), ended))
             if records[-1].outcome is not Outcome.COMPLETE:
@@ -118,7 +123,7 @@ class SpaceSolver:
         return self._solved(record, stages, (given, lost, seconds))
 
     def _begin(
-        self, simulation: SpaceSimulation, stage: Stage, before: SpaceRecord | None
+        self, simulation: SpatialSimulation, stage: Stage, before: SpatialRecord | None
     ) -> tuple[float, float]:
         """Start a stage; energy of the motion that is added, and what of it the joints took [J]."""
         parts = (self._structure, self.linkage, self._touching, stage)
@@ -134,9 +139,9 @@ class SpaceSolver:
         return energy, simulation.set_motion(velocity, impulse)
 
     def _solved(
-        self, record: SpaceRecord, stages: list[StageSummary], sums: tuple[float, float, float]
+        self, record: SpatialRecord, stages: list[StageSummary], sums: tuple[float, float, float]
     ) -> Solved:
-        poses = SpacePoses(self.linkage, record)
+        poses = SpatialHistory(self.linkage, record)
         given, lost, seconds = sums
         begins = np.array([stage.start for stage in stages])
         # an output at the border of two stages belongs to the first
@@ -148,12 +153,15 @@ class SpaceSolver:
             steps=record.steps,
             rejected=record.rejected,
             forced=record.forced,
+            time=record.time,
             given=given,
             lost=lost,
             struck=any(stage.impulses for stage in self._stages),
             poses=poses,
-            hinges=tuple(self._hinge_histories(record)),
-            energy=energy_in_space(
+            hinges=tuple(
+                hinge_histories(recorded_hinges(self.linkage, self._touching.model), record, record.summary)
+            ),
+            energy=ledger(
                 record,
                 touched=bool(self._touching.model.capsules),
                 slowed=any(stage.kind == "quasi-static" for stage in self._stages),
@@ -167,21 +175,7 @@ class SpaceSolver:
             stages=tuple(stages) if self._run.stages else (),
         )
 
-    def _hinge_histories(self, record: SpaceRecord) -> Iterator[HingeHistory]:
-        offsets = self._touching.model.component_offsets
-        for k, (hinge, columns) in enumerate(hinge_columns(self.linkage, offsets, record)):
-            largest, moment_max, _, rest, turning, energy, broke, carried = map(float, record.summary[k])
-            yield HingeHistory(
-                hinge,
-                columns,
-                rotation_max=largest,
-                moment_max=moment_max,
-                time_of_rest=None if turning else rest,
-                energy=energy,
-                fracture=None if math.isnan(broke) else (broke, carried),
-            )
-
-    def _obstacle_channels(self, record: SpaceRecord) -> Iterator[Channel]:
+    def _obstacle_channels(self, record: SpatialRecord) -> Iterator[Channel]:
         first = len(self.linkage.connections)
         for k, name in enumerate(self._structure.obstacles):
             columns = [("force", "N", record.obstacle_force[:, k])]
@@ -198,71 +192,18 @@ class SpaceSolver:
                     )
 
 
-def hinge_columns(
-    linkage: Linkage, offsets: list[int], record: SpaceRecord
-) -> Iterator[tuple[PlacedHinge, dict[str, tuple[str, Floats]]]]:
-    """Every hinge and its columns, see `HingeHistory`; `offsets` of its components as of a `SpaceModel`."""
-    connections = [c for c in linkage.connections if c.hinge is not None]
-    for k, connection in enumerate(connections):
-        assert connection.hinge is not None
-        span = slice(offsets[k], offsets[k + 1])
-        parts = {
-            "rotation": ("rad", record.hinge_rotation[:, span]),
-            "rotation_rate": ("rad/s", record.hinge_rate[:, span]),
-            "plastic_rotation": ("rad", record.hinge_plastic[:, span]),
-            "moment": ("N*m", record.hinge_moment[:, span]),
-            "capacity": ("N*m", record.hinge_capacity[:, span]),
-        }
-        columns = _columns(parts, connection.free)
-        columns["energy"] = ("J", np.ascontiguousarray(record.hinge_energy[:, k, 0]))
-        yield connection.hinge, columns
-
-
-def _columns(parts: dict[str, tuple[str, Floats]], free: tuple[int, ...]) -> dict[str, tuple[str, Floats]]:
-    """Histories of one hinge: plain for one axis; for several the lengths of its rotations, and parts."""
-    if len(free) == 1:
-        return {name: (unit, np.ascontiguousarray(values[:, 0])) for name, (unit, values) in parts.items()}
-    turning = [k for k, freedom in enumerate(free) if freedom >= 3]
-    columns = {
-        name: (unit, np.linalg.norm(values[:, turning], axis=1)) for name, (unit, values) in parts.items()
-    }
-    for name, (unit, values) in parts.items():
-        for k, freedom in enumerate(free):
-            one = np.ascontiguousarray(values[:, k])
-            if freedom >= 3:
-                columns[f"{name}.{PARTS[freedom]}"] = (unit, one)
-            else:
-                columns[f"{PARTS[freedom]}.{name}"] = (unit.replace("rad", "m").replace("N*m", "N"), one)
-    return columns
-
-
-def energy_in_space(record: SpaceRecord, *, touched: bool, slowed: bool) -> dict[str, Floats]:
-    """The ledger, (n,) each [J]; `touched`: with contact and friction; `slowed`: with damping."""
-    dissipated = record.hinge_energy[:, :, 0].sum(axis=1)
-    energy = {
-        "kinetic": record.energy[:, 0],
-        "elastic": record.energy[:, 1:6].sum(axis=1) - dissipated,
-        "dissipated": dissipated,
-    }
-    if touched:
-        energy |= {"contact": record.energy[:, 6], "friction": record.energy[:, 7]}
-    if slowed:
-        energy["damping"] = record.energy[:, 9]
-    return energy | {"external_work": record.energy[:, 8]}
-
-
 def _stage_times(grid: Floats, begin: float, end: float) -> Floats:
     """Output times of a stage: the grid's within it, and its end."""
     inside = grid[(grid > begin * (1 + 1e-12)) & (grid < end * (1 - 1e-12))]
     return np.concatenate([[0.0] if begin == 0.0 else [], inside, [end]])
 
 
-def _joined(records: list[SpaceRecord]) -> SpaceRecord:
+def _joined(records: list[SpatialRecord]) -> SpatialRecord:
     """One record of several stages, each going on where the one before it ended."""
     if len(records) == 1:
         return records[0]
     histories: dict[str, Any] = {
-        name: np.concatenate([getattr(record, name) for record in records]) for name in HISTORIES
+        name: joined([getattr(record, name) for record in records]) for name in HISTORIES
     }
     counts: dict[str, Any] = {name: sum(getattr(record, name) for record in records) for name in COUNTS}
     residual = max(record.residual for record in records)

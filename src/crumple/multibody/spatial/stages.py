@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from crumple._core.spatial.simulation import SpaceRecord, SpaceUntil
+from crumple._core.spatial.simulation import SpatialRecord, SpatialUntil
 from crumple._core.spatial.simulation import Until as Quantity
 from crumple.errors import InputError, Problem
 from crumple.multibody.bodies.linkage import Linkage
@@ -17,7 +17,7 @@ from crumple.multibody.run import Run
 from crumple.structure import FREEDOMS, Stage, Structure, Until
 from crumple.units import format_quantity
 
-Conditions = list[tuple[Until, SpaceUntil]]
+Conditions = list[tuple[Until, SpatialUntil]]
 """What the input asks for, and what the kernel looks at: a path ends a stage in either sense."""
 
 
@@ -63,7 +63,7 @@ def refuse_floating(structure: Structure, linkage: Linkage, stages: tuple[Stage,
         raise InputError(problems)
 
 
-def lowered_until(structure: Structure, linkage: Linkage, touching: Touching, stage: Stage) -> Conditions:
+def kernel_conditions(structure: Structure, linkage: Linkage, touching: Touching, stage: Stage) -> Conditions:
     """Conditions of a stage, each as the kernel looks at it."""
     return [
         (until, condition)
@@ -72,7 +72,7 @@ def lowered_until(structure: Structure, linkage: Linkage, touching: Touching, st
     ]
 
 
-def told(stage: Stage, conditions: Conditions, record: SpaceRecord) -> str:
+def told(stage: Stage, conditions: Conditions, record: SpatialRecord) -> str:
     """What ended a stage, in words."""
     if math.isfinite(record.lost_time):
         return f"loss of equilibrium at {format_quantity(record.lost_time, 's', 4)}"
@@ -117,23 +117,23 @@ def lost_equilibrium(structure: Structure, stage: Stage, begin: float, lost: flo
 
 def _conditions(
     structure: Structure, linkage: Linkage, touching: Touching, until: Until
-) -> Iterator[SpaceUntil]:
+) -> Iterator[SpatialUntil]:
     if until.quantity == "energy":
-        yield SpaceUntil(Quantity.WORK, until.value)
+        yield SpatialUntil(Quantity.WORK, until.value)
     elif until.between is not None:
         first, second = until.between
         bodies = (linkage.node_body[first], linkage.node_body[second])
         points = np.array([structure.nodes[first], structure.nodes[second]], float)
-        yield SpaceUntil(Quantity.DISTANCE, until.value, bodies=bodies, points=points)
+        yield SpatialUntil(Quantity.DISTANCE, until.value, bodies=bodies, points=points)
     elif until.quantity == "force" and until.of in structure.obstacles:
-        yield SpaceUntil(Quantity.FORCE, until.value, list(structure.obstacles).index(str(until.of)))
+        yield SpatialUntil(Quantity.FORCE, until.value, list(structure.obstacles).index(str(until.of)))
     else:
         joint, freedom = _driven(structure, linkage, touching, str(until.of))
         if until.quantity == "force":
-            yield SpaceUntil(Quantity.DRIVE_FORCE, until.value, joint)
+            yield SpatialUntil(Quantity.DRIVE_FORCE, until.value, joint)
         else:
             yield from (
-                SpaceUntil(Quantity.DISPLACEMENT, sense * until.value, joint, freedom)
+                SpatialUntil(Quantity.DISPLACEMENT, sense * until.value, joint, freedom)
                 for sense in (1.0, -1.0)
             )
 

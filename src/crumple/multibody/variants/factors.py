@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
 
 from crumple.errors import InputError, Problem
-from crumple.multibody.planar.case import Lowered
 from crumple.numeric.arrays import Floats
 from crumple.structure import Structure, value_at
 
@@ -53,34 +51,3 @@ def checked_names(structure: Structure, hinges: Sequence[str], names: Sequence[s
                 )
         elif name not in FACTORS:
             value_at(structure, name)
-
-
-def scaled(base: Lowered, name: str) -> Callable[[float], Lowered] | None:
-    """For a factor: the model with it; None for a path of the input."""
-    tree, start = base.tree, base.start
-
-    def capacity(factor: float) -> Lowered:
-        hinge_name = name.split(".")[1]
-        hinges = tuple(
-            replace(hinge, capacity_scale=factor if own == hinge_name else 1.0)
-            for hinge, (own, _) in zip(tree.hinges, base.hinges, strict=True)
-        )
-        return replace(base, tree=replace(tree, hinges=hinges))
-
-    def loads(factor: float) -> Lowered:
-        loads = tuple(replace(load, values=factor * load.values) for load in tree.loads)
-        return replace(base, tree=replace(tree, loads=loads))
-
-    def gravity(factor: float) -> Lowered:
-        x, y = tree.gravity
-        return replace(base, tree=replace(tree, gravity=(factor * x, factor * y)))
-
-    def velocity(factor: float) -> Lowered:
-        return replace(base, start=replace(start, velocity=factor * start.velocity))
-
-    def impulses(factor: float) -> Lowered:
-        return replace(base, start=replace(start, impulse=factor * start.impulse))
-
-    if name.startswith("hinges."):
-        return capacity
-    return {"initial_velocity": velocity, "impulses": impulses, "loads": loads, "gravity": gravity}.get(name)

@@ -14,19 +14,24 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from crumple._core.planar.simulation import Outcome
+from crumple._core.outcome import Outcome
 from crumple.errors import InputError, Problem, Status
-from crumple.multibody.answer.end_values import Finals, part_of
 from crumple.multibody.answer.solved import Poll
 from crumple.multibody.kernel_choice import why_spatial
-from crumple.multibody.planar.batch import PlanarBatch
 from crumple.multibody.run import Cancel, Progress, Run, outcome_status
-from crumple.multibody.spatial.batch import SpaceBatch
+from crumple.multibody.variants.batch import (
+    Batch,
+    Case,
+    EndValues,
+    PlanarBatch,
+    SpatialBatch,
+    hinge_names,
+    part_of,
+)
 from crumple.multibody.variants.factors import checked_names, quick
 from crumple.numeric.arrays import Floats
 from crumple.structure import Structure, changed, placed_hinges
@@ -38,40 +43,6 @@ REASONS = {
     Outcome.UNHELD: "loads or gravity move it in a quasi-static stage, and nothing resists",
     Outcome.LIMIT_LOAD: "loads or gravity pass what the structure can carry in a quasi-static stage",
 }
-
-
-class Lowered(Protocol):
-    """A structure as a kernel's arrays."""
-
-    @property
-    def topology(self) -> tuple[object, ...]:
-        """What must be the same for two models to be variants of each other."""
-
-
-Model = TypeVar("Model", bound=Lowered)
-
-
-class Batch(Protocol[Model, Finals]):
-    """How a kernel solves many variants."""
-
-    def lower(self, structure: Structure, *, moved: bool = False) -> Model:
-        """Lower a structure; `moved`: its nodes are not where those of the one that was asked about are."""
-
-    def hinges(self, model: Model) -> list[str]:
-        """Names of the hinges in the kernel's order."""
-
-    def solve(
-        self,
-        values: Mapping[str, Floats],
-        models: Sequence[Model],
-        model_of: NDArray[np.int64],
-        threads: int,
-        poll: Poll | None,
-    ) -> Finals:
-        """Solve variants, (n,), of which quick parameters have `values` and each has one of the models."""
-
-    def quantities(self, model: Model, finals: Finals) -> dict[str, Floats]:
-        """Named quantities of variants that share a model, (n,) each."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,24 +128,24 @@ def solve_variants(
     poll = _poll(progress, cancel)
     if why_spatial(structure, placed_hinges(structure), run) is None:
         return _table(PlanarBatch(run), structure, parameters, count, poll, run)
-    return _table(SpaceBatch(run), structure, parameters, count, poll, run)
+    return _table(SpatialBatch(run), structure, parameters, count, poll, run)
 
 
 def _table(
-    batch: Batch[Model, Finals],
+    batch: Batch,
     structure: Structure,
     parameters: Mapping[str, ArrayLike],
     threads: int,
     poll: Poll | None,
     run: Run,
 ) -> VariantTable:
-    base = batch.lower(structure)
-    values = _columns(structure, batch.hinges(base), parameters)
-    models, model_of, refused = _models(batch, structure, values, base)
-    finals = batch.solve(values, models, model_of, threads, poll)
+    base = batch.case(structure)
+    values = _columns(structure, hinge_names(base), parameters)
+    cases, case_of, refused = _cases(batch, structure, values, base)
+    ends = batch.solve(values, cases, case_of, threads, poll)
     bound = run.settings.energy_residual_bound
-    status, reason = _outcomes(finals.outcome, finals.residual, refused, bound)
-    quantities = _quantities(batch, models, model_of, finals)
+    status, reason = _outcomes(ends.outcome, ends.residual, refused, bound)
+    quantities = _quantities(batch, cases, case_of, ends)
     lost = np.array([state is Status.REFUSED for state in status])
     for column in quantities.values():
         column[lost] = np.nan
@@ -209,10 +180,10 @@ def _column(name: str, given: ArrayLike) -> Floats:
         raise InputError(Problem("a parameter is not a number", repr(given), allowed, todo, name)) from None
 
 
-def _models(
-    batch: Batch[Model, Finals], structure: Structure, values: Mapping[str, Floats], base: Model
-) -> tuple[list[Model], NDArray[np.int64], dict[int, str]]:
-    """A model for every distinct combination of slow parameters, which one each variant has, and refusals."""
+def _cases(
+    batch: Batch, structure: Structure, values: Mapping[str, Floats], base: Case
+) -> tuple[list[Case], NDArray[np.int64], dict[int, str]]:
+    """A case for every distinct combination of slow parameters, which one each variant has, and refusals."""
     count = len(next(iter(values.values())))
     slow = [name for name in values if not quick(name)]
     if not slow:
@@ -220,21 +191,21 @@ def _models(
     moved = any(name.startswith("nodes.") for name in slow)
     rows = np.stack([values[name] for name in slow], axis=1)
     distinct, combination = np.unique(rows, axis=0, return_inverse=True)
-    models, number, failed = [base], np.zeros(len(distinct), np.int64), {}
+    cases, number, failed = [base], np.zeros(len(distinct), np.int64), {}
     for i, combined in enumerate(distinct):
         try:
             new = changed(structure, dict(zip(slow, map(float, combined), strict=True)))
-            model = batch.lower(new, moved=moved)
-            if model.topology != base.topology:
+            case = batch.case(new, moved=moved)
+            if case.topology != base.topology:
                 raise InputError("these values join other parts than the structure's own")
         except InputError as error:
             failed[i] = str(error)
             continue
-        number[i] = len(models)
-        models.append(model)
+        number[i] = len(cases)
+        cases.append(case)
     combination = combination.reshape(-1)
     refused = {row: failed[i] for row, i in enumerate(combination.tolist()) if i in failed}
-    return models, number[combination], refused
+    return cases, number[combination], refused
 
 
 def _poll(progress: Progress | None, cancel: Cancel | None) -> Callable[[float], bool] | None:
@@ -264,19 +235,19 @@ def _outcomes(
 
 
 def _quantities(
-    batch: Batch[Model, Finals], models: Sequence[Model], model_of: NDArray[np.int64], finals: Finals
+    batch: Batch, cases: Sequence[Case], case_of: NDArray[np.int64], ends: EndValues
 ) -> dict[str, Floats]:
     """Final quantities of all variants, model by model."""
     found: dict[str, Floats] = {}
-    order = np.argsort(model_of, kind="stable")
-    ends = np.searchsorted(model_of[order], np.arange(len(models) + 1))
-    for i, model in enumerate(models):
-        rows = order[ends[i] : ends[i + 1]]
+    order = np.argsort(case_of, kind="stable")
+    bounds = np.searchsorted(case_of[order], np.arange(len(cases) + 1))
+    for i, case in enumerate(cases):
+        rows = order[bounds[i] : bounds[i + 1]]
         if rows.size == 0:
             continue
         # a run that failed may have gone anywhere
         with np.errstate(all="ignore"):
-            named = batch.quantities(model, part_of(finals, rows))
+            named = batch.quantities(case, part_of(ends, rows))
         for name, column in named.items():
-            found.setdefault(name, np.zeros(model_of.size))[rows] = column
+            found.setdefault(name, np.zeros(case_of.size))[rows] = column
     return found

@@ -28,7 +28,7 @@ def channels_of(structure: Structure, sampler: Sampler, record: Record, outputs:
         *energy_channels(record),
         *cut_channels(sampler, record),
         *obstacle_channels(structure, record),
-        *weld_channels(structure, sampler.lowered, record),
+        *weld_channels(structure, sampler.case, record),
         *node_channels(sampler, record, outputs),
         *section_channels(structure, sampler, record, outputs),
         *distance_channels(structure, sampler, record, outputs),
@@ -47,7 +47,7 @@ def energy_channels(record: Record) -> Iterator[Channel]:
 
 def hinge_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
     """Rotation between the sections on both sides, moment in the cut, plastic work between."""
-    for k, zone in enumerate(sampler.lowered.zones):
+    for k, zone in enumerate(sampler.case.zones):
         rotation, moment, energy = hinge_history(sampler, record, k, zone)
         columns = (
             ("rotation", "rad", rotation),
@@ -83,7 +83,7 @@ def ring_history(sampler: Sampler, record: Record, member: str, ring: int) -> Fl
 
 def cut_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
     """Force and moment in each hinge's cut, and of the structure on each support."""
-    zones, supports = sampler.lowered.zones, sampler.lowered.supports
+    zones, supports = sampler.case.zones, sampler.case.supports
     names = [*(f"cut.{zone.place.name}" for zone in zones), *(f"support.{name}" for name in supports)]
     for k, (name, cut) in enumerate(zip(names, [*[None] * len(zones), *supports.values()], strict=True)):
         force, moment, centre = np.split(record["cut"][:, k], 3, axis=1)
@@ -137,12 +137,12 @@ def section_channels(
 ) -> Iterator[Channel]:
     """Rotation of one station of a member against another about the hinges' axis, else the larger."""
     for name, asked in outputs.section_rotations.items():
-        tube = sampler.lowered.mesh.tubes[asked.member]
+        tube = sampler.case.mesh.tubes[asked.member]
         first, last = (
             ring_history(sampler, record, asked.member, tube.ring_at(station))
             for station in (asked.start, asked.end)
         )
-        axes = {zone.place.axis for zone in sampler.lowered.zones if zone.place.member == asked.member}
+        axes = {zone.place.axis for zone in sampler.case.zones if zone.place.member == asked.member}
         turned = {axis: relative_rotation(first, last, tube.frame.axis(axis)) for axis in ("y", "z")}
         axis = (
             axes.pop() if len(axes) == 1 else max(turned, key=lambda axis: float(np.abs(turned[axis]).max()))
@@ -166,14 +166,14 @@ def distance_channels(
 
 def clearance_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
     """Least distance between a space that moves with a member and the others, negative inside."""
-    for k, space in enumerate(sampler.lowered.spaces):
+    for k, space in enumerate(sampler.case.spaces):
         yield Channel(space.name, "m", record["clearance"][:, k].copy())
 
 
 def summaries(sampler: Sampler, record: Record) -> dict[str, HingeSummary]:
     """What every hinge place did."""
     found = {}
-    for k, zone in enumerate(sampler.lowered.zones):
+    for k, zone in enumerate(sampler.case.zones):
         rotation, moment, energy = hinge_history(sampler, record, k, zone)
         found[zone.place.name] = HingeSummary(
             rotation_max=float(np.abs(rotation).max()),

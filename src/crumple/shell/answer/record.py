@@ -12,7 +12,7 @@ from crumple.numeric.arrays import Floats, Integers
 from crumple.shell.answer.sections import mean_spin, section_rotation
 from crumple.shell.mesh.mesh import Mesh
 from crumple.shell.model.bodies import body_numbers
-from crumple.shell.model.model import Lowered
+from crumple.shell.model.model import ShellCase
 from crumple.shell.model.spaces import clearance_now
 from crumple.structure import Outputs
 
@@ -33,7 +33,7 @@ class Sampler:
 
     Attributes
     ----------
-    lowered
+    case
         What is computed.
     nodes
         Names of the structure nodes that are followed: those asked for, then ends of distances.
@@ -41,19 +41,19 @@ class Sampler:
         Sections whose rotation is followed: member and ring.
     """
 
-    lowered: Lowered
+    case: ShellCase
     nodes: tuple[str, ...]
     rings: tuple[Ring, ...]
 
     @classmethod
-    def of(cls, lowered: Lowered, outputs: Outputs) -> Sampler:
+    def of(cls, case: ShellCase, outputs: Outputs) -> Sampler:
         """Sampler of everything that the outputs and the hinges need."""
-        rings = [(zone.place.member, ring) for zone in lowered.zones for ring in (zone.first, zone.last)]
+        rings = [(zone.place.member, ring) for zone in case.zones for ring in (zone.first, zone.last)]
         for asked in outputs.section_rotations.values():
-            tube = lowered.mesh.tubes[asked.member]
+            tube = case.mesh.tubes[asked.member]
             rings += [(asked.member, tube.ring_at(station)) for station in (asked.start, asked.end)]
         ends = [end for asked in outputs.distances.values() for end in (asked.start, asked.end)]
-        return cls(lowered, tuple(dict.fromkeys([*outputs.nodes, *ends])), tuple(dict.fromkeys(rings)))
+        return cls(case, tuple(dict.fromkeys([*outputs.nodes, *ends])), tuple(dict.fromkeys(rings)))
 
     def sample(self, state: ShellState) -> dict[str, Floats]:
         """Histories now.
@@ -61,11 +61,11 @@ class Sampler:
         time (), energy (9,), zone (h,), cut (c, 9), ring (r, 3, 3), node (k, 6, 3), obstacle (o, 15),
         weld (w, 5), clearance (s,)
         """
-        mesh, position = self.lowered.mesh, state.position
+        mesh, position = self.case.mesh, state.position
         velocity = state.velocity[0]
         plastic = state.element_field("plastic_energy")
         energies = state.energies
-        cuts = [np.concatenate(state.cut(i)) for i in range(len(self.lowered.model.cuts))]
+        cuts = [np.concatenate(state.cut(i)) for i in range(len(self.case.model.cuts))]
         rotations = [
             section_rotation(mesh.position[nodes], position[nodes])
             for nodes in (mesh.tubes[member].nodes[ring] for member, ring in self.rings)
@@ -74,22 +74,22 @@ class Sampler:
         return {
             "time": np.array(state.time),
             "energy": np.array([energies[name] for name in ENERGIES]),
-            "zone": np.array([plastic[zone.elements].sum() for zone in self.lowered.zones]),
+            "zone": np.array([plastic[zone.elements].sum() for zone in self.case.zones]),
             "cut": np.array(cuts).reshape(-1, 9),
             "ring": np.array(rotations).reshape(-1, 3, 3),
             "node": np.array(motions).reshape(-1, 6, 3),
             "obstacle": state.obstacles,
             "weld": state.spot_welds,
             "clearance": np.array(
-                [clearance_now(space, mesh.position, position) for space in self.lowered.spaces]
+                [clearance_now(space, mesh.position, position) for space in self.case.spaces]
             ),
         }
 
     def _motion(self, state: ShellState, name: str, position: Floats, velocity: Floats) -> Floats:
         """Displacement, velocity, angular velocity, and the rotation matrix of a node, (6, 3)."""
-        mesh = self.lowered.mesh
+        mesh = self.case.mesh
         if name in mesh.reference:
-            which = body_numbers(self.lowered.bodies)[name]
+            which = body_numbers(self.case.bodies)[name]
             body, at = state.rigid_sets[which], mesh.reference[name]
             centre, linear, spin = body[:3], body[3:6], body[6:9]
             moved = position[at] - mesh.position[at]

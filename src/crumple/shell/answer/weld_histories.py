@@ -9,7 +9,7 @@ import numpy as np
 from crumple.numeric.arrays import Floats, Integers
 from crumple.result import Channel
 from crumple.shell.answer.record import Record
-from crumple.shell.model.model import Lowered
+from crumple.shell.model.model import ShellCase
 from crumple.shell.model.welds import in_words
 from crumple.structure import Structure
 from crumple.units import format_quantity
@@ -20,10 +20,10 @@ MOST_NAMED = 6
 """Failed spots of one entry that a warning names one by one."""
 
 
-def weld_channels(structure: Structure, lowered: Lowered, record: Record) -> Iterator[Channel]:
+def weld_channels(structure: Structure, case: ShellCase, record: Record) -> Iterator[Channel]:
     """Share of spots that failed, largest forces of the others, and largest use so far, of every entry."""
     for name, welds in structure.spot_welds.items():
-        rows = record["weld"][:, _numbers(lowered, name)]
+        rows = record["weld"][:, _numbers(case, name)]
         whole = rows[..., BROKEN] < 0.5
         yield Channel(f"weld.{name}.failed", "1", (~whole).mean(axis=1))
         for key, column in (("normal_force", NORMAL), ("shear_force", SHEAR)):
@@ -32,40 +32,40 @@ def weld_channels(structure: Structure, lowered: Lowered, record: Record) -> Ite
             yield Channel(f"weld.{name}.use", "1", rows[..., USE].max(axis=1))
 
 
-def weld_assumptions(structure: Structure, lowered: Lowered) -> Iterator[str]:
+def weld_assumptions(structure: Structure, case: ShellCase) -> Iterator[str]:
     """Sentences on how spots are tied."""
-    if plain := sum(not body.lumps and not body.stretch for body in lowered.bodies):
+    if plain := sum(not body.lumps and not body.stretch for body in case.bodies):
         yield f"{plain} spot welds tie pairs of nodes rigidly and do not fail."
     for name, welds in structure.spot_welds.items():
         across, along = _force(welds.normal_strength), _force(welds.shear_strength)
         fails = f"fail at {across} across and {along} along the sheets" if welds.fails else "do not fail"
-        yield f"{len(_numbers(lowered, name))} spot welds {name} tie the sheets rigidly and {fails}."
+        yield f"{len(_numbers(case, name))} spot welds {name} tie the sheets rigidly and {fails}."
 
 
-def weld_warnings(structure: Structure, lowered: Lowered, record: Record) -> Iterator[str]:
+def weld_warnings(structure: Structure, case: ShellCase, record: Record) -> Iterator[str]:
     """Sentences on spots that failed: when, where, and under which forces."""
     for name in structure.spot_welds:
-        numbers = _numbers(lowered, name)
+        numbers = _numbers(case, name)
         rows = record["weld"][-1][numbers]
         broken = np.flatnonzero(rows[:, BROKEN] > 0.5)
         if not broken.size:
             continue
         order = broken[np.argsort(rows[broken, TIME], kind="stable")]
-        told = "; ".join(_failure(lowered, rows, numbers, int(i)) for i in order[:MOST_NAMED])
+        told = "; ".join(_failure(case, rows, numbers, int(i)) for i in order[:MOST_NAMED])
         more = f"; and {len(order) - MOST_NAMED} more" if len(order) > MOST_NAMED else ""
         yield f"{len(order)} of {len(numbers)} spot welds {name} failed: {told}{more}."
 
 
-def _failure(lowered: Lowered, rows: Floats, numbers: Integers, i: int) -> str:
+def _failure(case: ShellCase, rows: Floats, numbers: Integers, i: int) -> str:
     """When, where and under which forces one spot of an entry failed."""
     across, along = (_force(float(rows[i, column])) for column in (NORMAL, SHEAR))
-    place = in_words(lowered.welds[numbers[i]].place)
+    place = in_words(case.welds[numbers[i]].place)
     when = format_quantity(float(rows[i, TIME]), "s", 4)
     return f"at {when} the one at {place}, under {across} across and {along} along the sheets"
 
 
-def _numbers(lowered: Lowered, name: str) -> Integers:
-    return np.array([i for i, spot in enumerate(lowered.welds) if spot.name == name], dtype=np.int64)
+def _numbers(case: ShellCase, name: str) -> Integers:
+    return np.array([i for i, spot in enumerate(case.welds) if spot.name == name], dtype=np.int64)
 
 
 def _force(value: float | None) -> str:

@@ -14,7 +14,7 @@ from crumple.shell.mesh.joints import Kind
 from crumple.shell.mesh.quality import wall_metals
 from crumple.shell.model.bodies import Body, Lump
 from crumple.shell.model.metal import in_words
-from crumple.shell.model.model import Lowered
+from crumple.shell.model.model import ShellCase
 from crumple.shell.model.obstacles import too_sharp
 from crumple.structure import ShellSettings, Stage, Structure
 from crumple.structure.hinges.hinges import hinge_places
@@ -49,24 +49,24 @@ def energy_residual(record: Record) -> float:
     return worst / given if given > LEAST_ENERGY else 0.0
 
 
-def assumptions(structure: Structure, lowered: Lowered, settings: ShellSettings) -> tuple[str, ...]:
+def assumptions(structure: Structure, case: ShellCase, settings: ShellSettings) -> tuple[str, ...]:
     """Sentences stating what the model takes for granted."""
     found = [
-        f"Walls are shells along their mid-lines: {lowered.report}.",
+        f"Walls are shells along their mid-lines: {case.report}.",
         f"One-point quadrilaterals ({settings.element}) with {settings.thickness_points} points through the "
         f"thickness ({settings.thickness_rule}), {_held(settings)}, thickness update "
         f"{settings.thickness_update}, warping correction {settings.warping_correction}, self-contact "
-        f"{'on' if lowered.model.settings.self_contact else 'off'}.",
-        *_without_effect(structure, lowered, settings),
+        f"{'on' if case.model.settings.self_contact else 'off'}.",
+        *_without_effect(structure, case, settings),
     ]
-    found += [in_words(metal) for metal in wall_metals(structure, lowered.mesh)[0]]
-    for node, joint in lowered.mesh.joints.items():
+    found += [in_words(metal) for metal in wall_metals(structure, case.mesh)[0]]
+    for node, joint in case.mesh.joints.items():
         if joint.kind is Kind.RIGID and len(joint.ends) > 1:
             members = ", ".join(end.member for end in joint.ends)
             found.append(f"The ends of {members} at node {node} are cut back and move as one rigid body.")
         elif joint.is_body:
             found.append(f"The section at node {node} is rigid.")
-    found += weld_assumptions(structure, lowered)
+    found += weld_assumptions(structure, case)
     for name, member in structure.members.items():
         length = structure.frame_of(name).length
         found += [
@@ -75,21 +75,21 @@ def assumptions(structure: Structure, lowered: Lowered, settings: ShellSettings)
         ]
     found += [
         f"Hinge {zone.place.name} is the stretch of member {zone.place.member} from "
-        f"{_station(lowered, zone.place.member, zone.first)} to "
-        f"{_station(lowered, zone.place.member, zone.last)} mm: rotation between the sections there, "
+        f"{_station(case, zone.place.member, zone.first)} to "
+        f"{_station(case, zone.place.member, zone.last)} mm: rotation between the sections there, "
         "plastic work in the walls between."
-        for zone in lowered.zones
+        for zone in case.zones
     ]
     return tuple(found)
 
 
-def _without_effect(structure: Structure, lowered: Lowered, settings: ShellSettings) -> Iterator[str]:
+def _without_effect(structure: Structure, case: ShellCase, settings: ShellSettings) -> Iterator[str]:
     """What was asked for and changes nothing here."""
-    if settings.self_contact == "off" and lowered.model.settings.self_contact:
+    if settings.self_contact == "off" and case.model.settings.self_contact:
         yield "Walls touch walls although self-contact is off, since the structure has contact of members."
     if structure.member_contact is not None and structure.member_contact.restitution:
         yield "The restitution of members is that of rigid bodies: walls rebound by their own elasticity."
-    if settings.coarse_sections == "on" and not lowered.report.triangles:
+    if settings.coarse_sections == "on" and not case.report.triangles:
         yield "No stretch of long elements is long enough for coarser sections: there are none."
 
 
@@ -100,13 +100,13 @@ def _held(settings: ShellSettings) -> str:
     return f"hourglass control by {settings.hourglass}"
 
 
-def warnings(structure: Structure, lowered: Lowered, record: Record, state: ShellState) -> tuple[str, ...]:
+def warnings(structure: Structure, case: ShellCase, record: Record, state: ShellState) -> tuple[str, ...]:
     """Sentences that must be read before believing the result."""
     energy = {name: record["energy"][:, i] for i, name in enumerate(ENERGIES)}
-    found = [*_mesh_warnings(structure, lowered), *_flat_members(structure, lowered)]
+    found = [*_mesh_warnings(structure, case), *_flat_members(structure, case)]
     internal = float((energy["elastic"] + energy["plastic"]).max())
     hourglass = float(energy["hourglass"].max())
-    artificial = lowered.model.settings.element is Element.BELYTSCHKO_TSAY
+    artificial = case.model.settings.element is Element.BELYTSCHKO_TSAY
     if artificial and internal > LEAST_ENERGY and hourglass > HOURGLASS_SHARE * internal:
         found.append(
             f"Hourglass energy reaches {hourglass / internal:.1%} of the internal energy: "
@@ -134,8 +134,8 @@ def warnings(structure: Structure, lowered: Lowered, record: Record, state: Shel
         )
     if state.added_mass > ADDED_SHARE * state.mass:
         found.append(f"Mass scaling added {state.added_mass:.3g} kg to {state.mass:.3g} kg of walls.")
-    found += weld_warnings(structure, lowered, record)
-    kinetic, given = float(energy["kinetic"][0]), lowered.start.given_energy
+    found += weld_warnings(structure, case, record)
+    kinetic, given = float(energy["kinetic"][0]), case.start.given_energy
     if not structure.impulses and given - kinetic > LOST_SHARE * given:
         found.append(
             f"{given - kinetic:.4g} J of the given {given:.4g} J is lost at the start: the given motion does "
@@ -177,9 +177,9 @@ def slow_shares(record: Record, stage: StageSummary) -> tuple[float, float]:
     return float(energy["kinetic"][late].max()) / internal, float(damped) / internal
 
 
-def _mesh_warnings(structure: Structure, lowered: Lowered) -> list[str]:
+def _mesh_warnings(structure: Structure, case: ShellCase) -> list[str]:
     found = []
-    for name, tube in lowered.mesh.tubes.items():
+    for name, tube in case.mesh.tubes.items():
         section = structure.section_of(name)
         area = tube.contour.area
         if abs(area / section.area - 1.0) > MASS_SHARE:
@@ -187,15 +187,15 @@ def _mesh_warnings(structure: Structure, lowered: Lowered) -> list[str]:
                 f"The mesh of member {name} has {area / section.area:.1%} of its section's area: "
                 "its corners are drawn coarsely."
             )
-    for name in too_sharp(structure, lowered.report.largest_side):
+    for name in too_sharp(structure, case.report.largest_side):
         found.append(
             f"Obstacle {name} is round so tightly that it presses in between the nodes: use smaller elements."
         )
-    for body in lowered.bodies:
+    for body in case.bodies:
         if not body.held or body.stretch or body.pin is not None:
             continue
         ((node, lump),) = body.lumps.items()
-        distance = _off_centre(lowered, body, lump)
+        distance = _off_centre(case, body, lump)
         if distance:
             found.append(
                 f"The support of node {node} holds the joint's centre of mass, {1e3 * distance:.3g} mm "
@@ -204,10 +204,10 @@ def _mesh_warnings(structure: Structure, lowered: Lowered) -> list[str]:
     return found
 
 
-def _flat_members(structure: Structure, lowered: Lowered) -> Iterator[str]:
+def _flat_members(structure: Structure, case: ShellCase) -> Iterator[str]:
     """Members of one flat wall with hinges: a section's nodes in a line have no plane that could turn."""
     for name in dict.fromkeys(place.member for place in hinge_places(structure)):
-        points = lowered.mesh.tubes[name].contour.points
+        points = case.mesh.tubes[name].contour.points
         spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
         if spread[1] < FLAT * spread[0]:
             yield (
@@ -216,13 +216,13 @@ def _flat_members(structure: Structure, lowered: Lowered) -> Iterator[str]:
             )
 
 
-def _off_centre(lowered: Lowered, body: Body, lump: Lump) -> float:
+def _off_centre(case: ShellCase, body: Body, lump: Lump) -> float:
     """Distance of a body's lump or of its sections' middle from its node [m]; 0 where it does not matter."""
-    walls = lowered.mesh.position[body.nodes[:-1]]
+    walls = case.mesh.position[body.nodes[:-1]]
     size, centre = float(np.ptp(walls, axis=0).max()), lump.centre if lump.mass > 0.0 else body.place
     distance = max(float(np.linalg.norm(at - body.place)) for at in (walls.mean(axis=0), centre))
     return distance if distance > OFF_CENTRE * size else 0.0
 
 
-def _station(lowered: Lowered, member: str, ring: int) -> str:
-    return f"{1e3 * float(lowered.mesh.tubes[member].stations[ring]):.3g}"
+def _station(case: ShellCase, member: str, ring: int) -> str:
+    return f"{1e3 * float(case.mesh.tubes[member].stations[ring]):.3g}"

@@ -14,7 +14,7 @@ from crumple.structure import InitialVelocity, Structure
 
 
 @dataclass(frozen=True, eq=False)
-class Start:
+class InitialMotion:
     """Motion at the start.
 
     Attributes
@@ -30,7 +30,7 @@ class Start:
     given_energy: float
 
 
-def start_of(structure: Structure, mesh: Mesh, bodies: tuple[Body, ...]) -> Start:
+def shell_initial_motion(structure: Structure, mesh: Mesh, bodies: tuple[Body, ...]) -> InitialMotion:
     """Velocities at the start.
 
     Parameters
@@ -55,7 +55,7 @@ def start_of(structure: Structure, mesh: Mesh, bodies: tuple[Body, ...]) -> Star
         nodes = body.nodes
         velocity[nodes] = v + np.cross(w, mesh.position[nodes] - centre)
         spin[nodes] = w
-    return Start(velocity, spin, energy)
+    return InitialMotion(velocity, spin, energy)
 
 
 def nodal_masses(structure: Structure, mesh: Mesh) -> tuple[Floats, Floats]:

@@ -25,7 +25,7 @@ from crumple.shell.mesh.mesh import Mesh, clamped_nodes, mesh_of
 from crumple.shell.mesh.quality import MeshReport, report_of, wall_metals, wall_thickness
 from crumple.shell.model.bodies import Body, bodies_of, taken_nodes
 from crumple.shell.model.drives import loads_of, motions_of
-from crumple.shell.model.initial_motion import Start, start_of
+from crumple.shell.model.initial_motion import InitialMotion, shell_initial_motion
 from crumple.shell.model.metal import shell_material
 from crumple.shell.model.obstacles import obstacles_of, refuse_walls_inside
 from crumple.shell.model.places import HingeZone, SupportCut, hinge_zones, support_cut
@@ -39,7 +39,7 @@ CONTACT_DAMPING = 0.1
 
 
 @dataclass(frozen=True, eq=False)
-class Lowered:
+class ShellCase:
     """A structure as the shell engine computes it.
 
     Attributes
@@ -65,7 +65,7 @@ class Lowered:
     mesh: Mesh
     report: MeshReport
     bodies: tuple[Body, ...]
-    start: Start
+    start: InitialMotion
     zones: tuple[HingeZone, ...]
     supports: dict[str, SupportCut]
     welds: tuple[Spot, ...]
@@ -79,7 +79,7 @@ def lower(
     outputs: Outputs | None = None,
     duration: float = 1.0,
     stage: Stage | None = None,
-) -> Lowered:
+) -> ShellCase:
     """Mesh a structure and gather everything that the stepper needs.
 
     Parameters
@@ -109,7 +109,7 @@ def lower(
         "initial_velocity": structure.initial_velocity + stage.initial_velocity,
         "impulses": structure.impulses + stage.impulses,
     }
-    start = start_of(structure.model_copy(update=first), mesh, bodies)
+    start = shell_initial_motion(structure.model_copy(update=first), mesh, bodies)
     refuse_walls_inside(structure, mesh, stage)
     zones = hinge_zones(structure, mesh)
     rigid = rigid_elements(structure, mesh)
@@ -135,28 +135,28 @@ def lower(
         settings=_settings(structure, settings),
     )
     spaces = spaces_of(structure, mesh, outputs)
-    lowered = Lowered(mesh, report, bodies, start, zones, held, welds, spaces, model)
-    return replace(lowered, model=model_of_stage(structure, settings, lowered, stage, 0.0))
+    case = ShellCase(mesh, report, bodies, start, zones, held, welds, spaces, model)
+    return replace(case, model=model_of_stage(structure, settings, case, stage, 0.0))
 
 
 def model_of_stage(
-    structure: Structure, settings: ShellSettings, lowered: Lowered, stage: Stage, begin: float
+    structure: Structure, settings: ShellSettings, case: ShellCase, stage: Stage, begin: float
 ) -> ShellModel:
     """Model with the loads, drives, obstacles and damping of one stage.
 
     Parameters
     ----------
-    structure, settings, lowered
+    structure, settings, case
         What is computed.
     stage, begin
         The stage, and the time at which it starts [s].
     """
     return replace(
-        lowered.model,
-        loads=list(loads_of(structure, lowered.mesh, stage, begin)),
-        motions=list(motions_of(structure, lowered.bodies, stage, begin)),
-        obstacles=list(obstacles_of(structure, lowered.mesh, stage, begin)),
-        settings=replace(lowered.model.settings, damping=damping_of(settings, stage)),
+        case.model,
+        loads=list(loads_of(structure, case.mesh, stage, begin)),
+        motions=list(motions_of(structure, case.bodies, stage, begin)),
+        obstacles=list(obstacles_of(structure, case.mesh, stage, begin)),
+        settings=replace(case.model.settings, damping=damping_of(settings, stage)),
     )
 
 

@@ -1,15 +1,21 @@
 """The batch solves every variant with the bits of a single run, whatever the number of threads."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
+from operator import attrgetter
 
 import numpy as np
 import pytest
 from tests.support.multibody.chains import m2
+from tests.support.multibody.records import columns, same
 
-from crumple._core.planar.batch import TreeVariants, solve_many
-from crumple._core.planar.simulation import Outcome, Simulation, TreeLoad
+from crumple._core.outcome import Outcome
+from crumple._core.planar.batch import solve_many
+from crumple._core.planar.simulation import Simulation, TreeLoad
+from crumple._core.variants import Variants
 
 COUNT, BARS, END = 40, 4, 0.05
+NEVER = ("summary.opening_time", "summary.fracture")
+"""Columns that the planar kernel leaves without numbers."""
 LOAD = TreeLoad(3, (0.1, 0.0), (0.0, 0.0, 1.0), np.array([0.0, END]), np.array([0.0, 400.0]))
 
 
@@ -20,9 +26,9 @@ def variants():
     softer = replace(model, hinges=tuple(replace(hinge, rate_reference=50.0) for hinge in model.hinges))
     rng = np.random.default_rng(3)
     rows = np.array([(*body.centre, body.mass, body.inertia) for body in model.bodies])
-    return TreeVariants(
-        models=(model, softer),
-        model_of=np.arange(COUNT) % 2,
+    return Variants(
+        cases=(model, softer),
+        case_of=np.arange(COUNT) % 2,
         velocity=rng.uniform(0.0, 4.0, (COUNT, BARS, 3)),
         impulse=rng.uniform(0.0, 1.0, (COUNT, BARS, 3)),
         capacity_scale=rng.uniform(0.5, 2.0, (COUNT, BARS)),
@@ -32,15 +38,11 @@ def variants():
     )
 
 
-def same(a, b):
-    return all(np.array_equal(getattr(a, field.name), getattr(b, field.name)) for field in fields(a))
-
-
 def test_same_bits_as_single_runs(variants):
-    finals = solve_many(variants, END)
-    assert set(finals.outcome) == {Outcome.COMPLETE}
+    ends = solve_many(variants, END)
+    assert set(ends.outcome) == {Outcome.COMPLETE}
     for row in range(0, COUNT, 7):
-        model = variants.models[variants.model_of[row]]
+        model = variants.cases[variants.case_of[row]]
         bodies = tuple(
             replace(body, centre=(float(x), float(y)), mass=float(mass), inertia=float(inertia))
             for body, (x, y, mass, inertia) in zip(model.bodies, variants.bodies[row], strict=True)
@@ -54,15 +56,15 @@ def test_same_bits_as_single_runs(variants):
         single = Simulation(replace(model, bodies=bodies, hinges=hinges, gravity=gravity, loads=(load,)))
         lost = single.set_motion(variants.velocity[row], variants.impulse[row])
         record = single.run(np.array([END]))
-        assert finals.lost[row] == lost
-        assert finals.steps[row] == record.steps
-        for name in ("pose", "hinge", "velocity"):
+        assert ends.lost[row] == lost
+        assert ends.steps[row] == record.steps
+        for name in ("pose", "hinge.moment", "hinge.plastic", "hinge_energy.dissipated", "velocity"):
             # a scaled load rounds otherwise than scaled values of it
             np.testing.assert_allclose(
-                getattr(finals, name)[row], getattr(record, name)[0], rtol=1e-12, atol=1e-12
+                attrgetter(name)(ends)[row], attrgetter(name)(record)[0], rtol=1e-12, atol=1e-12
             )
-        unloaded = TreeVariants(
-            variants.models, variants.model_of, variants.velocity, load_scale=np.zeros((COUNT, 1))
+        unloaded = Variants(
+            variants.cases, variants.case_of, variants.velocity, load_scale=np.zeros((COUNT, 1))
         )
         assert row or same_as_single(unloaded, model)
 
@@ -72,8 +74,8 @@ def same_as_single(unloaded, model):
     single = Simulation(replace(model, loads=()))
     single.set_motion(unloaded.velocity[0], np.zeros((BARS, 3)))
     single.run(np.array([END]))
-    finals = solve_many(unloaded, END)
-    return np.array_equal(finals.q[0], single.q) and np.array_equal(finals.w[0], single.w)
+    ends = solve_many(unloaded, END)
+    return np.array_equal(ends.q[0], single.q) and np.array_equal(ends.w[0], single.w)
 
 
 @pytest.mark.parametrize("threads", [2, 3, 100])
@@ -92,13 +94,13 @@ def test_a_row_that_makes_no_sense_fails_alone(variants):
     assert not found.q[wrong].any()
     rest = np.setdiff1d(np.arange(COUNT), wrong)
     np.testing.assert_array_equal(found.q[rest], sound.q[rest])
-    assert all(np.isfinite(getattr(found, field.name)).all() for field in fields(found))
+    assert all(np.isfinite(column).all() for name, column in columns(found) if not name.startswith(NEVER))
 
 
 def test_a_row_that_cannot_step_keeps_what_it_had(variants):
-    finals = solve_many(replace(variants, velocity=variants.velocity * 1e150), END)
-    assert Outcome.COMPLETE not in finals.outcome
-    assert np.isfinite(finals.q).all()
+    ends = solve_many(replace(variants, velocity=variants.velocity * 1e150), END)
+    assert Outcome.COMPLETE not in ends.outcome
+    assert np.isfinite(ends.q).all()
 
 
 def test_cancel_leaves_the_rest_undone(variants):
@@ -108,18 +110,18 @@ def test_cancel_leaves_the_rest_undone(variants):
         shares.append(share)
         return share == 0.0
 
-    many = TreeVariants(variants.models, np.zeros(20_000, np.int64), np.tile(variants.velocity, (500, 1, 1)))
-    finals = solve_many(many, END, poll=poll)
+    many = Variants(variants.cases, np.zeros(20_000, np.int64), np.tile(variants.velocity, (500, 1, 1)))
+    ends = solve_many(many, END, poll=poll)
     assert 0.0 < max(shares) < 1.0
-    assert finals.outcome[-1] == Outcome.CANCELLED
-    assert (finals.outcome == Outcome.COMPLETE).any()
+    assert ends.outcome[-1] == Outcome.CANCELLED
+    assert (ends.outcome == Outcome.COMPLETE).any()
 
 
 def test_an_error_in_poll_comes_through(variants):
     def poll(share):
         raise RuntimeError("stop here")
 
-    many = TreeVariants(variants.models, np.zeros(20_000, np.int64), np.tile(variants.velocity, (500, 1, 1)))
+    many = Variants(variants.cases, np.zeros(20_000, np.int64), np.tile(variants.velocity, (500, 1, 1)))
     with pytest.raises(RuntimeError, match="stop here"):
         solve_many(many, END, poll=poll)
 
@@ -127,11 +129,11 @@ def test_an_error_in_poll_comes_through(variants):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"models": ()}, "at least one model"),
-        ({"model_of": np.full(COUNT, 2)}, "unknown model"),
+        ({"cases": ()}, "at least one model"),
+        ({"case_of": np.full(COUNT, 2)}, "unknown model"),
         ({"gravity": np.zeros((COUNT, 3))}, "gravity must have shape"),
         ({"velocity": np.zeros((COUNT, BARS + 1, 3))}, "velocity must have shape"),
-        ({"models": (m2(BARS).model, m2(BARS + 1).model)}, "same bodies"),
+        ({"cases": (m2(BARS).model, m2(BARS + 1).model)}, "same bodies"),
     ],
 )
 def test_arrays_of_other_shapes_are_refused(variants, change, message):

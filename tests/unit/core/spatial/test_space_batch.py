@@ -1,19 +1,23 @@
 """The spatial batch solves every variant with the bits of a single run, whatever the number of threads."""
 
 from dataclasses import fields, replace
+from operator import attrgetter
 
 import numpy as np
 import pytest
 from tests.support.multibody.contact_models import ball_shape, plane, sphere
+from tests.support.multibody.records import same
 from tests.support.multibody.space_models import m4_parts
 
-from crumple._core.planar.simulation import Outcome
-from crumple._core.spatial.batch import SpaceCase, SpaceStage, SpaceVariants, solve_many
-from crumple._core.spatial.model import SpaceLoad, SpaceModel
-from crumple._core.spatial.simulation import SpaceSimulation, SpaceUntil, Until
+from crumple._core.outcome import Outcome
+from crumple._core.records import EnergyRecord, HingeEnergyRecord
+from crumple._core.spatial.batch import SpatialStage, StagedModel, solve_many
+from crumple._core.spatial.model import SpatialLoad, SpatialModel
+from crumple._core.spatial.simulation import SpatialSimulation, SpatialUntil, Until
+from crumple._core.variants import Variants
 
 COUNT, BODIES, HINGES, END = 9, 8, 12, 0.01
-LOAD = SpaceLoad(
+LOAD = SpatialLoad(
     6,
     np.array([0.25, 0.5, 0.5]),
     np.array([0.0, 0.0, -1.0]),
@@ -25,11 +29,9 @@ ROWS = (
     "centre",
     "rotation",
     "velocity",
-    "hinge_rotation",
-    "hinge_plastic",
-    "hinge_moment",
-    "hinge_energy",
-    "energy",
+    *(f"hinge.{name}" for name in ("rotation", "plastic", "moment")),
+    *(f"hinge_energy.{field.name}" for field in fields(HingeEnergyRecord)),
+    *(f"energy.{field.name}" for field in fields(EnergyRecord)),
 )
 
 
@@ -45,7 +47,7 @@ def variants():
             for hinge in model.hinges
         ),
     )
-    stages = (SpaceStage(END), SpaceStage(END / 2))
+    stages = (SpatialStage(END), SpatialStage(END / 2))
     rng = np.random.default_rng(3)
     rows = np.array([(*b.centre, b.mass, *np.ravel(b.inertia)) for b in model.bodies])
     motion = np.zeros((COUNT, 2, BODIES, 6))
@@ -54,8 +56,8 @@ def variants():
     factor[:, :, 3:] = rng.uniform(0.8, 1.2, (COUNT, BODIES, 1))
     bodies = rows * factor
     bodies[:, :, :3] += rng.uniform(-0.02, 0.02, (COUNT, BODIES, 3))
-    return SpaceVariants(
-        cases=(SpaceCase(model, stages), SpaceCase(softer, stages)),
+    return Variants(
+        cases=(StagedModel(model, stages), StagedModel(softer, stages)),
         case_of=np.arange(COUNT) % 2,
         velocity=motion,
         impulse=rng.uniform(-1.0, 1.0, (COUNT, 2, BODIES, 6)) * [0.1, 0.1, 0.1, 1.0, 1.0, 1.0],
@@ -67,19 +69,13 @@ def variants():
 
 
 @pytest.fixture(scope="module")
-def finals(variants):
+def ends(variants):
     return solve_many(variants)
-
-
-def same(a, b):
-    return all(
-        np.array_equal(getattr(a, field.name), getattr(b, field.name), equal_nan=True) for field in fields(a)
-    )
 
 
 def single(model, stages, motions):
     """Last records of a simulation by itself."""
-    simulation = SpaceSimulation(model)
+    simulation = SpatialSimulation(model)
     lost = 0.0
     for stage, (velocity, impulse) in zip(stages, motions, strict=True):
         simulation.stage(quasi_static=stage.quasi_static, until=stage.until)
@@ -91,18 +87,21 @@ def single(model, stages, motions):
 def test_same_bits_as_single_runs(variants):
     """Gravity, motion, stages and model varied."""
     plain = replace(variants, capacity_scale=None, load_scale=None, bodies=None)
-    finals = solve_many(plain)
-    assert set(finals.outcome) == {Outcome.COMPLETE}
+    ends = solve_many(plain)
+    assert set(ends.outcome) == {Outcome.COMPLETE}
     for row in (0, 5):
         case = variants.cases[variants.case_of[row]]
         model = replace(case.model, gravity=tuple(map(float, variants.gravity[row])))
         motions = zip(variants.velocity[row], variants.impulse[row], strict=True)
         lost, record = single(model, case.stages, motions)
-        assert finals.lost[row] == lost
-        assert finals.time[row] == record.time[-1]
+        assert ends.lost[row] == lost
+        assert ends.time[row] == record.time[-1]
         for name in ROWS:
-            np.testing.assert_array_equal(getattr(finals, name)[row], getattr(record, name)[-1], err_msg=name)
-        np.testing.assert_array_equal(finals.summary[row], record.summary)
+            np.testing.assert_array_equal(
+                attrgetter(name)(ends)[row], attrgetter(name)(record)[-1], err_msg=name
+            )
+        for name, column in vars(record.summary).items():
+            np.testing.assert_array_equal(getattr(ends.summary, name)[row], column, err_msg=name)
 
 
 def scaled(component, scale):
@@ -111,8 +110,8 @@ def scaled(component, scale):
     return replace(component, **{name: (x, scale * y) for name, (x, y) in curves.items()})
 
 
-def test_factors_and_bodies_do_what_other_models_do(variants, finals):
-    assert set(finals.outcome) == {Outcome.COMPLETE}
+def test_factors_and_bodies_do_what_other_models_do(variants, ends):
+    assert set(ends.outcome) == {Outcome.COMPLETE}
     for row in (1, 4):
         case = variants.cases[variants.case_of[row]]
         model = case.model
@@ -129,18 +128,19 @@ def test_factors_and_bodies_do_what_other_models_do(variants, finals):
         other = replace(model, bodies=bodies, hinges=hinges, loads=loads, gravity=gravity)
         motions = zip(variants.velocity[row], variants.impulse[row], strict=True)
         _, record = single(other, case.stages, motions)
-        for name in ("centre", "hinge_rotation", "hinge_plastic", "energy"):
+        for name in ("centre", "hinge.rotation", "hinge.plastic", "energy.kinetic", "energy.dissipated"):
             # products of the factors round otherwise, and Newton's method ends at 1e-9 of the moments
-            apart = np.abs(getattr(finals, name)[row] - getattr(record, name)[-1])
-            assert apart.max() < 1e-7 * np.abs(getattr(record, name)[-1]).max()
+            expected = attrgetter(name)(record)[-1]
+            apart = np.abs(attrgetter(name)(ends)[row] - expected)
+            assert apart.max() < 1e-7 * np.abs(expected).max()
 
 
 @pytest.mark.parametrize("threads", [2, 50])
-def test_same_bits_from_any_number_of_threads(variants, finals, threads):
-    assert same(finals, solve_many(variants, threads=threads))
+def test_same_bits_from_any_number_of_threads(variants, ends, threads):
+    assert same(ends, solve_many(variants, threads=threads))
 
 
-def test_a_row_that_makes_no_sense_fails_alone(variants, finals):
+def test_a_row_that_makes_no_sense_fails_alone(variants, ends):
     scale, bodies = variants.capacity_scale.copy(), variants.bodies.copy()
     velocity, gravity = variants.velocity.copy(), variants.gravity.copy()
     scale[1, 1], bodies[3, 0, 3], bodies[4, 1, 4] = -1.0, 0.0, -1.0
@@ -151,26 +151,27 @@ def test_a_row_that_makes_no_sense_fails_alone(variants, finals):
     assert set(found.outcome[wrong]) == {Outcome.REFUSED}
     assert not found.centre[wrong].any()
     rest = np.setdiff1d(np.arange(COUNT), wrong)
-    np.testing.assert_array_equal(found.centre[rest], finals.centre[rest])
+    np.testing.assert_array_equal(found.centre[rest], ends.centre[rest])
 
 
-def test_a_row_that_cannot_step_keeps_the_others(variants, finals):
+def test_a_row_that_cannot_step_keeps_the_others(variants, ends):
     velocity = variants.velocity.copy()
     velocity[2] *= 1e150
     found = solve_many(replace(variants, velocity=velocity))
     assert found.outcome[2] in (Outcome.STEP_COLLAPSED, Outcome.NOT_FINITE)
-    np.testing.assert_array_equal(np.delete(found.energy, 2, axis=0), np.delete(finals.energy, 2, axis=0))
+    others = np.delete(np.arange(COUNT), 2)
+    np.testing.assert_array_equal(found.energy.kinetic[others], ends.energy.kinetic[others])
 
 
 def test_stages_end_on_conditions():
     """The ring is stopped by its columns' hinges when these have taken a given work."""
     model, velocity = m4_parts(error=1e-4)
     model = replace(model, loads=(LOAD,))
-    until = (SpaceUntil(Until.WORK, 2.0),)
-    stages = (SpaceStage(END, until=until), SpaceStage(END / 4))
+    until = (SpatialUntil(Until.WORK, 2.0),)
+    stages = (SpatialStage(END, until=until), SpatialStage(END / 4))
     motion = np.zeros((2, 2, BODIES, 6))
     motion[0, 0] = velocity
-    variants = SpaceVariants((SpaceCase(model, stages),), np.zeros(2, np.int64), motion)
+    variants = Variants((StagedModel(model, stages),), np.zeros(2, np.int64), motion)
     found = solve_many(variants)
     motions = [(motion[0, k], np.zeros((BODIES, 6))) for k in range(2)]
     _, record = single(model, stages, motions)
@@ -193,9 +194,9 @@ def test_cancel_leaves_the_rest_undone(variants):
             for name in ("velocity", "impulse", "capacity_scale", "load_scale", "bodies", "gravity")
         },
     )
-    finals = solve_many(many, poll=poll)
+    ends = solve_many(many, poll=poll)
     assert 0.0 < max(shares) < 1.0
-    assert finals.outcome[-1] == Outcome.CANCELLED
+    assert ends.outcome[-1] == Outcome.CANCELLED
 
 
 def test_an_error_in_poll_comes_through(variants):
@@ -223,8 +224,8 @@ def test_arrays_of_other_shapes_are_refused(variants, change, message):
 
 def test_followers_of_runs_with_contact_are_refused():
     """Theirs would close at other times than the leader's, whose rates do not fit them then."""
-    model = SpaceModel((sphere((0, 0, 0.3)),), capsules=(ball_shape(0, (0, 0, 0.3)),), obstacles=(plane(),))
-    two = SpaceVariants((SpaceCase(model, (SpaceStage(0.1),)),), np.zeros(2, np.int64))
+    model = SpatialModel((sphere((0, 0, 0.3)),), capsules=(ball_shape(0, (0, 0, 0.3)),), obstacles=(plane(),))
+    two = Variants((StagedModel(model, (SpatialStage(0.1),)),), np.zeros(2, np.int64))
     assert set(solve_many(two).outcome) == {Outcome.COMPLETE}
     with pytest.raises(ValueError, match="contact"):
         solve_many(two, led=True)
@@ -236,4 +237,4 @@ def test_models_that_differ_in_kind_are_refused(variants):
     with pytest.raises(ValueError, match="same bodies"):
         solve_many(replace(variants, cases=(case, fewer)))
     with pytest.raises(ValueError, match="must last"):
-        solve_many(replace(variants, cases=(replace(case, stages=(SpaceStage(0.0),)),)))
+        solve_many(replace(variants, cases=(replace(case, stages=(SpatialStage(0.0),)),)))

@@ -7,7 +7,7 @@ from tests.support.multibody.frames import CLAMP, THROWN, member, structure
 from crumple._core.planar.simulation import JointKind
 from crumple.errors import InputError
 from crumple.hinge import Envelope, Form, HingeRecord, SofteningVariable, Stop
-from crumple.multibody import lower, start_of, tree_hinge, tree_model
+from crumple.multibody import lower, planar_initial_motion, tree_hinge, tree_model
 
 
 def modelled(whole, duration=0.1):
@@ -103,7 +103,7 @@ def test_start_gathers_momentum():
         masses={"m": {"node": "b", "mass": 6.0}},
     )
     mechanism = lower(whole)
-    start = start_of(whole, mechanism)
+    start = planar_initial_motion(whole, mechanism)
     body = mechanism.bodies[0]
     spin = mechanism.plane.normal[1] * 10.0
     np.testing.assert_allclose(start.velocity[0, 0], spin)
@@ -117,13 +117,13 @@ def test_velocity_of_some_nodes_moves_their_lumps_alone():
         initial_velocity=[{"translation": (0.0, 0.0, 2.0), "nodes": ("b",)}],
         masses={"m": {"node": "b", "mass": 6.0}},
     )
-    assert start_of(whole, lower(whole)).given_energy == pytest.approx(6.0 * 2.0**2 / 2)
+    assert planar_initial_motion(whole, lower(whole)).given_energy == pytest.approx(6.0 * 2.0**2 / 2)
 
 
 def test_impulse_acts_at_its_node():
     whole = structure(impulses=[{"node": "b", "impulse": (0.0, 0.0, 3.0)}])
     mechanism = lower(whole)
-    spin, *linear = start_of(whole, mechanism).impulse[0]
+    spin, *linear = planar_initial_motion(whole, mechanism).impulse[0]
     assert np.hypot(*linear) == pytest.approx(3.0)
     assert abs(spin) == pytest.approx(3.0 * (1.0 - mechanism.bodies[0].centre[0]))
 
@@ -132,4 +132,4 @@ def test_floating_part_may_not_leave_the_plane():
     velocity = [{"translation": (0.0, 5.0, 1.0)}]
     whole = structure(members={"bar": member("a", "b", ("h", 0.3))}, supports={}, initial_velocity=velocity)
     with pytest.raises(InputError, match="out of the plane"):
-        start_of(whole, lower(whole))
+        planar_initial_motion(whole, lower(whole))

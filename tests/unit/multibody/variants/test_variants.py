@@ -6,7 +6,7 @@ from tests.support.structures import STEEL, TUBE, cantilever, constant_law
 
 from crumple.errors import InputError, Status
 from crumple.multibody import Run, sensitivities, solve_variants
-from crumple.multibody.planar.case import lowered
+from crumple.multibody.planar.case import planar_case
 from crumple.structure import MultibodySettings, Outputs, Structure, changed
 
 TURN = {"rotation": 8.0, "about": (0.0, 0.0, 0.0), "axis": (0.0, -1.0, 0.0)}
@@ -97,9 +97,9 @@ def test_laws_are_sampled_once_for_each_distinct_combination(tube, monkeypatch):
 
     def counted(structure, duration):
         made.append(structure)
-        return lowered(structure, duration)
+        return planar_case(structure, duration)
 
-    monkeypatch.setattr("crumple.multibody.planar.batch.lowered", counted)
+    monkeypatch.setattr("crumple.multibody.variants.batch.planar_case", counted)
     yields = np.array([400e6, 450e6, 400e6, 450e6] * 5)
     solve_variants(
         tube, RUN, {"materials.steel.yield_stress": yields, "initial_velocity": np.linspace(0.5, 1, 20)}

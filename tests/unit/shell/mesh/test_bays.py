@@ -167,15 +167,15 @@ def test_mesh_halved_three_times_is_closed_and_better_shaped():
 
 def test_nodes_of_triangles_have_the_mass_that_the_stepper_gives_them():
     """Kinetic energy of one moving node at a time."""
-    lowered = lower(cantilever(), COARSER)
-    mass, inertia = nodal_masses(cantilever(), lowered.mesh)
-    three = lowered.mesh.quads[lowered.mesh.triangles]
+    case = lower(cantilever(), COARSER)
+    mass, inertia = nodal_masses(cantilever(), case.mesh)
+    three = case.mesh.quads[case.mesh.triangles]
     for node in (*three[0, :3], *three[-1, :3]):
-        velocity = np.zeros_like(lowered.model.position)
+        velocity = np.zeros_like(case.model.position)
         velocity[node, 1] = 2.0
-        state = ShellState(replace(lowered.model, velocity=velocity))
+        state = ShellState(replace(case.model, velocity=velocity))
         assert state.energies["kinetic"] == pytest.approx(2.0 * mass[node], rel=1e-12)
-        state = ShellState(replace(lowered.model, spin=velocity))
+        state = ShellState(replace(case.model, spin=velocity))
         assert state.energies["kinetic"] == pytest.approx(2.0 * inertia[node], rel=1e-12)
 
 
@@ -199,9 +199,9 @@ def test_elements_are_found_by_bay_and_by_place():
 @pytest.mark.parametrize("settings", [COARSER, DEEPER])
 def test_stretch_along_the_tube_is_the_same_in_every_element(settings):
     """Constant strain along the member through triangles and quadrilaterals: stress E e within rounding."""
-    lowered = lower(cantilever(), settings)
-    state = ShellState(replace(lowered.model, fixed=None, rigid_sets=[]))
-    x = lowered.model.position
+    case = lower(cantilever(), settings)
+    state = ShellState(replace(case.model, fixed=None, rigid_sets=[]))
+    x = case.model.position
     moved = x * [1e-4, -0.3e-4, -0.3e-4]
     state.deform(x + moved, moved, 0 * x, 1.0)
     sx, sy, sxy = (state.point_field(f"stress_{axes}") for axes in ("x", "y", "xy"))

@@ -18,25 +18,25 @@ COARSE = ShellSettings(element_size=12e-3)
 
 def test_kinetic_energy_of_example_01():
     # 6 kg at 1 m and 15 rad/s are 675 J; the tube's rho A L^3 w^2 / 6 and its walls' own inertia the rest
-    lowered = lower(thrown(), ShellSettings())
-    energy = ShellState(lowered.model).energies["kinetic"]
+    case = lower(thrown(), ShellSettings())
+    energy = ShellState(case.model).energies["kinetic"]
     assert energy == pytest.approx(783.7, abs=0.3)
-    assert lowered.start.given_energy == pytest.approx(energy, rel=2e-4)
+    assert case.start.given_energy == pytest.approx(energy, rel=2e-4)
 
 
 def test_tip_is_a_rigid_set_with_the_mass_at_its_node():
-    lowered = lower(thrown(), COARSE)
-    (rigid,) = lowered.model.rigid_sets
+    case = lower(thrown(), COARSE)
+    (rigid,) = case.model.rigid_sets
     assert rigid.mass == 6.0
     assert rigid.at == pytest.approx((1.0, 0.0, 0.0))
-    assert set(rigid.nodes) == {*lowered.mesh.tubes["tube"].nodes[-1], lowered.mesh.reference["tip"]}
+    assert set(rigid.nodes) == {*case.mesh.tubes["tube"].nodes[-1], case.mesh.reference["tip"]}
 
 
 def test_clamp_holds_its_ring_and_nothing_else():
-    lowered = lower(thrown(), COARSE)
-    ring = lowered.mesh.tubes["tube"].nodes[0]
-    assert lowered.model.fixed[ring].all()
-    assert lowered.model.fixed.sum() == 6 * len(ring)
+    case = lower(thrown(), COARSE)
+    ring = case.mesh.tubes["tube"].nodes[0]
+    assert case.model.fixed[ring].all()
+    assert case.model.fixed.sum() == 6 * len(ring)
 
 
 def test_mass_off_its_node_with_inertia():
@@ -63,9 +63,9 @@ def test_two_masses_on_a_node_are_one_lump():
 
 
 def test_what_a_joint_cuts_away_keeps_its_mass():
-    lowered = lower(tee(), COARSE)
+    case = lower(tee(), COARSE)
     section = tee().section_of("one")
-    total = lowered.report.mass + sum(body.lump.mass for body in lowered.bodies)
+    total = case.report.mass + sum(body.lump.mass for body in case.bodies)
     assert total == pytest.approx(section.mass_per_length(7850.0) * 1.5, rel=1e-9)
 
 
@@ -73,10 +73,10 @@ def test_impulse_moves_the_free_end_with_its_momentum():
     given = cantilever(
         impulses=[{"node": "tip", "impulse": (0.0, 0.0, 5.0)}], masses={"m": {"node": "tip", "mass": 6.0}}
     )
-    lowered = lower(given, COARSE)
-    state = ShellState(lowered.model)
-    ring = lowered.mesh.tubes["tube"].nodes[-1]
-    velocity, spin = lowered.start.velocity[ring], lowered.start.spin[ring]
+    case = lower(given, COARSE)
+    state = ShellState(case.model)
+    ring = case.mesh.tubes["tube"].nodes[-1]
+    velocity, spin = case.start.velocity[ring], case.start.spin[ring]
     assert np.ptp(velocity, axis=0) == pytest.approx(np.zeros(3), abs=1e-12)
     assert spin == pytest.approx(np.zeros(spin.shape), abs=1e-12)
     # energy J^2 / 2 m of the body that was struck
@@ -89,20 +89,20 @@ def test_initial_velocity_of_one_member_alone():
     given = tee().model_copy(
         update={"initial_velocity": [{"translation": (0.0, 3.0, 0.0), "members": ["three"]}]}
     )
-    lowered = lower(given, COARSE)
-    mesh = lowered.mesh
-    assert lowered.start.velocity[mesh.tubes["three"].nodes[-1], 1] == pytest.approx(3.0)
-    assert lowered.start.velocity[mesh.tubes["one"].nodes[0], 1] == pytest.approx(0.0)
+    case = lower(given, COARSE)
+    mesh = case.mesh
+    assert case.start.velocity[mesh.tubes["three"].nodes[-1], 1] == pytest.approx(3.0)
+    assert case.start.velocity[mesh.tubes["one"].nodes[0], 1] == pytest.approx(0.0)
     # the joint takes a share: its momentum over its mass
-    assert 0.0 < lowered.start.velocity[mesh.reference["b"], 1] < 3.0
+    assert 0.0 < case.start.velocity[mesh.reference["b"], 1] < 3.0
 
 
 def test_load_acts_at_the_node_of_the_structure():
     given = cantilever(loads=[{"node": "tip", "force": {"z": 100.0}, "moment": {"x": 5.0}}])
-    lowered = lower(given, COARSE, duration=0.01)
-    assert {(load.node, load.dof) for load in lowered.model.loads} == {
-        (lowered.mesh.reference["tip"], "z"),
-        (lowered.mesh.reference["tip"], "rx"),
+    case = lower(given, COARSE, duration=0.01)
+    assert {(load.node, load.dof) for load in case.model.loads} == {
+        (case.mesh.reference["tip"], "z"),
+        (case.mesh.reference["tip"], "rx"),
     }
 
 
@@ -111,13 +111,13 @@ def test_driven_support_becomes_a_velocity():
     given = cantilever(
         supports={"clamp": {"node": "root", "fix": "all"}, "ram": {"node": "tip", "motion": {"z": table}}}
     )
-    lowered = lower(given, COARSE, duration=2e-3)
-    (motion,) = lowered.model.motions
+    case = lower(given, COARSE, duration=2e-3)
+    (motion,) = case.model.motions
     assert motion.rigid_set
     assert motion.dof == "z"
-    state = ShellState(lowered.model)
+    state = ShellState(case.model)
     state.advance(2e-3)
-    moved = state.position[lowered.mesh.reference["tip"], 2]
+    moved = state.position[case.mesh.reference["tip"], 2]
     assert moved == pytest.approx(2e-3, abs=2 * 2.0 * state.time_step)
 
 
@@ -221,15 +221,15 @@ def test_walls_of_other_metals_keep_theirs():
         members={"beam": {"nodes": ("root", "tip"), "section": "box", "material": "steel"}},
         supports={"clamp": {"node": "root", "fix": "all"}},
     )
-    lowered = lower(box, COARSE)
-    model = lowered.model
+    case = lower(box, COARSE)
+    model = case.model
     assert {metal.density for metal in model.materials} == {7850.0, 2700.0}
     height = np.abs(model.position[model.elements][:, :, 2]).min(axis=1)
     flange = height > h / 2 - 1e-9
     densities = np.array([model.materials[model.sheets[i].material].density for i in model.sheet])
     assert np.array_equal(densities == 2700.0, flange)
     mass = 0.5 * wall * 2 * (b * 2700.0 + h * 7850.0)
-    assert lowered.report.mass == pytest.approx(mass, rel=1e-9)
+    assert case.report.mass == pytest.approx(mass, rel=1e-9)
     assert ShellState(model).mass == pytest.approx(mass, rel=1e-9)
 
 

@@ -43,18 +43,16 @@ def run(duration=4e-3, every=2e-4, nodes=("mid", "tip"), **more):
 
 
 def test_a_rigid_member_is_one_body_with_the_joint_that_it_reaches():
-    lowered = lower(bar(), COARSE)
-    (body,) = lowered.bodies
-    tube = lowered.mesh.tubes["hard"]
+    case = lower(bar(), COARSE)
+    (body,) = case.bodies
+    tube = case.mesh.tubes["hard"]
     assert set(tube.nodes.reshape(-1)) <= set(body.nodes)
-    state = ShellState(lowered.model)
+    state = ShellState(case.model)
     elements = tube.elements_between(0, tube.last_ring)
-    sheets = np.asarray(lowered.model.sheet)
-    assert {lowered.model.materials[lowered.model.sheets[i].material].rigid for i in sheets[elements]} == {
-        True
-    }
+    sheets = np.asarray(case.model.sheet)
+    assert {case.model.materials[case.model.sheets[i].material].rigid for i in sheets[elements]} == {True}
     rest = np.setdiff1d(np.arange(len(sheets)), elements)
-    assert {lowered.model.materials[lowered.model.sheets[i].material].rigid for i in sheets[rest]} == {False}
+    assert {case.model.materials[case.model.sheets[i].material].rigid for i in sheets[rest]} == {False}
     assert state.rigid_sets.shape == (1, 18)
 
 
@@ -140,9 +138,9 @@ def test_clamped_rigid_member_stays_and_its_support_takes_the_moment_about_its_n
 
 def test_part_of_a_member_is_rigid_and_has_rings_at_its_ends():
     part = [{"from": 0.1, "to": 0.21}, {"from": 0.2, "to": 0.25}]
-    lowered = lower(bar(part), COARSE)
-    tube = lowered.mesh.tubes["hard"]
-    (body,) = lowered.bodies
+    case = lower(bar(part), COARSE)
+    tube = case.mesh.tubes["hard"]
+    (body,) = case.bodies
     stations = tube.stations[np.isin(tube.nodes[:, 0], body.nodes)]
     assert stations[[0, -1]] == pytest.approx([0.1, 0.25], abs=1e-9)
     assert not body.lumps

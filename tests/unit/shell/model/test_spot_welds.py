@@ -21,22 +21,22 @@ CLAMPED = {"clamp": {"node": "root", "fix": "all"}}
 BOTH_CLAMPED = CLAMPED | {"clamp-2": {"node": "plate-root", "fix": "all"}}
 
 
-def means(lowered, spot):
+def means(case, spot):
     """Weighted means of both patches [m]."""
-    at = lowered.mesh.position
+    at = case.mesh.position
     return [patch.weights @ at[patch.nodes] for patch in (spot.first, spot.second)]
 
 
 @pytest.mark.parametrize("point", [(0.0575, 0.0025), (0.06, 0.0), (0.0611, -0.0133), (0.0599, 0.0)])
 def test_a_spot_lies_where_it_is_asked_for_whatever_the_mesh(point):
-    lowered = lower(lap(1e-3, 1e-3, points=[(*point, THICKNESS / 2)]), SETTINGS)
-    (spot,) = lowered.welds
-    low, up = means(lowered, spot)
+    case = lower(lap(1e-3, 1e-3, points=[(*point, THICKNESS / 2)]), SETTINGS)
+    (spot,) = case.welds
+    low, up = means(case, spot)
     assert low == pytest.approx([*point, 0.0], abs=1e-12)
     assert up == pytest.approx([*point, THICKNESS], abs=1e-12)
     assert spot.place == pytest.approx([*point, THICKNESS / 2])
     # each sheet by its own nodes, evenly
-    nodes = lowered.mesh.tubes["up"].nodes
+    nodes = case.mesh.tubes["up"].nodes
     assert np.isin(spot.second.nodes, nodes).all()
     assert not np.isin(spot.first.nodes, nodes).any()
     assert 0.0 < len(spot.first.nodes) <= 9
@@ -60,7 +60,7 @@ def test_lines_of_a_section_and_spots_between_members_lie_alike():
     first, second = lower(one, COARSE), lower(two, COARSE)
     # the lines of one section have its pairs of nodes no more
     assert not [body for body in first.bodies if not body.lumps]
-    places = [np.array([spot.place for spot in lowered.welds]) for lowered in (first, second)]
+    places = [np.array([spot.place for spot in case.welds]) for case in (first, second)]
     assert len(places[0]) == len(places[1]) == 16
     # axes at the centroid of the closed section, or its coordinates
     shift = one.section_of("hat").properties.centroid[1]
@@ -105,12 +105,12 @@ def test_a_spot_that_finds_no_two_walls_is_refused_by_its_place(given, words):
 
 def test_nodes_of_a_clamp_take_no_part():
     """A spot one element from a clamp, whose circle reaches it."""
-    lowered = lower(
+    case = lower(
         crossing(points=((0.007, 0.0, 0.0),), up=((-0.04, 0.0, THICKNESS), (0.05, 0.0, THICKNESS))), SETTINGS
     )
-    low, _ = means(lowered, lowered.welds[0])
+    low, _ = means(case, case.welds[0])
     assert low == pytest.approx([0.007, 0.0, 0.0], abs=1e-12)
-    assert lowered.mesh.position[lowered.welds[0].first.nodes][:, 0].min() > 1e-9
+    assert case.mesh.position[case.welds[0].first.nodes][:, 0].min() > 1e-9
 
 
 WEAK = {"normal_strength": 800.0, "shear_strength": 900.0, "pitch": 0.05}

@@ -39,23 +39,23 @@ def twisted(settings: ShellSettings) -> float:
 
 
 def test_pairs_are_tied_at_every_ring_but_those_that_are_held():
-    lowered = lower(hat(), SIZE)
-    tube = lowered.mesh.tubes["rail"]
-    spots = [body for body in lowered.bodies if not body.lumps]
+    case = lower(hat(), SIZE)
+    tube = case.mesh.tubes["rail"]
+    spots = [body for body in case.bodies if not body.lumps]
     # the ring at the clamp is held; the tip is free
     assert len(spots) == 2 * (len(tube.stations) - 1)
-    distance = [np.linalg.norm(np.diff(lowered.mesh.position[body.nodes], axis=0)) for body in spots]
+    distance = [np.linalg.norm(np.diff(case.mesh.position[body.nodes], axis=0)) for body in spots]
     assert np.array(distance) == pytest.approx(1.5e-3)
     for body in spots:
-        a, b = lowered.mesh.position[body.nodes]
+        a, b = case.mesh.position[body.nodes]
         assert a[0] == pytest.approx(b[0])
 
 
 def test_spots_lie_a_pitch_apart():
-    lowered = lower(hat(), SIZE.model_copy(update={"weld_pitch": 0.05}))
-    places = sorted({round(body.place[0], 6) for body in lowered.bodies if not body.lumps})
+    case = lower(hat(), SIZE.model_copy(update={"weld_pitch": 0.05}))
+    places = sorted({round(body.place[0], 6) for body in case.bodies if not body.lumps})
     assert places == pytest.approx(np.arange(8) * 0.05 + 0.025, abs=5e-3 + 1e-9)
-    assert sum(not body.lumps for body in lowered.bodies) == 16
+    assert sum(not body.lumps for body in case.bodies) == 16
 
 
 def test_welded_hat_twists_as_a_closed_cell_and_more_between_spots_far_apart():
@@ -71,12 +71,12 @@ def test_welded_hat_twists_as_a_closed_cell_and_more_between_spots_far_apart():
 def test_welded_pairs_stay_together_while_the_hat_is_crushed():
     given = hat(masses={"m": {"node": "tip", "mass": 50.0}}, initial_velocity=[{"translation": (-8.0, 0, 0)}])
     settings = ShellSettings(element_size=10e-3, imperfection=5e-5)
-    lowered = lower(given, settings)
+    case = lower(given, settings)
     result = solve_shell(given, ShellRun(4e-3, 1e-3, settings, Outputs(nodes=("tip",), pictures=(0.0, 4e-3))))
     assert result["energy.dissipated"][-1] > 100.0
     assert result.energy_residual < 1e-2
     moved = result.states.points + result.states.displacement[-1]
-    tube = lowered.mesh.tubes["rail"]
+    tube = case.mesh.tubes["rail"]
     around = tube.nodes.shape[1]
     # as the distances were: those of the tip's rigid section and of the clamp too
     for a, b in tube.contour.welds:
@@ -93,10 +93,10 @@ def test_points_of_welds_stay_where_sections_get_coarser():
         element_size=30e-3, fine_size=6e-3, fine_length=30e-3, growth=1.4, coarse_sections="on"
     )
     # one element to both sides of the line
-    lowered = lower(hat(flange=0.012), settings)
-    assert lowered.report.triangles > 0
-    tube = lowered.mesh.tubes["rail"]
-    at = lowered.mesh.position[tube.nodes[:, tube.contour.welds]]
+    case = lower(hat(flange=0.012), settings)
+    assert case.report.triangles > 0
+    tube = case.mesh.tubes["rail"]
+    at = case.mesh.position[tube.nodes[:, tube.contour.welds]]
     # along y where the line is, on every ring
     assert np.ptp(at[..., 1], axis=0) == pytest.approx(0.0, abs=1e-12)
     assert np.linalg.norm(at[:, :, 1] - at[:, :, 0], axis=2) == pytest.approx(1.5e-3)
@@ -110,8 +110,8 @@ def test_members_that_share_a_mitre_share_its_spots():
         "one": rail.model_copy(update={"nodes": ("root", "mid")}),
         "two": rail.model_copy(update={"nodes": ("mid", "tip")}),
     }
-    lowered = lower(given.model_copy(update={"nodes": ends, "members": members}), SIZE)
-    assert not lowered.mesh.joints["mid"].is_body
-    nodes = np.concatenate([body.nodes for body in lowered.bodies])
+    case = lower(given.model_copy(update={"nodes": ends, "members": members}), SIZE)
+    assert not case.mesh.joints["mid"].is_body
+    nodes = np.concatenate([body.nodes for body in case.bodies])
     assert len(np.unique(nodes)) == len(nodes)
-    assert ShellState(lowered.model).advance(1e-5) is Status.COMPLETE
+    assert ShellState(case.model).advance(1e-5) is Status.COMPLETE

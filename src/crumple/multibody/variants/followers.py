@@ -6,22 +6,22 @@ itself (`solve_many` with a leader).  Half their difference over the step is the
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from crumple._core.planar.simulation import Outcome
-from crumple._core.spatial.model import SpaceModel
-from crumple.errors import InputError, Problem, Status
-from crumple.multibody.answer.end_values import part_of
+from crumple._core.outcome import Outcome
+from crumple._core.spatial.model import SpatialModel
+from crumple.errors import InputError, Problem
 from crumple.multibody.answer.solved import Poll
-from crumple.multibody.run import Run, outcome_status
-from crumple.multibody.spatial.batch import SpaceBatch
-from crumple.multibody.spatial.case import SpaceLowered
+from crumple.multibody.run import Run
+from crumple.multibody.variants.batch import Batch, Case, hinge_names, part_of
 from crumple.multibody.variants.factors import checked_names, is_factor
+from crumple.multibody.variants.moved import Moved, MovedEnds, cases_beside, step_of
 from crumple.numeric.arrays import Floats
-from crumple.structure import Structure, changed, value_at
+from crumple.structure import Structure
 
 RELATIVE_STEP = 1e-5
 """By this share of its value a parameter is moved either way.  Ten times more, and hinges of followers pass
@@ -31,38 +31,36 @@ SMOOTH = 1e3
 SHORTER, MOST_TRIES = 0.3, 5
 """A step in which the number of samples of a law changes is made shorter, and how often."""
 
-Found = tuple[dict[str, float], dict[str, dict[str, float]], Status, str]
-
 
 @dataclass
 class _Rows:
     """Variants by row: the structure itself, then each parameter above and below its value."""
 
-    models: list[SpaceLowered]
-    model_of: list[int] = field(default_factory=lambda: [0])
+    cases: list[Case]
+    case_of: list[int] = field(default_factory=lambda: [0])
     moved: list[tuple[str, float]] = field(default_factory=list)
     """Of every row but the first: a factor and its value, or no name."""
     widths: list[float] = field(default_factory=list)
 
-    def add(self, model: int, name: str = "", value: float = 1.0) -> None:
+    def add(self, case: int, name: str = "", value: float = 1.0) -> None:
         """One more row."""
-        self.model_of.append(model)
+        self.case_of.append(case)
         self.moved.append((name, value))
 
 
-def space_sensitivities(
-    structure: Structure, run: Run, steps: Mapping[str, float | None], threads: int, poll: Poll | None
-) -> Found:
-    """Final quantities, their derivatives by quantity and parameter, status and reason.
+def spatial_ends(
+    batch: Batch, structure: Structure, steps: Mapping[str, float | None], poll: Poll | None
+) -> MovedEnds:
+    """Where a run in space ends, and where its followers with each parameter moved.
 
     Parameters
     ----------
-    structure, run
+    batch, structure
         What is solved.
     steps
         Parameters, each with the step [SI] by which it is moved, or None for a share of its value.
-    threads, poll
-        As in `solve_variants`.
+    poll
+        As in a batch.
 
     Raises
     ------
@@ -70,34 +68,23 @@ def space_sensitivities(
         If a parameter does not exist or cannot be moved, or the run has contact, stages that end on
         conditions, or quasi-static ones.
     """
-    _refuse_events(structure, run)
-    batch = SpaceBatch(run)
-    base = batch.lower(structure)
-    checked_names(structure, batch.hinges(base), list(steps))
+    _refuse_events(structure, batch.run)
+    base = batch.case(structure)
+    checked_names(structure, hinge_names(base), list(steps))
     rows = _Rows([base])
     for name, step in steps.items():
         _move(batch, base, rows, name, step)
-    count = len(rows.model_of)
-    finals = batch.solve(_values(rows), rows.models, np.array(rows.model_of), threads, poll, led=True)
+    case_of = np.array(rows.case_of)
+    threads = os.cpu_count() or 1
+    found = batch.solve(_values(rows), rows.cases, case_of, threads, poll, led=True)
     ends = []
-    for row in range(count):
-        model = rows.models[rows.model_of[row]]
-        of_row = batch.quantities(model, part_of(finals, np.array([row])))
+    for row, number in enumerate(rows.case_of):
+        of_row = batch.quantities(rows.cases[number], part_of(found, np.array([row])))
         ends.append({key: float(column[0]) for key, column in of_row.items()})
-        if finals.outcome[row] != Outcome.COMPLETE and row > 0:
+        if found.outcome[row] != Outcome.COMPLETE and row > 0:
             ends[-1] = dict.fromkeys(ends[-1], np.nan)
-    quantities = {key: value for key, value in ends[0].items() if key != "energy_residual"}
-    derivatives = {
-        key: {
-            name: (ends[1 + 2 * k][key] - ends[2 + 2 * k][key]) / rows.widths[k]
-            for k, name in enumerate(steps)
-        }
-        for key in quantities
-    }
-    bound = run.settings.energy_residual_bound
-    outcome = Outcome(int(finals.outcome[0]))
-    status, reason = outcome_status(outcome, "", float(finals.residual[0]), bound)
-    return quantities, derivatives, status, reason
+    moved = {name: Moved(ends[1 + 2 * k], ends[2 + 2 * k], rows.widths[k]) for k, name in enumerate(steps)}
+    return MovedEnds(ends[0], moved, Outcome(int(found.outcome[0])), "", float(found.residual[0]))
 
 
 def _refuse_events(structure: Structure, run: Run) -> None:
@@ -114,7 +101,7 @@ def _refuse_events(structure: Structure, run: Run) -> None:
         raise InputError(Problem("sensitivities follow a run at fixed times", why, "runs without", todo))
 
 
-def _move(batch: SpaceBatch, base: SpaceLowered, rows: _Rows, name: str, step: float | None) -> None:
+def _move(batch: Batch, base: Case, rows: _Rows, name: str, step: float | None) -> None:
     """Two rows for a parameter."""
     if is_factor(name):
         step = RELATIVE_STEP if step is None else step
@@ -122,14 +109,9 @@ def _move(batch: SpaceBatch, base: SpaceLowered, rows: _Rows, name: str, step: f
             rows.add(0, name, end)
         rows.widths.append(2.0 * step)
         return
-    value = value_at(base.structure, name)
-    step = _step(base, name, value, step)
+    step = step_of(base, name, step, RELATIVE_STEP)
     for _ in range(MOST_TRIES):
-        ends = [batch.lower(changed(base.structure, {name: end})) for end in (value + step, value - step)]
-        if any(end.topology != base.topology for end in ends):
-            raise InputError(
-                Problem("moving this parameter joins other parts", name, "", "leave it out", name)
-            )
+        ends = cases_beside(batch, base, name, step)
         if all(_alike(base.model, end.model) for end in ends):
             break
         step *= SHORTER
@@ -139,22 +121,13 @@ def _move(batch: SpaceBatch, base: SpaceLowered, rows: _Rows, name: str, step: f
             "give another step",
         )
         raise InputError(Problem(what, name, "", todo, name))
-    for model in ends:
-        rows.add(len(rows.models))
-        rows.models.append(model)
+    for case in ends:
+        rows.add(len(rows.cases))
+        rows.cases.append(case)
     rows.widths.append(2.0 * step)
 
 
-def _step(base: SpaceLowered, name: str, value: float, step: float | None) -> float:
-    if step is None:
-        step = RELATIVE_STEP * (base.model.length if name.startswith("nodes.") else abs(value))
-    if not step > 0.0:
-        what, todo = "no step follows from a parameter that is zero", "give its step: {path: step}"
-        raise InputError(Problem(what, f"{name} = {value:g}", "a step > 0", todo, name))
-    return step
-
-
-def _alike(base: SpaceModel, moved: SpaceModel) -> bool:
+def _alike(base: SpatialModel, moved: SpatialModel) -> bool:
     """Whether curves have as many samples and surfaces are fitted alike, so that they move smoothly."""
     if _sizes(base) != _sizes(moved):
         return False
@@ -164,7 +137,7 @@ def _alike(base: SpaceModel, moved: SpaceModel) -> bool:
     )
 
 
-def _sizes(model: SpaceModel) -> tuple[object, ...]:
+def _sizes(model: SpatialModel) -> tuple[object, ...]:
     curves = [
         (part.positive[0].size, part.negative[0].size) for hinge in model.hinges for part in hinge.components
     ]
@@ -179,5 +152,5 @@ def _values(rows: _Rows) -> dict[str, Floats]:
     for row, (name, value) in enumerate(rows.moved, start=1):
         if not name:
             continue
-        values.setdefault(name, np.ones(len(rows.model_of)))[row] = value
+        values.setdefault(name, np.ones(len(rows.case_of)))[row] = value
     return values

@@ -1,0 +1,72 @@
+// What runs of both multibody kernels record, by name.
+//
+// Every record lists its columns once, in `each`, with a pointer to the member: storage, batches and bindings follow from
+// that list.  A column has a row for every output time (or, where runs are rows, for every run); `summary` has none.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace crumple {
+
+// How a run ended; crumple._core.outcome has the same values.
+enum class Outcome { complete, step_collapsed, not_finite, cancelled, refused, unheld, limit_load };
+
+// Energies of the whole model [J], (rows).  `slowed`: what quasi-static stages took out of the motion.
+template <class T> struct EnergyRecord {
+    std::vector<T> kinetic, elastic, dissipated, damped, stop, spring, contact, friction, external_work, slowed;
+    template <class F> static void each(F f) {
+        using R = EnergyRecord;
+        f("kinetic", &R::kinetic), f("elastic", &R::elastic), f("dissipated", &R::dissipated), f("damped", &R::damped);
+        f("stop", &R::stop), f("spring", &R::spring), f("contact", &R::contact), f("friction", &R::friction);
+        f("external_work", &R::external_work), f("slowed", &R::slowed);
+    }
+};
+
+// Energies of every hinge [J], (rows, hinges); `dissipated` with dampers and stops.
+template <class T> struct HingeEnergyRecord {
+    std::vector<T> dissipated, elastic, stop;
+    template <class F> static void each(F f) {
+        using R = HingeEnergyRecord;
+        f("dissipated", &R::dissipated), f("elastic", &R::elastic), f("stop", &R::stop);
+    }
+};
+
+// Every component of every hinge, (rows, components): rotations [rad] and moments [N m], or travels [m] and forces [N].
+template <class T> struct ComponentRecord {
+    std::vector<T> rotation, rate, plastic, moment, capacity;
+    template <class F> static void each(F f) {
+        using R = ComponentRecord;
+        f("rotation", &R::rotation), f("rate", &R::rate), f("plastic", &R::plastic), f("moment", &R::moment);
+        f("capacity", &R::capacity);
+    }
+};
+
+// What every hinge came to by the end of a run, (hinges); times that never came are NaN.
+template <class T> struct HingeSummary {
+    std::vector<T> rotation_max, moment_max, opening_time, rest_time, turning, energy, fracture_time, fracture_moment;
+    template <class F> static void each(F f) {
+        using R = HingeSummary;
+        f("rotation_max", &R::rotation_max), f("moment_max", &R::moment_max), f("opening_time", &R::opening_time);
+        f("rest_time", &R::rest_time), f("turning", &R::turning), f("energy", &R::energy);
+        f("fracture_time", &R::fracture_time), f("fracture_moment", &R::fracture_moment);
+    }
+};
+
+// zeros in every column
+template <class R> void resize(R& record, std::size_t size) {
+    R::each([&](const char*, auto column) { (record.*column).assign(size, 0.0); });
+}
+
+// one row of a column
+template <class T> void put(std::vector<T>& all, std::size_t row, const std::vector<T>& one) {
+    std::copy(one.begin(), one.end(), all.begin() + static_cast<std::ptrdiff_t>(row * one.size()));
+}
+
+// one row of every column
+template <class R> void put_row(R& all, std::size_t row, const R& one) {
+    R::each([&](const char*, auto column) { put(all.*column, row, one.*column); });
+}
+
+}  // namespace crumple

@@ -1,0 +1,133 @@
+"""What hinges did and where the energy went, from the records of either kernel."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from crumple._core.records import ComponentRecord, EnergyRecord, HingeEnergyRecord, HingeSummary
+from crumple.multibody.answer.solved import HingeHistory
+from crumple.numeric.arrays import Floats
+from crumple.structure import PlacedHinge
+
+AXES = ("x", "y", "z")
+TURNING = {
+    "rotation": "rad",
+    "rotation_rate": "rad/s",
+    "plastic_rotation": "rad",
+    "moment": "N*m",
+    "capacity": "N*m",
+}
+"""Names and units of a component that is a rotation, in the order of `ComponentRecord`."""
+AXIAL = {"travel": "m", "rate": "m/s", "plastic_travel": "m", "force": "N", "capacity": "N"}
+"""The same of a component along an axis."""
+
+
+class Rows(Protocol):
+    """Records with a row for every output time, or for every run."""
+
+    @property
+    def hinge(self) -> ComponentRecord:
+        """Components of hinges."""
+
+    @property
+    def hinge_energy(self) -> HingeEnergyRecord:
+        """Energies of hinges."""
+
+    @property
+    def energy(self) -> EnergyRecord:
+        """Energies of the whole model."""
+
+
+@dataclass(frozen=True, eq=False)
+class RecordedHinge:
+    """A hinge and where its components are in a kernel's records.
+
+    Attributes
+    ----------
+    hinge
+        Which it is.
+    free
+        Relative freedom of each component: 0 to 2 along, 3 to 5 about the hinge's axes.
+    first
+        Column of its first component.
+    sign
+        +1 where the kernel counts in the hinge's own sense, -1 where in the opposite.
+    """
+
+    hinge: PlacedHinge
+    free: tuple[int, ...]
+    first: int
+    sign: float = 1.0
+
+    def columns(self, record: ComponentRecord) -> list[Floats]:
+        """Its part of every column, (n, components) each, in the hinge's own sense."""
+        span = slice(self.first, self.first + len(self.free))
+        sign = self.sign
+        signed = [record.rotation, record.rate, record.plastic, record.moment]
+        return [*(sign * values[:, span] for values in signed), record.capacity[:, span]]
+
+
+def hinge_columns(
+    hinges: Sequence[RecordedHinge], rows: Rows
+) -> Iterator[tuple[PlacedHinge, dict[str, tuple[str, Floats]]]]:
+    """Every hinge, and unit and values, (n,), of its quantities; see `HingeHistory`."""
+    for k, recorded in enumerate(hinges):
+        columns = _named(recorded.columns(rows.hinge), recorded.free)
+        columns["energy"] = ("J", np.ascontiguousarray(rows.hinge_energy.dissipated[:, k]))
+        yield recorded.hinge, columns
+
+
+def _named(parts: list[Floats], free: tuple[int, ...]) -> dict[str, tuple[str, Floats]]:
+    """Columns of one hinge: plain for one axis; for several the lengths of its rotations, and parts."""
+    of_turning = list(zip(TURNING.items(), parts, strict=True))
+    if len(free) == 1:
+        return {name: (unit, np.ascontiguousarray(values[:, 0])) for (name, unit), values in of_turning}
+    turning = [k for k, freedom in enumerate(free) if freedom >= 3]
+    columns = {
+        name: (unit, np.linalg.norm(values[:, turning], axis=1)) for (name, unit), values in of_turning
+    }
+    for ((name, unit), values), (axial, axial_unit) in zip(of_turning, AXIAL.items(), strict=True):
+        for k, freedom in enumerate(free):
+            one, axis = np.ascontiguousarray(values[:, k]), AXES[freedom % 3]
+            if freedom >= 3:
+                columns[f"{name}.{axis}"] = (unit, one)
+            else:
+                columns[f"slip.{axis}.{axial}"] = (axial_unit, one)
+    return columns
+
+
+def hinge_histories(
+    hinges: Sequence[RecordedHinge], rows: Rows, summary: HingeSummary
+) -> Iterator[HingeHistory]:
+    """What every hinge did, in the kernel's order."""
+    for k, (hinge, columns) in enumerate(hinge_columns(hinges, rows)):
+        broke = float(summary.fracture_time[k])
+        yield HingeHistory(
+            hinge,
+            columns,
+            rotation_max=float(summary.rotation_max[k]),
+            moment_max=float(summary.moment_max[k]),
+            time_of_rest=None if summary.turning[k] else float(summary.rest_time[k]),
+            energy=float(summary.energy[k]),
+            fracture=None if math.isnan(broke) else (broke, float(summary.fracture_moment[k])),
+        )
+
+
+def ledger(rows: Rows, *, touched: bool = False, slowed: bool = False) -> dict[str, Floats]:
+    """Terms of the energy ledger [J], (n,) each; `touched`: with contact, friction; `slowed`: with damping.
+
+    What hinges hold elastically is all that is stored or lost in them but what they dissipated.
+    """
+    energy, dissipated = rows.energy, rows.hinge_energy.dissipated.sum(axis=1)
+    stored = energy.elastic + energy.dissipated + energy.damped + energy.stop + energy.spring
+    found = {"kinetic": energy.kinetic, "elastic": stored - dissipated, "dissipated": dissipated}
+    if touched:
+        found |= {"contact": energy.contact, "friction": energy.friction}
+    if slowed:
+        found["damping"] = energy.slowed
+    return found | {"external_work": energy.external_work}

@@ -1,0 +1,191 @@
+"""How many variants of a structure are solved in one call, whichever kernel solves them."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crumple._core.planar import batch as planar_kernel
+from crumple._core.planar.batch import TreeEndValues
+from crumple._core.records import each_array
+from crumple._core.spatial import batch as spatial_kernel
+from crumple._core.spatial.batch import SpatialEndValues
+from crumple._core.variants import Variants
+from crumple.multibody.answer.end_values import Ended, end_quantities
+from crumple.multibody.answer.solved import Poll
+from crumple.multibody.kernel_choice import refuse_spatial
+from crumple.multibody.planar.case import planar_case
+from crumple.multibody.run import Run
+from crumple.multibody.spatial.case import spatial_case
+from crumple.multibody.variants.factors import masses_of
+from crumple.numeric.arrays import Floats, Integers
+from crumple.structure import Structure, changed, value_at
+
+EndValues = TreeEndValues | SpatialEndValues
+
+
+class Case(Ended, Protocol):
+    """A structure as one of the kernels takes it."""
+
+    @property
+    def model(self) -> Any:
+        """The kernel's model; it has `length`, `loads` and `gravity`."""
+
+    @property
+    def kernel_case(self) -> Any:
+        """What the kernel's batch takes."""
+
+    @property
+    def topology(self) -> tuple[object, ...]:
+        """What must be the same for two cases to be variants of each other."""
+
+    @property
+    def velocity(self) -> Floats:
+        """Motion that is added, at the centres of mass: (bodies, 3), or (stages, bodies, 6)."""
+
+    @property
+    def impulse(self) -> Floats:
+        """Impulses, of the same shape."""
+
+    @property
+    def own_bodies(self) -> int:
+        """Bodies that the factor on the initial velocity applies to; they come first."""
+
+    @property
+    def reference_points(self) -> Floats:
+        """A fixed place of every body, from which `raw_mass` counts."""
+
+    def raw_mass(self, about: Floats) -> Floats:
+        """Mass, moments and momenta of every body about a fixed place, linear in masses, (bodies, k)."""
+
+    @staticmethod
+    def kernel_arrays(raw: Floats, about: Floats) -> tuple[Floats, Floats, Floats]:
+        """Bodies, velocities and impulses as the kernel takes them, from raw masses of n variants."""
+
+
+class Batch(ABC):
+    """Many variants of a structure by one kernel.
+
+    Parameters
+    ----------
+    run
+        Duration, settings, stages and outputs.
+    """
+
+    def __init__(self, run: Run) -> None:
+        self.run = run
+
+    @abstractmethod
+    def case(self, structure: Structure, *, moved: bool = False) -> Case:
+        """Lower a structure; `moved`: its nodes are not where those of the one that was asked about are."""
+
+    @abstractmethod
+    def solve_many(self, variants: Variants[Any], threads: int, poll: Poll | None, led: bool) -> EndValues:
+        """Call the kernel."""
+
+    def solve(
+        self,
+        values: Mapping[str, Floats],
+        cases: Sequence[Case],
+        case_of: Integers,
+        threads: int,
+        poll: Poll | None,
+        *,
+        led: bool = False,
+    ) -> EndValues:
+        """Solve variants, (n,), of which quick parameters have `values` and each has one of the cases.
+
+        `led`: all but the first follow the first one's steps, see the spatial kernel's `solve_many`.
+        """
+        return self.solve_many(self._variants(values, cases, case_of), threads, poll, led)
+
+    def quantities(self, case: Case, ends: EndValues) -> dict[str, Floats]:
+        """Named quantities of variants that share a case, (n,) each."""
+        found = end_quantities(case, ends, self.run.outputs)
+        found["energy_residual"] = ends.residual
+        return found
+
+    def _variants(
+        self, values: Mapping[str, Floats], cases: Sequence[Case], case_of: Integers
+    ) -> Variants[Any]:
+        """The kernel's arrays: what each case has, with masses and factors."""
+        count, base = case_of.size, cases[0]
+        one = np.ones(count)
+        velocity = np.stack([case.velocity for case in cases])[case_of]
+        impulse = np.stack([case.impulse for case in cases])[case_of]
+        bodies = None
+        masses = masses_of(values)
+        if masses:
+            about = np.stack([case.reference_points for case in cases])
+            raw = np.stack([case.raw_mass(case.reference_points) for case in cases])[case_of]
+            for name, column in masses.items():
+                steps = np.stack([self._per_kilogram(case, name) for case in cases])
+                since = np.array([value_at(case.structure, name) for case in cases])
+                raw += (column - since[case_of])[:, None, None] * steps[case_of]
+            bodies, velocity, impulse = base.kernel_arrays(raw, about[case_of])
+        velocity[..., : base.own_bodies, :] *= _along(values.get("initial_velocity", one), velocity.ndim)
+        impulse *= _along(values.get("impulses", one), impulse.ndim)
+        scale = np.ones((count, len(base.hinges)))
+        for k, recorded in enumerate(base.hinges):
+            scale[:, k] = values.get(f"hinges.{recorded.hinge.name}.capacity", 1.0)
+        loads = np.ones((count, len(base.model.loads))) * values.get("loads", one)[:, None]
+        gravity = np.array([case.model.gravity for case in cases])[case_of]
+        gravity = gravity * values.get("gravity", one)[:, None]
+        kernel_cases = [case.kernel_case for case in cases]
+        return Variants(kernel_cases, case_of, velocity, impulse, scale, loads, bodies, gravity)
+
+    def _per_kilogram(self, case: Case, name: str) -> Floats:
+        """What one more kilogram of a lump adds to mass, moments and momentum, which are linear in it."""
+        more = self.case(changed(case.structure, {name: value_at(case.structure, name) + 1.0}))
+        about = case.reference_points
+        step: Floats = more.raw_mass(about) - case.raw_mass(about)
+        return step
+
+
+class PlanarBatch(Batch):
+    """By the planar kernel."""
+
+    def case(self, structure: Structure, *, moved: bool = False) -> Case:
+        """See `Batch`."""
+        if moved:
+            refuse_spatial(structure, self.run)
+        return planar_case(structure, self.run.duration)
+
+    def solve_many(self, variants: Variants[Any], threads: int, poll: Poll | None, led: bool) -> EndValues:
+        """See `Batch`; it has exact derivatives in place of followers."""
+        settings, end = self.run.settings, self.run.duration
+        bounds = settings.minimum_time_step, settings.maximum_time_step
+        return planar_kernel.solve_many(variants, end, settings.accuracy, *bounds, threads, poll=poll)
+
+
+class SpatialBatch(Batch):
+    """By the spatial kernel."""
+
+    def case(self, structure: Structure, *, moved: bool = False) -> Case:
+        """See `Batch`; what lies in a plane moves in space all the same."""
+        return spatial_case(structure, self.run)
+
+    def solve_many(self, variants: Variants[Any], threads: int, poll: Poll | None, led: bool) -> EndValues:
+        """See `Batch`."""
+        settings = self.run.settings
+        bounds = settings.minimum_time_step, settings.maximum_time_step
+        return spatial_kernel.solve_many(variants, settings.accuracy, *bounds, threads, poll=poll, led=led)
+
+
+def part_of(ends: EndValues, rows: NDArray[np.int64]) -> EndValues:
+    """Some of the rows."""
+    return each_array(ends, lambda column: column[rows])
+
+
+def hinge_names(case: Case) -> list[str]:
+    """Names of the hinges in the kernel's order."""
+    return [recorded.hinge.name for recorded in case.hinges]
+
+
+def _along(factor: Floats, dimensions: int) -> Floats:
+    """One factor per variant, for arrays whose rows are variants."""
+    return factor.reshape(-1, *[1] * (dimensions - 1))

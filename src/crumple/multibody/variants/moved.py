@@ -1,0 +1,77 @@
+"""A parameter moved either way: steps, cases above and below its value, and slopes of what follows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from crumple._core.outcome import Outcome
+from crumple.errors import InputError, Problem
+from crumple.multibody.variants.batch import Batch, Case
+from crumple.structure import changed, value_at
+
+
+@dataclass(frozen=True, eq=False)
+class Moved:
+    """End values with a parameter above and below its value, and the difference of the parameter."""
+
+    above: Mapping[str, float]
+    below: Mapping[str, float]
+    width: float
+
+    def slope(self, quantity: str) -> float:
+        """Derivative of a quantity."""
+        return (self.above[quantity] - self.below[quantity]) / self.width
+
+
+@dataclass(frozen=True, eq=False)
+class MovedEnds:
+    """Where a run ended, and where with each of its parameters moved.
+
+    Attributes
+    ----------
+    quantities
+        Of the run itself, by name.
+    moved
+        By parameter.
+    outcome, reason, residual
+        Of the run itself.
+    """
+
+    quantities: Mapping[str, float]
+    moved: Mapping[str, Moved]
+    outcome: Outcome
+    reason: str
+    residual: float
+
+
+def step_of(base: Case, name: str, step: float | None, share: float) -> float:
+    """By how much a path of the input is moved either way: as given, or a share of its value.
+
+    Raises
+    ------
+    InputError
+        If its value is zero and no step is given.
+    """
+    value = value_at(base.structure, name)
+    if step is None:
+        step = share * (base.model.length if name.startswith("nodes.") else abs(value))
+    if not step > 0.0:
+        what, todo = "no step follows from a parameter that is zero", "give its step: {path: step}"
+        raise InputError(Problem(what, f"{name} = {value:g}", "a step > 0", todo, name))
+    return step
+
+
+def cases_beside(batch: Batch, base: Case, name: str, step: float) -> tuple[Case, Case]:
+    """Cases with a path of the input above and below its value.
+
+    Raises
+    ------
+    InputError
+        If the structure joins other parts there.
+    """
+    value = value_at(base.structure, name)
+    above, below = (batch.case(changed(base.structure, {name: end})) for end in (value + step, value - step))
+    if above.topology != base.topology or below.topology != base.topology:
+        raise InputError(Problem("moving this parameter joins other parts", name, "", "leave it out", name))
+    return above, below
