@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 
 from crumple.errors import InputError, Problem
 from crumple.result.files import replacing, write_text
+from crumple.result.format import FORMAT
 from crumple.result.histories import histories_csv
 from crumple.result.result import Result
 from crumple.result.summary import summary_json
-from crumple.result.vtkhdf import FILE_NAME, FORMAT, read_vtkhdf, write_vtkhdf
+from crumple.result.vtkhdf import FILE_NAME, read_vtkhdf, write_vtkhdf
 
 if TYPE_CHECKING:
     import h5py

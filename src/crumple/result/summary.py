@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
+from crumple.result.format import FORMAT
 from crumple.result.result import Result
 
 _HINGE_KEYS = (
@@ -39,6 +40,7 @@ def summary(result: Result) -> dict[str, Any]:
     }
     stages = [{"name": s.name, "start": s.start, "end": s.end, "ended_by": s.ended_by} for s in result.stages]
     content = {
+        "format": FORMAT,
         "title": result.title,
         "status": result.status.value,
         "ok": result.status.ok,

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from crumple.errors import Status
 from crumple.result.caution import Caution
+from crumple.result.format import FORMAT, former_names_note, present_name
 from crumple.result.result import (
     Channel,
     HingeSummary,
@@ -34,9 +35,6 @@ from crumple.result.result import (
 
 if TYPE_CHECKING:
     import h5py
-
-FORMAT = 1
-"""Version of the `/crumple` group; a reader refuses a newer one."""
 
 FILE_NAME = "result.vtkhdf"
 VTK_QUAD = 9
@@ -215,8 +213,10 @@ def read_vtkhdf(file: h5py.File) -> Result:
     if values.shape != (len(text["channels"]), len(time)):
         raise ValueError("channels and times do not match")
     channels = {
-        key: Channel(name, unit, row) for (key, name, unit), row in zip(text["channels"], values, strict=True)
+        present_name(key): Channel(present_name(name), unit, row)
+        for (key, name, unit), row in zip(text["channels"], values, strict=True)
     }
+    note = former_names_note(key for key, _, _ in text["channels"])
     hinges = {}
     for index, (name, hinge) in enumerate(text["hinges"].items()):
         envelope = {key: dataset[...] for key, dataset in group["envelopes"][str(index)].items()}
@@ -234,9 +234,9 @@ def read_vtkhdf(file: h5py.File) -> Result:
         title=text["title"],
         energy_residual=text["energy_residual"],
         solve_seconds=text["solve_seconds"],
-        warnings=tuple(text["warnings"]),
+        warnings=(*text["warnings"], *([note] if note else [])),
         assumptions=tuple(text["assumptions"]),
-        output_names=tuple(text["output_names"]),
+        output_names=tuple(map(present_name, text["output_names"])),
         # absent from files of before there were any
         collapse=tuple(Opening(**opening) for opening in text.get("collapse", ())),
         collapse_threshold=text.get("collapse_threshold", 0.0),

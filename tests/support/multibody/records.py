@@ -19,5 +19,10 @@ def columns(record: Any, within: str = "") -> Iterator[tuple[str, Any]]:
 
 def same(a: Any, b: Any) -> bool:
     """Whether two records have the same bits; NaN equals NaN."""
-    pairs = zip(columns(a), columns(b), strict=True)
-    return all(np.array_equal(x, y, equal_nan=isinstance(x, np.ndarray)) for (_, x), (_, y) in pairs)
+    return all(_same(x, y) for (_, x), (_, y) in zip(columns(a), columns(b), strict=True))
+
+
+def _same(x: Any, y: Any) -> bool:
+    if isinstance(x, str):
+        return x == y
+    return np.array_equal(x, y, equal_nan=True)

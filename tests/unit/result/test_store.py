@@ -24,6 +24,46 @@ def test_round_trip(tube, tmp_path):
     assert read(tmp_path / "new" / "folder" / "result.vtkhdf").equals(tube)
 
 
+def written_in_format_1(result, path):
+    """A result file as the first format had it."""
+    write(result, path)
+    with h5py.File(path / "result.vtkhdf", "r+") as file:
+        file["crumple"].attrs["format"] = 1
+
+
+def test_former_names_of_axial_channels_are_read_with_a_note(tube, tmp_path):
+    former = {
+        "rotation": "m",
+        "rotation_rate": "m/s",
+        "plastic_rotation": "m",
+        "moment": "N",
+        "capacity": "N",
+    }
+    old = {f"hinge.root.slip.x.{name}": unit for name, unit in former.items()}
+    channels = {name: Channel(name, unit, np.sin(tube.time)) for name, unit in old.items()}
+    first = "hinge.root.slip.x.moment"
+    written_in_format_1(tube_result(channels=channels, output_names=(first,)), tmp_path)
+    again = read(tmp_path)
+    present = ("travel", "rate", "plastic_travel", "force", "capacity")
+    assert list(again.channels) == [f"hinge.root.slip.x.{name}" for name in present]
+    assert [channel.name for channel in again.channels.values()] == list(again.channels)
+    assert again.output_names == ("hinge.root.slip.x.force",)
+    assert "hinge.root.slip.x.rotation and 3 more as hinge.root.slip.x.travel" in again.warnings[-1]
+    assert "next release" in again.warnings[-1]
+
+
+def test_a_result_of_format_1_without_axial_channels_has_no_note(tube, tmp_path):
+    written_in_format_1(tube, tmp_path)
+    assert read(tmp_path).equals(tube)
+
+
+def test_the_summary_says_its_format(tube, tmp_path):
+    write(tube, tmp_path)
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    with h5py.File(tmp_path / "result.vtkhdf") as file:
+        assert summary["format"] == file["crumple"].attrs["format"] == 2
+
+
 @pytest.mark.parametrize(
     "changes",
     [

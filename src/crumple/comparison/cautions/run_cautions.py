@@ -27,7 +27,7 @@ MOST_NAMED = 4
 LEAST_CRUSH = 1e-3
 """Shortening of a hinge [m] that is worth a word: a millimetre, a share of any fold."""
 
-_SLIP = re.compile(r"hinge\.(.+)\.slip\.x\.plastic_rotation")
+_SLIP = re.compile(r"hinge\.(.+)\.slip\.x\.plastic_travel")
 _FAILED = re.compile(r"weld\.(.+)\.failed")
 
 

@@ -18,6 +18,7 @@ import numpy as np
 
 from crumple.comparison.rating.signal import Signal
 from crumple.errors import InputError, Problem
+from crumple.result.format import present_name
 from crumple.units import QuantityError, unit_factor
 
 LARGEST_FILE = 50_000_000
@@ -117,7 +118,7 @@ def read_curves(path: Path | str, name: str = "", pairs: Mapping[str, str] | Non
         if i == times[0]:
             continue
         called = renamed.get(title, title)
-        side, called = (-1.0 if called.startswith("-") else 1.0), called.removeprefix("-")
+        side, called = (-1.0 if called.startswith("-") else 1.0), present_name(called.removeprefix("-"))
         if called in signals:
             todo = "leave one of them out, or give it another name"
             raise _refused("two columns are one history", place, head_line, called, "", todo=todo)

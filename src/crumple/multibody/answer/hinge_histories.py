@@ -83,9 +83,9 @@ def hinge_columns(
 
 
 def _named(parts: list[Floats], free: tuple[int, ...]) -> dict[str, tuple[str, Floats]]:
-    """Columns of one hinge: plain for one axis; for several the lengths of its rotations, and parts."""
+    """Columns of one hinge: plain for one rotation; else the lengths of its rotations, and components."""
     of_turning = list(zip(TURNING.items(), parts, strict=True))
-    if len(free) == 1:
+    if len(free) == 1 and free[0] >= 3:
         return {name: (unit, np.ascontiguousarray(values[:, 0])) for (name, unit), values in of_turning}
     turning = [k for k, freedom in enumerate(free) if freedom >= 3]
     columns = {

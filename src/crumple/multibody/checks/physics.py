@@ -14,7 +14,7 @@ import numpy as np
 
 from crumple.hinge import Freedom
 from crumple.multibody.answer.forces import on_second
-from crumple.multibody.answer.poses import SpacePoses
+from crumple.multibody.answer.poses import SpatialPoses
 from crumple.multibody.answer.solved import HingeHistory, Solved
 from crumple.multibody.bodies.rigid import lump_mass, piece_mass
 from crumple.multibody.checks.crushing import crushing_cautions
@@ -148,7 +148,7 @@ def tensions(structure: Structure, solved: Solved) -> Iterator[Caution]:
 def axial_tensions(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:
     """Members and the largest axial tension [N] at a hinge without axial slip that stays for two outputs."""
     poses = solved.poses
-    if not isinstance(poses, SpacePoses):
+    if not isinstance(poses, SpatialPoses):
         return
     for i, connection in enumerate(poses.linkage.connections):
         if connection.hinge is None or int(Freedom.AXIAL) in connection.free:
@@ -274,8 +274,7 @@ def crush_length(history: HingeHistory) -> float | None:
     spatial = history.hinge.spatial
     if spatial is None or Freedom.AXIAL not in spatial.freedoms:
         return None
-    name = "rotation" if len(spatial.freedoms) == 1 else "slip.x.rotation"
-    return max(float(-history.values(name).min()), 0.0)
+    return max(float(-history.values("slip.x.travel").min()), 0.0)
 
 
 def crush_stroke(history: HingeHistory) -> float | None:

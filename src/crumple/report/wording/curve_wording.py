@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from crumple.comparison import Comparison, CurveFile
+from crumple.result.format import former_names_note
 
 MOST_COLUMNS = 8
 """Columns of a file that are told one by one; the table of ratings holds all."""
@@ -22,6 +23,8 @@ def curve_notes(comparison: Comparison) -> list[tuple[str, bool]]:
         if curve.left_out:
             texts.append(f"without a unit, and so left out: {', '.join(curve.left_out)}")
         text = f"{curve.name} ({Path(curve.file).name}): {'; '.join(texts)}."
+        if note := former_names_note(curve.columns):
+            text = f"{text} {note}"
         found.append((text, all(rated for _, rated in told)))
     return found
 

@@ -277,7 +277,7 @@ def test_warnings_of_the_runs_are_pointed_at(case, multibody):
 
 
 def test_a_hinge_that_is_crushed_is_a_caution(case, multibody):
-    crushed = Channel("hinge.root.slip.x.plastic_rotation", "m", np.linspace(0.0, -0.08, multibody.time.size))
+    crushed = Channel("hinge.root.slip.x.plastic_travel", "m", np.linspace(0.0, -0.08, multibody.time.size))
     channels = {**multibody.channels, crushed.name: crushed}
     shell = folded_result(largest=0.545)
     trust = compare(replace(multibody, channels=channels), shell, case.structure).trust

@@ -45,6 +45,12 @@ def test_columns_are_renamed_and_turned_round(tmp_path):
     assert file.signals["hinge.tip.rotation"].values == pytest.approx([-2, -4])
 
 
+def test_former_names_of_axial_channels_are_those_of_today(tmp_path):
+    text = "time [s],hinge.root.slip.x.moment [N],hinge.root.moment [N*m]\n0,1,2\n0.1,3,4\n"
+    file = read_curves(written(tmp_path, text))
+    assert list(file.signals) == ["hinge.root.slip.x.force", "hinge.root.moment"]
+
+
 @pytest.mark.parametrize(
     ("text", "says", "line"),
     [
