@@ -132,7 +132,4 @@ def test_channels_are_those_of_the_table(example):
 def is_listed(rows, name, unit):
     """Whether a row has this channel, or the hinge's channel of which it is a component."""
     of_hinge = re.sub(r"^(hinge\.[^.]+\.\w+)\.[xyz]$", r"\1", name)
-    slip = re.sub(r"^(hinge\.[^.]+)\.slip\.x\.", r"\1.", name)
-    if slip != name:
-        of_hinge, unit = slip, {"m": "rad", "m/s": "rad/s", "N": "N*m"}[unit]
     return any(unit in units for pattern, units in rows.items() if fnmatch(of_hinge, pattern))

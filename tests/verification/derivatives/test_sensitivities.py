@@ -231,7 +231,7 @@ def test_many_directions_go_in_shares():
     whole = solve_tangent(model, velocity, still, moves, 0.1)
     for k in (0, 9):
         one = solve_tangent(model, velocity, still, [moves[k]], 0.1)
-        np.testing.assert_array_equal(whole.q[[0, 1 + k]], one.q)
+        np.testing.assert_array_equal(whole.ends.q[[0, 1 + k]], one.ends.q)
 
 
 TURN = {"rotation": 15.0, "about": (0.0, 0.0, 0.0), "axis": (0.0, -1.0, 0.0)}

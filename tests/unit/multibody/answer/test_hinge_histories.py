@@ -1,0 +1,84 @@
+"""Names, units and senses of a hinge's channels, and the energy ledger, from a kernel's records."""
+
+from dataclasses import dataclass
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from crumple._core.records import ComponentRecord, EnergyRecord, HingeEnergyRecord
+from crumple.multibody.answer.hinge_histories import RecordedHinge, hinge_columns, ledger
+
+TIMES, COMPONENTS, HINGES = 3, 4, 2
+HINGE = SimpleNamespace(name="root")
+
+
+@dataclass(frozen=True)
+class Rows:
+    hinge: ComponentRecord
+    hinge_energy: HingeEnergyRecord
+    energy: EnergyRecord
+
+
+@pytest.fixture(name="rows")
+def _rows():
+    rng = np.random.default_rng(2)
+
+    def filled(kind, *shape):
+        return kind(**{name: rng.normal(size=shape) for name in kind.__dataclass_fields__})
+
+    return Rows(
+        filled(ComponentRecord, TIMES, COMPONENTS),
+        filled(HingeEnergyRecord, TIMES, HINGES),
+        filled(EnergyRecord, TIMES),
+    )
+
+
+def columns(rows, free, first=0, sign=1.0):
+    ((_, found),) = hinge_columns([RecordedHinge(HINGE, free, first, sign)], rows)
+    return found
+
+
+def test_one_rotation_is_plain_and_in_the_hinges_own_sense(rows):
+    found = columns(rows, (4,), first=2, sign=-1.0)
+    assert {name: unit for name, (unit, _) in found.items()} == {
+        "rotation": "rad", "rotation_rate": "rad/s", "plastic_rotation": "rad", "moment": "N*m",
+        "capacity": "N*m", "energy": "J",
+    }  # fmt: skip
+    for name, kernel in (
+        ("rotation", "rotation"), ("rotation_rate", "rate"), ("plastic_rotation", "plastic"), ("moment", "moment"),
+    ):  # fmt: skip
+        np.testing.assert_array_equal(found[name][1], -getattr(rows.hinge, kernel)[:, 2])
+    # a capacity has no sense
+    np.testing.assert_array_equal(found["capacity"][1], rows.hinge.capacity[:, 2])
+    np.testing.assert_array_equal(found["energy"][1], rows.hinge_energy.dissipated[:, 0])
+
+
+def test_axial_components_have_names_and_units_of_their_own(rows):
+    found = columns(rows, (0, 4, 5))
+    axial = {name: unit for name, (unit, _) in found.items() if name.startswith("slip")}
+    assert axial == {
+        "slip.x.travel": "m", "slip.x.rate": "m/s", "slip.x.plastic_travel": "m", "slip.x.force": "N",
+        "slip.x.capacity": "N",
+    }  # fmt: skip
+    np.testing.assert_array_equal(found["slip.x.force"][1], rows.hinge.moment[:, 0])
+    np.testing.assert_array_equal(found["moment.z"][1], rows.hinge.moment[:, 2])
+    # lengths are those of the rotations alone
+    np.testing.assert_allclose(found["moment"][1], np.linalg.norm(rows.hinge.moment[:, 1:3], axis=1))
+
+
+def test_a_hinge_that_only_slips_does_not_turn(rows):
+    found = columns(rows, (0,))
+    np.testing.assert_array_equal(found["slip.x.travel"][1], rows.hinge.rotation[:, 0])
+    assert not found["rotation"][1].any()
+
+
+def test_the_ledger_adds_up(rows):
+    found = ledger(rows, touched=True, slowed=True)
+    kept = sum(values for name, values in found.items() if name != "external_work")
+    energy = vars(rows.energy)
+    everything = sum(values for name, values in energy.items() if name != "external_work")
+    np.testing.assert_allclose(kept, everything)
+    np.testing.assert_array_equal(found["dissipated"], rows.hinge_energy.dissipated.sum(axis=1))
+    assert {"contact", "friction", "damping"} <= set(found)
+    assert not {"contact", "friction", "damping"} & set(ledger(rows))
