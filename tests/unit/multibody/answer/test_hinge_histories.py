@@ -46,7 +46,8 @@ def test_one_rotation_is_plain_and_in_the_hinges_own_sense(rows):
         "capacity": "N*m", "energy": "J",
     }  # fmt: skip
     for name, kernel in (
-        ("rotation", "rotation"), ("rotation_rate", "rate"), ("plastic_rotation", "plastic"), ("moment", "moment"),
+        ("rotation", "rotation"), ("rotation_rate", "rate"), ("plastic_rotation", "plastic"),
+        ("moment", "moment"),
     ):  # fmt: skip
         np.testing.assert_array_equal(found[name][1], -getattr(rows.hinge, kernel)[:, 2])
     # a capacity has no sense
