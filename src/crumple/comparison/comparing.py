@@ -1,4 +1,4 @@
-"""Two fidelities of one structure, and curves from elsewhere: what agrees, what does not, whom to believe."""
+"""Compare two results of one structure, and curves from files: hinges, histories, order of opening, trust."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from crumple.comparison.measure.metrics import HingeComparison, compared, metric
 from crumple.comparison.measure.motion import Measured, channel_motions, measured, member_sections
 from crumple.comparison.measure.sections import at_times
 from crumple.comparison.rating.curve_file import CurveFile
-from crumple.comparison.rating.pairing import TELLING, pairs_of
+from crumple.comparison.rating.pairing import RELEVANT, pairs_of
 from crumple.comparison.rating.signal import member_signals, signals_of
 from crumple.errors import InputError, Problem
 from crumple.result import Result
 from crumple.structure import PlacedHinge, Structure, placed_hinges
 
 SAME_TIME = 1e-9
-"""Share of the run below which two shapes are of one time: rounding, far below any output interval."""
+"""Share of the run below which the times of two shapes are equal but for rounding."""
 
 
 def compare(
@@ -36,15 +36,16 @@ def compare(
     Parameters
     ----------
     candidate
-        The answer that is judged, as a rule multibody.
+        The result that is assessed, as a rule multibody.
     reference
-        What it is judged by, as a rule shell; its hinges are measured in its shapes, so it needs states.
+        The result against which it is assessed, as a rule shell; its hinges are measured in its shapes, so
+        it needs states.
     structure
-        Of both.
+        Of both results.
     variants
         Further candidates by name.
     curves
-        Measured curves or those of other codes; columns are paired with histories of the same name.
+        Measured curves or curves of other codes; columns are paired with histories of the same name.
 
     Returns
     -------
@@ -54,7 +55,7 @@ def compare(
     Raises
     ------
     InputError
-        If a result holds no histories at all.
+        If a result contains no histories.
 
     References
     ----------
@@ -70,7 +71,7 @@ def compare(
     tables = {name: _hinges(short[name], short[last.name]) for name in (s.name for s in (first, *others))}
     pairs = pairs_of((first.name, first.signals), (last.name, last.signals))
     for s in others:
-        pairs += pairs_of((s.name, s.signals), (last.name, last.signals), ranks=TELLING)
+        pairs += pairs_of((s.name, s.signals), (last.name, last.signals), ranks=RELEVANT)
     unpaired = {}
     for curve in curves:
         known = {c for source in sources for c in source.signals}
@@ -94,18 +95,18 @@ def compare(
 
 
 def _names(candidate: Result, reference: Result, variants: Mapping[str, Result]) -> list[str]:
-    """Names of the sources: fidelities where they differ."""
+    """Names of the sources: the fidelities if they differ."""
     first, last = candidate.fidelity, reference.fidelity
     if first == last:
-        first, last = f"{first} (judged)", f"{last} (reference)"
+        first, last = f"{first} (candidate)", f"{last} (reference)"
     return [first, *variants, last]
 
 
 def _source(name: str, result: Result, structure: Structure, hinges: Sequence[PlacedHinge]) -> Source:
     result = _distinct(result)
     if not result.time.size:
-        what = f"the {name} result holds no histories"
-        raise InputError(Problem(what, result.status.value, "a run that got past its start", result.reason))
+        what = f"the {name} result contains no histories"
+        raise InputError(Problem(what, result.status.value, "a run that passed its start", result.reason))
     if result.fidelity == "multibody":
         sections = member_sections(result, structure)
         seen = Measured(sections, (), tuple(channel_motions(result, hinges, sections)), ())
@@ -117,7 +118,7 @@ def _source(name: str, result: Result, structure: Structure, hinges: Sequence[Pl
 
 
 def _distinct(result: Result) -> Result:
-    """The same result with one shape for each time: two that rounding alone tells apart have no rate."""
+    """The same result with one shape for each time: times that differ by rounding give no rate."""
     times = np.zeros(0) if result.states is None else result.states.times
     if result.states is None or times.size < 2:
         return result
@@ -135,7 +136,7 @@ def _until(source: Source, end: float) -> Source:
 
 
 def _hinges(first: Source, second: Source) -> tuple[HingeComparison, ...]:
-    """Hinges of the candidate, each with the reference's, then folds that have none."""
+    """Hinges of both results side by side, then folds without a hinge."""
     names = list(dict.fromkeys(m.name for s in (first, second) for m in (*s.hinges, *s.extra)))
     found = []
     for name in names:
@@ -147,7 +148,7 @@ def _hinges(first: Source, second: Source) -> tuple[HingeComparison, ...]:
 
 
 def openings(source: Source) -> tuple[Opening, ...]:
-    """Hinges and folds of one source that opened, first things first."""
+    """Hinges and folds of one source that opened, in order of opening."""
     found = []
     for motion in (*source.hinges, *source.extra):
         time = metrics_of(motion, ()).opened if motion.time.size else None

@@ -1,4 +1,4 @@
-"""Two fidelities of one structure, and curves from elsewhere, as plain data."""
+"""Data of a comparison: two results of one structure, further models, and curves from files."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ class Source:
     Attributes
     ----------
     name
-        What the comparison calls it.
+        Its name in the comparison.
     result
-        As the solver gave it.
+        As returned by the solver.
     hinges
-        Every hinge's motion: from its channels, or measured in the shapes.
+        Motion of every hinge: from its channels, or measured in the shapes.
     extra
-        Folds where no hinge was put.
+        Folds without a hinge.
     signals
         Histories by name.
     """
@@ -40,7 +40,7 @@ class Source:
 
     @property
     def with_threads(self) -> str:
-        """Its name, and of how many threads its solve time is where these are several."""
+        """Its name, with the number of threads if there are several."""
         threads = self.result.provenance.threads
         return self.name if threads == 1 else f"{self.name}, {threads} threads"
 
@@ -61,15 +61,15 @@ class Opening:
 
 @dataclass(frozen=True)
 class Timing:
-    """Wall times of a model that was solved several times more, the least of each [s].
+    """Wall times of a model that was solved several times, the smallest of each [s].
 
     Attributes
     ----------
     again
-        Of the whole solve, as ``Result.solve_seconds``, laws sampled anew: what the first solve lacked was
-        in the processor's caches.
+        Of the whole solve, as ``Result.solve_seconds``, with laws sampled again. Unlike the first solve, it
+        finds code and data in the processor's caches.
     stepping
-        Of the stepper's part at the accuracy asked for, histories included; None if it did not complete.
+        Of the stepper at the requested accuracy, histories included; None if it did not complete.
     """
 
     again: float
@@ -88,20 +88,20 @@ class Trust:
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """What two results say of one structure; plain data.
+    """Comparison of two results of one structure, as plain data.
 
     Attributes
     ----------
     title
         Of the analysis.
     candidate, reference
-        The design answer and the one that checks it.
+        The result that is assessed, and the result against which it is assessed.
     variants
         Further candidates, for example the same model with elastic-plastic hinges.
     curves
         From files.
     hinges
-        Hinge by hinge, candidate against reference; folds without a hinge come last.
+        For each hinge the candidate and the reference; folds without a hinge come last.
     variant_hinges
         The same for every variant, by its name.
     pairs
@@ -113,12 +113,12 @@ class Comparison:
     trust
         Verdict and sentences.
     until
-        End of what is compared [s]: a run that ended early cuts the figures of the others.
+        End of the compared duration [s]: the earlier end of the two runs.
     timings
-        Of multibody models that were solved again for it, by source name.
+        Of multibody models that were solved repeatedly for timing, by source name.
     busy_share
         Processor time of the reference's solve over the wall time of its threads [-], where it was measured:
-        below 1 they waited, for the processor or for each other.
+        below 1 the threads waited for the processor or for each other.
     """
 
     title: str
@@ -138,11 +138,11 @@ class Comparison:
 
     @property
     def speed_ratio(self) -> float | None:
-        """Solve time of the reference over that of the candidate; None where one is not known."""
+        """Solve time of the reference over that of the candidate; None if one is unknown."""
         return self.times_faster(self.candidate.result.solve_seconds)
 
     def times_faster(self, seconds: float | None) -> float | None:
-        """Solve time of the reference over a time [s]; None where one is not known."""
+        """Solve time of the reference over a time [s]; None if one is unknown."""
         own = self.reference.result.solve_seconds
         return own / seconds if seconds and own > 0.0 else None
 

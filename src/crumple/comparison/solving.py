@@ -1,4 +1,4 @@
-"""From one analysis to a comparison: both engines, further multibody models, time taken."""
+"""Solve one analysis with both solvers and compare: further multibody models, second mesh, solve times."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ if TYPE_CHECKING:
     from crumple.shell import LongRun
 
 FRAMES = 101
-"""Shapes stored over the run: rotations are measured in them, and the moving picture plays them."""
+"""Number of shapes stored over the run, for measured rotations and the animation."""
 ROUNDING = 1e-9
-"""Share of the duration below which two times are one."""
+"""Share of the duration below which two times count as equal."""
 TIMED_BELOW = 1.0
-"""Solve time [s] up to which a model is solved again for its times: caches matter little to longer ones."""
+"""Solve time [s] up to which a model is timed repeatedly; for longer ones caches matter little."""
 
 Progress = Callable[[float], None]
 Cancel = Callable[[], bool]
@@ -54,23 +54,23 @@ def solve_and_compare(
     cancel: Cancel | None = None,
     long_run: LongRun | None = None,
 ) -> Comparison:
-    """Solve an analysis with both engines and compare the answers.
+    """Solve an analysis with both solvers and compare the results.
 
     Parameters
     ----------
     analysis
-        What to solve; its pictures are supplemented by others at even times.
+        What to solve; pictures at equal intervals are added to its own.
     threads
         Of the shell run.
     curves
-        From files, to be compared too.
+        Curves from files, to be compared as well.
     variants
         Whether to solve further multibody models: elastic hinges, elastic members, laws of the shell run.
     second_mesh
-        Factor on the size of all elements of a further shell run, which shows how well the reference is
-        known; None: no such run.
+        Factor on the size of all elements of a further shell run, which shows how accurate the reference
+        is; None: no such run.
     progress, cancel, long_run
-        As `crumple.analysis.solve` takes them; progress is that of the shell run.  Cancelled, the further
+        As for `crumple.analysis.solve`; progress is that of the shell run.  After a cancellation, further
         models and meshes that are not yet solved are left out.
 
     Returns
@@ -81,7 +81,7 @@ def solve_and_compare(
     Raises
     ------
     InputError
-        If an engine cannot take the structure.
+        If a solver cannot handle the structure.
     """
     dense = with_frames(analysis)
     other = None if second_mesh is None else with_mesh(dense, second_mesh)
@@ -112,17 +112,17 @@ def solve_and_compare(
 
 
 def with_frames(analysis: Analysis, number: int = FRAMES) -> Analysis:
-    """The same analysis with shapes at even times beside those asked for."""
-    asked = np.array([t for t in analysis.outputs.pictures if t <= analysis.duration])
+    """The same analysis with shapes at equal intervals in addition to those requested."""
+    requested = np.array([t for t in analysis.outputs.pictures if t <= analysis.duration])
     even = np.linspace(0.0, analysis.duration, number)
-    # of two times a rounding apart the one that is asked for stays
-    apart = np.abs(even[:, None] - asked).min(axis=1, initial=math.inf) > ROUNDING * analysis.duration
-    wanted = tuple(np.union1d(even[apart], asked).tolist())
+    # of two times that differ by rounding the requested one is kept
+    apart = np.abs(even[:, None] - requested).min(axis=1, initial=math.inf) > ROUNDING * analysis.duration
+    wanted = tuple(np.union1d(even[apart], requested).tolist())
     return analysis.model_copy(update={"outputs": analysis.outputs.model_copy(update={"pictures": wanted})})
 
 
 def with_mesh(analysis: Analysis, factor: float) -> Analysis:
-    """The same analysis with shell elements of another size.
+    """The same analysis with another size of shell elements.
 
     Raises
     ------
@@ -131,7 +131,8 @@ def with_mesh(analysis: Analysis, factor: float) -> Analysis:
     """
     if not (math.isfinite(factor) and factor > 0.0 and factor != 1.0):
         allowed, todo = "above 0 and not 1", "give 2 for elements twice as long, 0.5 for half as long"
-        raise InputError(Problem("this is no other mesh", f"{factor:g}", allowed, todo, where="second_mesh"))
+        what = "this factor gives no second mesh"
+        raise InputError(Problem(what, f"{factor:g}", allowed, todo, where="second_mesh"))
     shell = analysis.shell
     sizes = {"element_size": factor * shell.element_size}
     if shell.fine_size is not None:
@@ -140,18 +141,18 @@ def with_mesh(analysis: Analysis, factor: float) -> Analysis:
 
 
 def mesh_name(analysis: Analysis) -> str:
-    """What a comparison calls a further shell run: by the size of its finest elements."""
+    """Name of a further shell run in a comparison: by the size of its finest elements."""
     shell = analysis.shell
     return f"shell, {1e3 * (shell.fine_size or shell.element_size):.3g} mm"
 
 
 def picture_times(analysis: Analysis) -> tuple[float, ...]:
-    """Times of the pictures that the input asks for [s], else six over the run."""
+    """Times of the pictures requested in the input [s], else six over the run."""
     return analysis.outputs.pictures or tuple(float(t) for t in np.linspace(0.0, analysis.duration, 6))
 
 
 def with_pictures(result: Result, times: Sequence[float]) -> Result:
-    """The same result with shapes at the given times alone, as a run of its own stores them."""
+    """The same result with shapes at the given times only, as a separate run would store them."""
     if result.states is None or not len(result.states.times):
         return result
     reached = np.array([t for t in times if t <= result.states.times[-1] * (1 + 1e-9)])
@@ -187,7 +188,7 @@ def _variants(
 
 
 def _timing(dense: Analysis) -> Timing:
-    """Times of a multibody model, solved again."""
+    """Solve times of a multibody model, solved repeatedly."""
 
     def once() -> float:
         forget()
@@ -201,5 +202,5 @@ def _timing(dense: Analysis) -> Timing:
 
 
 def _hashed(result: Result, analysis: Analysis) -> Result:
-    """With the hash of the input as its author wrote it: the further shapes are not his."""
+    """Result with the hash of the input as written, without the added shapes."""
     return replace(result, provenance=replace(result.provenance, input_hash=input_hash(analysis)))

@@ -1,4 +1,4 @@
-"""Other multibody models of the same structure, to see what an assumption costs."""
+"""Further multibody models of the same structure, to see the effect of an assumption."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ from crumple.structure.keys.member import Bars, Hinge
 ELASTIC = "elastic-plastic"
 ELASTIC_HINGES, ELASTIC_MEMBERS, SHELL_LAWS = "elastic hinges", "elastic members", "laws of the shells"
 MODEL_NAMES = ("multibody", "shell", ELASTIC_HINGES, ELASTIC_MEMBERS, SHELL_LAWS)
-"""What a comparison calls its own results."""
-"""What a comparison calls the further models."""
+"""Names of the own results of a comparison."""
+"""Names of the further models in a comparison."""
 LEAST_TURN = np.radians(2.0)
-"""Plastic rotation [rad] from which a law can be read off."""
+"""Least plastic rotation [rad] from which a law can be determined."""
 INTERVALS = 24
-"""Of that law: wide enough that vibration averages out."""
+"""Intervals of that law: wide enough to average out vibration."""
 CURVATURES = np.array([1.0, 1.03, 1.07, 1.12, 1.2, 1.3, 1.5, 2.0, 3.0, 5.0, 10.0, 30.0, 100.0])
 """Where the moment over curvature of an elastic member is sampled, over the curvature of first yield."""
 BARS = (8, 7, 9, 6, 10, 11)
-"""Numbers of rigid bars that stand for an elastic member; the first whose cuts keep clear of its hinges."""
+"""Numbers of rigid bars to represent an elastic member; the first whose cuts avoid its hinges is used."""
 CLEAR = 0.15
-"""Least distance of a cut from a hinge over the length of a bar: between them lies a body of its own."""
+"""Least distance of a cut from a hinge, over the length of a bar: the part between is a separate body."""
 
 
 def with_elastic_hinges(structure: Structure) -> Structure | None:
-    """The structure with every hinge elastic-plastic; None where they are already, or there are none."""
+    """The structure with every hinge elastic-plastic; None if all are already, or if there are none."""
     places = {place.name: place for place in hinge_places(structure)}
     forms = {law_spec(structure, place).form for place in places.values()}
     if not places or forms == {ELASTIC}:
@@ -43,11 +43,11 @@ def with_elastic_hinges(structure: Structure) -> Structure | None:
 
 
 def with_elastic_members(structure: Structure) -> Structure | None:
-    """The structure with every hinge elastic-plastic and every member of one bar cut into several.
+    """The structure with every hinge elastic-plastic and every member divided into several bars.
 
-    Between the bars lie elastic-plastic hinges that yield as the section does in bending, see `yielding_law`:
-    they carry the member's elastic bending, its vibration, and yield that spreads along it.  None where no
-    member is one bar.
+    The bars are connected by elastic-plastic hinges that yield as the section does in bending, see
+    `yielding_law`.  They represent elastic bending of the member, its vibration, and yielding that spreads
+    along it.  None if no member consists of one bar.
     """
     elastic = with_elastic_hinges(structure) or structure
     members = {
@@ -60,7 +60,7 @@ def with_elastic_members(structure: Structure) -> Structure | None:
 
 
 def _cut(structure: Structure, name: str, member: Member) -> Member:
-    """A member of one bar cut into several; where parts of it are rigid, between those alone."""
+    """A member of one bar divided into several, outside its rigid parts."""
     number, length = _bars(structure, name), structure.frame_of(name).length
     parts = member.rigid_parts(length)
     if parts == ((0.0, length),):
@@ -79,7 +79,7 @@ def _cut(structure: Structure, name: str, member: Member) -> Member:
 
 
 def yielding_law(structure: Structure, member: str, length: float) -> TableLaw:
-    """Law of a hinge that stands for a length [m] of member bending uniformly, its walls flat.
+    """Law of a hinge that represents a length [m] of a member in uniform bending with plane walls.
 
     Capacity over plastic rotation, length x (curvature - M/EI): it rises from the moment of first yield to
     the plastic moment.
@@ -97,7 +97,7 @@ def yielding_law(structure: Structure, member: str, length: float) -> TableLaw:
 
 
 def _bars(structure: Structure, member: str) -> int:
-    """Number of equal bars of a member whose cuts keep clear of its hinges, as far as one does."""
+    """Number of equal bars of a member whose cuts avoid its hinges, as far as possible."""
     length = structure.frame_of(member).length
     stations = [place.station / length for place in hinge_places(structure) if place.member == member]
 
@@ -115,13 +115,13 @@ def with_measured_laws(structure: Structure, motions: Sequence[HingeMotion]) -> 
     structure
         Any.
     motions
-        Hinges measured in that result; a hinge without a fold keeps its law.
+        Hinges measured in the other result; a hinge without a fold keeps its law.
 
     Returns
     -------
     Structure or None
-        None where no hinge folded.  The law is the moment against plastic rotation of the fold, so a run with
-        it is no prediction: it shows what is left of the difference once the law is right.
+        None if no hinge folded.  The law is the moment over the plastic rotation of the fold, so a run with
+        it is not a prediction: it shows the difference that remains with these moments.
     """
     laws = {m.name: law for m in motions if m.fold and (law := measured_law(m)) is not None}
     if not laws:
@@ -142,7 +142,7 @@ def with_measured_laws(structure: Structure, motions: Sequence[HingeMotion]) -> 
 
 
 def measured_law(motion: HingeMotion) -> TableLaw | None:
-    """Moment while the plastic rotation grows, averaged over intervals of it; None where it hardly turned."""
+    """Moment for growing plastic rotation, averaged over intervals; None for too small a rotation."""
     plastic = np.maximum.accumulate(np.maximum(motion.sense * motion.plastic_rotation, 0.0))
     if not plastic[-1] > LEAST_TURN:
         return None

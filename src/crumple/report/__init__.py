@@ -1,4 +1,4 @@
-"""The report room: figures, tables and one self-contained page."""
+"""Reports: figures, tables and one self-contained page."""
 
 from crumple.report.comparison_page import write_comparison
 from crumple.report.layouts import Layout, layout_table, write_layouts

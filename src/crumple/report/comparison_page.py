@@ -1,4 +1,4 @@
-"""The comparison as one self-contained page: figures, numbers, moving picture."""
+"""The comparison as one self-contained page: figures, numbers, animation."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from crumple.report.wording.curve_wording import curve_notes
 from crumple.result.files import write_text
 
 MOST_HINGES = 4
-"""Hinges with figures of their own, those that absorbed most."""
+"""Number of hinges with figures, those that absorbed most energy."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ def write_comparison(
 
 
 def _draw(comparison: Comparison, pictures: Sequence[float]) -> list[tuple[str, str, str]]:
-    """File name, SVG and caption of every figure that there is something for."""
+    """File name, SVG and caption of every figure for which there are data."""
     import numpy as np  # noqa: PLC0415
 
     from crumple.report.drawing.style import drawing  # noqa: PLC0415
@@ -80,35 +80,35 @@ def _draw(comparison: Comparison, pictures: Sequence[float]) -> list[tuple[str, 
         for i, hinge in enumerate(ranked(comparison)[:MOST_HINGES], 1):
             name = hinge.name
             caption = (
-                f"Rotation and angular velocity of hinge {name} against time. The {second} rotation is "
-                "measured near the "
-                "fold, between section planes on both sides of it, and at the far end, from the line to it."
+                f"Rotation and angular velocity of hinge {name} over time. The {second} rotation is measured "
+                "near the fold, between section planes on both sides of it, and at the far end, from the "
+                "line between the ends of the member."
             )
             found.append((f"motion_{i}", figures.motion_over_time(comparison, name, f"motion-{i}"), caption))
-            shifted = figures.energy_as_drawn_once(comparison, name, f"shifted-{i}")
+            shifted = figures.total_energy_shifted(comparison, name, f"shifted-{i}")
             if shifted is not None:
                 caption = (
-                    f"Hinge {name}, as earlier papers drew it: total energy against rotation. {shifted[1]}"
+                    f"Hinge {name} in the form of earlier papers: total energy over rotation. {shifted[1]}"
                 )
                 found.append((f"shifted_{i}", shifted[0], caption))
-            clean = figures.energy_cleanly(comparison, name, f"plastic-{i}")
-            caption = f"Hinge {name}, cleanly: plastic work against plastic rotation, rotation less M/k."
-            found.append((f"plastic_{i}", clean, caption))
+            svg = figures.plastic_work_over_plastic_rotation(comparison, name, f"plastic-{i}")
+            caption = f"Hinge {name}: plastic work over plastic rotation (rotation minus M/k)."
+            found.append((f"plastic_{i}", svg, caption))
         loads = weld_loads(comparison.reference.result)
         if loads is not None:
             found.append(("welds", *loads))
         for i, channel in enumerate(figures.drawn_channels(comparison), 1):
-            caption = f"{channel} against time, with the curves from files."
+            caption = f"{channel} over time, with the curves from files."
             found.append((f"curve_{i}", figures.history(comparison, channel, f"curve-{i}"), caption))
         if comparison.variants and comparison.hinges:
             svg = figures.variants_over_rotation(comparison, ranked(comparison)[0].name)
-            caption = "Total energy against the rotation at the far end, nothing shifted, for every model."
+            caption = "Total energy over the rotation at the far end for every model, without shifts."
             found.append(("variants", svg, caption))
             svg = figures.velocity_of_models(comparison, ranked(comparison)[0].name)
             caption = (
-                f"Angular velocity of hinge {ranked(comparison)[0].name} near the fold in every model, as "
-                "change of rotation from shape to shape. Rigid bars show its mean; bars that bend show its "
-                "beat."
+                f"Angular velocity of hinge {ranked(comparison)[0].name} near the fold in every model, from "
+                "the rotations of successive shapes. With rigid bars it is smooth; with elastic members it "
+                "contains their bending vibration."
             )
             found.append(("variants_velocity", svg, caption))
     return [(name, svg, caption) for name, svg, caption in found if svg is not None]
@@ -180,7 +180,7 @@ def _text(path: Path) -> str:
 
 
 def _hash(script: str) -> str:
-    """What the page's security policy lets run: this very script and no other."""
-    # the browser hashes what stands between the tags, line breaks of the template included
+    """Hash by which the security policy of the page allows this script and no other."""
+    # the browser hashes the text between the tags, including line breaks of the template
     digest = hashlib.sha256(f"\n{script}\n".encode()).digest()
     return f"'sha256-{base64.b64encode(digest).decode()}'"

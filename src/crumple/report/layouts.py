@@ -1,4 +1,4 @@
-"""Several layouts of one structure side by side: one page, one table, failures as rows."""
+"""Several layouts of one structure side by side: one page, one table; failed layouts are rows too."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
     from crumple.result import Result
 
 OPEN = 1e-3
-"""Largest rotation [rad] above which a hinge counts as open: what an engineer would see as a bend."""
+"""Largest rotation [rad] above which a hinge counts as open: a visible bend."""
 MOST_OUTPUTS = 8
-"""Requested outputs with a panel in the figure; the table and the files hold all."""
+"""Most requested outputs with a panel in the figure; the table and the files contain all."""
 
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """One layout and what became of it.
+    """One layout and its result.
 
     Attributes
     ----------
@@ -34,9 +34,9 @@ class Layout:
     title
         Of its analysis.
     mass
-        Of its members [kg], without lumped masses; None where it could not be read.
+        Of its members [kg], without lumped masses; None if the layout could not be read.
     result
-        None where the solver refused it.
+        None if the solver refused it.
     reason
         Why there is no result.
     """
@@ -49,14 +49,14 @@ class Layout:
 
     @property
     def absorbed(self) -> float:
-        """Energy that its hinges dissipated [J]; NaN without a result."""
+        """Energy dissipated in its hinges [J]; NaN without a result."""
         if self.result is None or "energy.dissipated" not in self.result.channels:
             return float("nan")
         return float(self.result["energy.dissipated"][-1])
 
     @property
     def status(self) -> str:
-        """How it ended, in words."""
+        """Status of the layout, in words."""
         return self.result.status.value if self.result is not None else "refused"
 
 
@@ -93,7 +93,7 @@ def write_layouts(layouts: Sequence[Layout], title: str, directory: Path | str) 
 
 
 def common_outputs(layouts: Sequence[Layout]) -> list[str]:
-    """Requested outputs that every solved layout has and that move in one of them, in the first's order."""
+    """Requested outputs of all solved layouts that are not zero in all of them, in the order of the first."""
     results = [layout.result for layout in layouts if layout.result is not None]
     if not results:
         return []
@@ -128,7 +128,7 @@ def layout_table(layouts: Sequence[Layout]) -> Table:
     columns.append([percent(x.result.energy_residual) if x.result else "—" for x in layouts])
     add("Solved in", [x.result.solve_seconds if x.result else nan for x in layouts], "s")
     rows = list(zip(*columns, strict=True))
-    return Table("What each layout weighs and absorbs.", tuple(heads), rows, frozenset({1}))
+    return Table("Mass and absorbed energy of each layout.", tuple(heads), rows, frozenset({1}))
 
 
 def _output_table(layouts: Sequence[Layout], outputs: Sequence[str]) -> Table:
@@ -153,7 +153,7 @@ def _open_hinges(layout: Layout) -> str:
 
 
 def _csv(layouts: Sequence[Layout], outputs: Sequence[str]) -> str:
-    """The table as data in SI, one row per layout; empty cells where there is no value."""
+    """The table as data in SI, one row per layout; cells without a value are empty."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     units = {name: x.result.channels[name].unit for x in layouts if x.result for name in outputs}
@@ -173,7 +173,7 @@ def _csv(layouts: Sequence[Layout], outputs: Sequence[str]) -> str:
 
 
 def _draw(layouts: Sequence[Layout], outputs: Sequence[str]) -> list[tuple[str, str, str]]:
-    """File name, SVG and caption of every figure that there is something for."""
+    """File name, SVG and caption of every figure for which there are data."""
     from crumple.report.drawing.style import drawing  # noqa: PLC0415
     from crumple.report.figures import layouts_figures as figures  # noqa: PLC0415
 

@@ -1,4 +1,4 @@
-"""One self-contained HTML page with every figure, table and number that an engineer needs to judge a run."""
+"""Report of a run: one self-contained HTML page with figures, tables and key figures."""
 
 from __future__ import annotations
 
@@ -16,29 +16,29 @@ if TYPE_CHECKING:
     from crumple.result import Result
 
 MAX_MOMENT_FIGURES = 12
-"""Hinges drawn with their laws; each figure adds some 8 kB to the page."""
+"""Most hinges drawn with their laws; each figure adds some 8 kB to the page."""
 MAX_INPUT = 60_000
-"""Characters of input printed; a longer one is cut, and the page says so."""
+"""Most characters of input printed; longer input is cut, and the page states this."""
 
 
 @dataclass(frozen=True)
 class ReportInput:
-    """What the page shows of the analysis; every field may be left out.
+    """Parts of the analysis that the page shows; every field is optional.
 
     Attributes
     ----------
     title
         Of the page; the result's own when empty.
     text
-        The input file as its author wrote it.
+        The input file as written.
     name
         Of that file.
     canonical
-        The input as it was understood, printed where there is no text.
+        The input as it was read, printed if there is no text.
     residual_bound
-        Largest energy residual allowed, over the energy put in [-].
+        Largest energy residual allowed, over the energy input [-].
     accuracy
-        Asked of the stepper [-].
+        Requested from the stepper [-].
     """
 
     title: str = ""
@@ -98,7 +98,7 @@ def write_figures(folder: Path, drawn: Sequence[tuple[str, str, str]]) -> None:
 
 
 def _draw(result: Result, bound: float | None) -> list[tuple[str, str, str]]:
-    """Every figure that the result has something for: file name, SVG, caption."""
+    """File name, SVG and caption of every figure for which the result has data."""
     from crumple.report.drawing.style import drawing  # noqa: PLC0415
     from crumple.report.figures import curves, fold, moment, shape, welds  # noqa: PLC0415
 
@@ -115,24 +115,24 @@ def _draw(result: Result, bound: float | None) -> list[tuple[str, str, str]]:
             (
                 "rotation",
                 curves.rotations(result),
-                "Rotation and angular velocity of the hinges against time." + _named(result, curves.NAMED),
+                "Rotation and angular velocity of the hinges over time." + _named(result, curves.NAMED),
             ),
             (
                 "energy_rotation",
                 curves.energy_over_rotation(result),
-                "Energy dissipated in each hinge against its rotation, "
-                "positive in the sense in which it turned farthest." + _named(result, curves.NAMED),
+                "Energy dissipated in each hinge over its rotation, "
+                "positive in the sense of its largest rotation." + _named(result, curves.NAMED),
             ),
             *_moment_figures(result, moment.moment_over_rotation),
             *([] if loads is None else [("welds", *loads)]),
             ("energy", curves.ledger(result, bound), _ledger_caption(result)),
-            ("outputs", curves.outputs(result), "Requested outputs against time."),
+            ("outputs", curves.outputs(result), "Requested outputs over time."),
         ]
     return [(name, svg, caption) for name, svg, caption in figures if svg is not None]
 
 
 def _named(result: Result, named: int) -> str:
-    return f" Named are the {named} that absorbed most." if len(result.hinges) > named else ""
+    return f" The {named} hinges that absorbed most energy are named." if len(result.hinges) > named else ""
 
 
 def _moment_figures(result: Result, draw: Any) -> list[tuple[str, str | None, str]]:
@@ -142,31 +142,31 @@ def _moment_figures(result: Result, draw: Any) -> list[tuple[str, str | None, st
     figures = []
     for i, hinge in enumerate(ranked_hinges(result)[:MAX_MOMENT_FIGURES]):
         summary = result.hinges[hinge]
-        law = ", and its law" if summary.law else ""
-        parts = [f"Moment in hinge {hinge}: the path it took{law}."]
+        law = " and its law" if summary.law else ""
+        parts = [f"Moment over rotation of hinge {hinge}: path of the run{law}."]
         named = (("Law", summary.law), ("Source", summary.source))
         parts += [sentence_case(f"{name}: {text}") for name, text in named if text]
         if summary.validity_rotation is not None and isfinite(summary.validity_rotation):
-            parts.append(f"Backed up to {angle(summary.validity_rotation)}.")
+            parts.append(f"Range of validity: up to {angle(summary.validity_rotation)}.")
         figures.append((f"moment_{i + 1}", draw(result, hinge, f"moment-{i + 1}"), " ".join(parts)))
     return figures
 
 
 def _ledger_caption(result: Result) -> str:
-    shown = "Energies against time"
+    shown = "Energies over time"
     if "energy.residual" not in result.channels:
         return f"{shown}."
     return (
         f"{shown} and, on the right, the residual of their balance: kinetic, elastic and dissipated energy"
-        f"{_further_energies(result)} less external work and the energy at the start. "
-        "Dissipation is integrated by itself."
+        f"{_further_energies(result)} minus external work and the energy at the start. "
+        "Dissipation is integrated independently."
     )
 
 
 def _further_energies(result: Result) -> str:
     """Terms that only some solvers have."""
     named = [name for name in ("hourglass", "contact", "damping") if f"energy.{name}" in result.channels]
-    return f", that of {' and '.join(named)}," if named else ""
+    return f", energy of {' and '.join(named)}," if named else ""
 
 
 def _render(
@@ -225,7 +225,7 @@ def _meta(result: Result, source: ReportInput) -> list[str]:
 
 
 def embedded(source: ReportInput) -> str:
-    """The input as its author wrote it, else as it was understood."""
+    """The input as written, else as it was read."""
     if source.text or source.canonical is None:
         return source.text
     return json.dumps(source.canonical, indent=2, ensure_ascii=False, default=str)

@@ -56,7 +56,7 @@ def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
         "laws of the shells",
         "elastic members",
         "left out: M2",
-        "node.tip.displacement.z against time, with the curves from files.",
+        "node.tip.displacement.z over time, with the curves from files.",
         'id="player"',
         "shell, 30 mm",
         "Solved again",

@@ -11,7 +11,7 @@ from tests.support.structures import STEEL, TUBE
 
 from crumple.analysis import load, solve
 from crumple.comparison import CurveFile, Signal, Timing, compare, with_frames, with_pictures
-from crumple.comparison.cautions.fold_trust import across_joint, folds_said
+from crumple.comparison.cautions.fold_trust import across_joint, fold_sentences
 from crumple.comparison.measure.motion import HingeMotion
 from crumple.comparison.rating.pairing import pairs_of
 from crumple.comparison.solving import mesh_name, with_mesh
@@ -75,7 +75,7 @@ def test_the_comparison_travels(found):
     assert again.speed_ratio == found.speed_ratio
 
 
-def test_solve_times_say_of_how_many_threads_they_are(case, multibody):
+def test_solve_times_state_the_number_of_threads(case, multibody):
     shell = folded_result(provenance=Provenance(version="0.1.0", input_hash="0" * 64, threads=2))
     found = compare(multibody, shell, case.structure)
     assert found.candidate.with_threads == "multibody"
@@ -86,7 +86,7 @@ def test_solve_times_say_of_how_many_threads_they_are(case, multibody):
     assert set(value.removesuffix(" ×")[3:]) <= {"0"}
 
 
-def test_solve_times_are_held_against_the_reference_solve(case, multibody):
+def test_solve_times_are_compared_with_the_reference_solve(case, multibody):
     shell = folded_result(solve_seconds=20.0)
     found = compare(replace(multibody, solve_seconds=2e-3), shell, case.structure)
     table = speed_table(found)
@@ -107,7 +107,7 @@ def test_solve_times_are_held_against_the_reference_solve(case, multibody):
     ("share", "seconds", "told"),
     [(0.5, 20.0, True), (0.95, 20.0, False), (0.5, 2.0, False), (None, 20.0, False)],
 )
-def test_a_reference_that_waited_is_told(case, multibody, share, seconds, told):
+def test_waiting_of_the_reference_is_reported(case, multibody, share, seconds, told):
     found = replace(
         compare(multibody, folded_result(solve_seconds=seconds), case.structure), busy_share=share
     )
@@ -144,18 +144,20 @@ def test_histories_of_other_units_are_not_paired():
 def test_agreement_is_called_so(case, multibody):
     trust = compare(multibody, multibody, case.structure).trust
     assert trust.level == "good"
-    assert trust.headline.startswith("Both answers agree")
+    assert trust.headline.startswith("Both results agree")
     assert trust.cautions == ()
 
 
 def test_an_equal_rotation_does_not_excuse_another_energy(found):
     assert found.trust.level == "bad"
-    assert "off by 0.0 %, plastic energy at equal plastic rotation by up to 34" in found.trust.headline
+    assert (
+        "differs by 0.0 %, the plastic energy at equal plastic rotation by up to 34" in found.trust.headline
+    )
     assert any("inside the range" in fact for fact in found.trust.facts)
     assert any("one mesh" in fact for fact in found.trust.facts)
 
 
-def test_a_second_mesh_tells_how_well_the_reference_is_known(case, multibody):
+def test_a_second_mesh_shows_how_accurate_the_reference_is(case, multibody):
     shell = folded_result(largest=0.6)
     near, far = (folded_result(largest=largest) for largest in (0.605, 0.7))
     for other, doubtful in ((near, False), (far, True)):
@@ -168,10 +170,10 @@ def test_a_second_mesh_tells_how_well_the_reference_is_known(case, multibody):
 def test_further_models_split_the_difference(case, multibody):
     shell = folded_result()
     trust = compare(multibody, shell, case.structure, variants={SHELL_LAWS: shell}).trust
-    assert any("explain what the multibody answer lacks" in fact for fact in trust.facts)
+    assert any("explain the difference" in fact for fact in trust.facts)
     other = folded_result(largest=0.5)
     trust = compare(multibody, shell, case.structure, variants={SHELL_LAWS: other}).trust
-    assert any("something besides the laws" in fact for fact in trust.facts)
+    assert any("do not explain the whole difference" in fact for fact in trust.facts)
 
 
 def test_another_mesh_has_elements_of_another_size(case):
@@ -180,21 +182,21 @@ def test_another_mesh_has_elements_of_another_size(case):
     assert with_mesh(fine, 2.0).shell.element_size == 2.0 * fine.shell.element_size
     assert mesh_name(with_mesh(case, 2.0)) == f"shell, {2e3 * case.shell.element_size:g} mm"
     for factor in (0.0, -1.0, 1.0, float("nan"), float("inf")):
-        with pytest.raises(InputError, match="no other mesh"):
+        with pytest.raises(InputError, match="no second mesh"):
             with_mesh(case, factor)
 
 
-def test_a_fold_without_a_hinge_is_said(case, multibody):
+def test_a_fold_without_a_hinge_is_reported(case, multibody):
     folds = [(0.01, 0.04, angle_over_time(TIMES)), (0.60, 0.63, 0.5 * angle_over_time(TIMES))]
     found = compare(multibody, folded_result(folds), case.structure)
     assert found.trust.level == "bad"
-    assert "folds where no hinge was put (tube at 615 mm)" in found.trust.headline
+    assert "folds where there is no hinge (tube at 615 mm)" in found.trust.headline
     assert [h.name for h in found.hinges] == ["root", "tube at 615 mm"]
     assert found.hinges[1].first is None
 
 
 @pytest.mark.parametrize(("station", "beside"), [(0.48, "knee"), (0.25, "")])
-def test_a_fold_across_a_joint_is_told_from_one_without_a_hinge(station, beside):
+def test_a_fold_across_a_joint_is_distinguished_from_one_without_a_hinge(station, beside):
     structure = load(EXAMPLE.parent / "06_two_bars.yaml").structure
     hinges = {hinge.name: hinge for hinge in placed_hinges(structure)}
     motion = HingeMotion("first at", "first", station, *[np.zeros(1)] * 6, how="")
@@ -224,21 +226,21 @@ def test_both_members_of_a_corner_share_its_rotation():
         opened=dict.fromkeys(sources, ()),
         hinges=(),
     )
-    ((sentence, caution),) = folds_said(comparison, structure, hinges)
-    assert "folds in member first at 480 mm (by 5.5°), at the joint beside hinge knee" in sentence
-    assert "9.5° together against 10.0° multibody" in sentence
+    ((sentence, caution),) = fold_sentences(comparison, structure, hinges)
+    assert "folds in member first at 480 mm (by 5.5°), at the joint next to hinge knee" in sentence
+    assert "(9.5° in total; 10.0° multibody)" in sentence
     assert caution
 
 
-def test_jamming_and_contact_are_said(case, multibody):
+def test_jamming_and_contact_are_reported(case, multibody):
     found = compare(multibody, folded_result(largest=1.6, contact=0.05), case.structure)
     said = " ".join(found.trust.cautions)
-    assert "jam at" in said
+    assert "beyond the jamming angle of its law" in said
     assert "Walls touch" in said
     assert found.trust.level == "bad"
 
 
-def test_elastic_energy_that_rigid_bars_lack_is_said(case, multibody):
+def test_missing_elastic_energy_of_rigid_bars_is_reported(case, multibody):
     shell = folded_result()
     elastic = replace(shell.channels["energy.elastic"], values=0.2 * shell["energy.kinetic"])
     found = compare(
@@ -247,15 +249,15 @@ def test_elastic_energy_that_rigid_bars_lack_is_said(case, multibody):
     assert any("lack the elastic part" in text for text in found.trust.cautions)
 
 
-def test_a_run_that_failed_is_compared_and_said(case, multibody):
+def test_a_run_that_failed_is_compared_and_reported(case, multibody):
     shell = folded_result(status=Status.NOT_FINITE, reason="element 7 failed")
     found = compare(multibody, shell, case.structure)
     assert found.trust.level == "bad"
     assert any("element 7 failed" in text for text in found.trust.cautions)
-    assert found.trust.headline == "A run did not end well: read what follows with that in mind."
+    assert found.trust.headline == "A run did not complete: the figures below are of limited value."
 
 
-def test_shapes_that_rounding_alone_tells_apart_are_one(case, multibody):
+def test_shapes_whose_times_differ_by_rounding_are_one(case, multibody):
     states = multibody.states
     rows = np.array([*range(5), 4, *range(5, len(states.times))])
     times = states.times[rows].copy()
@@ -270,7 +272,7 @@ def test_shapes_that_rounding_alone_tells_apart_are_one(case, multibody):
 
 def test_a_result_without_histories_is_refused(case, multibody):
     empty = replace(folded_result(), time=np.zeros(0), channels={})
-    with pytest.raises(InputError, match="holds no histories"):
+    with pytest.raises(InputError, match="contains no histories"):
         compare(multibody, empty, case.structure)
 
 

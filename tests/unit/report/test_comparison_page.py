@@ -202,7 +202,7 @@ def test_the_scene_holds_the_shapes(found):
 def test_the_moving_picture_ends_with_the_run(found):
     times = np.linspace(0.0, 0.1, 11)
     states = folded_states(times, [(0.01, 0.04, angle_over_time(times))])
-    # a stepper notes each shape at its first step after the time asked for
+    # a stepper stores each shape at its first step after the requested time
     late = replace(states, times=states.times + 1e-6)
     assert _times([states, late])[-1] == late.times[-1]
     short = replace(states, times=0.6 * states.times)

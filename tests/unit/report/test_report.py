@@ -57,7 +57,7 @@ def test_the_page_says_what_came_out(page):
         "Steel tube thrown at 15 rad/s, bending about its weak axis",
         "Complete.",
         "within its bound of 0.1 %",
-        "Accuracy asked for: 0.1 %",
+        "Requested accuracy: 0.1 %",
         f"{math.degrees(ROTATION_MAX):.2f}°",
         f"{ROTATION_MAX:.4f} rad",
         f"{TIME_OF_REST * 1e3:.2f} ms",

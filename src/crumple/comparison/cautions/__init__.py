@@ -1,1 +1,1 @@
-"""Sentences about a finished comparison."""
+"""Facts and cautions about a finished comparison, in words."""

@@ -1,4 +1,4 @@
-"""What folds say of hinges: folds where none was put, hinges that share one, corners, places, shortening."""
+"""Sentences on folds and hinges: missing hinges, shared folds, corners, positions, shortening."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from crumple.comparison.measure.motion import REACH, HingeMotion, largest_side
 from crumple.structure import PlacedHinge, Structure
 
 CRUSHED = 0.1
-"""Shortening of a fold beyond that of its bend, over its length, from which it is worth a word."""
+"""Shortening of a fold beyond that of its bend, over its length, from which it is reported."""
 BENT = math.radians(1.0)
-"""Rotation of a corner from which it is worth a word."""
+"""Rotation of a corner [rad] from which it is reported."""
 
 
 def largest_turn(motion: HingeMotion) -> float:
@@ -23,7 +23,7 @@ def largest_turn(motion: HingeMotion) -> float:
     return float(np.max(motion.sense * motion.rotation)) if motion.rotation.size else 0.0
 
 
-def folds_said(
+def fold_sentences(
     comparison: Comparison, structure: Structure, hinges: dict[str, PlacedHinge]
 ) -> Iterator[tuple[str, bool]]:
     """Folds without hinges, hinges without folds, folds away from their hinges."""
@@ -37,15 +37,15 @@ def folds_said(
             alone, beside = (0.0 if turn is None else largest_turn(turn) for turn in turns)
             both = beside + largest_turn(motion)
             yield (
-                f"{place}, at the joint beside hinge {near} of another member: both members share the "
-                f"rotation of this corner, {deg(both)} together against {deg(alone)} {first}, and figures of "
+                f"{place}, at the joint next to hinge {near} of another member. Both members share the "
+                f"rotation of this corner ({deg(both)} in total; {deg(alone)} {first}), so the values of "
                 "that hinge alone cannot be compared.",
                 True,
             )
             continue
         yield (
-            f"{place}, where no hinge was put: the {first} model cannot fold there, and its answer is wrong "
-            "by what this fold takes up.",
+            f"{place}, where the {first} model has no hinge. It cannot fold there, and the energy absorbed "
+            "in this fold is missing from its result. Put a hinge there.",
             True,
         )
     yield from _shared(comparison)
@@ -57,31 +57,31 @@ def folds_said(
         here, there = hinge.name in opened[first], hinge.name in opened[second]
         if here and not there:
             yield (
-                f"Hinge {hinge.name} opens in the {first} result alone; the {second} result has no fold "
+                f"Hinge {hinge.name} opens in the {first} result only; the {second} result has no fold "
                 "there.",
                 True,
             )
         elif there and not here:
-            yield f"Hinge {hinge.name} opens in the {second} result alone.", True
+            yield f"Hinge {hinge.name} opens in the {second} result only.", True
         if hinge.fold_station is not None:
             away = hinge.fold_station - hinge.station
             text = (
-                f"The fold of hinge {hinge.name} lies at {mm(hinge.fold_station)} of member {hinge.member}, "
-                f"the hinge at {mm(hinge.station)}."
+                f"The fold of hinge {hinge.name} is at {mm(hinge.fold_station)} along member "
+                f"{hinge.member}, the hinge at {mm(hinge.station)}."
             )
             yield text, abs(away) > largest_side(structure, hinge.member)
 
 
 def _shortened(motion: HingeMotion) -> str:
-    """How much shorter a fold has become, where it is crushed along its member too."""
+    """Shortening of a fold that is also crushed along its member, in words."""
     if motion.planes is None or motion.crushed < CRUSHED:
         return ""
     a, b = motion.planes
-    return f", and shorter by {mm(motion.crushed * (b - a))} of {mm(b - a)}"
+    return f", shortened by {mm(motion.crushed * (b - a))} of {mm(b - a)}"
 
 
 def _shared(comparison: Comparison) -> Iterator[tuple[str, bool]]:
-    """Hinges that stand in one fold, whose parts of its rotation depend on where the planes lie."""
+    """Hinges within one fold: how its rotation divides between them depends on where the planes are."""
     first, second = comparison.candidate.name, comparison.reference.name
     for hinge in comparison.hinges:
         low, high = hinge.fold_extent or (math.inf, -math.inf)
@@ -95,9 +95,9 @@ def _shared(comparison: Comparison) -> Iterator[tuple[str, bool]]:
                 for s in (comparison.candidate, comparison.reference)
             ]
             yield (
-                f"Hinges {names[0]} and {names[1]} stand in one fold of the {second} result, from "
-                f"{mm(low)} to {mm(high)} of member {hinge.member}: together they turn by "
-                f"{deg(together[0])} {first} and {deg(together[1])} {second}, and figures of one alone "
+                f"Hinges {names[0]} and {names[1]} are in one fold of the {second} result, from "
+                f"{mm(low)} to {mm(high)} along member {hinge.member}. Their total rotation is "
+                f"{deg(together[0])} {first} and {deg(together[1])} {second}; the values of one hinge alone "
                 "cannot be compared. One hinge is enough there.",
                 True,
             )
@@ -106,7 +106,7 @@ def _shared(comparison: Comparison) -> Iterator[tuple[str, bool]]:
 def _corners(
     comparison: Comparison, structure: Structure, hinges: dict[str, PlacedHinge]
 ) -> Iterator[tuple[str, bool]]:
-    """Hinges on both sides of a corner of two members, of which one fold of the reference may need either."""
+    """Hinges on both sides of a corner of two members: one fold of the reference may belong to either."""
     for node in structure.nodes:
         members = [name for name, member in structure.members.items() if node in member.nodes]
         beside = [
@@ -126,16 +126,16 @@ def _corners(
         if sum(checked) < BENT:
             continue
         yield (
-            f"Hinges {beside[0]} and {beside[1]} stand on both sides of corner {node}: together they turn by "
-            f"{deg(sum(turned))} {comparison.candidate.name} and {deg(sum(checked))} "
-            f"{comparison.reference.name}. Which of them takes how much hangs on where a fold begins, and is "
-            "told less surely than the sum.",
+            f"Hinges {beside[0]} and {beside[1]} are on both sides of corner {node}. The total rotation of "
+            f"the corner is {deg(sum(turned))} {comparison.candidate.name} and {deg(sum(checked))} "
+            f"{comparison.reference.name}. It is more reliable than the rotations of the two hinges, "
+            "because their shares depend on where the fold begins.",
             False,
         )
 
 
 def across_joint(structure: Structure, motion: HingeMotion, hinges: dict[str, PlacedHinge]) -> str:
-    """Hinge of another member that lies beside a fold, as at a joint; empty where there is none."""
+    """Name of the hinge of another member next to a fold, as at a joint; empty if there is none."""
     place = structure.frame_of(motion.member).position(motion.station)
     reach = REACH * largest_side(structure, motion.member)
     near = [

@@ -1,4 +1,4 @@
-"""What both runs say of themselves that a comparison must not hide: failed welds, open ends, own warnings."""
+"""Cautions about the runs themselves: failed welds, crushing, hinges still rotating at the end, warnings."""
 
 from __future__ import annotations
 
@@ -13,25 +13,25 @@ from crumple.comparison.measure.energy import energy_put_in
 from crumple.comparison.measure.metrics import OPENED_AT, percent
 
 LEAST_WORK = 0.05
-"""Plastic work over the energy put in below which a run is as good as elastic."""
+"""Plastic work over the energy input below which a run counts as elastic."""
 OUTSIDE = 0.2
-"""Share of plastic work outside folds that is worth a caution: a fold's ends, and long stretches that just
-yield, hold up to a tenth in structures that bend."""
+"""Share of plastic work outside folds from which there is a caution. In structures that bend, the ends of
+folds and long ranges that just yield contain up to a tenth."""
 AT_END = 0.01
-"""Share of what is compared within whose last part a largest rotation is that of the end."""
+"""Last part of the compared duration: a largest rotation within it counts as that of the end."""
 STILL = 0.02
-"""Rate of rotation over the largest one up to which a hinge has come to rest."""
+"""Rate of rotation over the largest one below which a hinge counts as at rest."""
 MOST_NAMED = 4
-"""Hinges that one sentence names."""
+"""Number of hinges named in one sentence."""
 
 LEAST_CRUSH = 1e-3
-"""Shortening of a hinge [m] that is worth a word: a millimetre, a share of any fold."""
+"""Shortening of a hinge [m] from which it is reported."""
 
 _SLIP = re.compile(r"hinge\.(.+)\.slip\.x\.plastic_travel")
 _FAILED = re.compile(r"weld\.(.+)\.failed")
 
 
-def said_of_runs(comparison: Comparison) -> Iterator[tuple[str, bool]]:
+def run_sentences(comparison: Comparison) -> Iterator[tuple[str, bool]]:
     """Sentences, and whether each is a caution."""
     yield from _outside(comparison)
     yield from _welds(comparison)
@@ -41,7 +41,7 @@ def said_of_runs(comparison: Comparison) -> Iterator[tuple[str, bool]]:
 
 
 def outside_folds(comparison: Comparison) -> float:
-    """Share of the reference's plastic work in no fold; 0 where it did next to none, or has no shapes."""
+    """Share of the reference's plastic work outside folds; 0 if it is nearly elastic or has no shapes."""
     source = comparison.reference
     if source.result.states is None or "energy.dissipated" not in source.result.channels:
         return 0.0
@@ -54,19 +54,19 @@ def outside_folds(comparison: Comparison) -> float:
 
 
 def _outside(comparison: Comparison) -> Iterator[tuple[str, bool]]:
-    """Plastic work where no section turns, as in walls that are crushed along a member or dented."""
+    """Plastic work where no section rotates, as in walls that are dented or crushed along a member."""
     share = outside_folds(comparison)
     if share > OUTSIDE:
         yield (
-            f"{percent(share)} of the plastic work of the {comparison.reference.name} run lies outside its "
-            "folds: walls yield, are dented, or are crushed along their member where sections do not turn, "
-            f"and hinges of the {comparison.candidate.name} model that only bend cannot stand for that.",
+            f"{percent(share)} of the plastic work of the {comparison.reference.name} run is outside its "
+            "folds: walls yield, are dented, or are crushed along their member where sections do not "
+            f"rotate. Hinges of the {comparison.candidate.name} model that only bend cannot represent this.",
             True,
         )
 
 
 def _welds(comparison: Comparison) -> Iterator[tuple[str, bool]]:
-    """Spot welds that failed in the reference: those of rigid bars hold."""
+    """Spot welds that failed in the reference; those of rigid bars cannot fail."""
     first, second = comparison.candidate.name, comparison.reference
     for name, channel in second.result.channels.items():
         match = _FAILED.fullmatch(name)
@@ -75,14 +75,14 @@ def _welds(comparison: Comparison) -> Iterator[tuple[str, bool]]:
             continue
         begin = float(second.result.time[int(np.argmax(channel.values > 0.0))])
         yield (
-            f"{percent(share)} of the spot welds {match[1]} failed in the {second.name} result, by "
-            f"{1e3 * begin:.4g} ms the first: in the {first} model welds hold and sections stay whole.",
+            f"{percent(share)} of the spot welds {match[1]} failed in the {second.name} result, the first "
+            f"by {1e3 * begin:.4g} ms. In the {first} model spot welds cannot fail.",
             True,
         )
 
 
 def _crushed(comparison: Comparison) -> Iterator[tuple[str, bool]]:
-    """Hinges that fold along the member's axis: only rotations are measured in shapes."""
+    """Hinges that are crushed along the member's axis: only rotations are measured in shapes."""
     first, second = comparison.candidate, comparison.reference.name
     for name, channel in first.result.channels.items():
         match = _SLIP.fullmatch(name)
@@ -91,14 +91,14 @@ def _crushed(comparison: Comparison) -> Iterator[tuple[str, bool]]:
             continue
         yield (
             f"Hinge {match[1]} is crushed by {1e3 * most:.3g} mm along its member in the {first.name} "
-            f"result, which its plastic energy holds; of the {second} result rotations alone are "
-            "measured. Compare the crushing by displacements of nodes, or another code's curve.",
+            f"result, and its plastic energy includes this; in the {second} result only rotations are "
+            "measured. Compare the crushing through displacements of nodes or a curve from another code.",
             True,
         )
 
 
 def _still_turning(comparison: Comparison) -> Iterator[tuple[str, bool]]:
-    """Hinges whose largest rotation is no peak, because the run ended first."""
+    """Hinges whose largest rotation is not a peak because the run ended first."""
     found = []
     for source in (comparison.candidate, comparison.reference):
         names = []
@@ -118,14 +118,14 @@ def _still_turning(comparison: Comparison) -> Iterator[tuple[str, bool]]:
     if found:
         end = math.nan if math.isinf(comparison.until) else 1e3 * comparison.until
         yield (
-            f"Still turning when the comparison ends at {end:.4g} ms: {'; '.join(found)}. Largest rotations "
-            "there are those of the end, no peaks: give the run a longer duration.",
+            f"Still rotating when the comparison ends at {end:.4g} ms: {'; '.join(found)}. The largest "
+            "rotations of these hinges are end values, not peaks. Increase the duration.",
             True,
         )
 
 
 def _warnings(comparison: Comparison) -> Iterator[tuple[str, bool]]:
-    """That the runs warn of something themselves, further down on the page."""
+    """Reference to the warnings of both runs further down on the page."""
     counts = [
         f"{len(s.result.warnings)} of the {s.name} run"
         for s in (comparison.candidate, comparison.reference)
@@ -133,6 +133,6 @@ def _warnings(comparison: Comparison) -> Iterator[tuple[str, bool]]:
     ]
     if counts:
         yield (
-            f"Warnings that the runs give themselves ({', '.join(counts)}) stand at the end of the page.",
+            f"The warnings of the runs ({', '.join(counts)}) are at the end of the page.",
             False,
         )

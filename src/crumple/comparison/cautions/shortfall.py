@@ -1,9 +1,9 @@
-"""What is left of a difference when the law, or the bars, are better: read off further models.
+"""Causes of a difference, from further models: bars, laws, or something else.
 
-Three multibody models and a second mesh stand beside the candidate.  Elastic members have the input's laws
-and bars that bend, vibrate and yield; the laws of the shells change the laws too.  So the difference splits
-into that of the bars, that of the laws, and a rest that is the method's.  A second mesh says how well the
-reference is known.
+Three multibody models and a second mesh are solved besides the candidate.  The model with elastic members
+has the laws of the input and bars that bend, vibrate and yield; the model with the laws of the shells has
+other laws as well.  The difference is thereby divided into the part of the bars, the part of the laws, and
+the rest, which is due to the method.  The second mesh shows how accurate the reference is.
 """
 
 from __future__ import annotations
@@ -15,17 +15,17 @@ from crumple.comparison.measure.metrics import HingeComparison, signed
 from crumple.comparison.variant import ELASTIC_MEMBERS, SHELL_LAWS
 
 CLOSE = 0.05
-"""Relative error of rotation and plastic energy up to which a model with the right law counts as right."""
+"""Relative error of rotation and plastic energy up to which laws and bars explain the difference."""
 FOLLOWS = 0.9
-"""Rating of rotation and velocity from which it does."""
+"""Rating of rotation and angular velocity from which they do."""
 SHARP = 0.05
-"""Difference between two meshes above which the reference is not known well enough to judge by."""
+"""Relative difference between two meshes above which there is a caution about the reference."""
 GAIN = 0.1
-"""Gain in the velocity's rating from which missing vibration is named as its reason."""
+"""Gain in the rating of the angular velocity from which missing vibration is named as the cause."""
 
 
 def shortfall(comparison: Comparison) -> Iterator[tuple[str, bool]]:
-    """Sentences on the hinge that absorbed most, and whether each is a caution."""
+    """Sentences on the hinge that absorbed the most energy, and whether each is a caution."""
     hinge = _main(comparison.hinges)
     if hinge is None:
         return
@@ -35,7 +35,7 @@ def shortfall(comparison: Comparison) -> Iterator[tuple[str, bool]]:
 
 
 def _main(hinges: tuple[HingeComparison, ...]) -> HingeComparison | None:
-    """Hinge that absorbed most in the reference, of those that both show."""
+    """Hinge that absorbed the most energy in the reference, among those that both results contain."""
     both = [h for h in hinges if h.first is not None and h.second is not None and h.fold_station is not None]
     return max(both, key=lambda h: h.second.plastic_energy if h.second else 0.0, default=None)
 
@@ -46,15 +46,15 @@ def _vibration(comparison: Comparison, hinge: HingeComparison) -> Iterator[tuple
     elastic = _rating(comparison, ELASTIC_MEMBERS, channel)
     if own is not None and elastic is not None and elastic > own + GAIN:
         yield (
-            f"The angular velocity of hinge {hinge.name} is rated {own:.2f}, with elastic members and the "
-            f"same laws {elastic:.2f}: the fold turns in the beat of the bars' bending vibration, and rigid "
-            "bars have none.",
+            f"The rating of the angular velocity of hinge {hinge.name} is {own:.2f}; with elastic members "
+            f"and the same laws it is {elastic:.2f}. The angular velocity of the fold contains the bending "
+            "vibration of the members, which rigid bars do not have.",
             False,
         )
 
 
 def _laws(comparison: Comparison, hinge: HingeComparison) -> Iterator[tuple[str, bool]]:
-    """What is left once bars bend and laws are those of the reference."""
+    """Difference that remains with elastic bars and the moments of the reference."""
     figures = _figures(comparison, SHELL_LAWS, hinge)
     if figures is None:
         return
@@ -72,16 +72,16 @@ def _laws(comparison: Comparison, hinge: HingeComparison) -> Iterator[tuple[str,
         text += f", ratings {known[0]:.2f} (rotation) and {known[1]:.2f} (velocity)"
     right = abs(rotation) <= CLOSE and energy <= CLOSE and min(known, default=1.0) >= FOLLOWS
     rest = (
-        "the laws and the bending of the bars explain what the multibody answer lacks. (Moments of this very "
-        "run: an explanation, no prediction.)"
+        "hinge laws and bending of the bars explain the difference. (The moments are those of this run, so "
+        "this is an explanation, not a prediction.)"
         if right
-        else "something besides the laws and the bending of the bars is missing too."
+        else "hinge laws and bending of the bars do not explain the whole difference."
     )
-    yield f"{text}: {rest}", False
+    yield f"{text}; {rest}", False
 
 
 def _meshes(comparison: Comparison, hinge: HingeComparison) -> Iterator[tuple[str, bool]]:
-    """How much a second mesh changes the reference."""
+    """Change of the reference with a second mesh."""
     walls = _walls(comparison.reference.result.states)
     found = False
     for source in comparison.variants:
@@ -91,7 +91,7 @@ def _meshes(comparison: Comparison, hinge: HingeComparison) -> Iterator[tuple[st
         found = True
         rotation, energy = figures
         text = (
-            f"On another mesh ({source.name}: {_walls(source.result.states)} walls in place of {walls}) the "
+            f"On another mesh ({source.name}: {_walls(source.result.states)} elements, not {walls}) the "
             f"largest rotation of hinge {hinge.name} differs by {signed(rotation)} and its plastic energy by "
             f"up to {100 * energy:.1f} %"
         )
@@ -99,17 +99,17 @@ def _meshes(comparison: Comparison, hinge: HingeComparison) -> Iterator[tuple[st
         if rated is not None:
             text += f", rating {rated:.2f}"
         doubtful = max(abs(rotation), energy) > SHARP
-        yield f"{text}: the reference is known no better than that.", doubtful
+        yield f"{text}. The reference is not more accurate than this.", doubtful
     if not found and comparison.reference.result.fidelity == "shell":
         yield (
-            "The shell run is one mesh: compare with a second one (--second-mesh) before trusting "
-            "differences of a few per cent.",
+            "The shell model was solved with one mesh only. Solve it with a second mesh (--second-mesh) "
+            "before relying on differences of a few per cent.",
             False,
         )
 
 
 def _figures(comparison: Comparison, name: str, hinge: HingeComparison) -> tuple[float, float] | None:
-    """Errors of largest rotation and plastic energy of one model's hinge; None where they are not known."""
+    """Errors of largest rotation and plastic energy of a hinge in one model; None if they are unknown."""
     own = next((h for h in comparison.variant_hinges.get(name, ()) if h.name == hinge.name), None)
     rotation = None if own is None else own.error("rotation_max")
     if own is None or rotation is None:

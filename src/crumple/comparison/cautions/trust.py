@@ -1,4 +1,4 @@
-"""A plain statement of trust: what the candidate got right, what it could not see, if the check is sound."""
+"""Statement of trust: what agrees, what the candidate cannot represent, whether the reference is sound."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from crumple.comparison.cautions.fold_trust import across_joint, folds_said, largest_turn
-from crumple.comparison.cautions.run_cautions import said_of_runs
+from crumple.comparison.cautions.fold_trust import across_joint, fold_sentences, largest_turn
+from crumple.comparison.cautions.run_cautions import run_sentences
 from crumple.comparison.cautions.shortfall import shortfall
 from crumple.comparison.cautions.verdict import SMALL, agreement, verdict
 from crumple.comparison.comparison import Comparison, Source, Trust
@@ -20,17 +20,17 @@ from crumple.numeric.arrays import Floats
 from crumple.structure import PlacedHinge, Structure, placed_hinges
 
 ELASTIC = 0.05
-"""Share of elastic energy from which rigid bars are worth a word."""
+"""Share of elastic energy from which rigid hinges are a caution."""
 VIBRATES = 0.05
-"""Bending of a bar over the hinge's rotation from which it is worth a word."""
+"""Bending of a bar over the rotation of the hinge from which it is reported."""
 SWING = 0.1
-"""Share of the largest bending below which a way back is no swing: noise of planes fitted to few points."""
+"""Share of the largest bending below which a reversal is noise of planes fitted to few points."""
 MOST_NAMED = 6
-"""Hinges of an order that are named."""
+"""Number of hinges named in an order of opening."""
 HOURGLASS = 0.05
-"""Hourglass energy over internal energy above which a shell run is no reference."""
+"""Hourglass energy over internal energy above which a shell run is not suitable as reference."""
 TOUCHED = 0.005
-"""Contact energy over the energy put in from which walls count as having touched."""
+"""Contact energy over the energy input from which walls count as having touched."""
 
 
 def trust_of(comparison: Comparison, structure: Structure) -> Trust:
@@ -50,14 +50,14 @@ def trust_of(comparison: Comparison, structure: Structure) -> Trust:
     for text, serious in (
         *agreement(comparison),
         *_ranges(comparison, hinges),
-        *folds_said(comparison, structure, hinges),
+        *fold_sentences(comparison, structure, hinges),
         *_order(comparison),
         *_elastic(comparison, hinges),
         *_bending(comparison),
         *_contact(comparison, bool(structure.obstacles)),
         *_reference(comparison.reference),
         *shortfall(comparison),
-        *said_of_runs(comparison),
+        *run_sentences(comparison),
     ):
         (cautions if serious else facts).append(text)
     level, headline = verdict(comparison, _missed(comparison, structure, hinges), bool(cautions))
@@ -69,22 +69,22 @@ def trust_of(comparison: Comparison, structure: Structure) -> Trust:
 
 
 def _ended(source: Source) -> str:
-    """How a run ended that did not end well."""
+    """Status and reason of a run that did not complete."""
     reason = f": {source.result.reason.rstrip('.')}" if source.result.reason else ""
     return f"The {source.name} run: {source.result.status.value}{reason}."
 
 
 def _unfinished(comparison: Comparison) -> str:
-    """Headline where one of both runs did not end well."""
+    """Headline if one of the two runs did not complete."""
     ends = [s.result.time[-1] for s in (comparison.candidate, comparison.reference)]
-    text = "A run did not end well"
+    text = "A run did not complete"
     if comparison.until < max(ends):
-        return f"{text}: only the {1e3 * comparison.until:.4g} ms that both have are compared."
-    return f"{text}: read what follows with that in mind."
+        return f"{text}: only the first {1e3 * comparison.until:.4g} ms, which both contain, are compared."
+    return f"{text}: the figures below are of limited value."
 
 
 def _missed(comparison: Comparison, structure: Structure, hinges: dict[str, PlacedHinge]) -> str:
-    """Members in which folds without a hinge took up much of the plastic work; empty without any."""
+    """Places of folds without a hinge that absorbed much of the plastic work; empty without any."""
     motions = (*comparison.reference.hinges, *comparison.reference.extra)
     work = {m.name: float(m.plastic_work[-1]) if m.plastic_work.size else 0.0 for m in motions}
     most = max(work.values(), default=0.0)
@@ -97,7 +97,7 @@ def _missed(comparison: Comparison, structure: Structure, hinges: dict[str, Plac
 
 
 def _ranges(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator[tuple[str, bool]]:
-    """Laws inside or outside their ranges, in either result."""
+    """Whether hinges stay inside the ranges of their laws, in both results."""
     inside = []
     for name, hinge in hinges.items():
         limit, jams = hinge.law.validity.rotation_max, hinge.law.jamming_angle
@@ -108,16 +108,14 @@ def _ranges(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator[
             reached = float(np.max(motion.sense * motion.rotation))
             if jams is not None and reached > jams:
                 yield (
-                    f"Hinge {name} reaches {deg(reached)} in the {source.name} result; the walls of its "
-                    "law jam at "
-                    f"{deg(jams)}, and what the law says beyond is a guess.",
+                    f"Hinge {name} reaches {deg(reached)} in the {source.name} result, beyond the jamming "
+                    f"angle of its law ({deg(jams)}). The moment beyond it is not supported by evidence.",
                     True,
                 )
             elif reached > limit:
                 yield (
                     f"Hinge {name} reaches {deg(reached)} in the {source.name} result, outside the range "
-                    "of its law "
-                    f"({deg(limit)}: {hinge.law.validity.basis}).",
+                    f"of its law (up to {deg(limit)}: {hinge.law.validity.basis}).",
                     True,
                 )
             else:
@@ -131,7 +129,7 @@ def _ranges(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator[
 
 
 def _order(comparison: Comparison) -> Iterator[tuple[str, bool]]:
-    """Order of opening of hinges that both results opened."""
+    """Order of opening of the hinges that opened in both results."""
     first, second = comparison.candidate.name, comparison.reference.name
     orders = {name: [o.name for o in found] for name, found in comparison.opened.items()}
     a, b = orders[first], orders[second]
@@ -141,11 +139,11 @@ def _order(comparison: Comparison) -> Iterator[tuple[str, bool]]:
     if common[0] == common[1]:
         yield f"Hinges open in the same order in both: {_listed(common[0])}.", False
         return
-    # they part company here
+    # first difference of the two orders
     at = next(i for i, (x, y) in enumerate(zip(*common, strict=True)) if x != y)
-    same = f"After the first {at}, the same in both, hinges" if at else "Hinges"
+    same = f"After the first {at}, which agree, the hinges" if at else "The hinges"
     yield (
-        f"{same} open in another order: {_listed(common[0][at:])} in the {first} result, "
+        f"{same} open in different orders: {_listed(common[0][at:])} in the {first} result, "
         f"{_listed(common[1][at:])} in the {second} result.",
         True,
     )
@@ -157,7 +155,7 @@ def _listed(names: list[str]) -> str:
 
 
 def _elastic(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator[tuple[str, bool]]:
-    """Share of elastic energy, and whether the candidate can hold any."""
+    """Share of elastic energy, and whether the hinges of the candidate can store any."""
     stored, put_in = (
         largest_of(comparison.reference.result, "energy.elastic"),
         energy_put_in(comparison.reference.result),
@@ -166,20 +164,20 @@ def _elastic(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator
         return
     share = stored / put_in
     text = (
-        f"At most {percent(share)} of the energy put in is elastic in the {comparison.reference.name} result"
+        f"At most {percent(share)} of the energy input is elastic in the {comparison.reference.name} result"
     )
     rigid = [name for name, hinge in hinges.items() if hinge.record.form is not Form.ELASTIC_PLASTIC]
     if rigid and share > ELASTIC:
         text += (
-            f"; hinges that are rigid until their capacity is reached ({', '.join(rigid[:4])}) hold none of "
-            "it, so the "
-            f"{comparison.candidate.name} rotations lack the elastic part and peak early"
+            f". Hinges that are rigid until their capacity is reached ({', '.join(rigid[:4])}) store none "
+            f"of it, so the {comparison.candidate.name} rotations lack the elastic part and reach their "
+            "peak early"
         )
     yield text + ".", bool(rigid) and share > ELASTIC
 
 
 def _bending(comparison: Comparison) -> Iterator[tuple[str, bool]]:
-    """Bending and vibration of the bars between hinges, which rigid bars have none of."""
+    """Bending and vibration of the bars between hinges, which rigid bars do not have."""
     for motion in comparison.reference.hinges:
         if motion.far is None or not motion.fold or motion.time.size < 5:
             continue
@@ -188,26 +186,26 @@ def _bending(comparison: Comparison) -> Iterator[tuple[str, bool]]:
         if not (most > 0.0 and reach > VIBRATES * most):
             continue
         swings = swings_of(bent, SWING * reach)
-        vibrates = f", and vibrates there by up to ±{deg(max(swings))}" if len(swings) > 1 else ""
+        vibrates = f", with a vibration of up to ±{deg(max(swings))}" if len(swings) > 1 else ""
         yield (
             f"Member {motion.member} bends between the fold of hinge {motion.name} and its far end by up to "
-            f"{deg(reach)} ({percent(reach / most)} of the rotation){vibrates}: bars between hinges are "
-            "rigid and cannot.",
+            f"{deg(reach)} ({percent(reach / most)} of the rotation){vibrates}. The rigid bars of the "
+            f"{comparison.candidate.name} model do not contain this.",
             False,
         )
 
 
 def swings_of(values: Floats, least: float) -> list[float]:
-    """Amplitudes of a history's swings to and fro: half the way from one turning point to the next.
+    """Amplitudes of the oscillation of a history: half the difference of successive turning points.
 
-    The way to the first turning point, from rest, and that after the last are no swings.
+    The parts before the first turning point and after the last one are not counted.
 
     Parameters
     ----------
     values
         (n,).
     least
-        A way back shorter than this is no turn.
+        A reversal smaller than this is not a turning point.
     """
     turns, side, best = [], 0.0, float(values[0])
     for value in map(float, values):
@@ -222,31 +220,31 @@ def swings_of(values: Floats, least: float) -> list[float]:
 
 
 def _contact(comparison: Comparison, obstacles: bool) -> Iterator[tuple[str, bool]]:
-    """Whether walls touched, which laws up to jamming know nothing of."""
+    """Whether walls touched, which laws up to jamming do not represent."""
     touched, put_in = (
         largest_of(comparison.reference.result, "energy.contact"),
         energy_put_in(comparison.reference.result),
     )
     if touched is None or not put_in > 0.0 or not touched > TOUCHED * put_in:
         return
-    energy = f"contact energy up to {percent(touched / put_in)} of the energy put in"
+    energy = f"contact energy up to {percent(touched / put_in)} of the energy input"
     if obstacles:
         yield (
-            f"In the {comparison.reference.name} result walls press on obstacles, or on each other "
-            f"({energy}, which does not say on which): where walls of a fold touch, it is stiffer than a law "
-            "without contact.",
+            f"In the {comparison.reference.name} result walls press on obstacles or on each other "
+            f"({energy}; the energy does not distinguish them). A fold whose walls touch is stiffer than a "
+            "law without contact.",
             False,
         )
         return
     yield (
-        f"Walls touch in the {comparison.reference.name} result ({energy}): from then on a fold is stiffer "
-        "than a law without contact.",
+        f"Walls touch in the {comparison.reference.name} result ({energy}). From then on the fold is "
+        "stiffer than a law without contact.",
         True,
     )
 
 
 def _reference(source: Source) -> Iterator[tuple[str, bool]]:
-    """Whether the reference itself can be believed."""
+    """Whether the shell run is suitable as reference."""
     if source.result.fidelity != "shell":
         return
     internal = sum(
@@ -257,7 +255,7 @@ def _reference(source: Source) -> Iterator[tuple[str, bool]]:
     hourglass = largest_of(source.result, "energy.hourglass")
     if hourglass is not None and internal > 0.0 and hourglass > HOURGLASS * internal:
         yield (
-            f"Hourglass energy is {percent(hourglass / internal)} of the internal energy: the mesh is no "
-            "reference.",
+            f"Hourglass energy is {percent(hourglass / internal)} of the internal energy (acceptable: up to "
+            f"{percent(HOURGLASS)}). The shell run is not suitable as reference; refine the mesh.",
             True,
         )

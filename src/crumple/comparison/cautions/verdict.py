@@ -1,4 +1,4 @@
-"""Level and headline of a comparison, and how far each hinge agrees."""
+"""Level and headline of a comparison, and the errors of each hinge."""
 
 from __future__ import annotations
 
@@ -9,73 +9,73 @@ from crumple.comparison.comparison import Comparison
 from crumple.comparison.measure.metrics import HingeComparison, deg, percent, signed
 
 AGREES = 0.12
-"""Relative error of largest rotation and plastic energy up to which a concept-stage answer agrees."""
+"""Relative error of largest rotation and plastic energy up to which a concept-stage result agrees."""
 FAR_OFF = 0.25
-"""The same from which it does not."""
+"""Relative error above which it does not agree."""
 SMALL = 0.1
-"""Share of the largest plastic energy, in either result, below which a hinge's own errors decide nothing."""
+"""Share of the largest plastic energy, in either result, below which a hinge does not affect the verdict."""
 MOSTLY = 0.5
-"""Share of plastic work outside folds from which a comparison without any says so first."""
-MOST_TOLD = 8
-"""Hinges whose errors are told one by one, the farthest off first."""
+"""Share of plastic work outside folds from which it is the headline of a comparison without folds."""
+MOST_LISTED = 8
+"""Number of hinges whose errors are listed one by one, the largest errors first."""
 
 
 def verdict(comparison: Comparison, missed: str, doubtful: bool) -> tuple[str, str]:
-    """Level and headline of two runs that ended well.
+    """Level and headline of two runs that completed.
 
     Parameters
     ----------
     comparison
         Everything but its own statement is used.
     missed
-        Where the reference folds without a hinge; empty where it does not.
+        Where the reference folds without a hinge; empty if nowhere.
     doubtful
-        Whether there is anything to warn of.
+        Whether there are cautions.
     """
     first, second = comparison.candidate.name, comparison.reference.name
     if missed:
         return (
             "bad",
-            f"The {first} answer is wrong: the {second} run folds where no hinge was put ({missed}).",
+            f"The {first} result is wrong: the {second} run folds where there is no hinge ({missed}).",
         )
     alone = _alone(comparison)
     if alone:
         return (
             "bad",
-            f"The {first} answer is not that of the {second} run: it folds where that does not "
+            f"The {first} result disagrees with the {second} run: it folds where that run does not "
             f"({', '.join(alone)}).",
         )
     return _by_errors(comparison, doubtful)
 
 
 def _by_errors(comparison: Comparison, doubtful: bool) -> tuple[str, str]:
-    """Level and headline where both fold at the same hinges."""
+    """Level and headline if both fold at the same hinges."""
     first, second = comparison.candidate.name, comparison.reference.name
     off = _worst(comparison)
     outside = outside_folds(comparison)
     if off is None and outside > MOSTLY:
         return (
             "bad",
-            f"The {second} run takes up its energy where nothing bends: {percent(outside)} of its plastic "
-            "work lies outside folds.",
+            f"The {second} run absorbs its energy where nothing bends: {percent(outside)} of its plastic "
+            "work is outside folds.",
         )
     if off is None:
         return "caution", f"Nothing folds in the {second} run: there is no plastic rotation to compare."
-    said = (
-        f"largest rotation off by {percent(off[0])}, plastic energy at equal plastic rotation by up to "
-        f"{percent(off[1])}"
+    errors = (
+        f"the largest rotation differs by {percent(off[0])}, the plastic energy at equal plastic rotation by "
+        f"up to {percent(off[1])}"
     )
     if max(off) > FAR_OFF:
-        return "bad", f"The {first} answer is not that of the {second} run: {said}."
+        return "bad", f"The {first} result disagrees with the {second} run: {errors}."
     if max(off) > AGREES:
-        return "caution", f"The {first} answer is only roughly that of the {second} run: {said}."
+        return "caution", f"The {first} result agrees only roughly with the {second} run: {errors}."
     if doubtful:
-        return "caution", f"Both answers agree, with reservations: {said}."
-    return "good", f"Both answers agree: {said}."
+        return "caution", f"Both results agree, with reservations: {errors}."
+    return "good", f"Both results agree: {errors}."
 
 
 def _alone(comparison: Comparison) -> list[str]:
-    """Hinges that took up much of the candidate's plastic work, where the reference has no fold."""
+    """Hinges that absorbed much of the candidate's plastic work where the reference has no fold."""
     own = [h for h in comparison.hinges if h.first is not None and h.second is not None]
     most = max((h.first.plastic_energy for h in own if h.first), default=0.0)
     opened = {o.name for o in comparison.opened[comparison.candidate.name]}
@@ -100,27 +100,27 @@ def _worst(comparison: Comparison) -> tuple[float, float] | None:
 def agreement(comparison: Comparison) -> Iterator[tuple[str, bool]]:
     """Errors of rotation and energy of the hinges that matter most, and whether each is a caution."""
     most = max(map(absorbed, comparison.hinges), default=0.0)
-    told = []
+    rows = []
     for hinge in comparison.hinges:
         off = _errors(hinge)
         if off:
             matters = absorbed(hinge) > SMALL * most
-            told.append((max(map(abs, off)) > AGREES and matters, matters, max(map(abs, off)), hinge))
-    # the farthest off first, and hinges that took up little last
-    told.sort(key=lambda one: one[:3], reverse=True)
-    for wrong, _, _, hinge in told[:MOST_TOLD]:
+            rows.append((max(map(abs, off)) > AGREES and matters, matters, max(map(abs, off)), hinge))
+    # largest errors first, and hinges that absorbed little last
+    rows.sort(key=lambda one: one[:3], reverse=True)
+    for wrong, _, _, hinge in rows[:MOST_LISTED]:
         yield _agreement(comparison, hinge), wrong
-    if len(told) > MOST_TOLD:
-        count = sum(one[0] for one in told[MOST_TOLD:])
+    if len(rows) > MOST_LISTED:
+        count = sum(one[0] for one in rows[MOST_LISTED:])
         yield (
-            f"{len(told) - MOST_TOLD} further hinges are nearer, or took up little: {count} of them are off "
-            f"by more than {percent(AGREES)}.",
+            f"{len(rows) - MOST_LISTED} further hinges have smaller errors or absorbed little energy; "
+            f"{count} of them differ by more than {percent(AGREES)}.",
             count > 0,
         )
 
 
 def _errors(hinge: HingeComparison) -> list[float]:
-    """Errors that count: of the largest rotations, and of plastic energy at equal plastic rotation."""
+    """Errors of the largest rotations and of the plastic energy at equal plastic rotation."""
     found = [hinge.error("rotation_max"), hinge.error("plastic_rotation"), worst(hinge.energy_errors())]
     return [] if found[0] is None else [error for error in found if error is not None]
 

@@ -1,1 +1,1 @@
-"""What a result says of folds, sections and energies."""
+"""Folds, rotations of sections, hinge histories and energies measured in a result."""

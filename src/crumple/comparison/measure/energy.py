@@ -1,4 +1,4 @@
-"""Energies of a whole run, by which shares are told."""
+"""Energies of a whole run, used as the basis of shares."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The moment in a fold: the result's own, else the one conjugate to plastic work."""
+"""Moment in a fold: the result's own if there is one, else the moment conjugate to plastic work."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from crumple.numeric.arrays import Floats
 from crumple.result import Result
 
 WINDOW = np.radians(2.0)
-"""Rotation [rad] over which work is divided by rotation: a few outputs of a run, a small part of a fold."""
+"""Window of rotation [rad] over which work is divided by rotation: a few outputs, a small part of a fold."""
 ELASTIC_WORK = 0.01
-"""Share of the final plastic work below which a fold is taken as elastic."""
+"""Share of the final plastic work below which a fold counts as elastic."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +30,7 @@ class Bent:
 
 
 def moment_in(result: Result, name: str, bent: Bent) -> tuple[Floats, str]:
-    """Moment of a hinge by name, in the sense of the rotation [N m], and where it is from."""
+    """Moment of a hinge by name, in the sense of the rotation [N m], and its origin in words."""
     if bent.axes is None:
         found = _histories(result, [f"hinge.{name}.moment"], bent.times)
     else:
@@ -39,12 +39,12 @@ def moment_in(result: Result, name: str, bent: Bent) -> tuple[Floats, str]:
         along = found[:, 0] if bent.axes is None else np.einsum("ti,ti->t", found, bent.axes)
         return along, "moment from the result"
     if not bent.work.any():
-        return np.zeros_like(bent.times), "no moment known"
+        return np.zeros_like(bent.times), "no moment available"
     return conjugate_moment(bent.rotation, bent.work, bent.stiffness), "moment conjugate to plastic work"
 
 
 def _histories(result: Result, names: list[str], times: Floats) -> Floats | None:
-    """Channels at given times, (n, k); None where one is missing or not finite."""
+    """Channels at given times, (n, k); None if one is missing or not finite."""
     found = [result.channels[name].values for name in names if name in result.channels]
     if len(found) < len(names) or not all(np.isfinite(values).all() for values in found):
         return None
@@ -66,14 +66,14 @@ def conjugate_moment(rotation: Floats, work: Floats, stiffness: float) -> Floats
     Returns
     -------
     Floats
-        [N m], (n,), with the sign of the rotation.  After the largest rotation the last value stays.
+        [N m], (n,), with the sign of the rotation.  After the largest rotation the last value is kept.
     """
     side = float(np.sign(rotation[int(np.argmax(np.abs(rotation)))]) or 1.0)
     turned = np.maximum.accumulate(np.maximum(side * rotation, 0.0))
     grid, first = np.unique(turned, return_index=True)
     if grid.size < 3:
         return np.zeros_like(rotation)
-    # the work done until a rotation is first passed; a window shrinks at both ends of the path
+    # work done until a rotation is first passed; the window shrinks at both ends
     done = work[np.append(first[1:] - 1, len(work) - 1)]
     low = np.clip(grid - WINDOW / 2, grid[0], grid[-1])
     high = np.clip(grid + WINDOW / 2, grid[0], grid[-1])

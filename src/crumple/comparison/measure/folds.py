@@ -1,13 +1,13 @@
-"""Where a result folded: found in the plastic work along each member, not assumed.
+"""Places where a result folded, found from the plastic work along each member.
 
-Plastic work is summed between neighbouring sections and divided by their distance.  A fold is a stretch in
-which this density passes a share of the largest density in the structure; stretches nearer to each other than
-half the section's depth are one.  Its place is the mean station weighted with the density.  The planes
-between which its rotation is measured lie half a depth outside, where the sections are plane again, but no
-nearer to a neighbouring fold than half way.
+Plastic work is summed between neighbouring sections and divided by their distance.  A fold is a range in
+which this density exceeds a share of its largest value in the structure; ranges closer to each other than
+half the section's depth are one fold.  Its position is the mean station weighted with the density.  The
+planes between which its rotation is measured are half a depth outside, where the sections are plane again,
+but no farther than half-way to a neighbouring fold.
 
-Without a field of plastic work, plastic strain times wall area takes its place; without that the change of
-section rotation between neighbours.
+If there is no field of plastic work, plastic strain times wall area is used instead; without that, the
+change of section rotation between neighbours.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from crumple.result import States
 WORK, STRAIN = "plastic_work", "plastic_strain"
 """Names of cell fields: plastic work of a piece of wall [J], its equivalent plastic strain [-]."""
 EDGE = 0.05
-"""Share of the largest density at which a fold ends; it holds some nine tenths of the plastic work."""
+"""Share of the largest density at which a fold ends; a fold contains some nine tenths of the plastic work."""
 OPENED = np.radians(1.0)
-"""Relative rotation [rad] from which a stretch that yields counts as folded: above its elastic bending."""
+"""Relative rotation [rad] from which a yielded range counts as a fold: above its elastic bending."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,9 +37,9 @@ class Fold:
     member
         Its name.
     station
-        Place along the member [m].
+        Position along the member [m].
     start, end
-        Stretch that yields [m].
+        Yielded range [m].
     planes
         Indices of the sections on both sides between which its rotation is measured.
     share
@@ -61,7 +61,7 @@ def find_folds(states: States, sections: dict[str, Sections], depths: dict[str, 
     Parameters
     ----------
     states
-        With the cell field ``plastic_work``, or ``plastic_strain``, where there is one.
+        With the cell field ``plastic_work`` or ``plastic_strain``, if available.
     sections
         Per member.
     depths
@@ -84,7 +84,7 @@ def find_folds(states: States, sections: dict[str, Sections], depths: dict[str, 
 
 
 def _amount(states: States, own: Sections) -> Floats:
-    """Plastic work, or what stands for it, between neighbouring sections, (n_states, n_rings - 1)."""
+    """Plastic work, or its substitute, between neighbouring sections, (n_states, n_rings - 1)."""
     bins = len(own.stations) - 1
     field = next((name for name in (WORK, STRAIN) if name in states.cell_data), None)
     if field is None:
@@ -109,7 +109,7 @@ def _bending(own: Sections) -> Floats:
 
 
 def _zones(inside: np.ndarray, stations: Floats, gap: float) -> list[tuple[int, int]]:
-    """Runs of intervals (first, last) that are inside; with less than a gap [m] between them they are one."""
+    """Runs of intervals (first, last) that are inside; runs less than a gap [m] apart are joined."""
     zones: list[tuple[int, int]] = []
     for i in np.flatnonzero(inside).tolist():
         if zones and stations[i] - stations[zones[-1][1] + 1] < gap:
@@ -135,7 +135,7 @@ def _share(fold: Fold, amount: Floats, totals: Floats) -> Fold:
 
 
 def _with_planes(folds: list[Fold], own: Sections, clear: float) -> list[Fold]:
-    """The same folds with planes half a depth outside, and no nearer to the next than half way."""
+    """The same folds with planes half a depth outside, at most half-way to the next fold."""
     ends, placed = own.stations, []
     for i, fold in enumerate(folds):
         low = (folds[i - 1].end + fold.start) / 2 if i else float(ends[0])
@@ -147,7 +147,7 @@ def _with_planes(folds: list[Fold], own: Sections, clear: float) -> list[Fold]:
 
 
 def _turned(fold: Fold, own: Sections) -> float:
-    """Largest angle between both planes over time [rad]."""
+    """Largest angle between the two planes over time [rad]."""
     first, last = fold.planes
     start = float(own.start_normals[first] @ own.start_normals[last])
     cosine = np.einsum("ti,ti->t", own.normals[:, first], own.normals[:, last]) * np.sign(start or 1.0)

@@ -1,4 +1,4 @@
-"""What engineers ask of a hinge, as numbers, of one result and of another beside it."""
+"""Figures of a hinge in one result and in two results side by side: rotation, energy, moment, opening."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ from crumple.numeric.arrays import Floats
 OPENED_AT = math.radians(0.5)
 """Plastic rotation [rad] from which a hinge counts as open."""
 NOTHING = 1e-6
-"""Plastic rotation [rad] below which there is none: work over it is no moment."""
+"""Plastic rotation [rad] below which no mean moment (work over rotation) is computed."""
 STEPS = (1.0, 2.0, 5.0)
-"""Round steps of the rotations [deg] at which energies are compared, times powers of ten."""
+"""Round steps of the rotations [deg] at which energies are compared, to be multiplied by powers of ten."""
 LEVELS = 5
-"""About so many of them."""
+"""Approximate number of these rotations."""
 
 
 @dataclass(frozen=True, eq=False)
 class HingeMetrics:
-    """Figures of one hinge in one result; None where they cannot be had.
+    """Figures of one hinge in one result; None where they are not available.
 
     Attributes
     ----------
     rotation_max, time_of_peak
         Largest magnitude [rad] and when [s].
     far_rotation_max
-        The same as the far end shows it [rad].
+        Largest magnitude of the rotation seen from the far end [rad].
     plastic_rotation
         Largest magnitude of plastic rotation [rad].
     plastic_energy
@@ -62,7 +62,7 @@ class HingeComparison:
     name, member, station
         Of the hinge [m].
     first, second
-        In the candidate (multibody) and in the reference (shell); None where that result does not show it.
+        In the candidate (multibody) and in the reference (shell); None if that result does not contain it.
     levels
         Plastic rotations [rad] of `HingeMetrics.energy_at`.
     fold_station, fold_extent
@@ -82,7 +82,7 @@ class HingeComparison:
     how: str = ""
 
     def error(self, quantity: str) -> float | None:
-        """Relative error of a figure of the candidate; None where the reference has no fold or no figure."""
+        """Relative error of a figure of the candidate; None if the reference has no fold or no figure."""
         if self.first is None or self.second is None or self.fold_station is None:
             return None
         a, b = getattr(self.first, quantity), getattr(self.second, quantity)
@@ -117,7 +117,7 @@ def metrics_of(motion: HingeMotion, levels: tuple[float, ...]) -> HingeMetrics:
     motion
         Its history.
     levels
-        Plastic rotations [rad] at which the energy is wanted.
+        Plastic rotations [rad] at which the energy is computed.
     """
     side = motion.sense
     peak = int(np.argmax(side * motion.rotation))
@@ -139,7 +139,7 @@ def metrics_of(motion: HingeMotion, levels: tuple[float, ...]) -> HingeMetrics:
 
 
 def opening_time(time: Floats, plastic: Floats) -> float | None:
-    """When a growing plastic rotation [rad] passes the opening rotation [s]; None if never."""
+    """Time at which a growing plastic rotation [rad] passes the opening rotation [s]; None if never."""
     open_ = np.flatnonzero(plastic >= OPENED_AT)
     if not open_.size:
         return None

@@ -1,19 +1,19 @@
-"""What each hinge did, in one shape for both fidelities.
+"""Motion of each hinge, in one form for both fidelities.
 
-A multibody result says it in its channels.  In a shell result it is measured:
+A multibody result contains it in its channels.  In a shell result it is measured:
 
 - rotation: of the section plane beyond the fold relative to the one before it, about the hinge's axis, which
   moves with the plane before it;
-- plastic work: what is dissipated between the planes;
-- moment: the channel of that name where the result has one, else the moment conjugate to plastic work, work
-  over rotation across a window of rotation;
+- plastic work: the energy dissipated between the planes;
+- moment: the channel of that name if the result has one, else the moment conjugate to plastic work, that is,
+  work over rotation in a window of rotation;
 - plastic rotation: rotation - M/k, k = EI over the distance of the planes.
 
 A hinge about two bending axes has one rotation here: the angle by which it bends, whatever the axis, in both
 results, with 1/k = cos^2/k_y + sin^2/k_z in the direction in which it bends most.
 
-The rate of rotation is in every source the change of rotation from shape to shape: a rate at one instant
-shows vibration that a rate over an interval does not.
+In every source the rate of rotation is computed from the rotations of successive shapes: a rate at one
+instant shows vibration that a rate over an interval does not.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from crumple.result import Result
 from crumple.structure import PlacedHinge, Structure
 
 REACH = 2.0
-"""A fold belongs to a hinge within this many times the section's largest side along the member."""
+"""Distance along the member within which a fold belongs to a hinge, over the section's largest side."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,9 +42,9 @@ class HingeMotion:
     Attributes
     ----------
     name
-        Of the hinge; for a fold where none was put ``MEMBER at 123 mm``.
+        Of the hinge; for a fold without a hinge ``MEMBER at 123 mm``.
     member, station
-        Place along a member [m].
+        Position along a member [m].
     time
         [s], (n,).
     rotation, rotation_rate, plastic_rotation
@@ -56,10 +56,10 @@ class HingeMotion:
     how
         How it was measured, in one sentence.
     far
-        Rotation as the far end of its side of the member shows it [rad], (n,): that of the line between the
-        member's ends relative to the nearer end's section; None without shapes.
+        Rotation seen from the far end of the member [rad], (n,): rotation of the line between the ends of
+        the member relative to the section at the nearer end; None without shapes.
     extent
-        Stretch of the fold [m], or None.
+        Range of the fold [m], or None.
     planes
         Stations of the planes [m] that the rotation is measured between, or None.
     crushed
@@ -87,13 +87,13 @@ class HingeMotion:
 
     @property
     def sense(self) -> float:
-        """+1 or -1: the sense in which it turned farthest."""
+        """+1 or -1: the sense of the largest rotation."""
         if not self.rotation.size:
             return 1.0
         return float(np.sign(self.rotation[int(np.argmax(np.abs(self.rotation)))]) or 1.0)
 
     def until(self, end: float) -> HingeMotion:
-        """The same motion up to a time [s], the first instant at least, and the one next to the time."""
+        """The same motion up to the first output time not before a time [s]."""
         last = int(np.searchsorted(self.time, end))
         if last + 1 >= self.time.size:
             return self
@@ -155,16 +155,16 @@ class Measured:
     folds: tuple[Fold, ...]
     hinges: tuple[HingeMotion, ...]
     extra: tuple[HingeMotion, ...]
-    """Folds where no hinge was put."""
+    """Folds without a hinge."""
 
 
 def measured(result: Result, structure: Structure, hinges: Sequence[PlacedHinge]) -> Measured:
-    """Measure what a result with shapes did at each hinge, and where else it folded.
+    """Measure the motion of each hinge in a result with shapes, and folds elsewhere.
 
     Parameters
     ----------
     result
-        With states; histories of energy are taken where it has them.
+        With states; its histories of energy are used if available.
     structure
         For sections, materials and axes.
     hinges
@@ -201,7 +201,7 @@ def member_sections(result: Result, structure: Structure) -> dict[str, Sections]
 
 @dataclass(frozen=True)
 class _Where:
-    """The part of a placed hinge that measuring needs."""
+    """The data of a placed hinge that the measurement needs."""
 
     name: str
     member: str
@@ -212,7 +212,7 @@ class _Where:
 
 @dataclass(frozen=True)
 class _Site:
-    """Hinge or stand-in, its fold if any, and the sections on both sides."""
+    """Hinge (or one created for a fold without a hinge), its fold if any, and the sections on both sides."""
 
     hinge: PlacedHinge | _Where
     fold: Fold | None
@@ -243,7 +243,7 @@ def matched(folds: Sequence[Fold], hinges: Sequence[PlacedHinge], depths: dict[s
 def _planes(
     own: Sections, hinge: PlacedHinge, fold: Fold | None, hinges: Sequence[PlacedHinge], depth: float
 ) -> tuple[int, int]:
-    """Sections on both sides of a hinge: those of its fold, but no farther than half way to other hinges."""
+    """Sections on both sides of a hinge: those of its fold, but no farther than half-way to other hinges."""
     along = sorted(other.station for other in hinges if other.member == hinge.member)
     place = along.index(hinge.station)
     low = (along[place - 1] + hinge.station) / 2 if place else -np.inf
@@ -260,7 +260,7 @@ def _planes(
 
 
 def _stand_in(structure: Structure, own: Sections, fold: Fold) -> _Where:
-    """A hinge for a fold where none was put, about the section axis about which it turned more."""
+    """A hinge for a fold without one, about the section axis about which it rotated more."""
     frame = structure.frame_of(fold.member)
     first, last = fold.planes
     turns = {
@@ -281,7 +281,7 @@ def _measure(result: Result, structure: Structure, own: Sections, site: _Site) -
     work = _work(result, own.times, fold)
     # the result's channel is about one axis
     axes = own.bend_axes(first, last) if two_ways else None
-    moment, said = moment_in(result, hinge.name, Bent(own.times, rotation, work, stiffness, axes))
+    moment, origin = moment_in(result, hinge.name, Bent(own.times, rotation, work, stiffness, axes))
     plastic = rotation - moment / stiffness if fold is not None else np.zeros_like(rotation)
     elastic = work < ELASTIC_WORK * max(float(work.max(initial=0.0)), 1e-300)
     plastic = np.where(elastic, 0.0, plastic)
@@ -292,7 +292,7 @@ def _measure(result: Result, structure: Structure, own: Sections, site: _Site) -
     )
     how = (
         f"{'The angle between' if two_ways else 'Between'} best-fit planes of the sections at {a * 1e3:.0f} "
-        f"and {b * 1e3:.0f} mm of member {hinge.member} ({where}); {said}; elastic part M/k "
+        f"and {b * 1e3:.0f} mm of member {hinge.member} ({where}); {origin}; elastic part M/k "
         f"with k = {stiffness / 1e3:.3g} kN m/rad."
     )
     return HingeMotion(
@@ -344,7 +344,7 @@ def _stiffness(structure: Structure, own: Sections, site: _Site) -> float:
 
 
 def _far(own: Sections, hinge: PlacedHinge | _Where) -> Floats:
-    """Rotation of a hinge as the far end of its member shows it [rad], (n_states,)."""
+    """Rotation of a hinge seen from the far end of its member [rad], (n_states,)."""
     if bends_two_ways(hinge):
         near = hinge.station <= (own.stations[0] + own.stations[-1]) / 2
         return own.chord_bend(0 if near else len(own.stations) - 1)
@@ -352,11 +352,11 @@ def _far(own: Sections, hinge: PlacedHinge | _Where) -> Floats:
 
 
 def far_rotation(own: Sections, station: float, axis: Floats) -> Floats:
-    """Rotation of a hinge as the far end of its member shows it [rad], (n_states,).
+    """Rotation of a hinge seen from the far end of its member [rad], (n_states,).
 
-    For a hinge in the member's first half the line between the ends turns relative to the first section; for
-    one in the second half the last section turns relative to that line.  For a single hinge at a clamp this
-    is the angle under which the clamp sees the free end.
+    For a hinge in the member's first half: rotation of the line between the ends relative to the first
+    section; in the second half: rotation of the last section relative to that line.  For a single hinge at
+    a clamp this is the angle at which the free end appears from the clamp.
     """
     if station <= (own.stations[0] + own.stations[-1]) / 2:
         return own.chord_rotation(axis, 0)

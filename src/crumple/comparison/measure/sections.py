@@ -1,15 +1,15 @@
-"""How the sections of a member turn: best-fit planes of its rings of points, in any result that has states.
+"""Rotations of the sections of a member: best-fit planes of its rings of points, in any result with states.
 
 A ring is the set of points of one member at one station.  Its plane is the least-squares plane through the
-moved points: the eigenvector of their scatter with the smallest eigenvalue, pointing the way in which the
-outline runs round.  The rotation of a section about an axis is the angle between its normal now and at the
-start, both seen along the axis, counted on without a jump at half a turn.  That of one section against
-another is the same as the first one sees it: all is turned back by the smallest rotation that carries its
-normal back, so that a part that tumbles as a whole shows none.
+displaced points: the eigenvector of their scatter matrix with the smallest eigenvalue, with the sign given by
+the sense of the outline.  The rotation of a section about an axis is the angle between its normal now and at
+the start, both projected along the axis, continued without a jump at half a turn.  The rotation of one
+section relative to another is the same as seen from the first one: everything is rotated back by the
+smallest rotation that restores its normal, so that a part that rotates as a whole shows no rotation.
 
-Limits: a section that is flattened to a line has no plane; its angle is then noise.  A fold's own rings warp,
-so a relative rotation is taken between rings on both sides of it.  Twist about the member of the section that
-carries an axis is not followed.
+Limits: a section that is flattened to a line has no plane; its angle is then noise.  The rings within a fold
+warp, so a relative rotation is measured between rings on both sides of it.  Twist about the member of the
+section that carries the axis is not followed.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from crumple.numeric.arrays import Floats
 from crumple.result import States
 
 SAME_STATION = 1e-6
-"""Stations nearer than this share of the member's length are one: far below any element, above rounding."""
+"""Stations closer than this share of the member's length count as one: far below any element size."""
 SMALL = 1e-12
-"""Keeps a section that has turned by half a turn, whose way back is not defined, from dividing by zero."""
+"""Prevents division by zero at half a turn, where the smallest rotation back is not defined."""
 FEWEST = 3
-"""Points that define a plane."""
+"""Number of points that define a plane."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,29 +71,29 @@ class Sections:
         return np.asarray(np.unwrap(angle, axis=0))
 
     def relative_rotation(self, axis: Floats, first: int, last: int) -> Floats:
-        """Rotation of one section against another about an axis that moves with it [rad], (n_states,).
+        """Rotation of one section relative to another about an axis of the latter [rad], (n_states,).
 
         Parameters
         ----------
         axis
             Unit vector at the start, right-handed, across the member, (3,).
         first, last
-            Indices of the section that carries the axis, and of the one that turns.
+            Indices of the section that carries the axis, and of the one whose rotation is measured.
         """
         return _turn(self.start_normals[last], self.seen_from(first, self.normals[:, last]), axis)
 
     def bend(self, first: int, last: int) -> Floats:
-        """Angle by which one section has turned against another, whatever the axis [rad], (n_states,)."""
+        """Angle by which one section has rotated relative to another, about any axis [rad], (n_states,)."""
         return _opening(self.start_normals[last], self.seen_from(first, self.normals[:, last]))
 
     def bend_axes(self, first: int, last: int) -> Floats:
-        """Unit vectors about which one section has turned against another; zero before it has, (n, 3)."""
+        """Unit vectors about which one section has rotated relative to another; zero at rest, (n, 3)."""
         sign = float(np.sign(self.start_normals[first] @ self.start_normals[last]) or 1.0)
         across = sign * np.cross(self.normals[:, first], self.normals[:, last])
         return np.asarray(across / np.maximum(np.linalg.norm(across, axis=1), SMALL)[:, None])
 
     def seen_from(self, ring: int, vectors: Floats) -> Floats:
-        """Vectors over time as one section sees them, turned back as its normal turned, (n_states, 3)."""
+        """Vectors over time as seen from one section: rotated back with its normal, (n_states, 3)."""
         now, start = self.normals[:, ring], self.start_normals[ring]
         middle = now + start
         along = np.einsum("ti,ti->t", middle, vectors) / np.maximum(1.0 + now @ start, SMALL)
@@ -119,7 +119,7 @@ class Sections:
         return _turn(self.start_centres[-1] - self.start_centres[0], seen, axis)
 
     def chord_bend(self, ring: int) -> Floats:
-        """Angle of the line between the end sections against one of them [rad], (n_states,)."""
+        """Angle of the line between the end sections relative to one of them [rad], (n_states,)."""
         line = self.centres[:, -1] - self.centres[:, 0]
         return _opening(self.start_centres[-1] - self.start_centres[0], self.seen_from(ring, line))
 
@@ -131,14 +131,14 @@ def _opening(start: Floats, now: Floats) -> Floats:
 
 
 def _turn(start: Floats, now: Floats, axis: Floats) -> Floats:
-    """Angle from a vector (3,) to others (n, 3), seen along an axis, counted on over half a turn [rad]."""
+    """Angle from a vector (3,) to others (n, 3) about an axis, continued beyond half a turn [rad]."""
     first = start - (start @ axis) * axis
     angle = np.arctan2(now @ np.cross(axis, first), now @ first)
     return np.asarray(np.unwrap(angle))
 
 
 def sections_of(states: States, member: str) -> Sections | None:
-    """Rings of a member, or None where the result has no shape of it.
+    """Rings of a member, or None if the result has no shapes of it.
 
     Parameters
     ----------
@@ -179,7 +179,7 @@ def _planes(points: Floats) -> tuple[Floats, Floats]:
     arm = points - centre[:, None]
     scatter = np.einsum("tni,tnj->tij", arm, arm)
     normal = np.linalg.eigh(scatter)[1][:, :, 0]
-    # the outline runs round the normal
+    # the outline runs counter-clockwise about the normal
     area = np.cross(arm, np.roll(arm, -1, axis=1)).sum(axis=1)
     side = np.where(np.einsum("ti,ti->t", normal, area) < 0.0, -1.0, 1.0)
     return centre, normal * side[:, None]

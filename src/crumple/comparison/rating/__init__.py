@@ -1,1 +1,1 @@
-"""Curves against curves."""
+"""Ratings of histories: signals, curve files, pairs, and the metric of ISO/TS 18571."""

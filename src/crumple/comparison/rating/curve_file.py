@@ -1,8 +1,8 @@
-"""Measured or foreign curves from CSV: one column of time, any number of others, units in the header.
+"""Measured curves or curves of other codes from CSV: a column of time, other columns, units in the header.
 
-A head is ``name [unit]`` or ``name (unit)``; the short form ``name_unit`` is read for the units of
-`SUFFIXES`, because other programs write it.  A column without a unit is left out and named; what is wrong
-is refused with file and line.
+A column title is ``name [unit]`` or ``name (unit)``; the short form ``name_unit`` is read for the units of
+`SUFFIXES`, because other programs write it.  A column without a unit is left out and reported; errors are
+reported with file and line.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ from crumple.units import QuantityError, unit_factor
 LARGEST_FILE = 50_000_000
 """Bytes; a history of some hundred thousand times and a dozen columns."""
 LARGEST = 1e100
-"""Magnitude of a number above which squares of it leave the range of the machine: no measurement is."""
+"""Largest magnitude of a number; squares of larger ones could overflow."""
 SHOWN = 10
-"""Bad lines that are reported."""
+"""Number of wrong lines that are reported."""
 SUFFIXES = {
     "s": "s", "ms": "ms", "rad": "rad", "deg": "deg", "rad_s": "rad/s", "deg_s": "deg/s", "m": "m",
     "mm": "mm", "m_s": "m/s", "N": "N", "kN": "kN", "Nm": "N*m", "kNm": "kN*m", "J": "J", "kJ": "kJ",
 }  # fmt: skip
 SI_UNITS = ("s", "m", "rad", "rad/s", "m/s", "m/s^2", "rad/s^2", "N", "J", "Pa", "kg", "1")
-"""Units that a column may be turned into; a moment and an energy are told apart by how they are written."""
+"""SI units of columns; moment and energy have one dimension and are distinguished by how they are written."""
 
 _BRACKETS = re.compile(r"(?P<name>.+?)\s*[\[(](?P<unit>[^\])]*)[\])]")
 
@@ -44,15 +44,15 @@ class CurveFile:
     Attributes
     ----------
     name
-        What the comparison calls them.
+        Their name in the comparison.
     file
-        Where they are from.
+        Path of the file.
     signals
         By the name of the column, or of the channel that it was paired with.
     left_out
         Columns without a unit.
     columns
-        Every column with a unit but that of time, as the file calls it.
+        Every column with a unit except that of time, by its name in the file.
     """
 
     name: str
@@ -68,18 +68,18 @@ def read_curves(path: Path | str, name: str = "", pairs: Mapping[str, str] | Non
     Parameters
     ----------
     path
-        File: one header, then numbers; separated by comma, semicolon or tab; lines that start with # are left
-        out.
+        File: one header, then numbers; separated by comma, semicolon or tab; lines that start with # are
+        ignored.
     name
         Of the source; by default the file's.
     pairs
-        Names of channels for columns that are called otherwise; with a minus before it where the column
-        counts the other way.
+        Names of channels for columns with other names; with a minus in front if the column has the opposite
+        sign.
 
     Raises
     ------
     InputError
-        With file and line: no such file, no column of time, nothing with a unit, an unknown unit, a number
+        With file and line: no such file, no column of time, no unit, an unknown unit, a number
         missing, times that do not increase, two columns of one name.
     """
     place = Path(path)
@@ -101,7 +101,7 @@ def read_curves(path: Path | str, name: str = "", pairs: Mapping[str, str] | Non
         )
     if len(columns) < 2:
         raise _refused(
-            "no column beside time has a unit", place, head_line, head[:80], "heads such as 'tip [rad]'"
+            "no column except time has a unit", place, head_line, head[:80], "titles such as 'tip [rad]'"
         )
     table = _numbers(lines[1:], separator, sorted(columns), place)
     scaled = {i: table[:, k] * columns[i][1] for k, i in enumerate(sorted(columns))}
@@ -110,7 +110,7 @@ def read_curves(path: Path | str, name: str = "", pairs: Mapping[str, str] | Non
         where = int(np.flatnonzero(np.diff(time) <= 0.0)[0]) + 2 if time.size > 1 else 0
         line = lines[where][0] if time.size > 1 else head_line
         raise _refused(
-            "the times do not increase", place, line, "", "at least two rows, each later than the last"
+            "the times do not increase", place, line, "", "at least two rows with increasing times"
         )
     renamed = dict(pairs or {})
     signals: dict[str, Signal] = {}
@@ -121,7 +121,7 @@ def read_curves(path: Path | str, name: str = "", pairs: Mapping[str, str] | Non
         side, called = (-1.0 if called.startswith("-") else 1.0), present_name(called.removeprefix("-"))
         if called in signals:
             todo = "leave one of them out, or give it another name"
-            raise _refused("two columns are one history", place, head_line, called, "", todo=todo)
+            raise _refused("two columns have the same name", place, head_line, called, "", todo=todo)
         signals[called] = Signal(called, unit, time, side * scaled[i])
     titles = next(csv.reader([head], delimiter=separator))
     left = tuple(title.strip() for i, title in enumerate(titles) if i not in columns)
@@ -134,13 +134,11 @@ def _text(place: Path) -> str:
         if not place.is_file():
             raise _refused("there is no such file", place, todo="correct the name")
         if place.stat().st_size > LARGEST_FILE:
-            raise _refused(
-                "the file is too large for curves", place, 0, "", f"at most {LARGEST_FILE / 1e6:g} MB"
-            )
+            raise _refused("the file is too large", place, 0, "", f"at most {LARGEST_FILE / 1e6:g} MB")
         return place.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
-        todo = "save it as CSV in UTF-8, which spreadsheets offer beside their own"
-        raise _refused("the file is not a text in UTF-8", place, 0, "", "a CSV file", todo=todo) from None
+        todo = "save it as CSV in UTF-8, which spreadsheet programs offer"
+        raise _refused("the file is not text in UTF-8", place, 0, "", "a CSV file", todo=todo) from None
     except OSError as error:
         raise _refused(f"the file cannot be read: {error.strerror}", place) from None
 
@@ -165,7 +163,7 @@ def _columns(heads: list[str], place: Path, line: int) -> dict[int, tuple[str, f
 
 
 def _head(cell: str) -> tuple[str, str] | None:
-    """Name and unit of a head, or None where it has no unit."""
+    """Name and unit of a column title, or None if it has no unit."""
     match = _BRACKETS.fullmatch(cell)
     if match is not None:
         return match["name"], match["unit"].strip() or "1"
@@ -196,15 +194,14 @@ def _numbers(rows: list[tuple[int, str]], separator: str, wanted: list[int], pla
         values = [_number(cells[i]) if i < len(cells) else math.nan for i in wanted]
         table.append(values)
         if not all(abs(value) <= LARGEST for value in values):
-            todo = "write plain numbers with a decimal point in every column that has a unit"
-            problems.append(
-                Problem("this is not a row of numbers", text[:60], "", todo, "", str(place), line)
-            )
+            todo = "write numbers with a decimal point in every column that has a unit"
+            what = "this row contains something other than finite numbers"
+            problems.append(Problem(what, text[:60], "", todo, "", str(place), line))
     if problems:
         more = [Problem(f"{len(problems) - SHOWN} more lines are wrong", file=str(place))]
         raise InputError(problems[:SHOWN] + (more if len(problems) > SHOWN else []))
     if not table:
-        raise _refused("the file has a header but no numbers", place)
+        raise _refused("the file contains a header but no numbers", place)
     return np.array(table)
 
 

@@ -1,4 +1,4 @@
-"""Which histories of two sources are compared, and how well they agree."""
+"""Selection of the histories of two sources that are compared, and their ratings."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from crumple.errors import InputError
 from crumple.numeric.arrays import Floats
 
 MOST = 60
-"""Histories that are rated against one reference; a rating takes some 50 ms for 100 ms of history."""
+"""Most histories rated against one reference; a rating takes about 50 ms for 100 ms of history."""
 NOTHING = 1e-6
-"""Share of the largest history of its unit below which a reference is rounding, not motion."""
+"""Share of the largest history of its unit below which a reference counts as rounding."""
 
 _ORDER = (
     re.compile(r"hinge\..+\.rotation"),
@@ -27,9 +27,9 @@ _ORDER = (
     re.compile(r"energy\.(kinetic|elastic|dissipated)"),
     re.compile(r"node\..+\.(displacement|velocity|rotation)\..*"),
 )
-"""What is rated, the most telling first; requested outputs by other names come after, the rest never."""
-TELLING = 4
-"""First so many of these kinds tell how good a further model is."""
+"""Kinds of histories that are rated, most relevant first; then requested outputs with other names."""
+RELEVANT = 4
+"""Number of these kinds, from the first, by which a further model is rated."""
 _NEVER = re.compile(r"(energy|cut|support|hinge|node)\..*")
 
 
@@ -46,7 +46,7 @@ class Pair:
     rating
         After ISO/TS 18571, or None.
     why_not
-        Why there is no rating, in one sentence; empty where there is one.
+        Why there is no rating, in one sentence; empty if there is one.
     peak, reference_peak
         Values of largest magnitude in the common interval, with their sign.
     largest_difference, at_time
@@ -71,14 +71,14 @@ def pairs_of(
     *,
     ranks: int = len(_ORDER) + 1,
 ) -> list[Pair]:
-    """Every pair of histories worth a rating, the most telling first.
+    """Pairs of histories that are rated, most relevant first.
 
     Parameters
     ----------
     candidate, reference
         Name of the source and its histories.
     ranks
-        Kinds of histories that are rated, the most telling first.
+        Kinds of histories that are rated, most relevant first.
     """
     (name, first), (other, second) = candidate, reference
     common = [c for c in first if c in second and first[c].unit == second[c].unit]

@@ -3,10 +3,10 @@
 Corridor, phase, magnitude and slope scores between 0 and 1, weighted 0.4, 0.2, 0.2, 0.2.  Both curves are
 sampled at 10 kHz over the interval of evaluation.
 
-Corridor: points within 5 % of the reference's largest absolute value score 1, beyond 50 % score 0, between
-them the square of the remaining share.  Phase: the shift by at most 20 % of the samples with the best
-cross-correlation; the score falls linearly with the shift.  Magnitude and slope are judged after that
-shift: magnitude by the relative L1 error after dynamic time warping within a tenth of the samples (0.5
+Corridor: points within 5 % of the reference's largest absolute value score 1, points beyond 50 % score 0, and
+points between them the square of the remaining share.  Phase: the shift by at most 20 % of the samples with
+the best cross-correlation; the score decreases linearly with the shift.  Magnitude and slope are rated after
+that shift: magnitude by the relative L1 error after dynamic time warping within a tenth of the samples (0.5
 scores 0), slope by the relative L1 error of derivatives averaged over nine points (2.0 scores 0).
 """
 
@@ -22,7 +22,7 @@ from crumple.numeric.arrays import Floats
 
 EDITION = "ISO/TS 18571:2014"
 SAMPLING_RATE = 10_000.0
-"""Samples a second that the standard asks for."""
+"""Sampling rate of the standard [1/s]."""
 INNER, OUTER = 0.05, 0.5
 """Half-widths of the corridors over the reference's largest absolute value."""
 LARGEST_SHIFT = 0.2
@@ -33,11 +33,11 @@ MAGNITUDE_LIMIT, SLOPE_LIMIT = 0.5, 2.0
 """Relative errors at which the scores are 0."""
 WEIGHTS = (0.4, 0.2, 0.2, 0.2)
 AVERAGED = 9
-"""Samples that a slope is averaged over."""
+"""Number of samples over which a slope is averaged."""
 MOST = 5_000
-"""Samples of one rating: longer histories are sampled more coarsely: the cost grows with the square."""
+"""Most samples of one rating; longer histories are sampled more coarsely, as the cost is quadratic."""
 FEWEST = 20
-"""Samples below which shift, window and averages mean nothing."""
+"""Fewest samples: below, shift, window and averages are not meaningful."""
 
 
 @dataclass(frozen=True)
@@ -49,11 +49,11 @@ class Rating:
     corridor, phase, magnitude, slope
         Parts.
     shift
-        Time [s] by which the curve comes late.
+        Time [s] by which the curve is late.
     start, end
         Interval of evaluation [s].
     sampling_rate
-        Samples a second: those of the standard, or fewer over a long interval.
+        [1/s]: that of the standard, or less over a long interval.
     """
 
     corridor: float
@@ -73,7 +73,7 @@ class Rating:
 
     @property
     def grade(self) -> str:
-        """Word of the standard: excellent above 0.94, good above 0.80, fair above 0.58, else poor."""
+        """Grade of the standard: excellent above 0.94, good above 0.80, fair above 0.58, else poor."""
         limits = ((0.94, "excellent"), (0.80, "good"), (0.58, "fair"))
         return next((word for limit, word in limits if self.overall > limit), "poor")
 
@@ -94,14 +94,14 @@ def rating(
     reference_time, reference
         Times [s], increasing, and values, (n,).
     time, values
-        The same of the curve that is judged, (m,), in the same unit.
+        The same of the curve that is rated, (m,), in the same unit.
     start, end
-        Interval of evaluation [s]; by default all that both cover.
+        Interval of evaluation [s]; by default the common interval.
 
     Returns
     -------
     Rating
-        Both curves are interpolated linearly at 10 kHz, over more than half a second at fewer samples.
+        Both curves are interpolated linearly at 10 kHz, or at a lower rate over more than half a second.
 
     Raises
     ------
@@ -120,9 +120,9 @@ def rating(
     number = int(np.floor((finish - begin) * rate + 1e-9)) + 1
     if number < FEWEST:
         raise _refused(
-            "the curves share too short an interval",
+            "the common interval of the curves is too short",
             f"{begin:g} s to {finish:g} s",
-            "at least 2 ms in common",
+            "at least 2 ms",
         )
     sampled = begin + np.arange(number) / rate
     a = np.interp(sampled, t_reference, np.asarray(reference, float))
@@ -130,7 +130,7 @@ def rating(
     if not (np.isfinite(a).all() and np.isfinite(b).all()):
         raise _refused("a curve is not finite", "NaN or infinity", "numbers")
     if not np.ptp(a) > 0.0:
-        raise _refused("the reference is constant", f"{a[0]:g}", "a reference that changes")
+        raise _refused("the reference is constant", f"{a[0]:g}", "a reference that varies")
     late = best_shift(a, b)
     shifted_a, shifted_b = (a[: number - late], b[late:]) if late >= 0 else (a[-late:], b[: number + late])
     return Rating(
@@ -146,14 +146,14 @@ def rating(
 
 
 def corridor_score(reference: Floats, curve: Floats) -> float:
-    """Mean score of the distance from the reference, sample by sample."""
+    """Mean over the samples of the score of the distance from the reference."""
     norm = float(np.abs(reference).max())
     share = (OUTER * norm - np.abs(reference - curve)) / ((OUTER - INNER) * norm)
     return float(np.mean(np.clip(share, 0.0, 1.0) ** 2))
 
 
 def best_shift(reference: Floats, curve: Floats) -> int:
-    """Samples by which the curve comes late, by cross-correlation; the smallest shift wins a tie."""
+    """Samples by which the curve is late, by cross-correlation; of equal ones the smallest shift."""
     best, found = _correlation(reference, curve), 0
     for shift in range(1, int(np.floor(LARGEST_SHIFT * reference.size)) + 1):
         for late, a, b in (
@@ -167,7 +167,7 @@ def best_shift(reference: Floats, curve: Floats) -> int:
 
 
 def _correlation(a: Floats, b: Floats) -> float:
-    """Correlation coefficient; -1 where a curve is constant, so that such a shift is never chosen."""
+    """Correlation coefficient; -1 if a curve is constant, so that such a shift is never chosen."""
     x, y = a - a.mean(), b - b.mean()
     size = float(np.sqrt((x @ x) * (y @ y)))
     return float(x @ y) / size if size > 0.0 else -1.0
@@ -181,7 +181,7 @@ def magnitude_score(reference: Floats, curve: Floats) -> float:
 
 
 def warping_path(first: Floats, second: Floats, window: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Pairs of indices along the cheapest monotone alignment of two curves of equal length.
+    """Pairs of indices along the monotone alignment of least cost of two curves of equal length.
 
     Parameters
     ----------
@@ -193,11 +193,11 @@ def warping_path(first: Floats, second: Floats, window: int) -> tuple[NDArray[np
     Returns
     -------
     first_index, second_index
-        From (0, 0) to (n-1, n-1), shape (length,) each.  The cost is the sum of squared differences; equal
-        predecessors are taken in the order: one back in the first, one back in the second, both.
+        From (0, 0) to (n-1, n-1), shape (length,) each.  The cost is the sum of squared differences; of
+        predecessors with equal cost: one back in the first, then one back in the second, then both.
     """
     n = first.size
-    # costs of one anti-diagonal depend on the two before it alone; place i + 1 is index i of the first curve
+    # costs of an anti-diagonal depend only on the two before it; entry i + 1 is index i of the first curve
     older, old, new = (np.full(n + 3, np.inf) for _ in range(3))
     back = np.empty((2 * n - 1, window + 1), dtype=np.int8)
     lows = np.empty(2 * n - 1, dtype=np.int64)
@@ -232,7 +232,7 @@ def slope_score(reference: Floats, curve: Floats) -> float:
 
 
 def averaged_slope(values: Floats) -> Floats:
-    """Differences a sample averaged over nine samples; towards the ends over as many as lie evenly around."""
+    """Differences per sample averaged over nine samples; near the ends over as many as fit symmetrically."""
     slope = np.gradient(values)
     half = AVERAGED // 2
     averaged = np.empty_like(slope)

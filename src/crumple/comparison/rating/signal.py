@@ -1,4 +1,4 @@
-"""Histories by name, of a result with what is measured in it, or of a curve file."""
+"""Histories by name: of a result and what is measured in it, or of a curve file."""
 
 from __future__ import annotations
 
@@ -37,12 +37,12 @@ _HINGE = (
 def signals_of(
     result: Result, measured: Sequence[HingeMotion], members: Sequence[Signal]
 ) -> dict[str, Signal]:
-    """Channels of a result, with what was measured in its shapes in place of channels of the same name.
+    """Channels of a result; histories measured in its shapes replace channels of the same name.
 
     Parameters
     ----------
     result
-        Its channels come first.
+        With channels.
     measured
         Hinges measured in the shapes.
     members

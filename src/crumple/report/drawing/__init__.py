@@ -1,1 +1,1 @@
-"""How figures look: styles, scales, views, the moving picture."""
+"""Appearance of figures: styles, scales, views, the animation."""

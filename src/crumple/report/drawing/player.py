@@ -1,8 +1,8 @@
-"""The moving picture of a comparison as data for the page: quantised, delta-coded, compressed, bounded.
+"""The animation of a comparison as data for the page: quantised, delta-coded, compressed, of limited size.
 
-Per source: walls as point numbers, and at every frame positions of the points on a grid of 65536 steps over
-the box of everything (0.02 mm on a metre), one byte of plastic strain per point, hinge places and states.
-Frames after the first hold differences; low and high bytes lie apart, which compresses better.
+Per source: walls as point numbers, and for every frame the positions of the points on a grid of 65536 steps
+over the bounding box (0.02 mm on a metre), one byte of plastic strain per point, hinge positions and states.
+Frames after the first contain differences; low and high bytes are separate, which compresses better.
 """
 
 from __future__ import annotations
@@ -24,18 +24,18 @@ from crumple.report.figures.shape import finite_states, hinge_places
 from crumple.result import States
 
 RAW_BYTES = 6_000_000
-"""Of all frames before compression; a page of some 2 MB comes out."""
+"""Bytes of all frames before compression; the page then has some 2 MB."""
 MOST_FRAMES, FEWEST_FRAMES = 101, 9
-"""Frames: smooth when played, and few enough to tell a motion by."""
+"""Most frames of an animation."""
 STEPS = 65535
 CLOSED, TURNING, RESTING = 0, 1, 2
 """States of a hinge."""
 TURNS = 0.02
-"""Share of a hinge's largest plastic rotation rate above which it counts as turning."""
+"""Share of a hinge's largest plastic rotation rate above which it counts as rotating."""
 OPEN = np.radians(0.5)
 """Plastic rotation [rad] below which a hinge counts as closed."""
 STRONGEST = 99.5
-"""Percentile of plastic strain that the colour scale ends at, so that one wall does not spoil it."""
+"""Percentile of plastic strain at the end of the colour scale, so that one wall does not determine it."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Scene:
 
 
 def scene_of(comparison: Comparison) -> Scene | None:
-    """The moving picture, or None where a result has no shapes or is too large for a page.
+    """The animation, or None if a result has no shapes or is too large for a page.
 
     Parameters
     ----------
@@ -92,10 +92,10 @@ def scene_of(comparison: Comparison) -> Scene | None:
 
 
 def _times(states: list[States]) -> Floats | None:
-    """Frame times: those of the reference that all reached, thinned to what the page may hold."""
+    """Frame times: those of the reference that both results reached, thinned to the limit of the page."""
     end = min(float(s.times[-1]) for s in states)
     times = states[-1].times
-    # a stepper stops at its first step after each asked time, beyond the other's end at the last one
+    # a stepper stops at its first step after each requested time, so the last one may exceed the other's end
     if times.size > 1:
         times = times[times <= end + 0.5 * float(np.median(np.diff(times)))]
     size = sum(7 * len(s.points) for s in states)
@@ -144,7 +144,7 @@ def _at_points(states: States) -> Floats:
 
 
 def _hinges(source: Source, states: States) -> list[dict[str, Any]]:
-    """Places and states of the hinges at every frame."""
+    """Positions and states of the hinges at every frame."""
     places = hinge_places(source.result, states)
     found = []
     for motion in (*source.hinges, *source.extra):

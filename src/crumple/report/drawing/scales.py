@@ -1,4 +1,4 @@
-"""What to show on which scale: units that people read, limits of axes, fewer points, groups of outputs."""
+"""Scales of figures: readable units, limits of axes, fewer points, groups of outputs."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from crumple.result import Channel, Result
 from crumple.units import format_quantity, unit_factor
 
 MAX_POINTS = 1200
-"""Points of one line; more cannot be seen at the size of the page."""
+"""Most points of one line; more cannot be seen at the size of the page."""
 
-_NOTHING = 1e-9  # of the largest component of a vector: below it a component is rounding, not motion
+_NOTHING = 1e-9  # of the largest component of a vector, below which a component is rounding
 _DIRECTION = re.compile(r"(.+)\.([xyz])((?:\.cfc\d+)?)")
 _POWERS = str.maketrans({"2": "²", "3": "³", "4": "⁴"})
 
@@ -37,7 +37,7 @@ def output_groups(result: Result) -> tuple[list[OutputGroup], list[str]]:
     Returns
     -------
     groups, still
-        Groups in the order of the request, and the names of outputs that stayed zero all the time.
+        Groups in the order of the request, and the names of outputs that are zero throughout.
     """
     gathered: dict[tuple[str, str], list[tuple[str, Channel]]] = {}
     for name in result.output_names:
@@ -79,7 +79,7 @@ def thinned(x: Floats, y: Floats, limit: int = MAX_POINTS) -> tuple[Floats, Floa
 
 
 def spread(values: Sequence[Floats], *, zero: bool = True, margin: float = 0.05) -> tuple[float, float]:
-    """Limits of an axis that shows all finite values, with zero when wanted; never an empty range."""
+    """Limits of an axis that shows all finite values, with zero if requested; never an empty range."""
     finite = [v[np.isfinite(v)] for v in values]
     parts = [v for v in finite if v.size]
     low = min((float(v.min()) for v in parts), default=0.0)
@@ -93,7 +93,7 @@ def spread(values: Sequence[Floats], *, zero: bool = True, margin: float = 0.05)
 
 
 def display_unit(unit: str, largest: float) -> tuple[str, float]:
-    """Unit in which people read a quantity of this size, and its value in SI; an unknown unit stays."""
+    """Readable unit of a quantity of this size, and its value in SI; an unknown unit is kept."""
     try:
         name = format_quantity(abs(largest) if np.isfinite(largest) else 0.0, unit).partition(" ")[2]
         return (pretty_unit(name), unit_factor(name, unit)) if name else ("", 1.0)

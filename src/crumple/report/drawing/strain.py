@@ -13,15 +13,15 @@ from crumple.result import States
 FIELD = "plastic_strain"
 """Field of the walls that is drawn."""
 SCALE = ("#9db3c8", "#e8d9a0", "#e8a33d", "#c1461b", "#701a16")
-"""From the colour of plain walls to the largest strain; lightness falls all the way behind the first step."""
+"""Colours from plain walls to the largest strain; lightness decreases from the second one on."""
 QUANTILE = 0.995
-"""Share of the walls that the scale spans: one torn corner must not make everything else pale."""
+"""Share of the walls that the scale spans, so that a single torn corner does not determine it."""
 LEAST = 1e-4
 """Strain below which nothing is coloured."""
 
 
 def largest_strain(states: States | None) -> float:
-    """Strain at the end of the scale; 0 where no wall has a plastic strain to draw."""
+    """Strain at the end of the scale; 0 if no wall has a plastic strain to draw."""
     if states is None or FIELD not in states.cell_data or not states.cell_data[FIELD].size:
         return 0.0
     strain = np.nan_to_num(states.cell_data[FIELD])

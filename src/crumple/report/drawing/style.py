@@ -1,4 +1,4 @@
-"""How figures look: sizes, colours, axes, labels at the ends of lines, and the SVG that comes out.
+"""Appearance of figures: sizes, colours, axes, labels at the ends of lines, and SVG output.
 
 Every figure is drawn once, with matplotlib's objects and no pyplot.  Text stays text in the SVG, so it takes
 the font of the page and can be searched and copied.  Axes are placed in inches, so that figures line up.
@@ -29,7 +29,7 @@ WIDTH = 7.0  # of the text column of an A4 page [in]
 HALF = 3.42  # of two figures side by side [in]
 
 RASTER = 200.0
-"""Of what is drawn as an image, because it has too many parts [1/in]."""
+"""Resolution of parts that are drawn as an image because they are too many [1/in]."""
 
 INK = "#1c2733"
 MUTED = "#5a6672"
@@ -39,14 +39,14 @@ OUTSIDE = "#f1ede6"
 WARNING = "#9a4a12"
 
 SERIES = ("#1f5f9e", "#c1561b", "#2a7d61", "#77509c", "#96741a", "#2f8fa8", "#9b3150", "#566a2c")
-"""Colours of lines, told apart by people with any colour vision when their order and labels help."""
+"""Colours of lines; with order and labels they are distinguishable for any colour vision."""
 DASHES: tuple[tuple[float, tuple[float, ...]] | str, ...] = (
     "-",
     (0, (5, 1.5)),
     (0, (1.5, 1.2)),
     (0, (6, 1.5, 1.5, 1.5)),
 )
-"""A second sign beside the colour, for print without it."""
+"""Dashes as a second mark besides the colour, for prints without colour."""
 
 FONTS = "Inter, 'Segoe UI', 'Helvetica Neue', 'Liberation Sans', Arial, sans-serif"
 
@@ -102,7 +102,7 @@ def drawing() -> Iterator[None]:
     with _LOCK, mpl.rc_context(), warnings.catch_warnings():
         mpl.rcdefaults()
         mpl.rcParams.update(_SETTINGS)
-        # the reader's fonts draw the text; ours only measure it, and may lack a script
+        # the reader's fonts draw the text; the local ones only measure it, and may lack a script
         warnings.filterwarnings("ignore", message="Glyph .* missing from")
         warnings.filterwarnings("ignore", message="Matplotlib currently does not support")
         yield
@@ -117,7 +117,7 @@ def new_figure(width: float, height: float) -> Figure:
 
 
 def add_axes(figure: Figure, left: float, bottom: float, width: float, height: float) -> Axes:
-    """Quiet axes at a place in inches: a base line, horizontal grid, no box."""
+    """Plain axes at a position in inches: a base line, horizontal grid, no box."""
     w, h = figure.get_size_inches()
     axes: Axes = figure.add_axes((left / w, bottom / h, width / w, height / h))
     axes.patch.set_alpha(0)
@@ -131,7 +131,7 @@ def add_axes(figure: Figure, left: float, bottom: float, width: float, height: f
 
 
 def name_axes(axes: Axes, x: str, y: str) -> None:
-    """Name both axes in words that are read level: y above its axis, x below at its right end."""
+    """Name both axes horizontally: y above its axis, x below at its right end."""
     x, y = short(x, 60), short(y, 60)
     offset: dict[str, Any] = {"textcoords": "offset points", "annotation_clip": False, "fontsize": 8.0}
     axes.annotate(y, (0, 1), (0, 7), xycoords="axes fraction", ha="left", va="bottom", color=INK, **offset)
@@ -139,7 +139,7 @@ def name_axes(axes: Axes, x: str, y: str) -> None:
 
 
 def draw_lines(axes: Axes, lines: Sequence[Line], *, labels: bool = True) -> None:
-    """Draw curves and write each name at the end of its curve, moved apart where they would touch."""
+    """Draw curves and write each name at the end of its curve; names that would overlap are moved apart."""
     several = sum(not line.faint for line in lines) > 1
     for line in lines:
         x, y = thinned(line.x, line.y)
@@ -153,7 +153,7 @@ def draw_lines(axes: Axes, lines: Sequence[Line], *, labels: bool = True) -> Non
 
 
 def label_room(names: Sequence[str]) -> float:
-    """Room for names at the ends of curves [in]."""
+    """Space for names at the ends of curves [in]."""
     return 0.1 + 0.056 * max((len(short(name, _LABEL)) for name in names), default=0)
 
 
@@ -195,7 +195,7 @@ def _label_ends(axes: Axes, lines: Sequence[Line]) -> None:
 
 
 def short(text: str, limit: int = 32) -> str:
-    """Text without control characters, cut to a length that a figure can hold."""
+    """Text without control characters, cut to a length that fits into a figure."""
     clean = _CONTROL.sub("", text)
     return clean if len(clean) <= limit else clean[: limit - 1] + "…"
 
@@ -210,7 +210,7 @@ def to_svg(figure: Figure, name: str, description: str) -> str:
     name
         Prefix of every id, so that several figures live on one page.
     description
-        What a person who cannot see the figure should hear.
+        Text for readers who cannot see the figure.
     """
     text = io.StringIO()
     figure.canvas.print_svg(text)  # type: ignore[attr-defined]

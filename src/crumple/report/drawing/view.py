@@ -1,4 +1,4 @@
-"""From which side to look at a structure: square on to a planar motion, else from above one corner."""
+"""View of a structure: normal to the plane of a planar motion, else axonometric from above."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def choose_view(states: States) -> View:
     sizes, axes = np.linalg.eigh(centred.T @ centred / len(centred))
     sizes = np.sqrt(np.maximum(sizes, 0.0))
     if sizes[2] == 0.0 or sizes[1] <= _STRAIGHT * sizes[2]:
-        # a straight line that only moves along itself: any side will do, the side view is expected
+        # a straight line that only moves along itself: the side view is expected
         along = np.abs(axes[:, 2])
         return _facing(np.eye(3)[1] if along[1] < 0.9 else np.eye(3)[0])
     if sizes[0] <= _PLANAR * sizes[2]:

@@ -1,4 +1,4 @@
-"""Figures of a comparison: shapes side by side, motion over time, energy over rotation in two ways."""
+"""Figures of a comparison: motion over time, histories of curve files, energy over rotation in two forms."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ _ORDER = (1, 0, 2, 3, 4, 5)
 MOST_CHANNELS = 4
 """Histories of curve files with a figure of their own."""
 SAMPLES = 400
-"""Points at which two curves are held against each other to find a shift."""
+"""Number of points at which two curves are compared to find a shift."""
 
 
 def motion_over_time(comparison: Comparison, name: str, figure_name: str) -> str | None:
-    """Rotation and angular velocity of one hinge against time, in every source that shows it, as SVG."""
+    """Rotation and angular velocity of one hinge over time, in every source that contains it, as SVG."""
     unit = _time_factor(comparison)
     turned, turning = [], []
     for index, (label, time, rotation, rate) in enumerate(_measures(comparison, name)):
@@ -79,7 +79,7 @@ def _measures(comparison: Comparison, name: str) -> list[tuple[str, Floats, Floa
 
 
 def drawn_channels(comparison: Comparison) -> list[str]:
-    """Histories of curve files that a result has too and no other figure shows, `MOST_CHANNELS` at most."""
+    """Histories of curve files that a result also has and no other figure shows, at most `MOST_CHANNELS`."""
     elsewhere = re.compile(r"hinge\..+\.rotation|member\..+\.chord_rotation")
     names = dict.fromkeys(name for curve in comparison.curves for name in curve.signals)
     return [
@@ -106,7 +106,7 @@ def history(comparison: Comparison, channel: str, figure_name: str) -> str:
     ]
     time = _time_factor(comparison)
     unit, factor = display_unit(unit_of_all, largest([s.values for _, s, _ in found]))
-    # a curve that goes on after the runs is drawn as far as they went
+    # a curve that is longer than the runs is drawn up to their end
     end = max(float(s.result.time[-1]) for s in (comparison.candidate, comparison.reference)) * (1.0 + 1e-9)
     lines = [
         Line(name, s.time[s.time <= end] / time, s.values[s.time <= end] / factor, index)
@@ -120,11 +120,11 @@ def history(comparison: Comparison, channel: str, figure_name: str) -> str:
     return to_svg(figure, figure_name, f"{channel} against time.")
 
 
-def energy_as_drawn_once(comparison: Comparison, name: str, figure_name: str) -> tuple[str, str] | None:
-    """Total energy against rotation with the candidate shifted sideways, as SVG, and the shifts in words.
+def total_energy_shifted(comparison: Comparison, name: str, figure_name: str) -> tuple[str, str] | None:
+    """Total energy over rotation with the candidate shifted in rotation, as SVG, and the shifts in words.
 
-    The candidate's curve is moved by the mean horizontal distance to the reference's over the energies
-    that both reach, so that it starts where rigid bars would have bent elastically.
+    The candidate's curve is moved by the mean horizontal distance to the reference's over the energies that
+    both reach.  The shift represents the elastic bending that rigid bars lack.
     """
     first, second = comparison.candidate, comparison.reference
     a, b = first.hinge(name), second.hinge(name)
@@ -142,16 +142,15 @@ def energy_as_drawn_once(comparison: Comparison, name: str, figure_name: str) ->
     svg = _energy_figure(lines, "rotation, deg", f"Total energy, {unit}", figure_name, name)
     by, near = (f"{shift * _DEGREES:.1f}°".replace("-", "−") for shift in shifts)
     words = (
-        f"The {first.name} curve is shifted by {by} against the far end "
-        f"({near} would fit the rotation near the hinge): a drawing aid that stands "
-        "for the elastic "
-        "bending which rigid bars lack, not a result."
+        f"The {first.name} curve is shifted by {by} relative to the far end ({near} would fit the rotation "
+        "near the hinge). The shift represents the elastic bending that rigid bars lack; it is a drawing "
+        "aid, not a result."
     )
     return svg, words
 
 
-def energy_cleanly(comparison: Comparison, name: str, figure_name: str) -> str | None:
-    """Plastic work against plastic rotation, nothing shifted, as SVG."""
+def plastic_work_over_plastic_rotation(comparison: Comparison, name: str, figure_name: str) -> str | None:
+    """Plastic work over plastic rotation, without a shift, as SVG."""
     lines = []
     found = [
         (s, m, i) for i, s in enumerate((comparison.candidate, comparison.reference)) if (m := s.hinge(name))
@@ -166,7 +165,7 @@ def energy_cleanly(comparison: Comparison, name: str, figure_name: str) -> str |
 
 
 def variants_over_rotation(comparison: Comparison, name: str) -> str | None:
-    """Total energy against the far end's rotation of every model, nothing shifted, as SVG."""
+    """Total energy over the rotation at the far end for every model, without shifts, as SVG."""
     lines = []
     sources = [s for s in comparison.sources if (m := s.hinge(name)) is not None and m.far is not None]
     peak = largest([total_energy(s, s.result.time) for s in sources])
@@ -183,7 +182,7 @@ def variants_over_rotation(comparison: Comparison, name: str) -> str | None:
     figure = new_figure(WIDTH, _HEAD + _PANEL + 0.4 + _FOOT)
     axes = add_axes(figure, _LEFT, _FOOT, WIDTH - _LEFT - 1.5, _PANEL + 0.4)
     _draw(axes, lines, "rotation at the far end, deg", f"Total energy, {unit}", labels=True)
-    return to_svg(figure, "variants", "Total energy against rotation of every model, nothing shifted.")
+    return to_svg(figure, "variants", "Total energy over rotation of every model, without shifts.")
 
 
 def velocity_of_models(comparison: Comparison, name: str) -> str | None:

@@ -56,7 +56,7 @@ def hinge_channel(result: Result, hinge: str, quantity: str) -> Floats | None:
 
 
 def sense(result: Result, hinge: str) -> float:
-    """+1 or -1: the sense in which a hinge turned farthest."""
+    """+1 or -1: the sense of the largest rotation of a hinge."""
     rotation = hinge_channel(result, hinge, "rotation")
     if rotation is None or not np.isfinite(rotation).any():
         return 1.0
@@ -64,7 +64,7 @@ def sense(result: Result, hinge: str) -> float:
 
 
 def ranked_hinges(result: Result) -> list[str]:
-    """Hinges that absorbed most first; in order of the input where they are equal."""
+    """Hinges, those that absorbed most energy first; equal ones in the order of the input."""
     return sorted(result.hinges, key=lambda name: -result.hinges[name].energy)
 
 
@@ -112,14 +112,14 @@ def energy_over_rotation(result: Result) -> str | None:
 
 
 def ledger(result: Result, bound: float | None = None) -> str | None:
-    """Energies over time and, beside them, what is left of their balance against its bound, as SVG.
+    """Energies over time and, beside them, the residual of their balance with its bound, as SVG.
 
     Parameters
     ----------
     result
         Its channels ``energy.*`` are drawn.
     bound
-        Largest residual allowed, over the energy put in [-]; None where it is not known.
+        Largest residual allowed, over the energy input [-]; None if unknown.
     """
     shown = [(name, result.channels[key], index) for name, key, index in _LEDGER if key in result.channels]
     if not shown or not len(result.time):
@@ -127,7 +127,7 @@ def ledger(result: Result, bound: float | None = None) -> str | None:
     peak = largest([channel.values for _, channel, _ in shown])
     unit, factor = display_unit("J", peak)
     lines = [Line(name, _times(result), channel.values / factor, i) for name, channel, i in shown]
-    # what never held a thousandth of the energy would only lie on the axis
+    # energies that stay below a thousandth of the total would lie on the axis
     lines = [line for line in lines if largest([line.y]) > 1e-3 * peak / factor] or lines[:1]
     share = residual_share(result)
     figure = new_figure(WIDTH, _HEAD + _PANEL + 0.15 + _FOOT)
@@ -144,7 +144,7 @@ def ledger(result: Result, bound: float | None = None) -> str | None:
 
 
 def residual_share(result: Result) -> Floats | None:
-    """Residual of the energy balance over the energy put in [-], shape (n_times,); None when not known."""
+    """Residual of the energy balance over the energy input [-], shape (n_times,); None if unknown."""
     residual = result.channels.get("energy.residual")
     if residual is None:
         return None
@@ -155,9 +155,9 @@ def residual_share(result: Result) -> Floats | None:
 
 
 def _draw_residual(axes: Axes, time: Floats, percent: Floats, bound: float | None) -> None:
-    """On the scale of its bound, so that a small residual looks small."""
+    """Residual on the scale of its bound, so that a small residual looks small."""
     line = Line("residual", time / time_unit(float(time[-1]))[1], percent, 0)
-    over_time(axes, time, [line], "Residual, % of energy put in", labels=False)
+    over_time(axes, time, [line], "Residual, % of energy input", labels=False)
     reach = largest([percent])
     if bound is not None:
         size = 1.3 * max(bound, reach)

@@ -38,7 +38,7 @@ class Fold:
 
 
 def folds(result: Result) -> list[tuple[str, str]]:
-    """SVG and caption of every fold worth showing, the most strained first; none without strain."""
+    """SVG and caption of the folds with large strain, the most strained first; none without strain."""
     states = result.states
     top = largest_strain(states)
     if states is None or top < VISIBLE or not np.isfinite(states.displacement).all():

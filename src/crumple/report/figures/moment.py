@@ -1,4 +1,4 @@
-"""Moment against rotation of one hinge: its law, the range in which that is backed, and the path it took."""
+"""Moment over rotation of one hinge: its law, the range of validity of the law, and the path of the run."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ from crumple.report.figures.curves import hinge_channel, sense
 from crumple.result import HingeSummary, Result
 
 _DEGREES = math.degrees(1.0)
-_BEYOND = 1.25  # how far the rotation axis goes past the largest rotation, where the law goes on
-_RANGE_WITHIN = 2.2  # the end of the range is shown when it is within this many times the largest rotation
+_BEYOND = 1.25  # length of the rotation axis over the largest rotation, if the law continues
+_RANGE_WITHIN = 2.2  # the end of the range is shown if it is within this multiple of the largest rotation
 
 
 def moment_over_rotation(result: Result, hinge: str, name: str) -> str | None:
-    """Law and path of one hinge as SVG, or None when the result has neither.
+    """Law and path of one hinge as SVG, or None if the result has neither.
 
     Parameters
     ----------
     result
-        Holds the hinge's channels and its summary with the envelope.
+        With the channels of the hinge and its summary with the envelope.
     hinge
         Its name.
     name
@@ -71,7 +71,7 @@ def moment_over_rotation(result: Result, hinge: str, name: str) -> str | None:
 
 
 def _rotation_limits(turned: Floats | None, reached: float, validity: float | None) -> tuple[float, float]:
-    """Limits of the rotation axis [rad]: the path, some more of the law, the end of its range if near."""
+    """Limits of the rotation axis [rad]: the path, some of the law beyond, the end of its range if near."""
     low = 0.0
     if turned is not None and np.isfinite(turned).any():
         low = min(0.0, float(np.nanmin(turned)))
@@ -84,7 +84,7 @@ def _rotation_limits(turned: Floats | None, reached: float, validity: float | No
 def _envelopes(
     summary: HingeSummary, side: float, limits: tuple[float, float]
 ) -> list[tuple[Floats, Floats]]:
-    """Capacity in both senses, as far as the axes show; the second only where the hinge turned back."""
+    """Capacity in both senses within the axes; the second sense only if the hinge rotated back."""
     rotation = summary.envelope.get("rotation")
     curves: list[tuple[Floats, Floats]] = []
     if rotation is None:
@@ -132,7 +132,7 @@ def _draw_path(axes: Axes, turned: Floats, moment: Floats) -> None:
 
 
 def _key(axes: Axes, *, law: bool, path: bool) -> None:
-    """What the two kinds of line mean, in one row above the axes."""
+    """Legend of the two kinds of lines, in one row above the axes."""
     entries = [("— path", SERIES[0])] * path + [("– – law", INK)] * law
     for i, (text, colour) in enumerate(entries):
         axes.annotate(

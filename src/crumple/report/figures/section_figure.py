@@ -1,7 +1,7 @@
 """A cross-section in one figure: its metal and centres; with a material also its plastic interaction.
 
-The section stands to scale with centroid, shear centre and principal axes.  Beside it the moment that it
-carries with an axial force about y and z, without torque and with half the plastic torque, and the moments
+The section is drawn to scale with centroid, shear centre and principal axes.  Beside it are the moments about
+y and z that it carries with an axial force, without torque and with half the plastic torque, and the moments
 about both axes at three axial forces.
 """
 
@@ -47,7 +47,7 @@ def section_figure(section: Section, material: Material | None = None) -> str:
     section
         Tube or section of walls.
     material
-        Metal of the walls that name none; without one only the section itself is drawn.
+        Metal of the walls without a material of their own; without one only the section itself is drawn.
     """
     with drawing():
         figure = section_drawing(section, material)

@@ -29,7 +29,7 @@ _LETTER = 4.0  # width of a letter of a hinge's name, at most [pt]
 
 @dataclass(frozen=True)
 class Surface:
-    """What every picture needs and no time changes.
+    """Data of all pictures that do not depend on time.
 
     Attributes
     ----------
@@ -119,7 +119,7 @@ def _description(states: States) -> str:
 
 
 def picture_time(time: float) -> str:
-    """Time of a picture [s] as people read it."""
+    """Time of a picture [s] in readable units."""
     return f"{time:.4g} s" if time > 2.0 else f"{time * 1e3:.4g} ms"
 
 

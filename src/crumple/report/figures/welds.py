@@ -1,4 +1,4 @@
-"""Loads of spot welds over time: over their strength, and the forces of the most loaded entries."""
+"""Figures of spot welds over time: load over strength, and forces of the most loaded entries."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from crumple.report.figures.curves import over_time
 from crumple.result import Result
 
 MOST_RATIOS, MOST_FORCES = 6, 3
-"""Entries whose load over strength, and whose two forces, are drawn: the most loaded."""
+"""Most entries whose load over strength, and whose two forces, are drawn: the most loaded."""
 
 _ENTRY = re.compile(r"weld\.(.+)\.normal_force")
 _PANEL, _HEAD, _FOOT, _LEFT = 1.75, 0.26, 0.34, 0.42  # [in]
 
 
 def weld_entries(result: Result) -> list[str]:
-    """Entries of spot welds that the result has histories of."""
+    """Entries of spot welds of which the result has histories."""
     return [match[1] for name in result.channels if (match := _ENTRY.fullmatch(name))]
 
 
 def weld_loads(result: Result) -> tuple[str, str] | None:
-    """Load over strength and forces of spot welds against time, as SVG, and what it shows; None without any.
+    """Load over strength and forces of spot welds over time, as SVG, and its caption; None without any.
 
-    The load over strength is the root of (Fn/Sn)^2 + (Fs/Ss)^2 of the spot of an entry that has borne most
-    so far; a spot fails at 1.
+    The load over strength is the root of (Fn/Sn)^2 + (Fs/Ss)^2, the largest so far of any spot of an entry;
+    a spot fails at 1.
     """
     entries = weld_entries(result)
     if not entries or not result.time.size:
@@ -51,7 +51,7 @@ _RATIO = "Load over strength so far"
 
 
 def _ratios(result: Result, entries: list[str]) -> tuple[str, list[Line]] | None:
-    """Roots of the use of those entries that can fail, the most loaded first."""
+    """Load over strength of the entries that can fail, the most loaded first."""
     found = {n: c.values for n in entries if (c := result.channels.get(f"weld.{n}.use")) is not None}
     ranked = sorted(found, key=lambda name: -float(found[name].max(initial=0.0)))[:MOST_RATIOS]
     lines = [Line(name, _times(result), np.sqrt(found[name]), i) for i, name in enumerate(ranked)]
@@ -59,7 +59,7 @@ def _ratios(result: Result, entries: list[str]) -> tuple[str, list[Line]] | None
 
 
 def _forces(result: Result, entries: list[str]) -> tuple[str, list[Line]]:
-    """Largest forces across and along the sheets in a spot that holds, of the most loaded entries."""
+    """Largest forces across and along the sheets in an intact spot, of the most loaded entries."""
     found = {name: [result[f"weld.{name}.{key}_force"] for key in ("normal", "shear")] for name in entries}
     ranked = sorted(found, key=lambda name: -_most(found[name]))[:MOST_FORCES]
     unit, factor = display_unit("N", largest([force for name in ranked for force in found[name]]))
@@ -86,8 +86,8 @@ def _caption(panels: list[tuple[str, list[Line]]], number: int) -> str:
         if name == _RATIO:
             few = f" The {len(lines)} most loaded of {number} entries." if len(lines) < number else ""
             said.append(
-                "Load over strength of the spot of each entry that has borne most so far, the root of "
-                f"(Fn/Sn)^2 + (Fs/Ss)^2: a spot fails at 1.{few}"
+                "Load over strength, the root of (Fn/Sn)^2 + (Fs/Ss)^2, the largest so far of any spot of "
+                f"each entry: a spot fails at 1.{few}"
             )
         else:
             few = (
@@ -96,6 +96,6 @@ def _caption(panels: list[tuple[str, list[Line]]], number: int) -> str:
                 else ""
             )
             said.append(
-                f"Largest force across (tension positive) and along the sheets in a spot that holds{few}."
+                f"Largest force across (tension positive) and along the sheets in an intact spot{few}."
             )
     return f"Spot welds. {' '.join(said)}"

@@ -280,5 +280,5 @@
     const place = (model, point) => [0, 1, 2].map(
       (axis) => scene.models[model].position[3 * point + axis] + scene.origin[axis] + scene.size[axis] / 2);
     window.crumplePlayer = { seek(to) { stop(); frame = to; draw(); }, place, frames: scene.times.length };
-  }).catch((error) => { note.textContent = `The moving picture cannot be shown: ${error.message}`; note.hidden = false; });
+  }).catch((error) => { note.textContent = `The animation cannot be shown: ${error.message}`; note.hidden = false; });
 })();

@@ -1,1 +1,1 @@
-"""What pages say in words and tables."""
+"""Sentences and tables of the pages."""

@@ -1,4 +1,4 @@
-"""What the comparison page says in key figures and tables."""
+"""Key figures and tables of the comparison page."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from crumple.report.wording.wording import Table, degrees, number
 from crumple.units import format_quantity
 
 MOST_HINGES = 8
-"""Hinges with a table of their own, those that absorbed most."""
+"""Number of hinges with a table, those that absorbed most energy."""
 
 BUSY = 0.8
-"""Share of their time below which the threads of a solve were kept waiting."""
+"""Share of busy time of the threads of a solve below which the page reports that they waited."""
 LONG = 5.0
-"""Solve time [s] from which that is worth telling: before and after the stepping one thread works alone."""
+"""Solve time [s] from which it does: in short solves the serial parts before and after stepping dominate."""
 
 NO_ROTATION = 1e-9
-"""Rotation [rad] that is rounding."""
+"""Rotation [rad] below which it is rounding."""
 
 _PARTS = ("corridor", "phase", "magnitude", "slope")
 
@@ -37,7 +37,7 @@ def signed_percent(error: float | None) -> str:
 
 
 def ranked(comparison: Comparison) -> list[HingeComparison]:
-    """Hinges that absorbed most in the reference first."""
+    """Hinges, those that absorbed most energy in the reference first."""
 
     def absorbed(hinge: HingeComparison) -> float:
         return max((m.plastic_energy for m in (hinge.second, hinge.first) if m is not None), default=0.0)
@@ -52,7 +52,7 @@ def pair_of(comparison: Comparison, channel: str, candidate: str, reference: str
 
 
 def key_figures(comparison: Comparison) -> list[tuple[str, str, str]]:
-    """What everybody asks first: name, value, note."""
+    """Key figures: name, value, note."""
     first, second = comparison.candidate.name, comparison.reference.name
     hinges = ranked(comparison)
     figures = []
@@ -78,13 +78,13 @@ def key_figures(comparison: Comparison) -> list[tuple[str, str, str]]:
         if timing is None:
             figures.append(("Faster", f"{once} ×", note))
         else:
-            said = f"{note}, the least of several solves; {once} × the first time"
-            figures.append(("Faster", f"{times_faster(comparison, timing.again)} ×", said))
+            note = f"{note}, shortest of several solves; first solve {once} ×"
+            figures.append(("Faster", f"{times_faster(comparison, timing.again)} ×", note))
     return figures
 
 
 def times_faster(comparison: Comparison, seconds: float | None) -> str:
-    """How many times the reference's solve time a time [s] is, rounded: a clock that swings knows no more."""
+    """Solve time of the reference over a time [s], rounded to the repeatability of the clock."""
     ratio = comparison.times_faster(seconds)
     return "—" if ratio is None else number(float(f"{ratio:.3g}"), 3)
 
@@ -118,7 +118,7 @@ def _hinge_rows(hinge: HingeComparison) -> Iterator[tuple[str, str, str, str]]:
         return name, _value(first, unit), _value(second, unit), signed_percent(hinge.error(key))
 
     yield row("Largest rotation", "rotation_max", "rad")
-    yield row("Largest rotation, as the far end shows it", "far_rotation_max", "rad")
+    yield row("Largest rotation, seen from the far end", "far_rotation_max", "rad")
     yield row("Largest plastic rotation", "plastic_rotation", "rad")
     yield _times("Time of the largest rotation", a, b, "time_of_peak")
     yield _times("Opened (0.5° of plastic rotation)", a, b, "opened")
@@ -163,7 +163,7 @@ def rating_note(comparison: Comparison) -> str:
     interval = (
         f"over {1e3 * min(starts):g} to {1e3 * max(ends):.4g} ms"
         if len(starts) == len(ends) == 1
-        else "each over the interval that both histories cover"
+        else "each over the common interval of both histories"
     )
     return (
         f"Rated after {EDITION}, both histories interpolated linearly at {SAMPLING_RATE / 1e3:g} kHz, "
@@ -200,13 +200,13 @@ def rating_table(comparison: Comparison) -> Table:
         )
     heads = (
         "History", "Rated", "Against", "Overall", "Grade", "Corridor", "Phase", "Magnitude", "Slope",
-        "Late by, ms", "Its peak", "Reference's peak",
+        "Late by, ms", "Peak", "Peak of reference",
     )  # fmt: skip
     return Table(rating_note(comparison), heads, rows, frozenset({1, 2, 4}))
 
 
 def opening_table(comparison: Comparison) -> Table:
-    """Which hinges opened, in which order, where, in both."""
+    """Hinges that opened in either result: order, time, position."""
     rows = []
     both = {
         name: list(comparison.opened[name]) for name in (comparison.candidate.name, comparison.reference.name)
@@ -254,25 +254,26 @@ def model_table(comparison: Comparison) -> Table:
         rows.append(tuple(cells))
     of = f" of hinge {hinge.name}" if hinge else ""
     heads = (
-        "Model", "Largest rotation", "at the far end", "Plastic rotation", "Plastic energy, worst",
+        "Model", "Largest rotation", "at the far end", "Plastic rotation", "Plastic energy, largest error",
         "Rating, rotation", "velocity", "Rating, far end", "velocity",
     )  # fmt: skip
     return Table(f"Every model against the {second.name} run: errors{of} and ratings.", heads, rows)
 
 
 def busy_note(comparison: Comparison) -> str:
-    """That solve times say little, where the threads of the reference waited; else empty."""
+    """Note that the threads of the reference waited, so that its solve time is too long; else empty."""
     share = comparison.busy_share
     if share is None or share > BUSY or comparison.reference.result.solve_seconds < LONG:
         return ""
     return (
-        f"The {comparison.reference.name} run's threads worked {100 * share:.0f} % of their time: the "
-        "machine was busy, or the mesh is small for so many. Alone it is faster than that."
+        f"The threads of the {comparison.reference.name} run were busy for {100 * share:.0f} % of its solve "
+        "time: other programs used the machine, or the mesh is too small for so many threads. The ratios of "
+        "solve times are therefore too large."
     )
 
 
 def speed_table(comparison: Comparison) -> Table:
-    """Times that every model takes, and how many times faster than the reference that is."""
+    """Solve times of every model, and their ratios to the reference."""
     rows = []
     for source in comparison.sources:
         timing = comparison.timings.get(source.name)
@@ -285,13 +286,13 @@ def speed_table(comparison: Comparison) -> Table:
         rows.append(tuple(cells))
     waited = busy_note(comparison)
     caption = (
-        "Wall time of every solve, and how many times faster than the "
-        f"{comparison.reference.with_threads}. The first solve is that of the answer, in a process that "
-        "has just loaded what it needs; solved again is the least of several, laws sampled anew. Stepping "
-        "alone is the part that a sweep repeats, at the accuracy asked for, without the run that checks it."
+        "Wall time of every solve, and how many times faster it is than the "
+        f"{comparison.reference.with_threads}. The first solve gives the result, in a process that has just "
+        "been started; repeated solve is the shortest of several, with laws sampled again. Stepping only is "
+        "the part that a sweep repeats, at the requested accuracy, without the run that checks the accuracy."
         + (f" {waited}" if waited else "")
     )
-    heads = ("Model", "Threads", "First solve", "times", "Solved again", "times", "Stepping alone", "times")
+    heads = ("Model", "Threads", "First solve", "times", "Repeated solve", "times", "Stepping only", "times")
     return Table(caption, heads, rows)
 
 

@@ -1,4 +1,4 @@
-"""What became of every curve file, column by column."""
+"""Notes on every curve file: which columns were rated, and why others were not."""
 
 from __future__ import annotations
 
@@ -9,28 +9,28 @@ from crumple.comparison import Comparison, CurveFile
 from crumple.result.format import former_names_note
 
 MOST_COLUMNS = 8
-"""Columns of a file that are told one by one; the table of ratings holds all."""
+"""Number of columns listed per file; the table of ratings contains all."""
 
 
 def curve_notes(comparison: Comparison) -> list[tuple[str, bool]]:
-    """One text per curve file, and whether everything with a unit in it could be rated."""
+    """One text per curve file, and whether all its columns with a unit could be rated."""
     found = []
     for curve in comparison.curves:
-        told = list(_columns(comparison, curve))
-        texts = [text for text, _ in told[:MOST_COLUMNS]]
-        if len(told) > MOST_COLUMNS:
-            texts.append(f"{len(told) - MOST_COLUMNS} more")
+        notes = list(_columns(comparison, curve))
+        texts = [text for text, _ in notes[:MOST_COLUMNS]]
+        if len(notes) > MOST_COLUMNS:
+            texts.append(f"{len(notes) - MOST_COLUMNS} more")
         if curve.left_out:
-            texts.append(f"without a unit, and so left out: {', '.join(curve.left_out)}")
+            texts.append(f"ignored because they have no unit: {', '.join(curve.left_out)}")
         text = f"{curve.name} ({Path(curve.file).name}): {'; '.join(texts)}."
         if note := former_names_note(curve.columns):
             text = f"{text} {note}"
-        found.append((text, all(rated for _, rated in told)))
+        found.append((text, all(rated for _, rated in notes)))
     return found
 
 
 def _columns(comparison: Comparison, curve: CurveFile) -> Iterator[tuple[str, bool]]:
-    """What became of each column."""
+    """Note on each column, and whether it was rated."""
     models = {model.name for model in comparison.variants}
     for name, signal in curve.signals.items():
         pairs = [p for p in comparison.pairs if (p.channel, p.reference) == (name, curve.name)]
@@ -41,13 +41,12 @@ def _columns(comparison: Comparison, curve: CurveFile) -> Iterator[tuple[str, bo
         if rated:
             yield f"{name} rated {', '.join(rated)}", True
         elif not units:
-            yield f"no history of the results is called {name}", False
+            yield f"{name} is not the name of a history of the results", False
         elif signal.unit not in units:
-            told = ", ".join(sorted(units))
-            yield f"{name} is in {signal.unit}, in the results in {told}: not compared", False
+            yield f"{name} is in {signal.unit}, but in {', '.join(sorted(units))} in the results", False
         else:
             else_ = (
-                "there are more histories than are rated" if signal.values.any() else "it is zero throughout"
+                "the limit of rated histories is reached" if signal.values.any() else "it is zero throughout"
             )
             why = next((p.why_not for p in pairs if p.why_not), else_)
             yield f"{name} not rated: {why}", False

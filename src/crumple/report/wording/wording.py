@@ -1,4 +1,4 @@
-"""What the report says in words and tables, made from the numbers of the result alone."""
+"""Sentences and tables of the report, made from the numbers of the result only."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from crumple.result import HingeSummary, Result
 from crumple.units import format_quantity
 
 _DEGREES = math.degrees(1.0)
-_FALL = 0.05  # work of gravity over the largest energy, from which a fall is worth a table
+_FALL = 0.05  # work of gravity over the largest energy, from which the energy of the fall is tabulated
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Verdict:
-    """Whether to believe the result: level ``good``, ``caution`` or ``bad``, a headline, and the reasons."""
+    """Trust in the result: level ``good``, ``caution`` or ``bad``, a headline, and the reasons."""
 
     level: str
     headline: str
@@ -46,23 +46,23 @@ def verdict(result: Result, bound: float | None, accuracy: float | None) -> Verd
     bound
         Largest relative energy residual allowed [-], or None.
     accuracy
-        Accuracy asked of the stepper [-], or None.
+        Accuracy requested from the stepper [-], or None.
     """
     outside = {name: sentence for name in result.hinges if (sentence := outside_range(result, name))}
-    # the solver may have said it already, and with more detail
-    unsaid = [
+    # the solver may have reported it already, in more detail
+    unreported = [
         sentence
         for name, sentence in outside.items()
         if not any(warning.startswith(f"Hinge {name} turned") for warning in result.warnings)
     ]
-    warnings = (*result.warnings, *unsaid)
+    warnings = (*result.warnings, *unreported)
     reasons = [_balance(result, bound)]
     if accuracy is not None:
-        reasons.append(f"Accuracy asked for: {percent(accuracy)}.{_error(result)}")
-    backed = [h for h in result.hinges.values() if h.validity_rotation is not None]
-    if backed and not outside:
-        which = "The hinge" if len(backed) == 1 else f"All {len(backed)} hinges"
-        reasons.append(f"{which} stayed inside the range in which the law is backed.")
+        reasons.append(f"Requested accuracy: {percent(accuracy)}.{_error(result)}")
+    limited = [h for h in result.hinges.values() if h.validity_rotation is not None]
+    if limited and not outside:
+        which = "The hinge" if len(limited) == 1 else f"All {len(limited)} hinges"
+        reasons.append(f"{which} stayed inside the range of validity of the law.")
     if not result.status.ok:
         headline = sentence_case(result.status.value)
         if result.reason:
@@ -74,23 +74,23 @@ def verdict(result: Result, bound: float | None, accuracy: float | None) -> Verd
 
 
 def outside_range(result: Result, name: str) -> str:
-    """One sentence when a hinge turned farther than its law is backed; else empty."""
+    """One sentence if a hinge rotated beyond the range of validity of its law; else empty."""
     hinge = result.hinges[name]
     limit = hinge.validity_rotation
     if limit is None or not hinge.rotation_max > limit:
         return ""
-    turned, backed = angle(hinge.rotation_max), angle(limit)
-    return f"Hinge {name} turned {turned}, beyond the {backed} up to which its law is backed."
+    turned, valid = angle(hinge.rotation_max), angle(limit)
+    return f"Hinge {name} turned {turned}, beyond the range of validity of its law, {valid}."
 
 
 def _balance(result: Result, bound: float | None) -> str:
     residual = result.energy_residual
     if not math.isfinite(residual):
-        return "The energy balance could not be closed."
+        return "The energy balance is not available."
     allowed = ""
     if bound is not None:
         allowed = f", {'within' if residual <= bound else 'beyond'} its bound of {percent(bound)}"
-    return f"Energy balance: residual {percent(residual)} of the energy put in{allowed}."
+    return f"Energy balance: residual {percent(residual)} of the energy input{allowed}."
 
 
 def _error(result: Result) -> str:
@@ -103,7 +103,7 @@ def _error(result: Result) -> str:
 
 
 def key_figures(result: Result) -> list[tuple[str, str, str]]:
-    """What everybody asks first: name, value, note."""
+    """Key figures: name, value, note."""
     figures: list[tuple[str, str, str]] = []
     several = len(result.hinges) > 1
     if result.hinges:
@@ -120,7 +120,7 @@ def key_figures(result: Result) -> list[tuple[str, str, str]]:
         figures.append(("Energy absorbed", format_quantity(total, "J"), "all hinges" if several else ""))
         name, most = max(result.hinges.items(), key=lambda item: item[1].moment_max)
         figures.append(("Peak moment", format_quantity(most.moment_max, "N*m"), _note("", name, several)))
-    figures.append(("Energy residual", percent(result.energy_residual), "of the energy put in"))
+    figures.append(("Energy residual", percent(result.energy_residual), "of the energy input"))
     figures.append(("Solve time", format_quantity(result.solve_seconds, "s", 2), ""))
     return figures
 
@@ -136,7 +136,7 @@ def _rest(result: Result, several: bool) -> tuple[str, str, str]:
         return (
             "At rest after",
             "—",
-            f"{len(moving)} of {len(times)} still turning" if several else "still turning",
+            f"{len(moving)} of {len(times)} still rotating" if several else "still rotating",
         )
     name, time = max(((n, t) for n, t in times.items() if t is not None), key=lambda item: item[1])
     return ("At rest after", format_quantity(time, "s"), name if several else "")
@@ -172,12 +172,12 @@ def hinge_table(result: Result) -> Table:
             strict=True,
         )
     )
-    dash = " A dash: still turning at the end." if any(h.time_of_rest is None for h in hinges) else ""
-    return Table(f"What each hinge did.{dash}", heads, rows)
+    dash = " A dash: still rotating at the end." if any(h.time_of_rest is None for h in hinges) else ""
+    return Table(f"Rotation, time of rest, energy and moment of each hinge.{dash}", heads, rows)
 
 
 def collapse_table(result: Result) -> Table:
-    """Hinges that opened, in their order, with the time, their plastic rotation and what they absorbed."""
+    """Hinges that opened, in order, with the time, their plastic rotation and absorbed energy."""
     openings = result.collapse
     time_unit, times = column([opening.time for opening in openings], "s")
     energy_unit, energies = column([opening.energy for opening in openings], "J")
@@ -198,20 +198,20 @@ def collapse_table(result: Result) -> Table:
         for i, (opening, *cells) in enumerate(zip(openings, *columns, strict=True), 1)
     ]
     caption = (
-        "How it collapsed: hinges in the order in which they opened, that is passed "
+        "Sequence of collapse: hinges in the order in which they opened, that is, exceeded "
         f"{result.collapse_threshold * _DEGREES:.2g} deg of plastic rotation."
     )
     return Table(caption, heads, rows, frozenset({1}))
 
 
 def stage_table(result: Result) -> Table:
-    """Stages with their times and what ended them."""
+    """Stages with their times and the reason of their end."""
     time_unit, times = column([t for stage in result.stages for t in (stage.start, stage.end)], "s")
     rows = [
         (stage.name, times[2 * i], times[2 * i + 1], stage.ended_by) for i, stage in enumerate(result.stages)
     ]
     heads = ("Stage", f"Start, {time_unit}", f"End, {time_unit}", "Ended by")
-    return Table("How the stages went.", heads, rows, frozenset({3}))
+    return Table("Stages.", heads, rows, frozenset({3}))
 
 
 def output_table(result: Result) -> Table:
@@ -232,7 +232,7 @@ def output_table(result: Result) -> Table:
 
 
 def fall_table(result: Result) -> Table:
-    """Work of gravity from the highest place of the centre of mass to the end, and who took it."""
+    """Work of gravity from the highest position of the centre of mass to the end, and where it went."""
     work = result.channels.get("energy.gravity")
     empty = Table("", (), [])
     if work is None or not len(work.values):
@@ -242,7 +242,7 @@ def fall_table(result: Result) -> Table:
     put_in = max(float(np.max(np.abs(result["energy.kinetic"]))), float(np.max(np.abs(work.values))))
     if not fall > _FALL * put_in:
         return empty
-    rows = [("M g Δh, from the highest place of the centre of mass to the end", fall)]
+    rows = [("M g Δh, from the highest position of the centre of mass to the end", fall)]
     rows += [("0.75 M g Δh, the reference energy of UN R66 for calculations", 0.75 * fall)]
     taken = {
         "Absorbed by hinges": "energy.dissipated",
@@ -258,7 +258,7 @@ def fall_table(result: Result) -> Table:
 
 
 def law_table(result: Result) -> Table:
-    """Law, source and range of every hinge, and whether the run stayed inside; equal rows are one."""
+    """Law, source and range of every hinge, and whether the run stayed inside; equal rows are merged."""
     groups: dict[tuple[str, ...], list[str]] = {}
     for name, hinge in result.hinges.items():
         if not hinge.law:
@@ -270,7 +270,7 @@ def law_table(result: Result) -> Table:
         reached = f"{degrees(max(result.hinges[name].rotation_max for name in names))}°"
         inside = "no" if any(outside_range(result, name) for name in names) else "yes"
         rows.append((", ".join(names), law, source, basis, limit or "—", reached, inside if limit else "—"))
-    heads = ("Hinge", "Law and form", "Source", "Range backed by", "up to", "Reached", "Inside")
+    heads = ("Hinge", "Law and form", "Source", "Range supported by", "up to", "Reached", "Inside")
     return Table("Hinge laws, their sources and ranges of validity.", heads, rows, frozenset({1, 2, 3}))
 
 
@@ -333,7 +333,7 @@ def angle(value: float, digits: int = 4) -> str:
 
 
 def percent(share: float, digits: int = 2) -> str:
-    """A share [-] in per cent; tiny ones as a bound, since their digits mean nothing."""
+    """A share [-] in per cent; tiny ones as a bound, since their digits are not meaningful."""
     if not math.isfinite(share):
         return "not known"
     if abs(share) < 1e-6:

@@ -1,4 +1,4 @@
-"""What a comparison says of runs cut short, of hinges in one fold, of swings, contact and many hinges."""
+"""Facts and cautions: runs that ended early, hinges in one fold, oscillations, contact, many hinges."""
 
 from dataclasses import replace
 from functools import partial
@@ -10,7 +10,7 @@ from tests.support.result.folded_tube import EXAMPLE, analysis, angle_over_time,
 
 from crumple.analysis import load, loads, solve
 from crumple.comparison import compare, with_frames
-from crumple.comparison.cautions.fold_trust import folds_said
+from crumple.comparison.cautions.fold_trust import fold_sentences
 from crumple.comparison.cautions.trust import _order, swings_of
 from crumple.comparison.cautions.verdict import agreement
 from crumple.comparison.measure.motion import HingeMotion, channel_motions, measured
@@ -54,13 +54,13 @@ def test_a_run_that_was_stopped_is_compared_as_far_as_it_got(case, multibody):
     # a tube thrown to 31 deg in 80 ms has turned by half of that at 30 ms, in both
     assert hinge.first.rotation_max < 0.7 * multibody.hinges["root"].rotation_max
     assert abs(hinge.error("rotation_max")) < 0.25
-    assert "only the 30 ms that both have are compared" in found.trust.headline
+    assert "only the first 30 ms, which both contain, are compared" in found.trust.headline
     assert compare(multibody, whole, case.structure).hinges[0].first.rotation_max == pytest.approx(
         multibody.hinges["root"].rotation_max, rel=1e-3
     )
 
 
-def test_a_second_mesh_that_was_stopped_spoils_no_verdict(case, multibody):
+def test_a_second_mesh_that_was_stopped_does_not_change_the_verdict(case, multibody):
     whole = folded_result(largest=0.545)
     other = {"shell, 20 mm": shortened(whole, 0.03)}
     found = compare(multibody, whole, case.structure, variants=other)
@@ -68,7 +68,7 @@ def test_a_second_mesh_that_was_stopped_spoils_no_verdict(case, multibody):
     assert any("The shell, 20 mm run: cancelled" in text for text in found.trust.cautions)
 
 
-def test_nothing_that_folds_is_no_disagreement(case, multibody):
+def test_runs_without_folds_do_not_disagree(case, multibody):
     flat = folded_result([(0.01, 0.04, 0.0 * TIMES)])
     still = folded_result([(0.01, 0.04, 0.0 * TIMES)])
     trust = compare(still, flat, case.structure).trust
@@ -79,7 +79,7 @@ def test_nothing_that_folds_is_no_disagreement(case, multibody):
     # the candidate's alone is a disagreement
     trust = compare(multibody, flat, case.structure).trust
     assert trust.level == "bad"
-    assert "it folds where that does not (root)" in trust.headline
+    assert "it folds where that run does not (root)" in trust.headline
 
 
 def test_a_largest_rotation_does_not_hide_its_plastic_part():
@@ -98,7 +98,7 @@ def test_a_largest_rotation_does_not_hide_its_plastic_part():
     assert "28.6° shell (+0.0 %), of which plastic 28.6° and 22.9° (+25.0 %); plastic energy" in said
 
 
-def test_hinges_in_one_fold_are_told():
+def test_hinges_in_one_fold_are_reported_with_their_total_rotation():
     path = EXAMPLE.parent / "01_tube_bending.yaml"
     text = path.read_text().replace(
         "      - {name: root, at: root, law: kecman}",
@@ -108,12 +108,12 @@ def test_hinges_in_one_fold_are_told():
     found = compare(
         solve(with_frames(two, 21)), folded_result([(0.01, 0.08, angle_over_time(TIMES))]), two.structure
     )
-    (said,) = (text for text in found.trust.cautions if "stand in one fold" in text)
-    assert said.startswith("Hinges root and next stand in one fold of the shell result, from 10 mm to 80 mm")
+    (said,) = (text for text in found.trust.cautions if "are in one fold" in text)
+    assert said.startswith("Hinges root and next are in one fold of the shell result, from 10 mm to 80 mm")
     assert "31.2° multibody and 34.4° shell" in said
 
 
-def test_hinges_on_both_sides_of_a_corner_are_told_together():
+def test_the_total_rotation_of_a_corner_is_reported():
     structure = load(EXAMPLE.parent / "08_s_rail.yaml").structure
     hinges = {hinge.name: hinge for hinge in placed_hinges(structure)}
     degrees = {
@@ -139,11 +139,11 @@ def test_hinges_on_both_sides_of_a_corner_are_told_together():
             for i, (name, hinge) in enumerate(hinges.items())
         ],
     )
-    ((said, caution),) = folds_said(comparison, structure, hinges)
+    ((said, caution),) = fold_sentences(comparison, structure, hinges)
     assert said.startswith(
-        "Hinges middle-upper_bend and rear-upper_bend stand on both sides of corner upper_bend"
+        "Hinges middle-upper_bend and rear-upper_bend are on both sides of corner upper_bend"
     )
-    assert "together they turn by 72.9° multibody and 75.0° shell" in said
+    assert "total rotation of the corner is 72.9° multibody and 75.0° shell" in said
     assert not caution
 
 
@@ -179,7 +179,7 @@ def test_a_hinge_that_bends_two_ways_is_measured_whatever_the_axis():
         assert getattr(motion, history) == pytest.approx(rotation)
 
 
-def test_swings_are_measured_between_turning_points():
+def test_amplitudes_are_measured_between_turning_points():
     time = np.linspace(0.0, 4.0, 81)
     values = 2.0 + 0.8 * np.sin(2.0 * np.pi * time)
     values[0] = 0.0
@@ -191,7 +191,7 @@ def test_swings_are_measured_between_turning_points():
     assert swings_of(2.0 - 0.05 * np.cos(40.0 * time), 0.2) == []
 
 
-def test_walls_that_press_on_an_obstacle_are_not_said_to_touch_each_other(case, multibody):
+def test_contact_with_an_obstacle_is_not_reported_as_contact_of_walls(case, multibody):
     shell = folded_result(contact=0.05)
     floor = {"floor": {"type": "plane", "point": (0.0, 0.0, -1.0), "normal": (0.0, 0.0, 1.0)}}
     open_air = compare(multibody, shell, case.structure).trust
@@ -228,12 +228,13 @@ def test_many_hinges_and_a_long_order_are_cut():
     assert len(told) == 9
     assert told[0][0].startswith("Hinge hinge 11: largest rotation")
     assert told[-1] == (
-        "4 further hinges are nearer, or took up little: 2 of them are off by more than 12.0 %.",
+        "4 further hinges have smaller errors or absorbed little energy; "
+        "2 of them differ by more than 12.0 %.",
         True,
     )
     ((order, wrong),) = _order(comparison)
     assert wrong
-    assert order.startswith("After the first 3, the same in both, hinges open in another order: hinge 3,")
+    assert order.startswith("After the first 3, which agree, the hinges open in different orders: hinge 3,")
     assert order.count("and 3 more") == 2
 
 
@@ -243,7 +244,7 @@ def test_welds_that_failed_are_a_caution(case, multibody):
     failed = {"weld.seam.failed": Channel("weld.seam.failed", "1", share)}
     trust = compare(multibody, replace(shell, channels={**shell.channels, **failed}), case.structure).trust
     assert any(
-        "25.0 % of the spot welds seam failed in the shell result, by 30 ms" in text
+        "25.0 % of the spot welds seam failed in the shell result, the first by 30 ms" in text
         for text in trust.cautions
     )
     none = {"weld.seam.failed": Channel("weld.seam.failed", "1", 0.0 * share)}
@@ -254,10 +255,10 @@ def test_welds_that_failed_are_a_caution(case, multibody):
 def test_a_run_that_ends_before_the_peak_is_a_caution(case, multibody):
     whole = folded_result(largest=0.545)
     early = compare(shortened(multibody, 0.04), shortened(whole, 0.04), case.structure).trust
-    (said,) = (text for text in early.cautions if "Still turning" in text)
+    (said,) = (text for text in early.cautions if "Still rotating" in text)
     assert "ends at 40 ms: root (multibody); root (shell)" in said
     assert not any(
-        "Still turning" in text for text in compare(multibody, whole, case.structure).trust.cautions
+        "Still rotating" in text for text in compare(multibody, whole, case.structure).trust.cautions
     )
     # rounding that grows is no turning
     tiny = {
@@ -270,7 +271,7 @@ def test_a_run_that_ends_before_the_peak_is_a_caution(case, multibody):
     assert any("at 40 ms: root (shell)" in text for text in trust.cautions)
 
 
-def test_warnings_of_the_runs_are_pointed_at(case, multibody):
+def test_warnings_of_the_runs_are_mentioned(case, multibody):
     shell = replace(folded_result(largest=0.545), warnings=("something", "else"))
     facts = compare(multibody, shell, case.structure).trust.facts
     assert any("2 of the shell run" in text for text in facts)
@@ -285,7 +286,7 @@ def test_a_hinge_that_is_crushed_is_a_caution(case, multibody):
     assert not any("is crushed" in text for text in compare(multibody, shell, case.structure).trust.cautions)
 
 
-def test_plastic_work_outside_folds_is_told(case, multibody):
+def test_plastic_work_outside_folds_is_reported(case, multibody):
     still = folded_result([(0.01, 0.04, 0.0 * TIMES)])
     # crushed along itself: work and strain, and no section turns
     work = replace(still.channels["energy.dissipated"], values=300.0 * still.time / still.time[-1])
@@ -297,25 +298,25 @@ def test_plastic_work_outside_folds_is_told(case, multibody):
     crushed = replace(still, channels=channels, states=shapes)
     trust = compare(still, crushed, case.structure).trust
     assert trust.level == "bad"
-    assert "100.0 % of its plastic work lies outside folds" in trust.headline
-    assert any("where sections do not turn" in text for text in trust.cautions)
+    assert "100.0 % of its plastic work is outside folds" in trust.headline
+    assert any("where sections do not rotate" in text for text in trust.cautions)
     assert not any(
         "outside its folds" in text
         for text in compare(multibody, folded_result(), case.structure).trust.cautions
     )
 
 
-def test_a_fold_that_is_crushed_tells_its_shortening(case, multibody):
-    def told(shell):
+def test_the_shortening_of_a_crushed_fold_is_reported(case, multibody):
+    def sentence(shell):
         found = compare(multibody, shell, case.structure)
         return next(text for text in found.trust.cautions if "folds in member tube at" in text)
 
     turned = folded_result([(0.5, 0.6, 0.2 * TIMES / TIMES[-1])])
-    assert "(by 11.5°), where no hinge was put" in told(turned)
+    assert "(by 11.5°), where the multibody model has no hinge" in sentence(turned)
     # everything beyond the fold moves back by 40 mm along x, at half the angle to the fold's own line
     states = turned.states
     way = np.zeros_like(states.displacement)
     beyond = np.clip((states.station - 0.5) / 0.1, 0.0, 1.0)
     way[..., 0] = -0.04 * (states.times / states.times[-1])[:, None] * beyond
     crushed = replace(turned, states=replace(states, displacement=states.displacement + way))
-    assert "and shorter by 39 mm of 160 mm)" in told(crushed)
+    assert ", shortened by 39 mm of 160 mm)" in sentence(crushed)

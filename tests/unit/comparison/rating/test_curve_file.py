@@ -36,7 +36,7 @@ def test_short_heads_and_columns_without_units(tmp_path):
     assert file.left_out == ("M2",)
 
 
-def test_columns_are_renamed_and_turned_round(tmp_path):
+def test_columns_are_renamed_and_change_sign(tmp_path):
     text = "time_s,a_rad,b_rad\n0,1,2\n0.1,3,4\n"
     file = read_curves(
         written(tmp_path, text), pairs={"a": "hinge.root.rotation", "b": "-hinge.tip.rotation"}
@@ -55,19 +55,19 @@ def test_former_names_of_axial_channels_are_those_of_today(tmp_path):
     ("text", "says", "line"),
     [
         ("", "the file is empty", 0),
-        ("time [s],x [rad]\n", "a header but no numbers", 0),
+        ("time [s],x [rad]\n", "contains a header but no numbers", 0),
         ("x [rad],y [rad]\n0,1\n", "no column of time", 1),
-        ("time [s],x\n0,1\n", "no column beside time has a unit", 1),
+        ("time [s],x\n0,1\n", "no column except time has a unit", 1),
         ("time [s],x [zork]\n0,1\n", "zork", 1),
-        ("time [s],x [rad]\n0,1\n0.1,oops\n", "not a row of numbers", 3),
-        ("time [s],x [rad]\n0,1\n0.1,nan\n", "not a row of numbers", 3),
+        ("time [s],x [rad]\n0,1\n0.1,oops\n", "other than finite numbers", 3),
+        ("time [s],x [rad]\n0,1\n0.1,nan\n", "other than finite numbers", 3),
         ("time [s],x [rad]\n0,1\n0.1,1\n0.1,2\n", "the times do not increase", 4),
-        ("time [s],x [rad]\n0,1\n0.1,1e200\n", "not a row of numbers", 3),
-        ("time [s],x [rad],x [deg]\n0,1,2\n0.1,1,2\n", "two columns are one history", 1),
-        (b"time [s],x [rad]\n0,\xff\xfe\n", "not a text in UTF-8", 0),
+        ("time [s],x [rad]\n0,1\n0.1,1e200\n", "other than finite numbers", 3),
+        ("time [s],x [rad],x [deg]\n0,1,2\n0.1,1,2\n", "two columns have the same name", 1),
+        (b"time [s],x [rad]\n0,\xff\xfe\n", "not text in UTF-8", 0),
     ],
 )
-def test_what_is_wrong_is_said_with_its_line(tmp_path, text, says, line):
+def test_errors_are_reported_with_their_line(tmp_path, text, says, line):
     path = written(tmp_path, text)
     with pytest.raises(InputError) as refusal:
         read_curves(path)
@@ -85,11 +85,11 @@ def test_quoted_numbers_are_numbers(tmp_path):
 def test_two_columns_cannot_be_paired_with_one_history(tmp_path):
     path = written(tmp_path, "time_s,a_rad,b_rad\n0,1,2\n0.1,3,4\n")
     assert read_curves(path).columns == ("a", "b")
-    with pytest.raises(InputError, match="two columns are one history"):
+    with pytest.raises(InputError, match="two columns have the same name"):
         read_curves(path, pairs={"a": "-b"})
 
 
-def test_a_missing_file_is_said(tmp_path):
+def test_a_missing_file_is_reported(tmp_path):
     with pytest.raises(InputError, match="there is no such file"):
         read_curves(tmp_path / "nothing.csv")
 
