@@ -77,7 +77,7 @@ class _Reader:
             if not isinstance(spec, Mapping):
                 function = Constant(self.number(spec, unit, where))
             elif depth > MAX_DEPTH:
-                raise InputError(f"functions nested more than {MAX_DEPTH} deep")
+                raise InputError(f"functions are nested more than {MAX_DEPTH} deep")
             elif len(spec) != 1 or next(iter(spec)) not in self._READERS:
                 came = ", ".join(str(key)[:40] for key in list(spec)[:5])
                 allowed = f"one key of {', '.join(self._READERS)}"

@@ -92,7 +92,7 @@ PASSAGES: dict[str, tuple[Passage, Passage, float]] = {
 def _place(x: ArrayLike, x0: float, x1: float) -> Floats:
     """Relative place d between the ends, held to 0..1."""
     if not x0 < x1:
-        raise InputError(f"a passage needs x0 < x1, not x0 = {x0:g} and x1 = {x1:g}")
+        raise InputError(f"a transition needs x0 < x1, not x0 = {x0:g} and x1 = {x1:g}")
     return np.clip((np.asarray(x, dtype=np.float64) - x0) / (x1 - x0), 0.0, 1.0)
 
 

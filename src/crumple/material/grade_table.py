@@ -66,7 +66,7 @@ GRADES: dict[str, GradeEntry] = {
         0.38,
         "READ",
         "EN 10130:1999, in scribd.com/document/93314079",
-        "the standard limits yield from above alone: 210 MPa is the largest, delivered sheet lies below",
+        "the standard has only an upper limit of yield, 210 MPa; delivered sheet is below it",
         ("1.0338",),
     ),
     "HSLA 340": GradeEntry(
@@ -116,7 +116,7 @@ GRADES: dict[str, GradeEntry] = {
         None,
         "READ",
         "press hardened, least values in ahssinsights.org, PHS grades",
-        "hardened state; it may crack where folds are tight, and no law here knows of cracks",
+        "hardened state; it may crack in tight folds, which no hinge law here represents",
         ("PHS1500", "1.5528", "Usibor 1500"),
     ),
     "1.4301": GradeEntry(
@@ -126,7 +126,7 @@ GRADES: dict[str, GradeEntry] = {
         0.45,
         "QUOTED",
         "EN 10088-2, cold rolled strip",
-        "hardens much and over large strains; a proof stress underrates it in folds",
+        "hardens strongly and over large strains; in folds its strength is above the proof stress",
         ("304", "AISI 304", "X5CrNi18-10"),
     ),
     "6060-T6": GradeEntry(
@@ -147,7 +147,7 @@ GRADES: dict[str, GradeEntry] = {
         0.08,
         "QUOTED",
         "EN 755-2 extruded profiles, walls up to 5 mm",
-        "it may crack where folds are tight, and no law here knows of cracks",
+        "it may crack in tight folds, which no hinge law here represents",
         ("EN AW-6082 T6", "6082"),
     ),
 }

@@ -20,9 +20,9 @@ from crumple.material.material import Material
 class Evidence(Enum):
     """How the numbers of a grade are known."""
 
-    READ = "limits of the standard or the maker, read in the text named"
+    READ = "limits of the standard or the manufacturer, read in the text named"
     DESIGNATION = "limits that the standard's designation itself states"
-    QUOTED = "limits as widely quoted; no text with them was read"
+    QUOTED = "limits as widely quoted, not read in the standard"
 
 
 class FlowRule(Enum):
@@ -65,7 +65,7 @@ class Grade:
 
     @property
     def statement(self) -> str:
-        """One line for reports: what the numbers are and are not."""
+        """One line for reports: kind and source of the values."""
         words = f"{self.name}: typical, not design values; {self.evidence.value} ({self.citation})"
         return f"{words}; {self.note}" if self.note else words
 

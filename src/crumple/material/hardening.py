@@ -164,10 +164,10 @@ class HardeningTable:
         problems = []
         if strain.size != stress.size or strain.size == 0:
             came = f"{strain.size} strains, {stress.size} stresses"
-            what, todo = "the table needs as many stresses as strains", "add or take away points"
+            what, todo = "the table needs as many stresses as strains", "add or remove points"
             raise InputError(Problem(what, came, "as many, at least one", todo, "true_stress"))
         if not np.all(np.isfinite(strain)) or strain[0] != 0.0 or np.any(np.diff(strain) <= 0.0):
-            todo = "begin at plastic strain 0 (first yield) and leave out repeated points"
+            todo = "begin at plastic strain 0 (first yield) and remove repeated points"
             what = "plastic strains must increase strictly from 0"
             came = _first_wrong(strain, np.concatenate([[strain[0] != 0.0], ~(np.diff(strain) > 0.0)]))
             problems.append(Problem(what, came, "0 < 1st < 2nd < ...", todo, "plastic_strain"))
@@ -205,7 +205,7 @@ def swift_from_tensile_test(yield_stress: float, ultimate_stress: float, uniform
         Engineering values of the test, R_p0.2 or R_eL and R_m [Pa].
     uniform_elongation
         A_g [-]: plastic extension at the largest force.  The elongation after fracture A is larger, since it
-        holds the neck too: do not put it here.
+        includes the neck: do not use it here.
 
     Returns
     -------
@@ -232,7 +232,7 @@ def swift_from_tensile_test(yield_stress: float, ultimate_stress: float, uniform
     # n ln(1 + e_g/e_0) falls with e_0 from infinity; at its least the exponent would be 1
     if strain >= 1.0 or wanted < -math.log1p(-strain):
         allowed = f"above the yield stress, {yield_stress / 1e6:g} MPa"
-        what = "no power law hardens so little and necks so late"
+        what = "no power law has so little hardening at so large a uniform elongation"
         todo = "take a smaller uniform elongation, a Voce curve, or perfect plasticity"
         came = f"{ultimate_stress / 1e6:g} MPa at {100 * uniform_elongation:g} % uniform elongation"
         raise InputError(Problem(what, came, allowed, todo, "ultimate_stress"))

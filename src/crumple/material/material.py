@@ -82,9 +82,9 @@ def _not_positive(material: Material) -> list[Problem]:
         "youngs_modulus": (material.youngs_modulus, "Pa", "steel has about 210 GPa"),
         "density": (material.density, "kg/m^3", "steel has about 7850 kg/m^3"),
         "yield_stress": (material.yield_stress, "Pa", "structural steel starts at 235 MPa"),
-        "ultimate_stress": (material.ultimate_stress, "Pa", "leave it out where it is not known"),
+        "ultimate_stress": (material.ultimate_stress, "Pa", "leave it out if it is unknown"),
         "flow_stress": (material.given_flow_stress, "Pa", "leave it out to use the yield stress"),
-        "failure_strain": (material.failure_strain, "", "leave it out where nothing tears"),
+        "failure_strain": (material.failure_strain, "", "leave it out if nothing tears"),
     }
     return [
         Problem(

@@ -124,8 +124,8 @@ class JohnsonCook:
             return None
         if not math.e * self.reference <= low < high < math.inf:
             allowed = f"{math.e * self.reference:g} 1/s <= low < high"
-            what = "no power law with an exponent of at least 1 fits these rates"
-            todo = "choose the strain rates that the crash has"
+            what = "no power law with an exponent of at least 1 fits at these strain rates"
+            todo = "choose strain rates that occur in the crash"
             raise InputError(Problem(what, f"{low:g} and {high:g} 1/s", allowed, todo, "low"))
         rise_low, rise_high = (self.C * math.log(rate / self.reference) for rate in (low, high))
         q = math.log(high / low) / math.log(rise_high / rise_low)

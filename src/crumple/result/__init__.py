@@ -1,4 +1,4 @@
-"""The result room: what a run answered, how to filter it, and how it is stored."""
+"""Results: the data of a run, filters, and storage."""
 
 from crumple.result.caution import Caution, sentences
 from crumple.result.filters import ChannelClass, Standard, cfc

@@ -1,4 +1,4 @@
-"""Pictures that were asked for and lie after the end of a run."""
+"""Warning about requested pictures after the end of a run."""
 
 from __future__ import annotations
 

@@ -62,7 +62,7 @@ class HingeSummary:
     rotation_final
         Rotation at the end [rad], signed.
     time_of_rest
-        Time after which its plastic rotation no longer changed [s]; None if it still turned at the end.
+        Time after which its plastic rotation no longer changed [s]; None if it was still rotating at the end.
     energy
         Energy absorbed (dissipated) [J].
     moment_max
@@ -125,7 +125,7 @@ class Opening:
 
 @dataclass(frozen=True)
 class StageSummary:
-    """One stage of a sequence: name, when it began and ended [s], and what ended it."""
+    """One stage of a sequence: name, start and end [s], and the reason of its end."""
 
     name: str
     start: float
@@ -170,7 +170,7 @@ class States:
 
 @dataclass(frozen=True)
 class Provenance:
-    """Where a result comes from: version of Crumple, SHA-256 of the canonical input, ISA and so on."""
+    """Provenance of a result: version of Crumple, SHA-256 of the canonical input, ISA and so on."""
 
     version: str
     input_hash: str
@@ -225,19 +225,19 @@ class Result:
     assumptions: tuple[str, ...]
     provenance: Provenance
     output_names: tuple[str, ...] = ()
-    """Names of the channels that the analysis asked for; they appear in `outputs` and summary.json."""
+    """Names of the channels requested in the analysis; they appear in `outputs` and summary.json."""
     collapse: tuple[Opening, ...] = ()
     """Hinges that opened, in the order in which they did."""
     collapse_threshold: float = 0.0
     """Plastic rotation from which a hinge counts as open [rad]."""
     stages: tuple[StageSummary, ...] = ()
-    """Stages in their order, as far as the run came; empty where the analysis has none."""
+    """Stages in order, as far as the run reached; empty if the analysis has none."""
     cautions: tuple[Caution, ...] = ()
     """Checks that the result did not pass.  The sentences of violations are the reason, of others the first
     warnings."""
 
     def __getitem__(self, name: str) -> Floats:
-        """Values of one channel, shape (n_times,); KeyError with the nearest names when there is none."""
+        """Values of one channel, (n_times,); KeyError with similar names if there is none."""
         if name not in self.channels:
             from difflib import get_close_matches  # noqa: PLC0415  (only when something is wrong)
 

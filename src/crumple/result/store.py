@@ -62,7 +62,9 @@ def read(path: Path | str) -> Result:
     if not file_path.is_file():
         raise InputError(
             Problem(
-                "no result here", came=str(place), allowed=f"a folder with {FILE_NAME}, or that file itself"
+                "there is no result here",
+                came=str(place),
+                allowed=f"a folder with {FILE_NAME}, or that file itself",
             )
         )
     try:

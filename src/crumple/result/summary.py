@@ -1,4 +1,4 @@
-"""The answer in one small mapping: what summary.json holds and ``--json`` prints."""
+"""The result in one small mapping: the content of summary.json, printed by ``--json``."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _HINGE_KEYS = (
 
 
 def summary(result: Result) -> dict[str, Any]:
-    """Status, energies, hinges and requested outputs in SI; strict JSON values alone.
+    """Status, energies, hinges and requested outputs in SI, as strict JSON values.
 
     Parameters
     ----------

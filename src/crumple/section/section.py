@@ -1,4 +1,4 @@
-"""What every cross-section offers, whatever its shape.
+"""Interface of all cross-sections.
 
 Coordinates (y, z) are the member's local axes with the origin in the centroid.  "Bending about y" has
 its moment vector along y: the compression flange runs along y, the depth of bending along z.
@@ -165,5 +165,5 @@ def not_positive(lengths: Mapping[str, float], todo: str) -> list[Problem]:
 
 
 def in_mm(length: float) -> str:
-    """Write a length [m] for people."""
+    """A length [m] as text in mm."""
     return f"{1e3 * length:.6g} mm"

@@ -1,4 +1,4 @@
-"""A section made of walls: everything that `Section` offers, and what its walls tell beyond that."""
+"""A section made of walls: everything that `Section` offers, and properties of its walls."""
 
 from __future__ import annotations
 
@@ -90,15 +90,15 @@ class WalledSection(ByAxis):
 
     @cached_property
     def warnings(self) -> tuple[str, ...]:
-        """Sentences about walls beyond what plate formulas were tested on."""
+        """Sentences on walls outside the range in which plate formulas were tested."""
         sentences = []
         for plate in plates_of(self.walls, self.skeleton):
             limit = SLENDER_HELD if plate.held == 2 else SLENDER_FREE
             if plate.width > limit * plate.thickness:
-                edges = "both edges held" if plate.held == 2 else "one edge free"
+                edges = "both edges supported" if plate.held == 2 else "one edge free"
                 sentences.append(
                     f"{plate.name}: a flat of {in_mm(plate.width)} is {plate.width / plate.thickness:.0f} "
-                    f"times as wide as thick, with {edges}; plate formulas are not backed above {limit:g}"
+                    f"times as wide as thick, with {edges}; plate formulas are supported up to {limit:g}"
                 )
         return tuple(sentences)
 

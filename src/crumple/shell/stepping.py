@@ -1,4 +1,4 @@
-"""One run, stage after stage and output after output: the moving state and what is noted of it."""
+"""One run, stage by stage and output by output: the state and its record."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ Cancel = Callable[[], bool]
 RUNAWAY = 0.5
 """Energy residual over the energy put in at which a run is stopped: nothing after it means anything."""
 SAVE_EVERY = 300.0
-"""Wall time between two restart files [s]: what a power cut may cost."""
+"""Wall time between two restart files [s]."""
 WATCH_EVERY = 0.5
 """Wall time between two looks at the energies [s]; a look costs about as much as ten steps."""
 TELL_EVERY = 0.1
@@ -180,7 +180,7 @@ class Stepping:
             if not status.ok:
                 return status, with_place(self.state.reason, self.case)
             if not self._note(self.state.time if why else float(at), bool(why)):
-                return Status.RESIDUAL_EXCEEDED, f"the energies ran away at {self.state.time:.4g} s"
+                return Status.RESIDUAL_EXCEEDED, f"the energies grew without bound at {self.state.time:.4g} s"
             if why:
                 break
         if stage.kind == "quasi-static":

@@ -68,7 +68,7 @@ class Watch:
         }
 
     def restore(self, arrays: Mapping[str, Floats]) -> None:
-        """Take up what `to_arrays` gave."""
+        """Restore the state from the arrays of `to_arrays`."""
         self.work, self.since, self.seen = (float(value) for value in arrays["numbers"])
         vectors = arrays["vectors"].reshape(3, -1, 3)
         self.first, self.impulse, self.mark = ([*part] for part in vectors)

@@ -144,7 +144,7 @@ def test_check_asks_the_solver_that_is_named(run_command, tmp_path: Path) -> Non
     assert (code, err) == (0, "")
     assert "Shells: " in out
     assert "time step" in out
-    # one flat wall: the multibody solver takes it, and the shells say that its rotations mean nothing
+    # one flat wall: only the shell solver warns, because section rotations of it are not defined
     flat = tmp_path / "flat.yaml"
     flat.write_text(
         "crumple: 1\nmaterials: {steel: {grade: S355}}\nnodes: {a: [0, 0, 0], b: [0.1 m, 0, 0]}\n"
@@ -167,7 +167,7 @@ def test_check_asks_the_solver_that_is_named(run_command, tmp_path: Path) -> Non
     for fidelity in ("shell", "both"):
         code, out, err = run_command("check", bad, "--fidelity", fidelity)
         assert (code, out) == (2, "")
-        assert err.count("the elements are longer than the section of member tube is wide") == 1
+        assert err.count("the elements are larger than the section of member tube") == 1
         assert "bad.yaml:38" in err
 
 

@@ -40,7 +40,7 @@ def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
     assert "Caution" in run.stdout
     said = " ".join(run.stdout.split())
     assert "Curve bench (test.csv): member.tube.chord_rotation rated 0." in said
-    assert "hinge.root.moment is in m, in the results in N*m: not compared" in said
+    assert "hinge.root.moment is in m, but in N*m in the results" in said
     for name in ("multibody", "shell"):
         summary = json.loads((tmp_path / "out" / name / "summary.json").read_text())
         assert summary["fidelity"] == name
@@ -55,11 +55,11 @@ def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
         "bench",
         "laws of the shells",
         "elastic members",
-        "left out: M2",
+        "no unit: M2",
         "node.tip.displacement.z over time, with the curves from files.",
         'id="player"',
         "shell, 30 mm",
-        "Solved again",
+        "Repeated solve",
     ):
         assert expected in page
     assert (tmp_path / "out" / "figures" / "shapes.svg").is_file()
@@ -103,9 +103,9 @@ def test_a_stopped_first_run_keeps_the_second_away(tmp_path: Path, monkeypatch, 
         (("--pair", "tip=node.tip.displacement.z"), "no curve file has a column"),
         (("--pair", "x=y", "--pair", "x=z"), "is paired twice"),
         (("--curve", "shell=missing.csv"), "is that of a result"),
-        (("--second-mesh", "1"), "this is no other mesh"),
-        (("--second-mesh", "nan"), "this is no other mesh"),
-        (("--second-mesh", "9"), "is wide, with --second-mesh 9"),
+        (("--second-mesh", "1"), "this factor gives no second mesh"),
+        (("--second-mesh", "nan"), "this factor gives no second mesh"),
+        (("--second-mesh", "9"), "of member tube, with --second-mesh 9"),
     ],
 )
 def test_bad_requests_are_refused_before_anything_is_solved(tmp_path: Path, arguments, says) -> None:
@@ -148,7 +148,7 @@ def test_an_interrupted_comparison_goes_on(tmp_path: Path, monkeypatch, capsys) 
     said = " ".join(capsys.readouterr().out.split())
     saved = parts / "shell" / "restart.npz"
     assert f"Go on with the same command and --restart {saved}" in said
-    assert "ms that both have are compared" in said
+    assert "ms, which both contain, are compared" in said
     assert (parts / "report.html").is_file()
     words = ["compare", file, "--threads", 1, "--no-variants", "--out"]
     assert crumple(*words, whole, "--restart", tmp_path / "none.npz").returncode == 2

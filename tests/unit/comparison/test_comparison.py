@@ -100,20 +100,20 @@ def test_solve_times_are_compared_with_the_reference_solve(case, multibody):
     )  # fmt: skip
     ((value, note),) = ((value, note) for name, value, note in key_figures(timed) if name == "Faster")
     assert value == "20000 ×"
-    assert note == "multibody than shell, the least of several solves; 10000 × the first time"
+    assert note == "multibody than shell, shortest of several solves; first solve 10000 ×"
 
 
 @pytest.mark.parametrize(
-    ("share", "seconds", "told"),
+    ("share", "seconds", "reported"),
     [(0.5, 20.0, True), (0.95, 20.0, False), (0.5, 2.0, False), (None, 20.0, False)],
 )
-def test_waiting_of_the_reference_is_reported(case, multibody, share, seconds, told):
+def test_waiting_of_the_reference_is_reported(case, multibody, share, seconds, reported):
     found = replace(
         compare(multibody, folded_result(solve_seconds=seconds), case.structure), busy_share=share
     )
-    said = "The shell run's threads worked 50 % of their time"
-    assert busy_note(found).startswith(said) is told
-    assert (said in speed_table(found).caption) is told
+    said = "The threads of the shell run were busy for 50 % of its solve time"
+    assert busy_note(found).startswith(said) is reported
+    assert (said in speed_table(found).caption) is reported
 
 
 def test_curves_are_paired_by_name_and_the_rest_is_named(case, multibody):

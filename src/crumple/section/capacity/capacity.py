@@ -61,7 +61,7 @@ class MomentCapacity:
     Attributes
     ----------
     moment
-        [N m], in the sense asked for; negative where the axial force alone bends further than that.
+        [N m], in the requested sense; negative if the axial force alone bends further than that.
     elastic_moment, plastic_moment, effective_moment
         First yield without buckling, full plasticity, first yield with effective widths [N m].
     cross_moment
@@ -102,7 +102,7 @@ class MomentCapacity:
     def regime(self) -> str:
         """How the moment came about, in words."""
         if self.buckling_ratio >= 2.0:
-            return "plastic: no plate buckles before the section is at yield all over"
+            return "plastic: no plate buckles before the whole section yields"
         if self.buckling_ratio <= 1.0:
             return f"effective: {self.governing} buckles before yield"
         return f"between effective and plastic: {self.governing} buckles near yield"
@@ -186,18 +186,18 @@ def moment_capacity(
 def _open_warnings(section: WalledSection, plates: list[Plate]) -> list[str]:
     sentences = []
     if not section.skeleton.cells:
-        sentences.append("open section: it may distort or buckle sideways before it reaches this moment")
+        sentences.append("open section: it may distort or buckle laterally before it reaches this moment")
     if any(plate.held == 0 for plate in plates):
-        sentences.append("a flat that no other wall holds: its buckling is that of the member, not looked at")
+        sentences.append("a flat without support by another wall: its buckling as a member is not checked")
     arcs = [piece for piece in section.skeleton.pieces if piece.radius > 10.0 * piece.thickness]
     if arcs:
         slender = max(arc.radius / arc.thickness for arc in arcs)
-        sentences.append(f"curved walls (radius up to {slender:.0f} thicknesses) are taken as not buckling")
+        sentences.append(f"curved walls (radius up to {slender:.0f} thicknesses) are assumed not to buckle")
     return sentences
 
 
 class _State(NamedTuple):
-    """A line of stress and what it carries: middle + slope * height [Pa, Pa/m] in the reference metal."""
+    """A linear stress and its resultants: middle + slope * height [Pa, Pa/m] in the reference metal."""
 
     force: float
     moment: float

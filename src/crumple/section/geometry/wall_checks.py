@@ -66,10 +66,10 @@ def _of_one(walls: Sequence[Wall], number: int) -> list[Problem]:
     for k in np.flatnonzero(sides <= shortest).tolist():
         problems.append(
             Problem(
-                "the wall has a side of no length",
+                "the wall has a side without length",
                 f"point {k} and the next are {in_mm(sides[k])} apart",
                 "points that differ",
-                "leave the repeated point out; a closed wall does not repeat its first",
+                "remove the repeated point; a closed wall does not repeat its first point",
                 f"{name}.points[{k}]",
             )
         )
@@ -166,8 +166,8 @@ def _crossings(skeleton: Skeleton, walls: Sequence[Wall], flats: list[int]) -> l
         Problem(
             f"walls cross: {_pair(skeleton, walls, flats[i], flats[j])}",
             "no common point where they cross",
-            "walls that meet in points of both, or end on each other",
-            "end the walls there, and go on with further walls from that point",
+            "walls that meet at points of both, or end on each other",
+            "end the walls there, and continue with further walls from that point",
             f"walls[{skeleton.pieces[flats[i]].wall}]",
         )
         for i, j in zip(*np.nonzero(np.triu(parted & parted.T)), strict=True)
@@ -316,9 +316,9 @@ def _loose_parts(skeleton: Skeleton, walls: Sequence[Wall]) -> list[Problem]:
         return []
     return [
         Problem(
-            f"the section falls into {len(groups)} parts",
+            f"the section consists of {len(groups)} separate parts",
             "; ".join(", ".join(group) for group in groups),
-            "walls that all hang together",
+            "walls that are all connected",
             "let walls end on each other's mid-lines, or weld them",
             "walls",
         )

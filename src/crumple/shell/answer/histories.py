@@ -16,7 +16,7 @@ from crumple.structure import Outputs, Structure
 
 AXES = ("x", "y", "z")
 AT_REST = 2e-3
-"""Share of a hinge's plastic work that may still come after it counts as at rest: vibration adds as much."""
+"""Share of a hinge's plastic work that may follow after its time of rest: vibration adds as much."""
 CHANNEL_NAMES = {"plastic": "dissipated"}
 """Names of the energies where the stepper's differ from the result's."""
 
@@ -187,7 +187,7 @@ def summaries(sampler: Sampler, record: Record) -> dict[str, HingeSummary]:
 
 
 def _rest(time: Floats, energy: Floats) -> float | None:
-    """Time after which next to no plastic work was done [s]; None while it goes on at the end."""
+    """Time after which almost no plastic work was done [s]; None if it continues at the end."""
     final = float(energy[-1])
     if final <= 0.0:
         return 0.0

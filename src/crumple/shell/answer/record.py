@@ -1,4 +1,4 @@
-"""What is noted at every output time, as plain arrays that a restart file can hold."""
+"""Record of a run: the state at every output time, as plain arrays that a restart file can store."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ class Record:
 
     @classmethod
     def from_arrays(cls, arrays: Mapping[str, Floats]) -> Record:
-        """Record from what `to_arrays` gave; other names are passed over."""
+        """Record from the arrays of `to_arrays`; other names are ignored."""
         record = cls()
         for key, values in arrays.items():
             kind, _, name = key.partition("/")

@@ -1,4 +1,4 @@
-"""What spot welds bore, and which of them failed, when and where."""
+"""Histories of spot welds: forces, load over strength, and failures with time and position."""
 
 from __future__ import annotations
 
@@ -35,11 +35,11 @@ def weld_channels(structure: Structure, case: ShellCase, record: Record) -> Iter
 def weld_assumptions(structure: Structure, case: ShellCase) -> Iterator[str]:
     """Sentences on how spots are tied."""
     if plain := sum(not body.lumps and not body.stretch for body in case.bodies):
-        yield f"{plain} spot welds tie pairs of nodes rigidly and do not fail."
+        yield f"{plain} spot welds connect pairs of nodes rigidly and cannot fail."
     for name, welds in structure.spot_welds.items():
         across, along = _force(welds.normal_strength), _force(welds.shear_strength)
-        fails = f"fail at {across} across and {along} along the sheets" if welds.fails else "do not fail"
-        yield f"{len(_numbers(case, name))} spot welds {name} tie the sheets rigidly and {fails}."
+        fails = f"fail at {across} across and {along} along the sheets" if welds.fails else "cannot fail"
+        yield f"{len(_numbers(case, name))} spot welds {name} connect the sheets rigidly and {fails}."
 
 
 def weld_warnings(structure: Structure, case: ShellCase, record: Record) -> Iterator[str]:
@@ -51,9 +51,9 @@ def weld_warnings(structure: Structure, case: ShellCase, record: Record) -> Iter
         if not broken.size:
             continue
         order = broken[np.argsort(rows[broken, TIME], kind="stable")]
-        told = "; ".join(_failure(case, rows, numbers, int(i)) for i in order[:MOST_NAMED])
+        listed = "; ".join(_failure(case, rows, numbers, int(i)) for i in order[:MOST_NAMED])
         more = f"; and {len(order) - MOST_NAMED} more" if len(order) > MOST_NAMED else ""
-        yield f"{len(order)} of {len(numbers)} spot welds {name} failed: {told}{more}."
+        yield f"{len(order)} of {len(numbers)} spot welds {name} failed: {listed}{more}."
 
 
 def _failure(case: ShellCase, rows: Floats, numbers: Integers, i: int) -> str:
@@ -61,7 +61,7 @@ def _failure(case: ShellCase, rows: Floats, numbers: Integers, i: int) -> str:
     across, along = (_force(float(rows[i, column])) for column in (NORMAL, SHEAR))
     place = in_words(case.welds[numbers[i]].place)
     when = format_quantity(float(rows[i, TIME]), "s", 4)
-    return f"at {when} the one at {place}, under {across} across and {along} along the sheets"
+    return f"at {when} the one at {place}, at {across} across and {along} along the sheets"
 
 
 def _numbers(case: ShellCase, name: str) -> Integers:

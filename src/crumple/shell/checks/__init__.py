@@ -1,1 +1,1 @@
-"""Settings that are refused, and what to know before believing a shell result."""
+"""Refused settings of shell runs, and warnings about their results."""

@@ -1,4 +1,4 @@
-"""Settings that fit no mesh of this structure, told before the first step."""
+"""Checks of the settings against the mesh, before the first step."""
 
 from __future__ import annotations
 
@@ -43,8 +43,8 @@ def refuse_sizes(structure: Structure, settings: ShellSettings) -> None:
     for name in structure.members:
         widest = float(np.ptp(structure.section_of(name).outer_outline(), axis=0).max())
         if size > widest:
-            what = f"the elements are longer than the section of member {name} is wide"
-            allowed, todo = f"at most {1e3 * widest:.4g} mm, better a tenth", "give smaller elements"
+            what = f"the elements are larger than the section of member {name}"
+            allowed, todo = f"at most {1e3 * widest:.4g} mm, recommended a tenth", "give smaller elements"
             problems.append(Problem(what, f"{1e3 * size:.4g} mm", allowed, todo, f"analysis.shell.{key}"))
     if problems:
         raise InputError(problems)
@@ -56,14 +56,14 @@ def refuse_waves(settings: ShellSettings, contours: dict[str, Contour], rings: d
     Raises
     ------
     InputError
-        With the largest that the mesh can bear.
+        With the largest imperfection that the mesh allows.
     """
     around = [np.linalg.norm(np.diff(c.points[c.sides], axis=1), axis=2).min() for c in contours.values()]
     smallest = float(min(*around, *(np.diff(at).min() for at in rings.values())))
     if settings.imperfection > LARGEST_WAVE * smallest:
-        what, came = "the imperfection would cross the elements", f"{1e3 * settings.imperfection:.4g} mm"
+        what, came = "the imperfection is too large for the elements", f"{1e3 * settings.imperfection:.4g} mm"
         allowed = f"at most {1e3 * LARGEST_WAVE * smallest:.3g} mm, a quarter of the smallest side"
-        todo = "give the waviness of a real wall: a few hundredths of its thickness"
+        todo = "give the waviness of a real wall, a few hundredths of its thickness"
         raise InputError(Problem(what, came, allowed, todo, "analysis.shell.imperfection"))
 
 
@@ -89,7 +89,7 @@ def _step_problems(
         reason = f"{allowed}, {FEWEST_STEPS} steps of the shortest stage"
         yield Problem(what, came, reason, todo, "analysis.shell.mass_scaling")
     if first_step < settings.minimum_time_step:
-        what = "the first stable time step is below its minimum already"
+        what = "the first stable time step is below the minimum time step"
         came, todo = f"{settings.minimum_time_step:g} s", "give a smaller minimum, or larger elements"
         allowed = f"below {first_step:.3g} s"
         yield Problem(what, came, allowed, todo, "analysis.shell.minimum_time_step")
@@ -97,7 +97,7 @@ def _step_problems(
         damping = damping_of(settings, stage)
         if damping * first_step <= MOST_DAMPED:
             continue
-        what = "the damping stops all motion within a few steps"
+        what = "the damping is so large that it stops all motion within a few steps"
         most = f"at most {MOST_DAMPED / first_step:.3g} 1/s"
         if settings.damping:
             yield Problem(what, f"{damping:g} 1/s", most, "give less damping", "analysis.shell.damping")

@@ -22,21 +22,21 @@ from crumple.structure.hinges.hinges import hinge_places
 LOST_SHARE = 5e-3
 """Share of the given energy that may vanish at the start before a warning."""
 HOURGLASS_SHARE = 0.05
-"""Hourglass energy over the largest internal energy above which what holds the elements is no physics."""
+"""Hourglass energy over the largest internal energy above which there is a warning."""
 PRESSED_IN = 0.5
-"""Penetration over the distance kept above which contact is soft enough to be worth a warning."""
+"""Penetration over the contact distance above which there is a warning."""
 ADDED_SHARE = 0.01
-"""Mass added by scaling, over the walls' mass, above which inertia is no longer that of the structure."""
+"""Mass added by scaling, over the mass of the walls, above which there is a warning."""
 MASS_SHARE = 0.01
-"""Difference of the meshed mass from that of the sections above which it is worth a warning."""
+"""Relative difference of the meshed mass from that of the sections above which there is a warning."""
 OFF_CENTRE = 0.05
-"""Distance of a held body's centre of mass from its node, over the section's size, worth a warning."""
+"""Distance of a held body's centre of mass from its node, over the section's size, for a warning."""
 FLAT = 1e-6
 """Spread of a section's points across their line over that along it, below which they lie in a line."""
 SLOW_SHARE = 0.05
 """Kinetic or damped energy over the internal energy above which a stage is not quasi-static."""
 LEAST_ENERGY = 1e-9
-"""Energy [J] below which nothing has been put in and shares mean nothing."""
+"""Energy [J] below which shares of the energy are not meaningful."""
 
 
 def energy_residual(record: Record) -> float:
@@ -50,7 +50,7 @@ def energy_residual(record: Record) -> float:
 
 
 def assumptions(structure: Structure, case: ShellCase, settings: ShellSettings) -> tuple[str, ...]:
-    """Sentences stating what the model takes for granted."""
+    """Sentences stating the assumptions of the model."""
     found = [
         f"Walls are shells along their mid-lines: {case.report}.",
         f"One-point quadrilaterals ({settings.element}) with {settings.thickness_points} points through the "
@@ -74,34 +74,34 @@ def assumptions(structure: Structure, case: ShellCase, settings: ShellSettings) 
             for a, b in member.rigid_parts(length)
         ]
     found += [
-        f"Hinge {zone.place.name} is the stretch of member {zone.place.member} from "
+        f"Hinge {zone.place.name} is represented by member {zone.place.member} from "
         f"{_station(case, zone.place.member, zone.first)} to "
-        f"{_station(case, zone.place.member, zone.last)} mm: rotation between the sections there, "
-        "plastic work in the walls between."
+        f"{_station(case, zone.place.member, zone.last)} mm: its rotation is that between the sections "
+        "there, its energy the plastic work of the walls between them."
         for zone in case.zones
     ]
     return tuple(found)
 
 
 def _without_effect(structure: Structure, case: ShellCase, settings: ShellSettings) -> Iterator[str]:
-    """What was asked for and changes nothing here."""
+    """Settings that have no effect in this model."""
     if settings.self_contact == "off" and case.model.settings.self_contact:
-        yield "Walls touch walls although self-contact is off, since the structure has contact of members."
+        yield "Self-contact is on despite its setting, because the structure has contact of members."
     if structure.member_contact is not None and structure.member_contact.restitution:
-        yield "The restitution of members is that of rigid bodies: walls rebound by their own elasticity."
+        yield "The restitution of member contact has no effect: walls rebound by their own elasticity."
     if settings.coarse_sections == "on" and not case.report.triangles:
-        yield "No stretch of long elements is long enough for coarser sections: there are none."
+        yield "There are no coarser sections: no range of long elements is long enough for them."
 
 
 def _held(settings: ShellSettings) -> str:
-    """What holds the modes that one point does not see."""
+    """Resistance to the modes that one-point integration does not see."""
     if settings.element == "stabilised":
-        return "the varying strains held by the metal's own stiffness"
+        return "physical stabilisation of the hourglass modes with the stiffness of the metal"
     return f"hourglass control by {settings.hourglass}"
 
 
 def warnings(structure: Structure, case: ShellCase, record: Record, state: ShellState) -> tuple[str, ...]:
-    """Sentences that must be read before believing the result."""
+    """Warnings about the result."""
     energy = {name: record["energy"][:, i] for i, name in enumerate(ENERGIES)}
     found = [*_mesh_warnings(structure, case), *_flat_members(structure, case)]
     internal = float((energy["elastic"] + energy["plastic"]).max())
@@ -110,27 +110,25 @@ def warnings(structure: Structure, case: ShellCase, record: Record, state: Shell
     if artificial and internal > LEAST_ENERGY and hourglass > HOURGLASS_SHARE * internal:
         found.append(
             f"Hourglass energy reaches {hourglass / internal:.1%} of the internal energy: "
-            "use a finer mesh, or the other hourglass control."
+            "refine the mesh, or use the other hourglass control."
         )
     depth = state.deepest_penetration
     if depth > 1.0:
         found.append(
-            "Walls passed through each other: contact could not hold them, and later folds are not real."
+            "Walls passed through each other: contact was too soft, and later folds are not physical."
         )
     elif depth > PRESSED_IN:
-        found.append(
-            f"Walls pressed into each other by up to {depth:.0%} of the distance that contact keeps."
-        )
+        found.append(f"Walls penetrated each other by up to {depth:.0%} of the contact distance.")
     for name, row in zip(structure.obstacles, state.obstacles, strict=True):
         if row[-1] > 1.0:
             found.append(
-                f"Walls went {row[-1]:.2g} half thicknesses into obstacle {name}: it could not hold them."
+                f"Walls penetrated obstacle {name} by {row[-1]:.2g} half thicknesses: contact was too soft."
             )
     torn = int((state.element_field("alive") < 0.5).sum())
     if torn:
         found.append(
-            f"{torn} of {len(state.model.elements)} elements have torn and are gone: where walls tear "
-            "depends on the size of the elements."
+            f"{torn} of {len(state.model.elements)} elements reached the failure strain and were deleted. "
+            "Where walls tear depends on the element size."
         )
     if state.added_mass > ADDED_SHARE * state.mass:
         found.append(f"Mass scaling added {state.added_mass:.3g} kg to {state.mass:.3g} kg of walls.")
@@ -138,14 +136,14 @@ def warnings(structure: Structure, case: ShellCase, record: Record, state: Shell
     kinetic, given = float(energy["kinetic"][0]), case.start.given_energy
     if not structure.impulses and given - kinetic > LOST_SHARE * given:
         found.append(
-            f"{given - kinetic:.4g} J of the given {given:.4g} J is lost at the start: the given motion does "
-            "not fit the supports and rigid sections."
+            f"{given - kinetic:.4g} J of the {given:.4g} J given are lost at the start, because the initial "
+            "motion is not compatible with the supports and rigid sections."
         )
     return tuple(found)
 
 
 def slow_warnings(stages: Sequence[Stage], ended: Sequence[StageSummary], record: Record) -> tuple[str, ...]:
-    """Sentences on quasi-static stages that were run too fast to be free of inertia."""
+    """Warnings about quasi-static stages that are too short to be free of inertia."""
     found = []
     for stage, summary in zip(stages, ended, strict=False):
         if stage.kind != "quasi-static":
@@ -160,7 +158,7 @@ def slow_warnings(stages: Sequence[Stage], ended: Sequence[StageSummary], record
 
 
 def slow_shares(record: Record, stage: StageSummary) -> tuple[float, float]:
-    """Largest kinetic energy after a stage's first tenth, and what it damped, over its internal energy."""
+    """Largest kinetic energy after a stage's first tenth, and damping energy, over its internal energy."""
     time, energy = record["time"], {name: record["energy"][:, i] for i, name in enumerate(ENERGIES)}
     late = (time > stage.start + 0.1 * (stage.end - stage.start)) & (
         time <= stage.end * (1 + 1e-9) + LEAST_ENERGY
@@ -184,12 +182,12 @@ def _mesh_warnings(structure: Structure, case: ShellCase) -> list[str]:
         area = tube.contour.area
         if abs(area / section.area - 1.0) > MASS_SHARE:
             found.append(
-                f"The mesh of member {name} has {area / section.area:.1%} of its section's area: "
-                "its corners are drawn coarsely."
+                f"The mesh of member {name} has {area / section.area:.1%} of the area of its section, "
+                "because its corners are meshed coarsely."
             )
     for name in too_sharp(structure, case.report.largest_side):
         found.append(
-            f"Obstacle {name} is round so tightly that it presses in between the nodes: use smaller elements."
+            f"Obstacle {name} has so small a radius that it can pass between nodes: use smaller elements."
         )
     for body in case.bodies:
         if not body.held or body.stretch or body.pin is not None:
@@ -198,26 +196,27 @@ def _mesh_warnings(structure: Structure, case: ShellCase) -> list[str]:
         distance = _off_centre(case, body, lump)
         if distance:
             found.append(
-                f"The support of node {node} holds the joint's centre of mass, {1e3 * distance:.3g} mm "
+                f"The support of node {node} acts at the joint's centre of mass, {1e3 * distance:.3g} mm "
                 "from the node."
             )
     return found
 
 
 def _flat_members(structure: Structure, case: ShellCase) -> Iterator[str]:
-    """Members of one flat wall with hinges: a section's nodes in a line have no plane that could turn."""
+    """Members of one flat wall with hinges: section nodes in a line do not define a plane."""
     for name in dict.fromkeys(place.member for place in hinge_places(structure)):
         points = case.mesh.tubes[name].contour.points
         spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
         if spread[1] < FLAT * spread[0]:
             yield (
-                f"Member {name} is one flat wall: nodes in a line do not tell how a section turns, so the "
-                "rotations told of hinges in it mean nothing; read displacements."
+                f"Member {name} is one flat wall, whose section nodes are in a line and do not define a "
+                "rotation. The reported rotations of hinges in this member are not meaningful; use "
+                "displacements instead."
             )
 
 
 def _off_centre(case: ShellCase, body: Body, lump: Lump) -> float:
-    """Distance of a body's lump or of its sections' middle from its node [m]; 0 where it does not matter."""
+    """Distance of a body's lump or of its sections' middle from its node [m]; 0 if it is small."""
     walls = case.mesh.position[body.nodes[:-1]]
     size, centre = float(np.ptp(walls, axis=0).max()), lump.centre if lump.mass > 0.0 else body.place
     distance = max(float(np.linalg.norm(at - body.place)) for at in (walls.mean(axis=0), centre))

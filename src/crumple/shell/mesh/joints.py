@@ -1,4 +1,4 @@
-"""What becomes of the members' ends at each node: clamped, joined by a mitre, made rigid, or left free.
+"""Treatment of the members' ends at each node: clamped, joined by a mitre, made rigid, or left free.
 
 Members that meet at a node are cut back so that their walls do not cross, and their end sections move as one
 rigid body; what was cut away stays as its mass.  With outgoing unit vectors x_i and x_j at an angle a, and
@@ -25,7 +25,7 @@ SHARPEST_MITRE = np.radians(100.0)
 SAME_POINT = 1e-6
 """Distance over the section's size below which two contours' points are one."""
 NARROWEST_ANGLE = np.radians(10.0)
-"""Angle between two members below which they lie within each other all along."""
+"""Angle between two members below which they overlap along their length."""
 LONGEST_CUT = 0.35
 """Share of a member that a joint may take at one end."""
 SHEARED_LENGTH = 2.5
@@ -33,7 +33,7 @@ SHEARED_LENGTH = 2.5
 
 
 class Kind(Enum):
-    """What holds the sections at a node."""
+    """Kind of connection of the sections at a node."""
 
     FREE = "free"
     CLAMPED = "clamped"
@@ -51,14 +51,14 @@ class End:
 
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """What becomes of the ends at one node.
+    """Treatment of the ends at one node.
 
     Attributes
     ----------
     node
         Its name.
     kind
-        What holds the sections together.
+        Kind of connection of the sections.
     ends
         Members' ends there.
     cut
@@ -91,7 +91,7 @@ def joints_of(structure: Structure, contours: dict[str, Contour]) -> dict[str, J
     Raises
     ------
     InputError
-        If members lie within each other, or one is too short for its joints.
+        If members overlap along their length, or one is too short for its joints.
     """
     ends: dict[str, list[End]] = defaultdict(list)
     for name, member in structure.members.items():
@@ -202,7 +202,7 @@ def _cut(
     if most > LONGEST_CUT * length:
         raise InputError(
             Problem(
-                f"the joint at node {node} takes too much of member {end.member}",
+                f"the joint at node {node} cuts too much off member {end.member}",
                 f"{1e3 * most:.4g} mm of {1e3 * length:.4g} mm",
                 f"at most {LONGEST_CUT:.0%} of the member",
                 "make the member longer, or join it at another node",
@@ -221,7 +221,7 @@ def _half_depth(structure: Structure, contours: dict[str, Contour], end: End, di
 def _within(node: str, end: End, other: End, angle: float) -> InputError:
     return InputError(
         Problem(
-            f"the members {end.member} and {other.member} lie within each other at node {node}",
+            f"the members {end.member} and {other.member} overlap along their length at node {node}",
             f"{angle:.3g} deg between them",
             f"at least {np.degrees(NARROWEST_ANGLE):.0f} deg",
             "describe them as one member, or move a node",

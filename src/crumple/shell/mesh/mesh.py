@@ -171,10 +171,10 @@ def _rings(
     ends = (cut[0], length - cut[1])
     if ends[1] - ends[0] < settings.element_size / 2:
         what, came = (
-            "nothing is left of this member between its joints",
+            "this member has no length left between its joints",
             f"{1e3 * (ends[1] - ends[0]):.4g} mm",
         )
-        todo = "make it longer, or the elements smaller"
+        todo = "make it longer, or use smaller elements"
         raise InputError(Problem(what, came, "at least one element", todo, f"members.{member}"))
     asked = [
         station

@@ -1,4 +1,4 @@
-"""Is a mesh fit to be computed, and what can be expected of it."""
+"""Checks of a mesh, and its quality and time step."""
 
 from __future__ import annotations
 
@@ -141,7 +141,9 @@ def _check(mesh: Mesh, corner: Floats, side: Floats) -> None:
     )
     todo = "change the element size, or the members that meet there"
     problems = [
-        Problem(what, mesh.place_of(int(element)), "elements with four corners apart", todo, "analysis.shell")
+        Problem(
+            what, mesh.place_of(int(element)), "elements with four distinct corners", todo, "analysis.shell"
+        )
         for what, bad in faults
         for element in np.flatnonzero(bad)[:MOST_NAMED]
     ]

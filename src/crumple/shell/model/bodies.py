@@ -1,4 +1,4 @@
-"""Rigid bodies: end sections and rigid parts, lumps, and what a joint cut away from its members."""
+"""Rigid bodies: end sections and rigid parts, lumps, and the ends cut away from members at joints."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def bodies_of(structure: Structure, mesh: Mesh, weld_pitch: float | None = None)
     Raises
     ------
     InputError
-        If a rigid part is too short, or supports hold it in a way that shells cannot follow.
+        If a rigid part is too short, or its supports cannot be represented in shells.
     """
     bodies = [_body(structure, mesh, group) for group in groups_of(structure, mesh)]
     spots = weld_pairs(structure, mesh, weld_pitch)
@@ -136,13 +136,15 @@ def _refuse_hold(
         moving = TRANSLATIONS & (fixed | driven[node])
         pinned = moving <= fixed and moving == TRANSLATIONS and not driven[node]
         if moving and not fixed >= ROTATIONS and not pinned:
-            what, came = "a rigid part is held or driven at a node in some directions alone", node
+            what, came = "a rigid part is held or driven at a node in some directions only", node
     if what:
         name = next(name for name, support in structure.supports.items() if support.node in held)
-        allowed = "one node: all, pin, rotations alone, or directions together with all rotations held"
-        todo = "hold it so, or let the part next to the support deform"
+        allowed = "one node: all, pin, rotations only, or directions together with all rotations"
+        todo = "use one of these supports, or let the part next to the support deform"
         raise InputError(
-            Problem(f"{what}, which shells cannot follow", came, allowed, todo, f"supports.{name}")
+            Problem(
+                f"{what}, which the shell solver cannot represent", came, allowed, todo, f"supports.{name}"
+            )
         )
 
 

@@ -1,4 +1,4 @@
-"""Motion at the start: velocity fields on walls and lumps, impulses, and what rigid bodies make of them."""
+"""Initial motion: velocity fields on walls and lumps, impulses, and the resulting motion of rigid bodies."""
 
 from __future__ import annotations
 

@@ -53,6 +53,6 @@ def in_words(material: Material) -> str:
     torn = (
         ""
         if material.failure_strain is None
-        else f"; it tears at a plastic strain of {material.failure_strain:g}"
+        else f"; elements are deleted at a plastic strain of {material.failure_strain:g}"
     )
     return f"Material {material.name} is elastic, then {plastic}{raised}{torn}."

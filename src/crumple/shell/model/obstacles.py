@@ -86,13 +86,11 @@ def refuse_walls_inside(structure: Structure, mesh: Mesh, stage: Stage) -> None:
 
 
 def appeared_inside(structure: Structure, mesh: Mesh, state: ShellState) -> str:
-    """Which obstacle of this stage appeared inside the deformed structure, in words; empty where none did."""
+    """Obstacle of this stage that appeared inside the deformed structure, in words; empty if none did."""
     for name, (depth, node) in zip(structure.obstacles, state.appeared_inside, strict=True):
         if depth > INSIDE:
             member = next(m for m, tube in mesh.tubes.items() if int(node) in tube.nodes)
-            return (
-                f"walls of member {member} lie {1e3 * depth:.4g} mm deep in obstacle {name} when it appears"
-            )
+            return f"walls of member {member} are {1e3 * depth:.4g} mm inside obstacle {name} when it appears"
     return ""
 
 
@@ -132,7 +130,7 @@ def rebound(damping: float) -> float:
 def too_sharp(structure: Structure, largest_side: float) -> list[str]:
     """Names of obstacles that press in between the nodes of a wall by more than half its thickness.
 
-    Nodes alone touch: between two that lie h apart on a radius R, h^2 / (8 R) is out of their sight.
+    Only nodes touch: between two nodes at a distance h on a radius R, a depth of h^2 / (8 R) is not seen.
     """
     thinnest = min(structure.section_of(member).thickness for member in structure.members)
     return [

@@ -20,7 +20,7 @@ sides, and the walls need as much again to be plane sections."""
 
 @dataclass(frozen=True, eq=False)
 class HingeZone:
-    """The stretch of a member that does what a hinge does.
+    """The range of a member that represents a hinge.
 
     Attributes
     ----------
@@ -114,7 +114,7 @@ class SupportCut:
 def support_cut(
     structure: Structure, mesh: Mesh, bodies: tuple[Body, ...], rigid: NDArray[np.bool_], node: str
 ) -> SupportCut:
-    """Cut of a support's node; `rigid` tells of every element whether it is in a rigid part."""
+    """Cut of a support's node; `rigid`: for every element whether it is in a rigid part."""
     ends = mesh.joints[node].ends
     nodes = np.unique(np.concatenate([mesh.end_ring(end.member, end.second) for end in ends]))
     part = next((body for body in bodies if body.stretch and np.isin(nodes, body.nodes).any()), None)

@@ -58,7 +58,7 @@ def rigid_rings(structure: Structure, mesh: Mesh, member: str) -> list[tuple[int
     for a, b in structure.members[member].rigid_parts(tube.frame.length):
         first, last = tube.ring_at(a), tube.ring_at(b)
         if first == last:
-            what, todo = "a rigid part is shorter than an element", "make it longer, or the elements smaller"
+            what, todo = "a rigid part is shorter than an element", "make it longer, or use smaller elements"
             came = f"{1e3 * (b - a):.4g} mm"
             raise InputError(Problem(what, came, "at least one element", todo, f"members.{member}.rigid"))
         found.append((first, last))

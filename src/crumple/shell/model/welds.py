@@ -192,8 +192,8 @@ def _spot(mesh: Mesh, asked: _Asked, elements: tuple[Integers, Integers], taken:
         patch = _patch(mesh, nodes, foot, gap, asked.welds.diameter / 2)
         if patch is None:
             what, allowed = (
-                "too few free nodes lie around",
-                "walls that are neither rigid nor clamped beside it",
+                "there are too few free nodes around the spot",
+                "walls around it that are neither rigid nor clamped",
             )
             raise asked.refusal(what, "", allowed)
         patches.append(patch)
@@ -251,16 +251,16 @@ def _refuse_apart(asked: _Asked, first: _Foot, second: _Foot) -> None:
     distance = float(np.linalg.norm(first.at - asked.place))
     if distance > both:
         raise asked.refusal(
-            f"no wall of member '{members[0]}' lies", f"{1e3 * distance:.3g} mm away", allowed
+            f"there is no wall of member '{members[0]}'", f"nearest {1e3 * distance:.3g} mm away", allowed
         )
     apart = second.at - first.at
     gap = float(np.linalg.norm(apart))
     if gap > both:
-        what = f"no wall of member '{members[-1]}' lies on that of '{members[0]}'"
+        what = f"no wall of member '{members[-1]}' touches that of '{members[0]}'"
         raise asked.refusal(what, f"{1e3 * gap:.3g} mm apart", allowed)
     if gap < LEAST_GAP * both / 2:
         allowed = f"mid-lines {1e3 * both / 2:.3g} mm apart, half of both thicknesses"
-        raise asked.refusal("the walls lie within each other", "", allowed)
+        raise asked.refusal("the walls penetrate each other", "", allowed)
     if abs(float(first.normal @ second.normal)) < LEAST_PARALLEL:
         raise asked.refusal("the walls are not parallel", "", "at most 30 deg between them")
     across = (apart @ first.normal) * first.normal

@@ -95,7 +95,7 @@ def test_key_figures_name_the_hinge_where_there_are_several():
     assert single["At rest after"] == ("69.67 ms", "")
     several = {name: (value, note) for name, value, note in key_figures(frame_result())}
     assert several["Largest rotation"] == ("28.65°", "0.5 rad · h0")
-    assert several["At rest after"] == ("—", "1 of 4 still turning")
+    assert several["At rest after"] == ("—", "1 of 4 still rotating")
 
 
 def test_hinge_table_shares_add_up():
@@ -104,7 +104,7 @@ def test_hinge_table_shares_add_up():
     assert sum(float(row[7].rstrip(" %")) for row in table.rows) == pytest.approx(100, abs=0.3)
     assert all(len(row) == len(table.heads) for row in table.rows)
     assert table.rows[0][5] == "—"
-    assert "still turning" in table.caption
+    assert "still rotating" in table.caption
 
 
 def test_law_table_joins_hinges_with_one_law():

@@ -227,7 +227,7 @@ def test_overlapping_walls():
 
 def test_side_of_no_length():
     (problem,) = refused(line((0, 0), (40, 0), (40, 0), (40, 30)))
-    assert problem.what == "the wall has a side of no length"
+    assert problem.what == "the wall has a side without length"
     assert problem.where == "walls[0].points[1]"
 
 
@@ -238,7 +238,7 @@ def test_closed_wall_that_repeats_its_first_point():
 
 def test_loose_parts():
     (problem,) = refused(line((-40, 0), (40, 0), name="upper"), line((-40, -20), (40, -20), name="lower"))
-    assert problem.what == "the section falls into 2 parts"
+    assert problem.what == "the section consists of 2 separate parts"
     assert problem.came == "upper; lower" or problem.came == "lower; upper"
 
 

@@ -1,4 +1,4 @@
-"""What is asked for and would change nothing: refused, or told with the result."""
+"""What is asked for and would change nothing: refused, or said with the result."""
 
 import pytest
 from tests.support.shell.structures import cantilever, thrown
@@ -40,21 +40,21 @@ def test_friction_without_contact_is_refused_unless_members_touch():
         Analysis(structure=thrown(), duration=1e-3, shell=idle)
     touching = thrown().model_copy(update={"member_contact": {"friction": 0.1, "restitution": 0.5}})
     Analysis(structure=touching, duration=1e-3, shell=idle)
-    told = " ".join(
+    said = " ".join(
         solve_shell(touching, ShellRun(1e-4, 1e-4, ShellSettings(**COARSE, self_contact="off"))).assumptions
     )
-    assert "self-contact on." in told
-    assert "although self-contact is off" in told
-    assert "restitution of members" in told
+    assert "self-contact on." in said
+    assert "Self-contact is on despite its setting" in said
+    assert "restitution of member contact" in said
     plain = " ".join(solve_shell(thrown(), ShellRun(1e-4, 1e-4, ShellSettings(**COARSE))).assumptions)
-    assert "although" not in plain
+    assert "despite" not in plain
     assert "restitution" not in plain
 
 
-def test_coarser_sections_that_find_no_room_are_told():
+def test_coarser_sections_without_space_are_reported():
     settings = ShellSettings(element_size=30e-3, fine_size=20e-3, fine_length=40e-3, coarse_sections="on")
     result = solve_shell(cantilever(), ShellRun(1e-5, 1e-5, settings))
-    assert any("there are none" in text for text in result.assumptions)
+    assert any("There are no coarser sections" in text for text in result.assumptions)
 
 
 def test_pictures_after_an_early_end_are_told():
@@ -71,8 +71,8 @@ def test_pictures_after_an_early_end_are_told():
     )
     assert result.status is Status.COMPLETE
     assert result.time[-1] < 1e-3
-    (told,) = [text for text in result.warnings if "no pictures at" in text]
-    assert "no pictures at 1 ms, 1.9 ms." in told
+    (said,) = [text for text in result.warnings if "no pictures at" in text]
+    assert "no pictures at 1 ms, 1.9 ms." in said
     run = Run(0.05, 0.005, outputs=Outputs(pictures=(0.0, 0.021)))
     stopped = solve_multibody(thrown(), run, cancel=lambda: True)
     assert stopped.status is Status.CANCELLED

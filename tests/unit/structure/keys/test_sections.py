@@ -208,7 +208,7 @@ def test_problems_of_walls_name_their_place_and_their_names(keys):
     with pytest.raises(InputError) as refusal:
         Structure(**keys)
     found = {problem.where: problem.what for problem in refusal.value.problems}
-    assert found["sections.repeated.walls[1].points[1]"] == "the wall has a side of no length"
+    assert found["sections.repeated.walls[1].points[1]"] == "the wall has a side without length"
     assert "left" in found["sections.crossed.walls[0]"]
     assert "across" in found["sections.crossed.walls[0]"]
     assert found["sections.many.walls"] == "the walls have too many points"
