@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from crumple.analysis import Analysis
     from crumple.comparison import Comparison
     from crumple.report import ReportInput
@@ -138,6 +140,20 @@ def write_both(found: Comparison, analysis: Analysis, file: Path, folder: Path) 
     return source
 
 
+def _crush_lines(found: Comparison) -> Iterator[str]:
+    """Crush length and mean force of every member that can shorten, in both results."""
+    from rich.markup import escape
+
+    names = found.candidate.name, found.reference.name
+    for crush in found.crushes:
+        figures = []
+        for name, side in zip(names, (crush.first, crush.second), strict=True):
+            length = f"{1e3 * side.length:.1f} mm" if side else "not known"
+            force = f" at a mean force of {side.mean_force / 1e3:.2f} kN" if side and side.mean_force else ""
+            figures.append(f"{length}{force} ({name})")
+        yield f"Member {escape(crush.member)} is crushed by {figures[0]} and {figures[1]}"
+
+
 def _show(found: Comparison, folder: Path) -> None:
     """Print the verdict, a table of hinges, cautions, times, and where the files are."""
     import math
@@ -173,6 +189,8 @@ def _show(found: Comparison, folder: Path) -> None:
             "-" if rated is None else f"{rated.overall:.2f}",
         )
     console.print(table)
+    for line in _crush_lines(found):
+        console.print(line)
     if len(found.hinges) > MOST_HINGES:
         console.print(f"{MOST_HINGES} of {len(found.hinges)} hinges, those that absorbed most")
     times = [

@@ -10,10 +10,12 @@ import typer
 from crumple.cli.console.fidelity import Fidelity
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from rich.table import Table
 
     from crumple.analysis import Analysis
-    from crumple.result import Result
+    from crumple.result import HingeSummary, Result
 
 MOST_HINGES = 20
 """Hinges that the table shows; the files hold all."""
@@ -144,10 +146,14 @@ def _show(result: Result, folder: Path) -> None:
     first = sentences(caution for caution in result.cautions if not caution.violation)
     for caution in first:
         console.print(Text(f"Caution: {caution}", style="bold yellow"))
-    if result.hinges:
-        console.print(_hinge_table(result))
-    if len(result.hinges) > MOST_HINGES:
-        console.print(f"{MOST_HINGES} of {len(result.hinges)} hinges, those that absorbed most")
+    bending = {name: hinge for name, hinge in result.hinges.items() if hinge.bends}
+    crushing = {name: hinge for name, hinge in result.hinges.items() if hinge.crush is not None}
+    if bending:
+        console.print(_hinge_table(bending))
+    if crushing:
+        console.print(_crush_table(crushing))
+    if max(len(bending), len(crushing)) > MOST_HINGES:
+        console.print(f"At most {MOST_HINGES} of {len(result.hinges)} hinges, those that absorbed most")
     console.print(
         f"Energy residual {result.energy_residual:.2g} of the energy put in; "
         f"solved in {format_quantity(result.solve_seconds, 's', 3)}"
@@ -159,16 +165,16 @@ def _show(result: Result, folder: Path) -> None:
     console.print(Text(f"Results: {folder}  (open {folder / 'report.html'})"), soft_wrap=True)
 
 
-def _hinge_table(result: Result) -> Table:
-    """One row per hinge, the most absorbing first where there are too many."""
-    from rich.markup import escape
-    from rich.table import Table
+def _most_absorbing(hinges: Mapping[str, HingeSummary]) -> list[tuple[str, HingeSummary]]:
+    """Hinges in their order, or those that absorbed most where there are too many."""
+    if len(hinges) <= MOST_HINGES:
+        return list(hinges.items())
+    return sorted(hinges.items(), key=lambda item: -item[1].energy)[:MOST_HINGES]
 
-    from crumple.cli.console.columns import in_one_unit
 
-    hinges = list(result.hinges.items())
-    if len(hinges) > MOST_HINGES:
-        hinges = sorted(hinges, key=lambda item: -item[1].energy)[:MOST_HINGES]
+def _hinge_table(summaries: Mapping[str, HingeSummary]) -> Table:
+    """One row per hinge that bends or twists."""
+    hinges = _most_absorbing(summaries)
     columns = (
         ("Largest rotation", [hinge.rotation_max for _, hinge in hinges], "rad"),
         ("Final rotation", [hinge.rotation_final for _, hinge in hinges], "rad"),
@@ -176,12 +182,36 @@ def _hinge_table(result: Result) -> Table:
         ("Peak moment", [hinge.moment_max for _, hinge in hinges], "N*m"),
         ("Energy absorbed", [hinge.energy for _, hinge in hinges], "J"),
     )
+    return _table("Hinge", [name for name, _ in hinges], columns)
+
+
+def _crush_table(summaries: Mapping[str, HingeSummary]) -> Table:
+    """One row per hinge that can shorten along its member."""
+    zones = [(name, hinge.crush) for name, hinge in _most_absorbing(summaries) if hinge.crush is not None]
+    columns = (
+        ("Crush length", [crush.length for _, crush in zones], "m"),
+        ("Peak force", [crush.peak_force for _, crush in zones], "N"),
+        ("Mean force", [crush.mean_force for _, crush in zones], "N"),
+        ("Energy absorbed", [crush.energy for _, crush in zones], "J"),
+        ("Stroke efficiency", [crush.efficiency for _, crush in zones], "1"),
+    )
+    names = [f"{name} (bottomed out)" if crush.bottomed_out else name for name, crush in zones]
+    return _table("Crush zone", names, columns)
+
+
+def _table(what: str, names: list[str], columns: tuple[tuple[str, list[Any], str], ...]) -> Table:
+    """A table of named rows; every column in one unit."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    from crumple.cli.console.columns import in_one_unit
+
     table = Table()
-    table.add_column("Hinge")
-    cells = [[escape(name) for name, _ in hinges]]
+    table.add_column(what)
+    cells = [[escape(name) for name in names]]
     for head, values, si in columns:
         unit, texts = in_one_unit(values, si, absent="turning")
-        table.add_column(f"{head}, {unit}", justify="right")
+        table.add_column(f"{head}, {unit}" if unit else head, justify="right")
         cells.append(texts)
     for row in zip(*cells, strict=True):
         table.add_row(*row)

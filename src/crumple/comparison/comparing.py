@@ -9,6 +9,7 @@ import numpy as np
 
 from crumple.comparison.cautions.trust import trust_of
 from crumple.comparison.comparison import Comparison, Opening, Source
+from crumple.comparison.measure.crush import CrushComparison, crush_figures, crushable
 from crumple.comparison.measure.metrics import HingeComparison, compared, metrics_of
 from crumple.comparison.measure.motion import Measured, channel_motions, measured, member_sections
 from crumple.comparison.measure.sections import at_times
@@ -90,8 +91,23 @@ def compare(
         unpaired=unpaired,
         opened=opened,
         until=until,
+        crushes=_crushes(candidate, reference, structure, hinges, until),
     )
     return replace(found, trust=trust_of(found, structure))
+
+
+def _crushes(
+    candidate: Result, reference: Result, structure: Structure, hinges: Sequence[PlacedHinge], until: float
+) -> tuple[CrushComparison, ...]:
+    """Every member that can shorten, in both results."""
+    members = crushable(hinges)
+    if not members:
+        return ()
+    seen = [(result, member_sections(result, structure)) for result in (candidate, reference)]
+    return tuple(
+        CrushComparison(member, *(crush_figures(result, own, member, until) for result, own in seen))
+        for member in members
+    )
 
 
 def _names(candidate: Result, reference: Result, variants: Mapping[str, Result]) -> list[str]:

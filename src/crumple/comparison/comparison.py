@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from crumple.comparison.measure.crush import CrushComparison
 from crumple.comparison.measure.metrics import HingeComparison
 from crumple.comparison.measure.motion import HingeMotion
 from crumple.comparison.rating.curve_file import CurveFile
@@ -135,6 +136,8 @@ class Comparison:
     trust: Trust = field(default_factory=lambda: Trust("caution", "", (), ()))
     timings: Mapping[str, Timing] = field(default_factory=dict)
     busy_share: float | None = None
+    crushes: tuple[CrushComparison, ...] = ()
+    """Members that can shorten, candidate against reference."""
 
     @property
     def speed_ratio(self) -> float | None:

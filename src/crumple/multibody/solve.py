@@ -9,6 +9,7 @@ import numpy as np
 
 from crumple._core.outcome import Outcome
 from crumple.errors import InputError, Problem, Status
+from crumple.multibody.answer.crush import with_crush
 from crumple.multibody.answer.histories import (
     clearance_channels,
     distance_channels,
@@ -145,7 +146,7 @@ def _result(
         *gravity_channels(structure, solved.poses),
     ]
     channels += [*solved.further, *wanted]
-    hinges = summaries(solved.hinges, errors)
+    hinges = with_crush(structure, solved.hinges, summaries(solved.hinges, errors))
     openings, threshold = collapse_log(solved.hinges, solved.time)
     return Result(
         status=status,

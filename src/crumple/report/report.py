@@ -205,6 +205,7 @@ def _render(
         figures={**{name: figures.get(name) for name in named}, "moments": moments, "folds": close_ups},
         omitted_hinges=max(len(result.hinges) - MAX_MOMENT_FIGURES, 0),
         hinge_table=wording.hinge_table(result),
+        crush_table=wording.crush_table(result),
         collapse_table=wording.collapse_table(result),
         stage_table=wording.stage_table(result),
         output_table=wording.output_table(result),

@@ -1,6 +1,7 @@
 """Results: the data of a run, filters, and storage."""
 
 from crumple.result.caution import Caution, sentences
+from crumple.result.crush import CrushSummary, crush_summary
 from crumple.result.filters import ChannelClass, Standard, cfc
 from crumple.result.pictures import missing_pictures
 from crumple.result.result import (
@@ -20,6 +21,7 @@ __all__ = [
     "Caution",
     "Channel",
     "ChannelClass",
+    "CrushSummary",
     "HingeSummary",
     "Opening",
     "OutputSummary",
@@ -29,6 +31,7 @@ __all__ = [
     "Standard",
     "States",
     "cfc",
+    "crush_summary",
     "missing_pictures",
     "read",
     "sentences",

@@ -13,6 +13,7 @@ import numpy as np
 from crumple.errors import InputError, Problem, Status
 from crumple.numeric.arrays import Floats, Integers
 from crumple.result.caution import Caution
+from crumple.result.crush import BENT, CrushSummary
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -96,6 +97,13 @@ class HingeSummary:
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     fracture_time: float | None = None
     fracture_moment: float | None = None
+    crush: CrushSummary | None = None
+    """Of a hinge that can shorten along its member; None for all others."""
+
+    @property
+    def bends(self) -> bool:
+        """Whether it is to be spoken of as a hinge: a crush zone that did not bend is not."""
+        return self.crush is None or self.rotation_max > BENT
 
 
 @dataclass(frozen=True)

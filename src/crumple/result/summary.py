@@ -9,7 +9,7 @@ from dataclasses import asdict
 from typing import Any
 
 from crumple.result.format import FORMAT
-from crumple.result.result import Result
+from crumple.result.result import HingeSummary, Result
 
 _HINGE_KEYS = (
     "rotation_max", "rotation_final", "time_of_rest", "energy", "moment_max", "rotation_error",
@@ -31,9 +31,7 @@ def summary(result: Result) -> dict[str, Any]:
     dict
         As docs/output.md describes it.  A number that is not finite becomes None.
     """
-    hinges = {
-        name: {key: getattr(hinge, key) for key in _HINGE_KEYS} for name, hinge in result.hinges.items()
-    }
+    hinges = {name: _of_hinge(hinge) for name, hinge in result.hinges.items()}
     outputs = {
         name: {"final": o.final, "max": o.max, "time_of_max": o.time_of_max, "unit": o.unit}
         for name, o in result.outputs.items()
@@ -69,6 +67,12 @@ def summary(result: Result) -> dict[str, Any]:
         },
     }
     return {key: _strict(value) for key, value in content.items()}
+
+
+def _of_hinge(hinge: HingeSummary) -> dict[str, Any]:
+    """Figures of one hinge; of one that can shorten along its member also those of crushing."""
+    figures = {key: getattr(hinge, key) for key in _HINGE_KEYS}
+    return figures if hinge.crush is None else {**figures, "crush": asdict(hinge.crush)}
 
 
 def summary_json(result: Result) -> str:

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from crumple.errors import Status
 from crumple.result.caution import Caution
+from crumple.result.crush import CrushSummary
 from crumple.result.format import FORMAT, former_names_note, present_name
 from crumple.result.result import (
     Channel,
@@ -220,7 +221,11 @@ def read_vtkhdf(file: h5py.File) -> Result:
     hinges = {}
     for index, (name, hinge) in enumerate(text["hinges"].items()):
         envelope = {key: dataset[...] for key, dataset in group["envelopes"][str(index)].items()}
-        hinges[name] = HingeSummary(**{**hinge, "position": tuple(hinge["position"]), "envelope": envelope})
+        crush = hinge.pop("crush", None)
+        hinges[name] = HingeSummary(
+            **{**hinge, "position": tuple(hinge["position"]), "envelope": envelope},
+            crush=None if crush is None else CrushSummary(**crush),
+        )
     return Result(
         status=Status[text["status"]],
         channels=channels,

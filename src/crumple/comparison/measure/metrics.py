@@ -12,8 +12,8 @@ from crumple.numeric.arrays import Floats
 
 OPENED_AT = math.radians(0.5)
 """Plastic rotation [rad] from which a hinge counts as open."""
-NOTHING = 1e-6
-"""Plastic rotation [rad] below which no mean moment (work over rotation) is computed."""
+NOTHING = 1e-3
+"""Plastic rotation [rad] below which a hinge did not bend: no mean moment (work over rotation) then."""
 STEPS = (1.0, 2.0, 5.0)
 """Round steps of the rotations [deg] at which energies are compared, to be multiplied by powers of ten."""
 LEVELS = 5
@@ -132,7 +132,7 @@ def metrics_of(motion: HingeMotion, levels: tuple[float, ...]) -> HingeMetrics:
         plastic_rotation=most,
         plastic_energy=work,
         energy_at=tuple(_energy_at(plastic, motion.plastic_work, level) for level in levels),
-        moment_peak=moment or None,
+        moment_peak=moment if moment > 0.0 and most > NOTHING else None,
         moment_mean=work / most if most > NOTHING and work > 0.0 else None,
         opened=opening_time(motion.time, plastic),
     )

@@ -13,6 +13,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from crumple.hinge import Freedom
+from crumple.multibody.answer.crush import crush_of
 from crumple.multibody.answer.forces import on_second
 from crumple.multibody.answer.poses import SpatialPoses
 from crumple.multibody.answer.solved import HingeHistory, Solved
@@ -67,7 +68,7 @@ def physics_cautions(structure: Structure, solved: Solved) -> tuple[Caution, ...
         *fast_nodes(structure, solved, total),
         *impact_losses(solved, total),
         *jammed_folds(solved),
-        *closed_crush_zones(solved),
+        *closed_crush_zones(structure, solved),
     )
 
 
@@ -251,39 +252,22 @@ def jammed_folds(solved: Solved) -> Iterator[Caution]:
             )
 
 
-def closed_crush_zones(solved: Solved) -> Iterator[Caution]:
+def closed_crush_zones(structure: Structure, solved: Solved) -> Iterator[Caution]:
     """Members that crushed until all their folds were closed: the stop of the stroke carries the force."""
     for history in solved.hinges:
-        stroke, crushed = crush_stroke(history), crush_length(history)
-        if crushed is None or stroke is None or crushed <= stroke:
+        crush = crush_of(structure, history)
+        if crush is None or crush.stroke is None or not crush.bottomed_out:
             continue
         yield Caution(
             "bottomed_out",
-            crushed,
-            stroke,
+            crush.length,
+            crush.stroke,
             "m",
             f"hinge {history.hinge.name}",
             f"Member {history.hinge.member} bottomed out at hinge {history.hinge.name}: it is crushed by "
-            f"{format_quantity(crushed, 'm', 3)}, and its folds are closed at "
-            f"{format_quantity(stroke, 'm', 3)}. The forces from then on are those of the stop.",
+            f"{format_quantity(crush.length, 'm', 3)}, and its folds are closed at "
+            f"{format_quantity(crush.stroke, 'm', 3)}. The forces from then on are those of the stop.",
         )
-
-
-def crush_length(history: HingeHistory) -> float | None:
-    """Largest shortening of a hinge that slips along its member [m]; None for all others."""
-    spatial = history.hinge.spatial
-    if spatial is None or Freedom.AXIAL not in spatial.freedoms:
-        return None
-    return max(float(-history.values("slip.x.travel").min()), 0.0)
-
-
-def crush_stroke(history: HingeHistory) -> float | None:
-    """Shortening at which the folds of a hinge are closed [m]; None where nothing says so."""
-    spatial = history.hinge.spatial
-    if spatial is None or Freedom.AXIAL not in spatial.freedoms:
-        return None
-    stop = spatial.components[spatial.freedoms.index(Freedom.AXIAL)].record.stop_negative
-    return None if stop is None else stop.rotation
 
 
 def _span(values: list[float]) -> str:

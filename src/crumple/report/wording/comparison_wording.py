@@ -131,6 +131,28 @@ def _hinge_rows(hinge: HingeComparison) -> Iterator[tuple[str, str, str, str]]:
         yield (name, _value(values[0], "J"), _value(values[1], "J"), signed_percent(error))
 
 
+def crush_table(comparison: Comparison) -> Table:
+    """Members that can shorten: crush length, mean force and energy in both results."""
+    rows = []
+    for crush in comparison.crushes:
+        figures = (
+            ("crush length", "length", "m"),
+            ("stroke efficiency", "efficiency", "1"),
+            ("mean force", "mean_force", "N"),
+            ("energy", "energy", "J"),
+        )
+        for name, key, unit in figures:
+            values = [None if side is None else getattr(side, key) for side in (crush.first, crush.second)]
+            cells = [_value(value, unit) for value in values]
+            rows.append((f"{crush.member}: {name}", *cells, signed_percent(crush.error(key))))
+    first, second = comparison.candidate.name, comparison.reference.name
+    caption = (
+        "Axial crushing. Crush length: loss of distance between the ends of the member; mean force: energy "
+        "over crush length; stroke efficiency: crush length over the length of the member."
+    )
+    return Table(caption, ("", first.capitalize(), second.capitalize(), "Difference"), rows)
+
+
 def _times(name: str, a: HingeMetrics | None, b: HingeMetrics | None, key: str) -> tuple[str, str, str, str]:
     """A row of two times; the difference is a time too."""
     values = [None if m is None else getattr(m, key) for m in (a, b)]

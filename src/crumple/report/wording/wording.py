@@ -106,8 +106,10 @@ def key_figures(result: Result) -> list[tuple[str, str, str]]:
     """Key figures: name, value, note."""
     figures: list[tuple[str, str, str]] = []
     several = len(result.hinges) > 1
-    if result.hinges:
-        name, most = max(result.hinges.items(), key=lambda item: item[1].rotation_max)
+    bending = {name: hinge for name, hinge in result.hinges.items() if hinge.bends}
+    figures += _crush_figures(result)
+    if bending:
+        name, most = max(bending.items(), key=lambda item: item[1].rotation_max)
         figures.append(
             (
                 "Largest rotation",
@@ -118,11 +120,27 @@ def key_figures(result: Result) -> list[tuple[str, str, str]]:
         figures.append(_rest(result, several))
         total = sum(hinge.energy for hinge in result.hinges.values())
         figures.append(("Energy absorbed", format_quantity(total, "J"), "all hinges" if several else ""))
-        name, most = max(result.hinges.items(), key=lambda item: item[1].moment_max)
+        name, most = max(bending.items(), key=lambda item: item[1].moment_max)
         figures.append(("Peak moment", format_quantity(most.moment_max, "N*m"), _note("", name, several)))
     figures.append(("Energy residual", percent(result.energy_residual), "of the energy input"))
     figures.append(("Solve time", format_quantity(result.solve_seconds, "s", 2), ""))
     return figures
+
+
+def _crush_figures(result: Result) -> list[tuple[str, str, str]]:
+    """The crush zone that shortened most: crush length, peak and mean force, energy."""
+    zones = {name: hinge.crush for name, hinge in result.hinges.items() if hinge.crush is not None}
+    if not zones:
+        return []
+    name, most = max(zones.items(), key=lambda item: item[1].length)
+    note = name if len(result.hinges) > 1 else ""
+    efficiency = f"{percent(most.efficiency)} of the member" + (", bottomed out" if most.bottomed_out else "")
+    return [
+        ("Crush length", format_quantity(most.length, "m"), _note(efficiency, name, bool(note))),
+        ("Peak force", format_quantity(most.peak_force, "N"), note),
+        ("Mean force", format_quantity(most.mean_force, "N"), note),
+        ("Energy of crushing", format_quantity(sum(zone.energy for zone in zones.values()), "J"), ""),
+    ]
 
 
 def _note(text: str, hinge: str, several: bool) -> str:
@@ -144,7 +162,8 @@ def _rest(result: Result, several: bool) -> tuple[str, str, str]:
 
 def hinge_table(result: Result) -> Table:
     """Rotation, rest, energy and moment per hinge, each column in one unit."""
-    names, hinges = list(result.hinges), list(result.hinges.values())
+    bending = {name: hinge for name, hinge in result.hinges.items() if hinge.bends}
+    names, hinges = list(bending), list(bending.values())
     energy_unit, energies = column([h.energy for h in hinges], "J")
     moment_unit, moments = column([h.moment_max for h in hinges], "N*m")
     total = sum(h.energy for h in hinges)
@@ -174,6 +193,27 @@ def hinge_table(result: Result) -> Table:
     )
     dash = " A dash: still rotating at the end." if any(h.time_of_rest is None for h in hinges) else ""
     return Table(f"Rotation, time of rest, energy and moment of each hinge.{dash}", heads, rows)
+
+
+def crush_table(result: Result) -> Table:
+    """Crush length, forces, energy and stroke of every hinge that can shorten along its member."""
+    zones = {name: hinge.crush for name, hinge in result.hinges.items() if hinge.crush is not None}
+    length_unit, lengths = column([zone.length for zone in zones.values()], "m")
+    stroke_unit, strokes = column(
+        [math.nan if zone.stroke is None else zone.stroke for zone in zones.values()], "m"
+    )
+    peak_unit, peaks = column([zone.peak_force for zone in zones.values()], "N")
+    mean_unit, means = column([zone.mean_force for zone in zones.values()], "N")
+    energy_unit, energies = column([zone.energy for zone in zones.values()], "J")
+    efficiencies = [percent(zone.efficiency, 3) for zone in zones.values()]
+    closed = ["yes" if zone.bottomed_out else "no" for zone in zones.values()]
+    heads = (
+        "Crush zone", f"Crush length, {length_unit}", "Stroke efficiency", f"Folds closed at, {stroke_unit}",
+        "Bottomed out", f"Peak force, {peak_unit}", f"Mean force, {mean_unit}", f"Energy, {energy_unit}",
+    )  # fmt: skip
+    rows = list(zip(zones, lengths, efficiencies, strokes, closed, peaks, means, energies, strict=True))
+    caption = "What each crush zone did. Stroke efficiency: crush length over the length of the member."
+    return Table(caption, heads, rows)
 
 
 def collapse_table(result: Result) -> Table:

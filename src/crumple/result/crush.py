@@ -1,0 +1,72 @@
+"""What a hinge that shortens along its member did: the figures that engineers ask of a crush zone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple.numeric.arrays import Floats
+
+BENT = 1e-3
+"""Rotation [rad] below which a crush zone did not bend: what it shows then is rounding."""
+
+
+@dataclass(frozen=True)
+class CrushSummary:
+    """Crushing of one hinge.
+
+    Attributes
+    ----------
+    length, length_final
+        Largest shortening, and that at the end [m].
+    peak_force, mean_force
+        Largest compression [N], and the work of crushing over the largest shortening [N]; 0 without any.
+    energy
+        Work of crushing [J].
+    stroke
+        Shortening at which the folds are closed [m]; None where the law has none.
+    efficiency
+        Largest shortening over the length of the member [-].
+    bottomed_out
+        Whether the folds were closed, so that the force is that of a stop.
+    """
+
+    length: float
+    length_final: float
+    peak_force: float
+    mean_force: float
+    energy: float
+    stroke: float | None
+    efficiency: float
+    bottomed_out: bool
+
+
+def crush_summary(travel: Floats, force: Floats, member_length: float, stroke: float | None) -> CrushSummary:
+    """Figures of a crush zone.
+
+    Parameters
+    ----------
+    travel
+        Slip along the member [m], (n,); negative: shorter.
+    force
+        In the sense of the slip's rate [N], (n,).
+    member_length
+        [m].
+    stroke
+        Shortening at which the folds are closed [m], or None.
+    """
+    shortening = np.maximum(-travel, 0.0)
+    length = float(shortening.max(initial=0.0))
+    means = (force[1:] + force[:-1]) / 2.0
+    energy = float((means * np.diff(travel)).sum())
+    return CrushSummary(
+        length=length,
+        length_final=float(shortening[-1]) if shortening.size else 0.0,
+        peak_force=float(np.maximum(-force, 0.0).max(initial=0.0)),
+        mean_force=energy / length if length > 0.0 else 0.0,
+        energy=energy,
+        stroke=stroke,
+        efficiency=length / member_length,
+        bottomed_out=stroke is not None and length > stroke,
+    )

@@ -1,0 +1,30 @@
+"""Figures of a crush zone from its histories."""
+
+import numpy as np
+import pytest
+
+from crumple.result import crush_summary
+
+
+def test_a_constant_force_is_its_own_mean_and_peak():
+    travel = np.array([0.0, -0.02, -0.05, -0.045])
+    crush = crush_summary(travel, np.array([-4e4, -4e4, -4e4, 0.0]), 0.25, 0.06)
+    assert crush.length == 0.05
+    assert crush.length_final == 0.045
+    assert crush.peak_force == 4e4
+    # the last interval gives back 0.005 m under half the force: -4e4 * 0.005 / 2 = -100 J
+    assert crush.energy == pytest.approx(4e4 * 0.05 - 100.0)
+    assert crush.mean_force == pytest.approx(crush.energy / 0.05)
+    assert crush.efficiency == pytest.approx(0.2)
+    assert not crush.bottomed_out
+
+
+def test_beyond_the_stroke_it_has_bottomed_out():
+    force = np.full(3, -1e4)
+    assert crush_summary(np.array([0.0, -0.06, -0.0601]), force, 0.25, 0.06).bottomed_out
+    assert not crush_summary(np.array([0.0, -0.06, -0.0601]), force, 0.25, None).bottomed_out
+
+
+def test_tension_crushes_nothing():
+    crush = crush_summary(np.array([0.0, 0.01]), np.array([2e4, 2e4]), 0.25, 0.06)
+    assert (crush.length, crush.peak_force, crush.mean_force, crush.efficiency) == (0.0, 0.0, 0.0, 0.0)
