@@ -42,7 +42,9 @@ class CrushSummary:
     bottomed_out: bool
 
 
-def crush_summary(travel: Floats, force: Floats, member_length: float, stroke: float | None) -> CrushSummary:
+def crush_summary(
+    travel: Floats, force: Floats, member_length: float, stroke: float | None, energy: float | None = None
+) -> CrushSummary:
     """Figures of a crush zone.
 
     Parameters
@@ -55,11 +57,13 @@ def crush_summary(travel: Floats, force: Floats, member_length: float, stroke: f
         [m].
     stroke
         Shortening at which the folds are closed [m], or None.
+    energy
+        Work of crushing [J] where it is known; else it is summed over the histories, stops included.
     """
     shortening = np.maximum(-travel, 0.0)
     length = float(shortening.max(initial=0.0))
-    means = (force[1:] + force[:-1]) / 2.0
-    energy = float((means * np.diff(travel)).sum())
+    if energy is None:
+        energy = float(((force[1:] + force[:-1]) / 2.0 * np.diff(travel)).sum())
     return CrushSummary(
         length=length,
         length_final=float(shortening[-1]) if shortening.size else 0.0,

@@ -17,6 +17,8 @@ def test_a_constant_force_is_its_own_mean_and_peak():
     assert crush.mean_force == pytest.approx(crush.energy / 0.05)
     assert crush.efficiency == pytest.approx(0.2)
     assert not crush.bottomed_out
+    known = crush_summary(travel, np.zeros(4), 0.25, 0.06, energy=50.0)
+    assert (known.energy, known.mean_force) == (50.0, pytest.approx(1000.0))
 
 
 def test_beyond_the_stroke_it_has_bottomed_out():

@@ -8,6 +8,7 @@ from dataclasses import replace
 from crumple.hinge import Freedom
 from crumple.multibody.answer.solved import HingeHistory
 from crumple.result import CrushSummary, HingeSummary, crush_summary
+from crumple.result.crush import BENT
 from crumple.structure import Structure
 
 
@@ -22,6 +23,8 @@ def crush_of(structure: Structure, history: HingeHistory) -> CrushSummary | None
         history.values("slip.x.force"),
         structure.frame_of(history.hinge.member).length,
         None if stop is None else stop.rotation,
+        # what a zone that did not bend has absorbed is the work of crushing alone
+        history.energy if history.rotation_max <= BENT else None,
     )
 
 

@@ -187,7 +187,7 @@ def _of_hinge(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -
 
 def _inaccurate(hinges: dict[str, HingeSummary], largest: float) -> list[str]:
     """One sentence for all rotations whose estimated error matters."""
-    errors = [summary.rotation_error or 0.0 for summary in hinges.values()]
+    errors = [summary.rotation_error or 0.0 for summary in hinges.values() if summary.bends]
     worst, number = max(errors, default=0.0), sum(error > ERROR_SHARE * largest for error in errors)
     if worst <= max(ERROR_SHARE * largest, SMALL_ERROR):
         return []

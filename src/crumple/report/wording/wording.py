@@ -94,7 +94,9 @@ def _balance(result: Result, bound: float | None) -> str:
 
 
 def _error(result: Result) -> str:
-    errors = [(h.rotation_error, h) for h in result.hinges.values() if h.rotation_error is not None]
+    errors = [
+        (h.rotation_error, h) for h in result.hinges.values() if h.rotation_error is not None and h.bends
+    ]
     if not errors:
         return ""
     error, hinge = max(errors, key=lambda pair: pair[0])

@@ -140,6 +140,15 @@ def test_a_crash_box_that_bottoms_out_is_a_caution():
     (found,) = [caution for caution in fast.cautions if caution.code == "bottomed_out"]
     assert (found.place, found.unit) == ("hinge crush", "m")
     assert 0.5 * 0.25 < found.limit < found.value < 0.25
+    crush = fast.hinges["crush"].crush
+    assert (crush.length, crush.stroke, crush.bottomed_out) == (found.value, found.limit, True)
+    assert crush.efficiency == pytest.approx(crush.length / 0.25)
+    # nothing bent, and nobody is told of rotations and moments
+    assert not fast.hinges["crush"].bends
+    assert not any("rotations of" in text for text in fast.warnings)
+    # the mean of the law until the folds are closed
+    assert crush.energy == fast.hinges["crush"].energy
+    assert crush.mean_force == pytest.approx(crush.energy / crush.length)
     assert "bottomed_out" not in codes(solve(crash_box(4.0)))
 
 
