@@ -1,6 +1,15 @@
-"""What every collapse law must satisfy, over all registered laws and many sections.
+"""What every law of bending must satisfy, over all registered laws and many sections.
 
 A new law joins by its registration alone, unless it needs options of its own: then give them in `OPTIONS`.
+Every case is solved on every section that is drawn, so a law that refuses one fails.  What is left out:
+
+- Sections beyond a law's range: `SECTIONS` brings those drawn into it.  The refusals have a test at the end.
+- A turned section has the law of the other axis: not for profiles, whose axis is their own, nor for circular
+  tubes, which have no other axis.
+- Both senses alike: not for the cases in `ASYMMETRIC`, which must say that they are not symmetric.
+- Laws of crushing and of torsion: tests/verification/hinge/test_axial_crushing.py, test_torsion_collapse.py.
+- Unloading on the elastic line, dissipation and history belong to the kernels:
+  tests/unit/core/spatial/test_hinge_element.py.
 """
 
 import dataclasses
@@ -74,8 +83,23 @@ def sheet(tube):
     return min(tube.thickness, 0.05 * tube.width, 0.05 * tube.depth)
 
 
-# laws of other sections get one with the tube's dimensions
+def square(tube):
+    """The only tube that the law of square tubes takes."""
+    side = min(tube.width, tube.depth)
+    return RectangularTube(side, side, tube.thickness, tube.corner_radius)
+
+
+def slender(tube):
+    """Walls so thin that a parabola touches the mechanism before jamming; it fails from 0.12 sides on."""
+    wall = min(tube.thickness, 0.1 * tube.width, 0.1 * tube.depth)
+    return RectangularTube(tube.width, tube.depth, wall, tube.corner_radius)
+
+
+# sections with the tube's dimensions that the law takes
 SECTIONS = {
+    ("wierzbicki", None): square,
+    ("kecman", 3): slender,
+    ("kecman", 4): slender,
     ("circular", None): lambda s: CircularTube(s.width, s.thickness),
     ("folded_profile", 0): lambda s: Channel(s.width, s.depth, sheet(s)),
     ("folded_profile", 1): lambda s: Channel(s.width, s.depth, sheet(s), lip=0.2 * s.depth),
@@ -98,28 +122,27 @@ shares = st.lists(st.floats(0.0, 1.0), min_size=1, max_size=8)
 
 
 def law_of(case, section, axis="y"):
-    """Law of a case, or None where it rightly refuses the section."""
+    """Law of a case."""
     name, number = case
     options = OPTIONS.get(name, [{}])[number]
     build = SECTIONS.get((name, number)) or SECTIONS.get((name, None))
     if build is not None:
         section = build(section)
         axis = FACE.get(type(section), axis)
-    try:
-        return build_law(name, section, STEEL, axis, **options)
-    except InputError as error:
-        if name == "wierzbicki" and section.width != section.depth:
-            return None
-        if options.get("start") == "parabola" and "parabola" in str(error):
-            return None
-        raise
+    return build_law(name, section, STEEL, axis, **options)
 
 
-def every_case(function):
-    """Run a property over every law and many sections."""
-    return pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case[0]}-{case[1]}")(
-        settings(max_examples=25)(given(tubes, shares, st.sampled_from([1, -1]))(function))
-    )
+def every(cases):
+    """Run a property over laws and many sections."""
+
+    def over(function):
+        drawn = settings(max_examples=25)(given(tubes, shares, st.sampled_from([1, -1]))(function))
+        return pytest.mark.parametrize("case", cases, ids=lambda case: f"{case[0]}-{case[1]}")(drawn)
+
+    return over
+
+
+every_case = every(CASES)
 
 
 def far(law):
@@ -138,8 +161,6 @@ def smooth_points(law, shares, sense):
 @every_case
 def test_capacity_is_finite_positive_and_continuous(case, section, shares, sense):
     law = law_of(case, section)
-    if law is None:
-        return
     points = np.concatenate([np.array(shares) * far(law), [0.0], np.array(law.kinks(sense))])
     capacity = law.moment_capacity(points, sense)
     assert np.all(np.isfinite(capacity))
@@ -152,8 +173,6 @@ def test_capacity_is_finite_positive_and_continuous(case, section, shares, sense
 @every_case
 def test_sampled_curve_equals_the_formula(case, section, shares, sense):
     law = law_of(case, section)
-    if law is None:
-        return
     record = record_of(law, error=ERROR)
     envelope = record.positive if sense > 0 else record.negative
     assert envelope.rotation[0] == 0.0
@@ -170,8 +189,6 @@ def test_sampled_curve_equals_the_formula(case, section, shares, sense):
 @every_case
 def test_sampled_slope_is_that_of_the_formula(case, section, shares, sense):
     law = law_of(case, section)
-    if law is None:
-        return
     envelope = record_of(law, error=ERROR).positive if sense > 0 else record_of(law, error=ERROR).negative
     middle = (envelope.rotation[1:] + envelope.rotation[:-1]) / 2.0
     chord = np.diff(envelope.moment) / np.diff(envelope.rotation)
@@ -189,8 +206,6 @@ def test_sampled_slope_is_that_of_the_formula(case, section, shares, sense):
 @every_case
 def test_senses_mirror_each_other(case, section, shares, sense):
     law = law_of(case, section)
-    if law is None:
-        return
     points = np.array(shares) * far(law)
     assert law.symmetric == (case not in ASYMMETRIC)
     if law.symmetric:
@@ -200,8 +215,6 @@ def test_senses_mirror_each_other(case, section, shares, sense):
 @every_case
 def test_law_is_pure_and_travels(case, section, shares, sense):
     law = law_of(case, section)
-    if law is None:
-        return
     points = np.array(shares) * far(law)
     before = points.copy()
     first = law.moment_capacity(points, sense)
@@ -218,8 +231,6 @@ def test_law_is_pure_and_travels(case, section, shares, sense):
 @every_case
 def test_shape_is_kept_and_the_place_in_the_array_does_not_matter(case, section, shares, sense):
     law = law_of(case, section)
-    if law is None:
-        return
     points = np.array([shares, shares]) * far(law)
     capacity = law.moment_capacity(points, sense)
     assert capacity.shape == points.shape
@@ -230,8 +241,6 @@ def test_shape_is_kept_and_the_place_in_the_array_does_not_matter(case, section,
 @every_case
 def test_energy_grows_and_its_slope_is_the_capacity(case, section, shares, sense):
     law = law_of(case, section)
-    if law is None:
-        return
     for point in smooth_points(law, shares, sense):
         step = 1e-6
         energies = [absorbed_energy(law, point + offset, sense) for offset in (-step, step)]
@@ -243,8 +252,6 @@ def test_energy_grows_and_its_slope_is_the_capacity(case, section, shares, sense
 @every_case
 def test_law_says_where_it_comes_from_and_how_far_it_goes(case, section, shares, sense):
     law = law_of(case, section)
-    if law is None:
-        return
     assert isinstance(law, HingeLaw)
     assert law.name == case[0]
     assert law.title
@@ -265,8 +272,6 @@ def test_law_says_where_it_comes_from_and_how_far_it_goes(case, section, shares,
 @every_case
 def test_rate_factor_is_one_at_rest_and_grows(case, section, shares, sense):
     law = law_of(case, section)
-    if law is None:
-        return
     rates = np.array([0.0, 1.0, 10.0, 100.0])
     factor = law.rate_factor(rates)
     assert factor[0] == 1.0
@@ -276,15 +281,26 @@ def test_rate_factor_is_one_at_rest_and_grows(case, section, shares, sense):
     np.testing.assert_allclose(1.0 + (rates / record.rate_reference) ** (1.0 / record.rate_exponent), factor)
 
 
-@every_case
+@every([case for case in CASES if case[0] not in {"folded_profile", "circular"}])
 def test_turned_section_has_the_law_of_the_other_axis(case, section, shares, sense):
-    if case[0] in {"folded_profile", "circular"}:
-        return  # a profile has one axis of its own, a circular tube looks the same about all
     law, turned = law_of(case, section, "z"), law_of(case, section.turned("z"), "y")
-    if law is None or turned is None:
-        assert law is turned
-        return
     points = np.array(shares) * far(law)
     np.testing.assert_allclose(
         law.moment_capacity(points, sense), turned.moment_capacity(points, sense), rtol=1e-12
     )
+
+
+@pytest.mark.parametrize(
+    ("name", "section", "options", "reason"),
+    [
+        ("wierzbicki", RectangularTube(0.05, 0.04, 0.002), {}, "equal sides"),
+        ("wierzbicki", CircularTube(0.05, 0.002), {}, "square tubes"),
+        ("kecman", RectangularTube(0.05, 0.05, 0.01), {"start": "parabola"}, "no parabola"),
+        ("kecman", CircularTube(0.05, 0.002), {}, "tube"),
+        ("circular", RectangularTube(0.05, 0.05, 0.002), {}, "circular"),
+        ("folded_profile", CircularTube(0.05, 0.002), {}, "channel"),
+    ],
+)
+def test_sections_that_are_left_out_are_refused(name, section, options, reason):
+    with pytest.raises(InputError, match=reason):
+        build_law(name, section, STEEL, "y", **options)

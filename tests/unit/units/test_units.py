@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import pickle
 import subprocess
@@ -209,11 +210,8 @@ def test_what_is_written_is_read_back(value: float, unit: str) -> None:
 
 @given(st.text(max_size=100))
 def test_any_text_is_read_or_refused(text: str) -> None:
-    try:
-        value = parse_quantity(text, "m")
-    except QuantityError:
-        return
-    assert math.isfinite(value)
+    with contextlib.suppress(QuantityError):
+        assert math.isfinite(parse_quantity(text, "m"))
 
 
 def test_common_units_need_no_pint() -> None:

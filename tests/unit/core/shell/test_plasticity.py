@@ -36,11 +36,16 @@ def one(material, strain, steps=1):
 @pytest.mark.parametrize("strain", [(1, 0, 0), (1, 1, 0), (1, -1, 0.5), (0, 0, 1), (0.7, -0.2, 3)])
 def test_stress_ends_on_the_yield_surface(size, strain):
     """One step, however large, ends at the yield stress to round-off."""
+    x, y, xy = size * np.array(strain)
+    elastic = mises(np.array([x + NU * y, y + NU * x, (1 - NU) / 2 * xy]) * E / (1 - NU**2))
     stress, state = one(STEEL, size * np.array(strain))
-    if state.point_field("plastic_strain")[0, 0] == 0:
-        assert mises(stress) <= 488e6
-        return
-    assert mises(stress) == pytest.approx(488e6, rel=5e-14)
+    if elastic > 488e6:
+        assert state.point_field("plastic_strain")[0, 0] > 0
+        assert mises(stress) == pytest.approx(488e6, rel=5e-14)
+    else:
+        # small and finite strains differ by terms of their own order
+        assert state.point_field("plastic_strain")[0, 0] == 0
+        assert mises(stress) == pytest.approx(elastic, rel=2 * size)
 
 
 @pytest.mark.parametrize("lobatto", [False, True])

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from crumple._core import _kernels
@@ -63,14 +63,15 @@ def outside(name, x):
 POINT = st.tuples(*[st.floats(-1.0, 1.0)] * 3)
 
 
+# most segments pass through the solid and are drawn anew
 @pytest.mark.parametrize("name", SOLIDS)
+@settings(suppress_health_check=[HealthCheck.filter_too_much])
 @given(first=POINT, second=POINT)
 def test_least_gap_is_that_of_the_nearest_point_of_the_segment(name, first, second):
     """Against 2001 points along the segment, where all of it lies outside."""
     along = np.linspace(first, second, 2001)
     nearest = outside(name, along).min()
-    if nearest <= 0.01:
-        return
+    assume(nearest > 0.01)
     found = touches(SOLIDS[name], first, second, 0.05)
     gap = min(gap for gap, _, _ in found.values())
     # the sampled minimum lies above the true one by at most (spacing/2)^2/(2 x distance); the valley by its

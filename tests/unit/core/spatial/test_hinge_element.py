@@ -147,13 +147,19 @@ def test_pure_loads_reach_the_capacities_of_their_axes(form, coupling):
             np.testing.assert_allclose(state["moment"], wanted, atol=2e-3 * abs(wanted).max())
 
 
-@pytest.mark.parametrize("form", [SET_VALUED, ELASTIC_PLASTIC, REGULARISED])
+@pytest.mark.parametrize(
+    ("form", "coupling"),
+    [
+        (form, coupling)
+        for form in (SET_VALUED, ELASTIC_PLASTIC, REGULARISED)
+        for coupling in (NONE, ELLIPSOID, SECTION, TENSION_FLANGE, BALL)
+        # the kernel refuses a regularised hinge about its tension flange
+        if (form, coupling) != (REGULARISED, TENSION_FLANGE)
+    ],
+)
 @pytest.mark.parametrize("softening", [PEAK, ROTATION, ACCUMULATED])
-@pytest.mark.parametrize("coupling", [NONE, ELLIPSOID, SECTION, TENSION_FLANGE, BALL])
-def test_energy_is_balanced_through_cycles(form, softening, coupling):
+def test_energy_is_balanced_through_cycles(form, coupling, softening):
     """Led to and fro at changing rates, what is put in is what is stored and what is lost, term by term."""
-    if (form, coupling) == (REGULARISED, TENSION_FLANGE):
-        return
     n = 2
     stops = {"stop_positive": [0.25, 4e3, 1.5, 3.0, 0.01], "stop_negative": [0.3, 4e3, 1.0, 0.0, 0.0]}
     element = rig(made(form, coupling, n, softening, viscous_damping=0.5, **stops))
