@@ -26,20 +26,9 @@ from crumple.report.drawing.style import (
     to_svg,
 )
 from crumple.report.figures.section_figure import draw_walls
-from crumple.section import (
-    AXES,
-    Angle,
-    Axis,
-    Channel,
-    CircularTube,
-    ClosedHat,
-    Hat,
-    MultiCellTube,
-    RectangularTube,
-    Section,
-    moment_capacity,
-    walls_of,
-)
+from crumple.section import AXES, Axis, Section, moment_capacity, walls_of
+from crumple.section.shapes.registry import SHAPES
+from crumple.section.shapes.written import written_section
 
 GRADE = "S355"
 LARGEST_SVG = 60_000
@@ -58,24 +47,18 @@ the upper side, and positive bending about z the left side."""
 
 @dataclass(frozen=True)
 class Exhibit:
-    """One section type: its file name, the section, and the axis and senses that its laws are drawn for."""
+    """One section: its file name, the section, and the axis and senses that its laws are drawn for."""
 
     key: str
     section: Section
-    axis: Axis = "y"
-    senses: tuple[int, ...] = (1,)
+    axis: Axis
+    senses: tuple[int, ...]
 
 
-EXHIBITS = (
-    Exhibit("rectangular_tube", RectangularTube(0.050, 0.025, 0.002, 0.004)),
-    Exhibit("square_tube", RectangularTube(0.040, 0.040, 0.002)),
-    Exhibit("circular_tube", CircularTube(0.050, 0.002)),
-    Exhibit("channel", Channel(0.040, 0.080, 0.002, 0.004), "z", (1, -1)),
-    Exhibit("lipped_channel", Channel(0.040, 0.080, 0.002, 0.004, 0.012), "z", (1, -1)),
-    Exhibit("angle", Angle(0.050, 0.050, 0.003)),
-    Exhibit("hat", Hat(0.050, 0.040, 0.0015, 0.018, 0.003), "y", (1, -1)),
-    Exhibit("closed_hat", ClosedHat(0.050, 0.040, 0.0015, 0.018, 0.003), "y", (1, -1)),
-    Exhibit("multi_cell_tube", MultiCellTube(0.080, 0.040, 0.002, 2, 1)),
+EXHIBITS = tuple(
+    Exhibit(one.name or kind, written_section(f"{kind} {one.text}"), one.axis, one.senses)
+    for kind, shape in SHAPES.items()
+    for one in shape.examples
 )
 
 

@@ -44,16 +44,7 @@ from crumple.structure.keys.obstacles import (
     Turning,
 )
 from crumple.structure.keys.outputs import Distance, Filter, Outputs, SectionForce, SectionRotation
-from crumple.structure.keys.section import (
-    AngleSpec,
-    ChannelSpec,
-    CircularTubeSpec,
-    ClosedHatSpec,
-    HatSpec,
-    MultiCellTubeSpec,
-    RectangularTubeSpec,
-    SquareTubeSpec,
-)
+from crumple.structure.keys.section import ShapeSpec
 from crumple.structure.keys.spot_welds import SpotWelds
 from crumple.structure.keys.stages import Stage, Until
 from crumple.structure.keys.walls import WallSectionSpec, WallSpec, WeldSpec
@@ -65,12 +56,8 @@ from crumple.structure.structure import Structure
 __all__ = [
     "FREEDOMS",
     "LAW_SPECS",
-    "AngleSpec",
     "AutomaticHinges",
     "Bars",
-    "ChannelSpec",
-    "CircularTubeSpec",
-    "ClosedHatSpec",
     "ConstantLaw",
     "CylinderObstacle",
     "Distance",
@@ -79,7 +66,6 @@ __all__ = [
     "ForceComponents",
     "Frame",
     "FrozenMapping",
-    "HatSpec",
     "Hinge",
     "HingePlace",
     "InitialVelocity",
@@ -93,21 +79,19 @@ __all__ = [
     "MemberContact",
     "MomentComponents",
     "Motion",
-    "MultiCellTubeSpec",
     "MultibodySettings",
     "NodalImpulse",
     "Obstacle",
     "Outputs",
     "PlacedHinge",
     "PlaneObstacle",
-    "RectangularTubeSpec",
     "Regularisation",
     "SectionForce",
     "SectionRotation",
+    "ShapeSpec",
     "ShellSettings",
     "SphereObstacle",
     "SpotWelds",
-    "SquareTubeSpec",
     "Stage",
     "Stops",
     "Stretch",

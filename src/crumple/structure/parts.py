@@ -10,6 +10,7 @@ import numpy as np
 
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
+from crumple.registry.quantity import Acceleration, Position
 from crumple.section import Axis, Section
 from crumple.structure.geometry import Frame, frame_of, plane_normal
 from crumple.structure.keys.joint import Joint
@@ -22,7 +23,6 @@ from crumple.structure.keys.obstacles import MemberContact, ObstacleSpec
 from crumple.structure.keys.section import SectionSpec
 from crumple.structure.keys.spot_welds import SpotWelds
 from crumple.structure.schema.mapping import FrozenMapping
-from crumple.structure.schema.quantity import Acceleration, Position
 from crumple.structure.schema.spec import Named, Spec
 
 

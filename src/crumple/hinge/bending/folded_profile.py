@@ -37,8 +37,9 @@ from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section
 from crumple.section.capacity.capacity import MomentCapacity, moment_capacity
-from crumple.section.shapes.built_up import ClosedHat
-from crumple.section.shapes.open_sections import Channel, Hat
+from crumple.section.shapes.channel import Channel
+from crumple.section.shapes.closed_hat import ClosedHat
+from crumple.section.shapes.hat import Hat
 
 SOURCE = Source(
     "Kecman-type mechanism with the faces of the profile, and folding of free edges",

@@ -6,9 +6,10 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
+from crumple.registry.quantity import PositiveAngle, PositiveForce, PositiveLength, PositiveMoment
+from crumple.registry.refusal import refuse
 from crumple.structure.keys.law import LawReference
-from crumple.structure.schema.quantity import PositiveAngle, PositiveForce, PositiveLength, PositiveMoment
-from crumple.structure.schema.spec import Spec, refuse
+from crumple.structure.schema.spec import Spec
 
 BendingAxis = Literal["y", "z"]
 """Section axis that the moment vector of a hinge lies along."""

@@ -10,8 +10,8 @@ from typing import Any
 
 from crumple.errors import InputError, Problem
 from crumple.hinge import read_law, read_table
-from crumple.structure.schema.quantity import Converted
-from crumple.structure.schema.spec import refuse
+from crumple.registry.quantity import Converted
+from crumple.registry.refusal import refuse
 from crumple.units import QuantityError, unit_factor
 
 LARGEST_FILE = 2_000_000

@@ -13,8 +13,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationInfo, model_validator
 
-from crumple.structure.keys.curve import MOST_POINTS, with_curve_read, with_law_read, with_units
-from crumple.structure.schema.quantity import (
+from crumple.registry.quantity import (
     Angle,
     DampingOrCritical,
     Moment,
@@ -29,7 +28,9 @@ from crumple.structure.schema.quantity import (
     StiffnessOrAuto,
     StopExponent,
 )
-from crumple.structure.schema.spec import Name, Spec, refuse, type_tag
+from crumple.registry.refusal import refuse
+from crumple.structure.keys.curve import MOST_POINTS, with_curve_read, with_law_read, with_units
+from crumple.structure.schema.spec import Name, Spec, type_tag
 from crumple.text.plain_yaml import LARGEST_TEXT
 
 

@@ -10,7 +10,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from crumple import material
 from crumple.errors import InputError
-from crumple.structure.schema.quantity import (
+from crumple.registry.quantity import (
     NUMBER,
     NonNegativeNumber,
     PositiveNumber,
@@ -18,7 +18,8 @@ from crumple.structure.schema.quantity import (
     PositiveStress,
     RateExponent,
 )
-from crumple.structure.schema.spec import Spec, refuse, type_tag
+from crumple.registry.refusal import refuse
+from crumple.structure.schema.spec import Spec, type_tag
 
 MOST_POINTS = 1000
 """Points of one hardening table."""
