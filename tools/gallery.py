@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from crumple.errors import InputError
-from crumple.hinge import HingeLaw, axial_law_types, build_axial_law, build_law, law_types
+from crumple.hinge import axial_law_types, build_axial_law, fitting_laws
 from crumple.material import Material, grade, grade_material
 from crumple.report.drawing.scales import display_unit, largest, spread
 from crumple.report.drawing.style import (
@@ -34,7 +34,6 @@ GRADE = "S355"
 LARGEST_SVG = 60_000
 """Bytes of one picture; a page of nine stays quick to load."""
 ROTATION = np.linspace(0.0, np.radians(45.0), 300)
-NEEDS_CURVE = frozenset({"file", "table"})
 HEAD = """# Gallery of sections
 
 One picture per section type: the walls to scale (dot: centroid, cross: shear centre, thin lines: principal
@@ -62,22 +61,9 @@ EXHIBITS = tuple(
 )
 
 
-def fitting_laws(exhibit: Exhibit, metal: Material) -> dict[str, HingeLaw]:
-    """Bending laws that accept the section."""
-    laws: dict[str, HingeLaw] = {}
-    for name in law_types():
-        if name in NEEDS_CURVE:
-            continue
-        try:
-            laws[name] = build_law(name, exhibit.section, metal, exhibit.axis)
-        except InputError:
-            continue
-    return laws
-
-
 def picture(exhibit: Exhibit, metal: Material) -> str:
     """Walls and laws side by side as SVG."""
-    laws = fitting_laws(exhibit, metal)
+    laws, _ = fitting_laws(exhibit.section, metal, exhibit.axis)
     curves = {
         (
             f"{name} {'+' if sense > 0 else '-'}" if len(exhibit.senses) > 1 else name,
@@ -124,7 +110,7 @@ def _properties(exhibit: Exhibit, metal: Material) -> list[str]:
 
 def _laws(exhibit: Exhibit, metal: Material) -> list[str]:
     rows = []
-    for name, law in fitting_laws(exhibit, metal).items():
+    for name, law in fitting_laws(exhibit.section, metal, exhibit.axis)[0].items():
         reach = law.validity.rotation_max
         backed = "any rotation" if np.isinf(reach) else f"{np.degrees(reach):.1f} deg"
         band = law.validity.uncertainty

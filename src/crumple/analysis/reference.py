@@ -66,7 +66,7 @@ def _tables(
 def _registered_tables(path: str, model: type[Registered], seen: set[type[BaseModel]]) -> Iterator[str]:
     """Table of the keys that every type has, where there are any but the type, and of those of each type."""
     path = COMMON.get(model, path)
-    common = {name: field for name, field in model.model_fields.items() if name != "type"}
+    common = {name: field for name, field in model.model_fields.items() if name != model.tag}
     if common:
         yield _table(f"{path}, any type", model, common)
         yield from _inner_tables(path, common, seen)
@@ -76,11 +76,19 @@ def _registered_tables(path: str, model: type[Registered], seen: set[type[BaseMo
             key.name: FieldInfo.from_annotated_attribute(
                 key.annotation, ... if key.default is MISSING else key.default
             )
-            for key in model.keys_of_type(kind)
+            for key in model.written_keys(kind)
         }
-        rows: list[Row] = [("`type`", f"`{kind}`", "", "required", texts["type"])]
-        rows += [_row(key.name, keys[key.name], key.text) for key in model.keys_of_type(kind)]
-        yield _lines(f"{path}, type {kind}", model.sentence_of(kind), rows)
+        rows: list[Row] = [
+            (
+                f"`{model.tag}`",
+                f"`{kind}`",
+                "",
+                "" if kind == model.default_type else "required",
+                texts[model.tag],
+            )
+        ]
+        rows += [_row(key.name, keys[key.name], key.text) for key in model.written_keys(kind)]
+        yield _lines(f"{path}, {model.tag} {kind}", model.sentence_of(kind), rows)
         yield from _inner_tables(path, keys, seen)
 
 

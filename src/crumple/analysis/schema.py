@@ -46,7 +46,7 @@ def models_of(model: type[BaseModel]) -> list[type[BaseModel]]:
     for one in found:
         inside = [field.annotation for field in one.model_fields.values()]
         if issubclass(one, Registered):
-            inside += [key.annotation for kind in one.types() for key in one.keys_of_type(kind)]
+            inside += [key.annotation for kind in one.types() for key in one.written_keys(kind)]
         for annotation in inside:
             found += [inner for inner in dict.fromkeys(_models_in(annotation)) if inner not in found]
     return found
@@ -84,7 +84,7 @@ def _type_schema(parts: dict[str, Any], model: type[Registered], kind: str) -> d
     """Schema of a registered type: the keys that all have, and its own."""
     common = deepcopy(parts[model.__name__])
     own, required = {}, []
-    for key in model.keys_of_type(kind):
+    for key in model.written_keys(kind):
         entry = TypeAdapter(key.annotation).json_schema(
             schema_generator=_Generator, ref_template="#/$defs/{model}"
         )
@@ -93,12 +93,15 @@ def _type_schema(parts: dict[str, Any], model: type[Registered], kind: str) -> d
         own[key.name] = entry
         if key.default is MISSING:
             required.append(key.name)
-    common["properties"]["type"] |= {"const": kind}
+    common["properties"][model.tag].pop("default", None)
+    common["properties"][model.tag] |= {"const": kind}
+    if kind != model.default_type:
+        required.append(model.tag)
     return {
         **common,
         "description": model.sentence_of(kind),
         "properties": {**common["properties"], **own},
-        "required": [*common.get("required", []), *required],
+        "required": list(dict.fromkeys([*common.get("required", []), *required])),
         "additionalProperties": False,
     }
 

@@ -31,6 +31,13 @@ class Word:
 
 
 @dataclass(frozen=True)
+class As:
+    """How a description gives a parameter that takes more kinds of values in Python."""
+
+    annotation: Any
+
+
+@dataclass(frozen=True)
 class Key:
     """One key.
 
@@ -85,7 +92,7 @@ def keys_of(make: Callable[..., Any], *, options: bool = False) -> tuple[Key, ..
     return tuple(
         Key(
             name,
-            _choices(hints[name]),
+            _described(hints[name]),
             parameter.default.value if isinstance(parameter.default, Enum) else parameter.default,
             texts.get(name, ""),
         )
@@ -106,8 +113,16 @@ def _texts(docstring: str) -> dict[str, str]:
     return {name: _UNIT.sub("", " ".join(lines)) for name, lines in texts.items()}
 
 
-def _choices(annotation: Any) -> Any:
-    """An enum that is accepted by its texts, as those texts."""
+def sentence_on(make: object) -> str:
+    """What a class or function is: the first paragraph of its docstring on one line."""
+    return " ".join((inspect.getdoc(make) or "").split("\n\n")[0].split())
+
+
+def _described(annotation: Any) -> Any:
+    """Type that a description gives: of an enum that is accepted by its texts, those texts."""
+    if get_origin(annotation) is Annotated:
+        given = [item.annotation for item in get_args(annotation)[1:] if isinstance(item, As)]
+        return given[0] if given else annotation
     if get_origin(annotation) in {Union, UnionType}:
         enums = [kind for kind in get_args(annotation) if isinstance(kind, type) and issubclass(kind, Enum)]
         if enums:

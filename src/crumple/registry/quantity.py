@@ -167,6 +167,17 @@ class Whole:
         return core_schema.int_schema(ge=self.at_least, le=self.at_most, strict=True)
 
 
+@dataclass(frozen=True)
+class Longest:
+    """Largest number of characters of a text, or of entries of a list."""
+
+    number: int
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
+        schema: CoreSchema = handler(source)
+        return {**schema, "max_length": self.number}
+
+
 def _positive(dimension: Dimension) -> Dimension:
     return replace(dimension, above=0.0)
 

@@ -20,16 +20,7 @@ from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges.automatic import any_automatic
 from crumple.structure.hinges.hinges import HingePlace, PlacedHinge, hinge_places, placed_hinges
 from crumple.structure.keys.joint import Joint
-from crumple.structure.keys.law import (
-    LAW_SPECS,
-    ConstantLaw,
-    KecmanLaw,
-    LawKeys,
-    Regularisation,
-    Stops,
-    TableLaw,
-    WierzbickiLaw,
-)
+from crumple.structure.keys.law import LawKeys, Regularisation, Stops
 from crumple.structure.keys.load import ForceComponents, Load, Mass, MomentComponents, NodalImpulse
 from crumple.structure.keys.material import MaterialSpec
 from crumple.structure.keys.member import AutomaticHinges, Bars, Hinge, Member, Stretch
@@ -55,10 +46,8 @@ from crumple.structure.structure import Structure
 
 __all__ = [
     "FREEDOMS",
-    "LAW_SPECS",
     "AutomaticHinges",
     "Bars",
-    "ConstantLaw",
     "CylinderObstacle",
     "Distance",
     "Filter",
@@ -70,7 +59,6 @@ __all__ = [
     "HingePlace",
     "InitialVelocity",
     "Joint",
-    "KecmanLaw",
     "LawKeys",
     "Load",
     "Mass",
@@ -97,14 +85,12 @@ __all__ = [
     "Stretch",
     "Structure",
     "Support",
-    "TableLaw",
     "Travel",
     "Turning",
     "Until",
     "WallSectionSpec",
     "WallSpec",
     "WeldSpec",
-    "WierzbickiLaw",
     "across_plane",
     "any_automatic",
     "changed",

@@ -14,7 +14,7 @@ from crumple.registry.quantity import Acceleration, Position
 from crumple.section import Axis, Section
 from crumple.structure.geometry import Frame, frame_of, plane_normal
 from crumple.structure.keys.joint import Joint
-from crumple.structure.keys.law import LawSpec
+from crumple.structure.keys.law import LawKeys
 from crumple.structure.keys.load import Load, Mass, NodalImpulse
 from crumple.structure.keys.material import MaterialSpec
 from crumple.structure.keys.member import Member, OnlyAutomatic
@@ -46,7 +46,7 @@ class StructureParts(Spec):
     """Spot welds of members with members, or along the weld lines of members' own sections, by name."""
     hinges: OnlyAutomatic | None = None
     """`auto`: candidate hinges, wherever a fold can form, in every member that has no hinges of its own."""
-    hinge_laws: Named[LawSpec] = FrozenMapping()
+    hinge_laws: Named[LawKeys] = FrozenMapping()
     """Hinge laws by name."""
     supports: Named[Support] = FrozenMapping()
     """Supports by name."""

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from crumple.registry.keys import Key, keys_of
+from crumple.registry.keys import Key, keys_of, sentence_on
 from crumple.section.section import Axis, Section
 
 
@@ -53,4 +52,4 @@ class Shape:
     @property
     def sentence(self) -> str:
         """What it is: the first paragraph of its docstring."""
-        return " ".join((inspect.getdoc(self.make) or "").split("\n\n")[0].split())
+        return sentence_on(self.make)

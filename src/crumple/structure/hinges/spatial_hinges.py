@@ -89,8 +89,7 @@ def _like(
 
 
 def _twist(keys: Twist, section: Section, material: Material, length: float) -> object:
-    options = {"torque": keys.torque} if keys.law == "plastic" else {"decay": keys.decay}
-    return build_torsion_law(keys.law, section, material, length, **options)
+    return build_torsion_law(keys.law, section, material, length, **keys.own)
 
 
 def _axial(

@@ -7,8 +7,10 @@ here they are read and checked like all others, every mistake of a part at once.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from functools import cache
-from typing import Any, Self
+from pathlib import Path
+from typing import Any, ClassVar, Self
 
 from pydantic import (
     ConfigDict,
@@ -33,8 +35,10 @@ class Registered(Spec):
 
     model_config = ConfigDict(extra="allow")
 
-    type: str
-    """Which one."""
+    tag: ClassVar[str] = "type"
+    """Key that says which one."""
+    default_type: ClassVar[str | None] = None
+    """Which one it is without that key; None: the key is needed."""
 
     @classmethod
     def types(cls) -> Iterable[str]:
@@ -57,8 +61,32 @@ class Registered(Spec):
         raise NotImplementedError
 
     @classmethod
-    def embedded(cls, given: dict[str, Any], info: ValidationInfo) -> dict[str, Any]:
-        """What was given, with the content of files in place of their names."""
+    def file_keys(cls, kind: str) -> tuple[Key, ...]:
+        """Further keys of a type, which `embedded` turns into values of its own keys."""
+        return ()
+
+    @classmethod
+    def written_keys(cls, kind: str) -> tuple[Key, ...]:
+        """Keys of a type as people write them."""
+        files, own = cls.file_keys(kind), cls.keys_of_type(kind)
+        if files:
+            # a file may stand for any key that is needed
+            own = tuple(replace(key, default=None) if key.default is MISSING else key for key in own)
+        return (*files, *own)
+
+    @classmethod
+    def embedded(cls, kind: str, given: dict[str, Any], folder: Path | None) -> dict[str, Any]:
+        """Keys that were given, with the content of files in place of their names.
+
+        Parameters
+        ----------
+        kind
+            Type.
+        given
+            Keys as they stand in the input.
+        folder
+            Of the input file; None where the part is built in Python.
+        """
         return given
 
     @property
@@ -73,11 +101,12 @@ class Registered(Spec):
     ) -> Self:
         if not isinstance(given, Mapping):
             return handler(given)
-        kind = given.get("type", "")
+        kind = given.get(cls.tag, cls.default_type)
         if not isinstance(kind, str) or kind not in cls.types():
             raise _refused(*_unknown_type(cls, kind))
+        folder = (info.context or {}).get("directory")
+        given = cls.embedded(kind, {**given, cls.tag: kind}, None if folder is None else Path(folder))
         keys = {key.name: key for key in cls.keys_of_type(kind)}
-        given = cls.embedded(dict(given), info)
         errors: list[InitErrorDetails] = []
         own = {}
         for name, key in keys.items():
@@ -90,9 +119,9 @@ class Registered(Spec):
                 errors.append(InitErrorDetails(type="missing", loc=(name,), input=given))
             else:
                 own[name] = key.default
-        known = [*cls.model_fields, *keys]
+        known = [*cls.model_fields, *(key.name for key in cls.file_keys(kind)), *keys]
         for name in (name for name in given if name not in known):
-            todo = suggestion(name, known) or "remove it or correct its spelling"
+            todo = suggestion(name, known) or _belongs(cls, name) or "remove it or correct its spelling"
             unknown = _refused(f"unknown key '{shown(name)}'", one_of(known), todo)
             errors.append(InitErrorDetails(type=unknown, loc=(name,), input=given[name]))
         try:
@@ -112,8 +141,14 @@ def _adapter(key: Key) -> TypeAdapter[Any]:
 def _unknown_type(part: type[Registered], kind: object) -> tuple[str, str, str, str]:
     """Problem, what is allowed, what to do, and what came."""
     types = [*part.types(), *part.other_types()]
-    what = f"unknown type '{shown(kind)}'" if kind else "the key 'type' is missing"
-    return what, one_of(types), suggestion(kind, types), shown(kind)
+    what = f"unknown {part.tag} '{shown(kind)}'" if kind else f"the key '{part.tag}' is missing"
+    return what, one_of(types), suggestion(kind, types), shown(kind) if kind else ""
+
+
+def _belongs(part: type[Registered], name: str) -> str:
+    """What to do about a key of other types; nothing where it is no key at all."""
+    types = [kind for kind in part.types() if name in {key.name for key in part.written_keys(kind)}]
+    return f"remove it, or write {part.tag}: {' or '.join(types[:3])}" if types else ""
 
 
 def _refused(what: str, allowed: str, todo: str, came: str | None = None) -> PydanticCustomError:
