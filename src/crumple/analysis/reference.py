@@ -103,7 +103,7 @@ def _inner_tables(path: str, fields: Mapping[str, FieldInfo], seen: set[type[Bas
                 # a law in place has the keys of a named one
                 base = _common(found)
                 inner = inner if base is None else COMMON[base]
-                several = kind is not None and not kind.is_required()
+                several = kind is not None and not kind.is_required() and not issubclass(found, Registered)
                 yield from _tables(
                     f"{inner}, type {kind.default}" if kind and several else inner, found, seen
                 )

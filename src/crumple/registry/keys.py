@@ -76,7 +76,6 @@ class Key:
         return get_args(self.annotation)[1:] if get_origin(self.annotation) is Annotated else ()
 
 
-@cache
 def keys_of(make: Callable[..., Any], *, options: bool = False) -> tuple[Key, ...]:
     """Parameters of a class or function as keys.
 
@@ -87,6 +86,11 @@ def keys_of(make: Callable[..., Any], *, options: bool = False) -> tuple[Key, ..
     options
         Whether only those that are passed by keyword alone are keys.
     """
+    return _keys_of(make, options)
+
+
+@cache
+def _keys_of(make: Callable[..., Any], options: bool) -> tuple[Key, ...]:
     hints = get_type_hints(make, include_extras=True)
     texts = _texts(inspect.getdoc(make) or "")
     return tuple(

@@ -169,13 +169,14 @@ class Whole:
 
 @dataclass(frozen=True)
 class Longest:
-    """Largest number of characters of a text, or of entries of a list."""
+    """Largest, and least, number of characters of a text or of entries of a list."""
 
     number: int
+    least: int = 0
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
         schema: CoreSchema = handler(source)
-        return {**schema, "max_length": self.number}
+        return {**schema, "max_length": self.number, "min_length": self.least}
 
 
 def _positive(dimension: Dimension) -> Dimension:
@@ -251,6 +252,7 @@ FrictionCoefficient = Annotated[float, replace(NUMBER, example="0.2", at_least=0
 Restitution = Annotated[float, replace(NUMBER, example="0.1", at_least=0.0, at_most=1.0)]
 RateExponent = Annotated[float, replace(NUMBER, example="5", at_least=1.0)]
 StopExponent = RateExponent
+HardeningExponent = Annotated[float, replace(NUMBER, example="0.12", at_least=0.0, at_most=1.0)]
 RollingWeight = Annotated[float, replace(NUMBER, example="0.5", at_least=0.0, at_most=1.0)]
 PoissonsRatio = Annotated[float, replace(NUMBER, example="0.3", at_least=0.0, below=0.5)]
 Accuracy = Annotated[float, replace(NUMBER, example="1e-3", at_least=1e-12, at_most=0.1)]

@@ -21,7 +21,7 @@ from crumple.structure.checks.obstacle_checks import obstacle_problems
 from crumple.structure.checks.rigid_checks import rigid_problems
 from crumple.structure.checks.start_checks import start_problems
 from crumple.structure.checks.weld_checks import pitch_problems, spot_weld_problems
-from crumple.structure.hinges.hinge_axes import AxisLaws, HingeAxes
+from crumple.structure.keys.hinge_axes import AxisLaws, HingeAxes
 from crumple.structure.keys.member import AutomaticHinges
 from crumple.structure.keys.outputs import Outputs
 from crumple.structure.parts import StructureParts

@@ -22,8 +22,8 @@ from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section, half_fold_length
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges.automatic import hinges_of, where_automatic
-from crumple.structure.hinges.hinge_axes import HingeAxes
 from crumple.structure.hinges.spatial_hinges import spatial_hinge_record
+from crumple.structure.keys.hinge_axes import HingeAxes
 from crumple.structure.keys.law import LawKeys, LawReference, Stops
 from crumple.structure.keys.member import Hinge
 from crumple.structure.keys.motion import FREEDOMS

@@ -12,7 +12,7 @@ from crumple.hinge.record.spatial_record import Coupling, Freedom, HingeComponen
 from crumple.hinge.record.spatial_recording import spatial_record
 from crumple.material import Material
 from crumple.section import Section
-from crumple.structure.hinges.hinge_axes import AxialSlip, BendingAxis, HingeAxes, Twist
+from crumple.structure.keys.hinge_axes import AxialSlip, BendingAxis, HingeAxes, Twist
 from crumple.structure.remembered import remembered
 
 if TYPE_CHECKING:

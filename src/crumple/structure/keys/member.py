@@ -26,7 +26,7 @@ from crumple.registry.quantity import (
     PositiveLength,
 )
 from crumple.registry.refusal import refuse
-from crumple.structure.hinges.hinge_axes import HingeAxes
+from crumple.structure.keys.hinge_axes import HingeAxes
 from crumple.structure.schema.spec import Name, Spec
 
 MOST_BARS = 10_000
