@@ -39,7 +39,7 @@ void share_out(std::size_t count, std::size_t share, int threads,
     std::size_t working = 0;
     auto member = [&] {
         work();
-        const std::lock_guard<std::mutex> lock(mutex);
+        const std::lock_guard<std::mutex> own_lock(mutex);
         working--;
         ended.notify_one();
     };

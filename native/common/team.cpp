@@ -4,9 +4,6 @@
 #include <condition_variable>
 #include <mutex>
 #include <system_error>
-#if defined(__unix__) || defined(__APPLE__)
-#include <unistd.h>
-#endif
 
 namespace crumple::shell {
 
@@ -14,14 +11,6 @@ namespace {
 
 // How long a member waits awake for the next call: longer than a look at a run between two of them takes.
 constexpr auto awake = std::chrono::microseconds(200);
-
-long this_process() {
-#if defined(__unix__) || defined(__APPLE__)
-    return long(getpid());
-#else
-    return 1;
-#endif
-}
 
 }  // namespace
 
@@ -93,15 +82,15 @@ Team::Team() = default;
 Team::~Team() { dismiss(); }
 
 void Team::dismiss() {
-    if (process_ != this_process()) crew_.release();
+    if (process_ != process_number()) crew_.release();
     crew_.reset();
 }
 
 int Team::gather(int members) {
     if (members == 1) return members_ = 1;
-    if (!crew_ || process_ != this_process() || crew_->asked != members - 1) {
+    if (!crew_ || process_ != process_number() || crew_->asked != members - 1) {
         dismiss();
-        process_ = this_process();
+        process_ = process_number();
         crew_ = std::make_unique<Crew>(members - 1);
     }
     return members_ = int(crew_->threads.size()) + 1;

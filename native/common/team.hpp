@@ -7,16 +7,12 @@
 #include <thread>
 #include <vector>
 
+#include "common/machine.hpp"
+
 namespace crumple::shell {
 
 // Blocking system barriers cost more than a stage on a busy machine; spinning alone would starve the others.
 constexpr int spins_before_yield = 2000;
-
-inline void pause() {
-#if defined(__x86_64__) || defined(_M_X64)
-    __builtin_ia32_pause();
-#endif
-}
 
 class Barrier {
 public:
@@ -128,7 +124,7 @@ private:
 
     std::unique_ptr<Crew> crew_;
     int members_ = 1;
-    long process_ = 0;               // that started the crew: one forked off has none, and must not wait for it
+    long long process_ = 0;          // that started the crew: one forked off has none, and must not wait for it
 };
 
 }  // namespace crumple::shell

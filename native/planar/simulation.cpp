@@ -33,7 +33,7 @@ double error_order(const Attempt& rejected, const Attempt& present) {
     return std::clamp(std::log(rejected.e / present.e) / std::log(rejected.h / present.h), 1.0, 3.0);
 }
 
-constexpr long poll_interval = 100'000;  // solves times bodies between calls of `poll`: some 10 ms
+constexpr std::int64_t poll_interval = 100'000;  // solves times bodies between calls of `poll`: some 10 ms
 
 double kinetic_norm(const Tree& tree, const std::vector<Twist>& a, const std::vector<Twist>* b) {
     double e = 0;
@@ -135,7 +135,7 @@ bool Simulation::step_twice(double h, bool again) {
 bool Simulation::advance(double target, Record& record, const std::function<bool(double)>& poll) {
     Attempt rejected;
     while (state_.t < target) {
-        const long done = stepper_.solves() * model_.tree.bodies();
+        const std::int64_t done = stepper_.solves() * model_.tree.bodies();
         if (done > poll_at_ && poll) {
             poll_at_ = done + poll_interval;
             if (!poll(state_.t)) {
@@ -247,7 +247,7 @@ void Simulation::show_first_moments() {
 
 Record Simulation::run(const std::vector<double>& times, const std::function<bool(double)>& poll) {
     Record record;
-    const long solves = stepper_.solves();
+    const std::int64_t solves = stepper_.solves();
     const double duration = times.back() - state_.t;
     // the rotation that the strongest hinge would need for all energy: what counts as large before anything has turned
     double strongest = 0;

@@ -1,6 +1,7 @@
 // A run: adaptive steps to the requested output times, and what they record.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -29,7 +30,7 @@ struct Record {
     Outcome outcome = Outcome::complete;
     std::string reason;
     double residual = 0;                   // largest |balance - start| over (start + largest external work)
-    long steps = 0, rejected = 0, forced = 0, solves = 0;
+    std::int64_t steps = 0, rejected = 0, forced = 0, solves = 0;
 };
 
 class Simulation {
@@ -72,7 +73,7 @@ private:
     std::vector<Real> between_;     // rates
     double step_tolerance_;  // of the error measure
     double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, work_max_ = 0, residual_max_ = 0, negligible_energy_ = 0;
-    long poll_at_ = 0;  // work at which `poll` is asked next
+    std::int64_t poll_at_ = 0;  // work at which `poll` is asked next
 };
 
 // at the present state

@@ -7,6 +7,7 @@
 // line search on that potential; each Newton step is one O(N) articulated-body solve.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "hinge/hinge.hpp"
@@ -97,7 +98,7 @@ public:
     // least time in which drives make up for drift; without it twice the step, so that the drift of a long step
     // would jerk a short one that follows
     void set_drift_time(double time) { drift_time_ = time; }
-    long solves() const { return solves_; }
+    std::int64_t solves() const { return solves_; }
 
 private:
     void predict(const State& s, double h);
@@ -139,7 +140,7 @@ private:
     std::vector<bool> looped_;  // hinges that are part of a loop
     bool all_set_valued_ = true;
     double drift_time_ = 0;
-    long solves_ = 0;
+    std::int64_t solves_ = 0;
 };
 
 }  // namespace CRUMPLE_ARITHMETIC

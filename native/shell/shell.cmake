@@ -7,10 +7,16 @@ add_library(shell_core OBJECT
   ${native}/shell/run/model.cpp ${native}/shell/run/lowering.cpp ${native}/shell/element/thickness_rule.cpp ${native}/shell/rigid/rigid_body.cpp
   ${native}/shell/contact/contact.cpp ${native}/shell/contact/contact_search.cpp ${native}/shell/contact/wall_contact.cpp ${native}/shell/contact/edge_contact.cpp
   ${native}/shell/contact/obstacles.cpp ${native}/shell/contact/body_contact.cpp ${native}/shell/run/simulation.cpp ${native}/shell/rigid/driven.cpp ${native}/shell/run/stage.cpp
-  ${native}/shell/run/ledger.cpp ${native}/shell/rigid/welds.cpp ${native}/shell/simd/isa.cpp ${native}/common/team.cpp)
+  ${native}/shell/run/ledger.cpp ${native}/shell/rigid/welds.cpp ${native}/shell/simd/isa.cpp ${native}/common/machine.cpp ${native}/common/team.cpp)
 set(shell_libraries shell_core)
 
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+# by the compiler's own word: CMAKE_SYSTEM_PROCESSOR is the machine that builds, not the one that is built for
+include(CheckCXXSourceCompiles)
+check_cxx_source_compiles("#if !defined(__x86_64__)
+#error
+#endif
+int main() { return 0; }" CRUMPLE_FOR_X86_64)
+if(CRUMPLE_FOR_X86_64)
   set(shell_isas v2 v3 v4)
 else()
   set(shell_isas generic)
@@ -32,7 +38,7 @@ foreach(isa ${shell_isas})
 endforeach()
 foreach(library ${shell_libraries})
   set_target_properties(${library} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden)
-  target_compile_options(${library} PRIVATE -O3)
+  target_compile_options(${library} PRIVATE ${gnu}-O3)
   target_include_directories(${library} PRIVATE ${native})
   target_link_libraries(${library} PRIVATE crumple_options)
   target_link_libraries(_kernels PRIVATE ${library})

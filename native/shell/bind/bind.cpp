@@ -194,7 +194,6 @@ static void bind_simulation(nb::module_& m) {
         .def_prop_ro("end", [](const Simulation& s) { return int(s.end()); })
         .def_prop_ro("failed_element", &Simulation::failed_element)
         .def_prop_ro("isa", [](const Simulation& s) { return std::string(s.kernels().name); })
-        .def_prop_ro("lanes", [](const Simulation& s) { return s.kernels().lanes; })
         .def_prop_ro("mass", [](const Simulation& s) { return s.masses().structure; })
         .def_prop_ro("added_mass", [](const Simulation& s) { return s.masses().added; })
         .def_prop_ro("deepest_penetration", [](const Simulation& s) { return s.contact().deepest(); })

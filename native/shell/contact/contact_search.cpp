@@ -25,7 +25,7 @@ PointGrid::PointGrid(const double* points, int stride, std::size_t count, double
     inverse_ = 1.0 / cell;
     for (int i = 0; i < 3; i++) {
         origin_[i] = low[i];
-        count_[i] = long(size[i] / cell) + 1;
+        count_[i] = std::int64_t(size[i] / cell) + 1;
     }
     // points by cell, counted and then placed
     std::vector<Index> cell_of(count);

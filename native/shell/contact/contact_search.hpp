@@ -1,6 +1,7 @@
 // Which points lie in which boxes: a bucket search.
 #pragma once
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -41,29 +42,29 @@ public:
 
     // Calls visit(point) for the points in the box, in the order of the cells.
     template <class Visit> void each_in(const Box& box, Visit visit) const {
-        long from[3], to[3];
+        std::int64_t from[3], to[3];
         for (int i = 0; i < 3; i++) {
             from[i] = along(i, box.low[i]);
             to[i] = along(i, box.high[i]);
         }
-        for (long x = from[0]; x <= to[0]; x++)
-            for (long y = from[1]; y <= to[1]; y++) {
+        for (std::int64_t x = from[0]; x <= to[0]; x++)
+            for (std::int64_t y = from[1]; y <= to[1]; y++) {
                 // cells along z follow one another, and so do their points
-                const long row = (x * count_[1] + y) * count_[2];
+                const std::int64_t row = (x * count_[1] + y) * count_[2];
                 for (Index k = first_[std::size_t(row + from[2])]; k < first_[std::size_t(row + to[2]) + 1]; k++)
                     if (box.contains(points_[k])) visit(number_[k]);
             }
     }
 
 private:
-    long along(int axis, double x) const {
+    std::int64_t along(int axis, double x) const {
         const double cell = (x - origin_[axis]) * inverse_;
         // what is no number goes to the first
-        return cell > 0.0 ? long(std::min(cell, double(count_[axis] - 1))) : 0;
+        return cell > 0.0 ? std::int64_t(std::min(cell, double(count_[axis] - 1))) : 0;
     }
 
     double origin_[3] = {0.0, 0.0, 0.0}, inverse_ = 0.0;
-    long count_[3] = {1, 1, 1};
+    std::int64_t count_[3] = {1, 1, 1};
     std::vector<Index> first_{0, 0};             // [cell]; one more entry
     std::vector<Index> number_;                  // points by cell, within each in order
     std::vector<Vec3> points_;                   // where those are

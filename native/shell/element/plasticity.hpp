@@ -49,7 +49,7 @@ CRUMPLE_INLINE YieldLine yield_line(const Part& part, Real start, Real at, Real 
 CRUMPLE_INLINE Real rate_factor(const Part& part, Real& rate, Real strain, double dt) {
     const double share = dt / (dt + part.rate_time);
     if (dt > 0.0) rate += share * (strain * (1.0 / dt) - rate);
-    Real factor;
+    Real factor{};
     for (int i = 0; i < lanes; i++) {
         const double relative = rate[i] * part.inverse_rate_reference;
         const bool power = part.rate == Rate::power;

@@ -5,6 +5,8 @@
 
 namespace crumple::shell {
 
+constexpr double pi = 3.14159265358979323846;
+
 struct Legendre {
     double value, before;        // P_n and P_{n-1}
 };
@@ -23,7 +25,7 @@ static Legendre legendre(int n, double x) {
 // roots of P_n
 static void gauss(int n, double* z, double* weight) {
     for (int i = 0; i < n; i++) {
-        double x = -std::cos(M_PI * (i + 0.75) / (n + 0.5)), slope = 1.0;
+        double x = -std::cos(pi * (i + 0.75) / (n + 0.5)), slope = 1.0;
         for (int step = 0; step < 100; step++) {
             const Legendre p = legendre(n, x);
             slope = n * (x * p.value - p.before) / (x * x - 1.0);
@@ -40,7 +42,7 @@ static void gauss(int n, double* z, double* weight) {
 static void lobatto(int n, double* z, double* weight) {
     const int m = n - 1;
     for (int i = 0; i < n; i++) {
-        double x = -std::cos(M_PI * i / m);
+        double x = -std::cos(pi * i / m);
         if (i > 0 && i < m)
             for (int step = 0; step < 100; step++) {
                 const Legendre p = legendre(m, x);

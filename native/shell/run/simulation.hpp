@@ -101,7 +101,6 @@ private:
     double kinetic_of_welds() const;
     void sort_welds();
     void fit_welds();
-    void begin_step();
     void end_step(const std::vector<ElementReport>& reports);
     void end_contact(const Member& member);
     void note_failure(const ElementReport& report);

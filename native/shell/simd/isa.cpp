@@ -1,24 +1,22 @@
-// Which build of the kernels runs here.  Detection on x86-64 stays in this file; elsewhere there is one generic build.
+// Which build of the kernels runs here: on x86-64 one for each level of the instruction set, elsewhere one generic build.
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "common/machine.hpp"
 #include "shell/element/kernel.hpp"
 
 namespace crumple::shell {
 
-#if defined(__x86_64__) || defined(_M_X64)
+#if defined(__x86_64__)
 extern const Kernels kernels_v2, kernels_v3, kernels_v4;
 
 static std::vector<const Kernels*> available() {
-    __builtin_cpu_init();
+    const int level = x86_level();
     std::vector<const Kernels*> found;
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd"))
-        found.push_back(&kernels_v4);
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
-        found.push_back(&kernels_v3);
-    if (__builtin_cpu_supports("sse4.2")) found.push_back(&kernels_v2);
+    if (level >= 4) found.push_back(&kernels_v4);
+    if (level >= 3) found.push_back(&kernels_v3);
+    if (level >= 2) found.push_back(&kernels_v2);
     return found;
 }
 #else
@@ -29,7 +27,7 @@ static std::vector<const Kernels*> available() { return {&kernels_generic}; }
 
 const Kernels& choose_kernels(const char* name) {
     const std::vector<const Kernels*> found = available();
-    if (found.empty()) throw std::runtime_error("this processor lacks SSE4.2, the least that the shell kernels need");
+    if (found.empty()) throw std::runtime_error("this processor lacks the x86-64-v2 instructions, the least that the shell kernels need");
     if (!name || !*name) return *found.front();
     std::string allowed;
     for (const Kernels* k : found) {

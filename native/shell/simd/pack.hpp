@@ -34,7 +34,7 @@ CRUMPLE_INLINE Real root(Real a) {
 #elif defined(__SSE2__)
     return Real(_mm_sqrt_pd(__m128d(a)));
 #else
-    Real r;
+    Real r{};
     for (int i = 0; i < lanes; i++) r[i] = __builtin_sqrt(a[i]);
     return r;
 #endif

@@ -139,7 +139,6 @@ void bind_hinge(nb::module_& m) {
              [](Element& e, size_t k, double inertia) { e.hinge.components.at(k).law.damped_inertia = inertia; })
         .def("respond", [](const Element& e, const Doubles& w) { return answer(e, w, false); })
         .def("law", [](const Element& e, const Doubles& w) { return answer(e, w, true); })
-        .def("load_factor", [](const Element& e, const Doubles& w) { return load_factor(e.hinge, e.frozen, checked(e, w)); })
         .def("capacity_sensitivity",
              [](const Element& e, const Doubles& w) {
                  Doubles d(w.size() * w.size());
@@ -147,7 +146,6 @@ void bind_hinge(nb::module_& m) {
                  return d;
              })
         .def("commit", &committed)
-        .def_prop_ro("lead", [](const Element& e) { return e.frozen.lead; })
         .def_prop_ro("q", [](const Element& e) { return e.q; })
         .def_prop_ro("state", &state_of);
     m.def("surface_point", [](const nb::dict& d, const Doubles& y, const Doubles& metric) {

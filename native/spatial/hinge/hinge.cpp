@@ -68,7 +68,7 @@ void set_coupled_capacity(const SpatialHinge& hinge, const SpatialHingeState& s,
         for (int k = 0; k < n; k++) hinge::set_capacity(law_of(hinge, k), s.component[k], flow[k], f.hint[k], f.component[k]);
         return;
     }
-    double end[most];
+    double end[most] = {};
     for (int k = 0; k < n; k++) end[k] = e[k] + flow[k];
     double from = measure(hinge, e), to = measure(hinge, end), held = 0;
     switch (law_of(hinge, 0).softening) {

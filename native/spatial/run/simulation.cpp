@@ -26,7 +26,7 @@ constexpr double rounding_share = 1e-10;
 // Rate at which locked hinges may creep, over the accuracy [rad/s]: in 0.1 s 1e-3 of the accuracy, in rad.
 constexpr double creep_share = 1e-2, widest_creep = 1e-5;
 constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
-constexpr long poll_interval = 20'000;  // solves times rows between calls of `poll`: some 10 ms
+constexpr std::int64_t poll_interval = 20'000;  // solves times rows between calls of `poll`: some 10 ms
 // Energy of an approach that is not worth an impact, as a share of accuracy times the largest energy.
 constexpr double negligible_impact = 1e-3;
 // Gap [model lengths, the first times accuracy] below which a contact counts as closed: more than a smallest step goes.
@@ -188,7 +188,7 @@ bool Simulation::failed(double e, bool smallest, Record& record) const {
 
 // Asks `poll` now and then.
 bool Simulation::cancelled(Record& record, const std::function<bool(double)>& poll) {
-    const long done = stepper_.solves() * std::max(1, stepper_.rows());
+    const std::int64_t done = stepper_.solves() * std::max(1, stepper_.rows());
     if (done <= poll_at_ || !poll) return false;
     poll_at_ = done + poll_interval;
     if (poll(state_.t)) return false;
@@ -330,7 +330,7 @@ void Simulation::prepare(double end) {
 
 Record Simulation::run(const std::vector<double>& times, const std::function<bool(double)>& poll) {
     Record record;
-    const long solves = stepper_.solves();
+    const std::int64_t solves = stepper_.solves();
     prepare(times.back());
     for (const double t : times) {
         const bool reached = t <= state_.t || advance(t, record, poll);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -40,7 +41,7 @@ struct Record {
     int ended_by = -1;
     double lost_time = NAN;      // when the equilibrium ended that a quasi-static stage does not find again
     double residual = 0;         // largest |balance - start| over the energy that the structure was given
-    long steps = 0, rejected = 0, forced = 0, solves = 0;
+    std::int64_t steps = 0, rejected = 0, forced = 0, solves = 0;
 };
 
 class Simulation {
@@ -126,7 +127,7 @@ private:
     double stored_time_ = -1;
     StepRecords* step_records_ = nullptr;
     std::vector<Pass> passes_;        // of the step last solved, where they are kept
-    long poll_at_ = 0;                // work at which `poll` is asked next
+    std::int64_t poll_at_ = 0;        // work at which `poll` is asked next
 };
 
 }  // namespace crumple::spatial

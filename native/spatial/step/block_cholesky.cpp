@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <set>
 #include <utility>
 
@@ -152,7 +153,7 @@ size_t BlockCholesky::block(int a, int b) const {
     if (a == b) return diagonal_[at(a)];
     if (!later(a, b)) std::swap(a, b);
     const size_t k = at(place_[at(b)]);
-    const auto begin = below_.begin() + static_cast<long>(first_[k]), end = below_.begin() + static_cast<long>(first_[k + 1]);
+    const auto begin = below_.begin() + static_cast<std::ptrdiff_t>(first_[k]), end = below_.begin() + static_cast<std::ptrdiff_t>(first_[k + 1]);
     const int wanted = place_[at(a)];
     return std::lower_bound(begin, end, wanted, [&](const Entry& e, int place) { return place_[at(e.node)] < place; })->block;
 }

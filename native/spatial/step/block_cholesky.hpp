@@ -19,7 +19,6 @@ public:
     size_t block(int a, int b) const;
     bool later(int a, int b) const { return place_[static_cast<size_t>(a)] > place_[static_cast<size_t>(b)]; }
     double* values() { return values_.data(); }
-    size_t nonzeros() const { return values_.size(); }
     // first row of a node in a right-hand side, and the number of all rows
     int start(int node) const { return start_[static_cast<size_t>(node)]; }
     int rows() const { return start_.back(); }

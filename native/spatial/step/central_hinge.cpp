@@ -119,9 +119,9 @@ CentralPoint near_path(const SpatialHinge& hinge, const FrozenSpatialHinge& f, c
         }
         // where s is about the rate
         const double most_share = std::sqrt(1 - mu / std::max(2 * mu, std::sqrt(square)));
-        const double g = gauge(*p.surface, p.n, out.x + p.first, nullptr), inside = std::min(g, most_share);
-        for (int k = p.first; k < p.first + p.n && g > inside; k++) out.x[k] *= inside / g;
-        out.room[i] = 1 - inside * inside;
+        const double g = gauge(*p.surface, p.n, out.x + p.first, nullptr), kept = std::min(g, most_share);
+        for (int k = p.first; k < p.first + p.n && g > kept; k++) out.x[k] *= kept / g;
+        out.room[i] = 1 - kept * kept;
         out.slide[i] = mu / out.room[i];
     }
     return out;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "spatial/step/central_hinge.hpp"
@@ -63,7 +64,7 @@ public:
     // Least half-width of a hinge's ramp around rest [rad/s], the rate at which locked ones creep.  Where many are locked, a
     // narrow ramp leaves too few digits to the moments that equilibrium does not determine.
     void set_narrowest_ramp(double width) { narrowest_ramp_ = width; }
-    long solves() const { return solves_; }
+    std::int64_t solves() const { return solves_; }
     // what the passes of the steps to come find is kept, or taken from another run's; null for neither
     void keep(std::vector<Pass>* passes) { kept_ = passes; }
     void follow(const std::vector<Pass>* passes) { followed_ = passes, next_pass_ = 0; }
@@ -181,7 +182,7 @@ private:
     double unbounded_ = 0;                   // rate of approach that nothing reaches in an impact, 0 in other steps
     std::vector<double> allowed_;            // normal rate per contact, in this pass
     double energy_ = 0;                      // kinetic energy of the free motion [J]
-    long solves_ = 0;
+    std::int64_t solves_ = 0;
     bool full_steps_ = true;                       // full Newton steps have not cycled in this step
     bool has_paths_ = false;                 // all hinges are rigid and have smooth surfaces
     std::vector<char> on_path_;              // per link: whether it is linearised on the central path

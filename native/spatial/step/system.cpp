@@ -143,11 +143,11 @@ void System::solve(double* x, double tolerance) {
         rates(impulse_.data(), residual_.data());
         double worst = 0;
         for (size_t c = 0; c < links_.size(); c++) {
-            const int first = start(c), held = links_[c].held, n = links_[c].rows();
+            const int first = start(c), held = links_[c].held, count = links_[c].rows();
             double largest = 0;
-            for (int i = held; i < n; i++) largest = std::max(largest, std::fabs(x[first + i]));
+            for (int i = held; i < count; i++) largest = std::max(largest, std::fabs(x[first + i]));
             // what impulses take is J M^-1 J^T x, with its sign turned
-            for (int i = 0; i < n; i++) {
+            for (int i = 0; i < count; i++) {
                 const size_t k = at(first + i);
                 residual_[k] += rhs_[k] - (i < held ? 0 : x[k]);
                 const double left = std::fabs(residual_[k]);
