@@ -64,10 +64,11 @@ def compare(
     from crumple.analysis import load, with_lines
     from crumple.cli.console.curves import curves_of
     from crumple.cli.console.folder import results_errors, results_folder
-    from crumple.cli.console.progress import progress_bar, stop_on_interrupt
-    from crumple.cli.console.shell_run import RESTART, available_threads, long_run_of
+    from crumple.cli.console.progress import progress_bar
+    from crumple.cli.console.shell_run import RESTART, long_run_of
     from crumple.comparison import picture_times, solve_and_compare, with_mesh
     from crumple.errors import InputError
+    from crumple.portable import available_cores, stop_on_interrupt
     from crumple.report import write_comparison
 
     analysis = load(file)
@@ -82,7 +83,7 @@ def compare(
         try:
             found = solve_and_compare(
                 analysis,
-                threads=threads or available_threads(),
+                threads=threads or available_cores(),
                 curves=curves,
                 variants=variants,
                 second_mesh=second_mesh,

@@ -21,7 +21,8 @@ def layouts(
 ) -> None:
     """Solve several layouts as multibody models and compare them. A layout that fails is a row."""
     from crumple.cli.console.folder import results_errors, results_folder
-    from crumple.cli.console.progress import progress_bar, stop_on_interrupt
+    from crumple.cli.console.progress import progress_bar
+    from crumple.portable import stop_on_interrupt
     from crumple.report import write_layouts
 
     folder = results_folder(out, files[0])

@@ -19,6 +19,7 @@ from crumple.cli.run import run
 from crumple.cli.schema import schema
 from crumple.cli.section import section
 from crumple.errors import InputError
+from crumple.portable import prepare_consoles, reader_left
 from crumple.version import __version__
 
 app = typer.Typer(
@@ -52,15 +53,15 @@ def _options(
 
 def main() -> None:
     """Run the command; a refusal is printed without a traceback and ends with exit code 2."""
+    prepare_consoles()
     try:
         app()
     except InputError as error:
         show_refusal(error)
         sys.exit(2)
-    except BrokenPipeError:
-        # the reader of a pipe went away, as `| head` does
-        sys.stderr.close()
-        sys.exit(1)
     except OSError as error:
+        if reader_left(error):
+            sys.stderr.close()
+            sys.exit(1)
         typer.echo(f"error: {error.filename or 'file'}: {error.strerror or error}", err=True)
         sys.exit(2)

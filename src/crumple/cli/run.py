@@ -68,8 +68,10 @@ def run(
     if as_json:
         import json
 
+        from crumple.portable import console_takes_all
+
         content = summaries if both else next(iter(summaries.values()))
-        typer.echo(json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False))
+        typer.echo(json.dumps(content, indent=2, ensure_ascii=not console_takes_all(), allow_nan=False))
     if not good:
         raise typer.Exit(1)
 
@@ -80,9 +82,10 @@ def _solve(
     """Solve with one engine and write its files; `how`: which, threads, restart file."""
     from crumple.analysis import canonical, solve, with_lines
     from crumple.cli.console.folder import results_errors
-    from crumple.cli.console.progress import progress_bar, stop_on_interrupt
-    from crumple.cli.console.shell_run import available_threads, long_run_of
+    from crumple.cli.console.progress import progress_bar
+    from crumple.cli.console.shell_run import long_run_of
     from crumple.errors import InputError
+    from crumple.portable import available_cores, stop_on_interrupt
     from crumple.report import ReportInput, write_report
     from crumple.result import write
 
@@ -93,7 +96,7 @@ def _solve(
             result = solve(
                 analysis,
                 fidelity=fidelity.value,
-                threads=threads or (available_threads() if is_shell else 1),
+                threads=threads or (available_cores() if is_shell else 1),
                 progress=progress,
                 cancel=cancel,
                 long_run=long_run_of(folder, restart, progress) if is_shell else None,

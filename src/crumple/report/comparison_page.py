@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from crumple.comparison import Comparison
+from crumple.portable import write_text
 from crumple.report.report import MAX_INPUT, ReportInput, embedded, write_figures
 from crumple.report.wording.curve_wording import curve_notes
-from crumple.result.files import write_text
 
 MOST_HINGES = 4
 """Number of hinges with figures, those that absorbed most energy."""

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from crumple.portable import write_text
 from crumple.report.report import write_figures
-from crumple.result.files import write_text
 from crumple.version import __version__
 
 if TYPE_CHECKING:

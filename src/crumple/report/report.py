@@ -9,7 +9,7 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from crumple.result.files import write_text
+from crumple.portable import write_text
 
 if TYPE_CHECKING:
     from crumple.report.wording.wording import Table

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from crumple.errors import InputError, Problem
-from crumple.result.files import replacing, write_text
+from crumple.portable import replacing, write_text
 from crumple.result.format import FORMAT
 from crumple.result.histories import histories_csv
 from crumple.result.result import Result

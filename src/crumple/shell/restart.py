@@ -14,8 +14,8 @@ import numpy as np
 
 from crumple.errors import InputError, Problem
 from crumple.numeric.arrays import Floats
+from crumple.portable import replacing
 from crumple.result import StageSummary
-from crumple.result.files import replacing
 from crumple.shell.answer.record import Record
 from crumple.structure import Outputs, ShellSettings, Stage, Structure
 

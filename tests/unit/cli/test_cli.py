@@ -6,7 +6,6 @@ import csv
 import errno
 import json
 import os
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -15,7 +14,6 @@ import pytest
 
 import crumple
 from crumple.cli import main as command
-from crumple.cli.console.progress import stop_on_interrupt
 from crumple.errors import Status
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "01_tube_bending.yaml"
@@ -97,17 +95,6 @@ def test_run_that_ends_badly_keeps_its_results(run_command, tmp_path: Path, monk
     assert code == 1
     assert Status.CANCELLED.value in out
     assert (tmp_path / "results" / "report.html").exists()
-
-
-def test_interrupt_is_a_wish_to_stop() -> None:
-    before = signal.getsignal(signal.SIGINT)
-    with stop_on_interrupt() as pressed:
-        assert not pressed()
-        os.kill(os.getpid(), signal.SIGINT)
-        assert pressed()
-        # a second one is Python's own
-        assert signal.getsignal(signal.SIGINT) is before
-    assert signal.getsignal(signal.SIGINT) is before
 
 
 def test_check(run_command, tmp_path: Path) -> None:

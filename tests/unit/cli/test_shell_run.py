@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from crumple.cli.console.progress import Bar, stop_on_interrupt
-from crumple.cli.console.shell_run import available_threads, duration, long_run_of, news
+from crumple.cli.console.progress import Bar
+from crumple.cli.console.shell_run import duration, long_run_of, news
 from crumple.cli.main import main
 from crumple.shell import Moment
 
@@ -96,15 +96,6 @@ def test_restart_is_for_shells(tmp_path: Path) -> None:
     assert "only shell runs" in run.stderr
 
 
-def test_termination_is_a_wish_to_stop() -> None:
-    before = signal.getsignal(signal.SIGTERM)
-    with stop_on_interrupt() as cancelled:
-        assert not cancelled()
-        os.kill(os.getpid(), signal.SIGTERM)
-        assert cancelled()
-    assert signal.getsignal(signal.SIGTERM) == before
-
-
 def test_news_tell_time_step_energies_and_end() -> None:
     text = news(MOMENT)
     for part in ("20 of 100 ms", "step 0.75 us", "kinetic 12.3 J", "about 75 s left"):
@@ -121,7 +112,3 @@ def test_news_go_to_standard_error_where_there_is_no_terminal(monkeypatch, capsy
     assert watch is not None
     watch(MOMENT)
     assert "of 100 ms" in capsys.readouterr().err
-
-
-def test_there_is_a_thread() -> None:
-    assert available_threads() >= 1

@@ -10,8 +10,8 @@ import pytest
 from tests.support.result.synthetic_tube import tube_channels, tube_result, tube_states
 
 from crumple.errors import InputError, Status
+from crumple.portable import replacing
 from crumple.result import Channel, read, write
-from crumple.result.files import replacing
 from crumple.result.histories import histories_csv
 
 FILES = {"summary.json", "histories.csv", "result.vtkhdf"}

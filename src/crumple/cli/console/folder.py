@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from crumple.errors import InputError, Problem
+from crumple.portable import reader_left
 
 FILES = ("result.vtkhdf", "histories.csv", "summary.json", "report.html")
 """Files of a run; a folder of such a name is in the way."""
@@ -49,9 +50,9 @@ def results_errors(folder: Path) -> Iterator[None]:
     """Tell what the system refuses inside the block, by the folder that the user named."""
     try:
         yield
-    except BrokenPipeError:
-        raise
     except OSError as error:
+        if reader_left(error):
+            raise
         # libraries put their own words, with private names, where the system has a reason
         reason = os.strerror(error.errno) if error.errno else "the system refused"
         if isinstance(error, FileExistsError | NotADirectoryError):

@@ -1,17 +1,14 @@
-"""A progress bar that appears where work is long, and Ctrl-C as a wish to stop.
+"""A progress bar that appears where work is long.
 
 The bar is drawn on standard error and only after `PATIENCE`; most runs end before.
 """
 
 from __future__ import annotations
 
-import signal
 import sys
-import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from types import FrameType
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -64,25 +61,3 @@ def progress_bar(title: str) -> Iterator[Bar]:
         yield bar
     finally:
         bar.stop()
-
-
-@contextmanager
-def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
-    """Give a function that says whether Ctrl-C or SIGTERM came; a second one ends the program."""
-    pressed = threading.Event()
-    previous = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
-
-    def restore() -> None:
-        for number, handler in previous.items():
-            signal.signal(number, handler)
-
-    def note(number: int, frame: FrameType | None) -> None:
-        pressed.set()
-        restore()
-
-    for number in previous:
-        signal.signal(number, note)
-    try:
-        yield pressed.is_set
-    finally:
-        restore()

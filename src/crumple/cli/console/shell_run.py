@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 import time
 from pathlib import Path
@@ -19,13 +18,6 @@ NEWS_EVERY = 10.0
 """Wall time between two lines of news where there is no terminal to draw a bar on [s]."""
 PUT_IN = ("kinetic", "elastic", "plastic", "hourglass", "contact")
 """Energies that the news tell."""
-
-
-def available_threads() -> int:
-    """Cores that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def shell_notes(analysis: Analysis) -> tuple[str, ...]:

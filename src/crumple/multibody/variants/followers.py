@@ -6,7 +6,6 @@ itself (`solve_many` with a leader).  Half their difference over the step is the
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -21,6 +20,7 @@ from crumple.multibody.variants.batch import Batch, Case, hinge_names, part_of
 from crumple.multibody.variants.factors import checked_names, is_factor
 from crumple.multibody.variants.moved import Moved, MovedEnds, cases_beside, step_of
 from crumple.numeric.arrays import Floats
+from crumple.portable import available_cores
 from crumple.structure import Structure
 
 RELATIVE_STEP = 1e-5
@@ -75,7 +75,7 @@ def spatial_ends(
     for name, step in steps.items():
         _move(batch, base, rows, name, step)
     case_of = np.array(rows.case_of)
-    threads = os.cpu_count() or 1
+    threads = available_cores()
     found = batch.solve(_values(rows), rows.cases, case_of, threads, poll, led=True)
     ends = []
     for row, number in enumerate(rows.case_of):

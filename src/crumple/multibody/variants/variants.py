@@ -11,7 +11,6 @@ Python in between.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -34,6 +33,7 @@ from crumple.multibody.variants.batch import (
 )
 from crumple.multibody.variants.factors import checked_names, quick
 from crumple.numeric.arrays import Floats
+from crumple.portable import available_cores
 from crumple.structure import Structure, changed, placed_hinges
 
 REASONS = {
@@ -99,7 +99,7 @@ def solve_variants(
     parameters
         Values [SI] or factors by path, one per variant; a scalar serves all.
     threads
-        Number of threads; None for as many as the machine has.  Results do not depend on it.
+        Number of threads; None for as many as there are cores for this process.  Results do not depend on it.
     progress, cancel
         As in `solve_multibody`; variants not begun when cancelled have that status.
 
@@ -124,7 +124,7 @@ def solve_variants(
     ----------
     docs/theory/variants.md.  Verified in tests/unit/multibody/variants/test_variants.py.
     """
-    count = threads or os.cpu_count() or 1
+    count = threads or available_cores()
     poll = _poll(progress, cancel)
     if why_spatial(structure, placed_hinges(structure), run) is None:
         return _table(PlanarBatch(run), structure, parameters, count, poll, run)
