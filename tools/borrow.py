@@ -14,4 +14,4 @@ from pathlib import Path
 python = Path(sys.argv[1]) / "bin" / "python"
 code = "import sysconfig; print(sysconfig.get_path('purelib'))"
 theirs = subprocess.run([python, "-c", code], check=True, capture_output=True, text=True).stdout.strip()
-Path(theirs, "borrowed.pth").write_text(sysconfig.get_path("purelib") + "\n")
+Path(theirs, "borrowed.pth").write_text(sysconfig.get_path("purelib") + "\n", encoding="utf-8")
