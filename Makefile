@@ -5,6 +5,7 @@
 #   make check    format, lint, types, import contract, sizes, circles of imports
 #   make verify   slow verification too, the native code under sanitizers, and docs/verification.md written again
 #   make bench    speed, as ratios within one run
+#   make wheel    a wheel in dist/, tested in an environment without a compiler
 #   make clean    remove what make made
 
 VENV ?= .venv
@@ -20,7 +21,7 @@ SANITIZED := build/sanitized
 SANITIZERS_address := address,undefined,float-cast-overflow
 SANITIZERS_thread := thread
 
-.PHONY: demo test check verify bench clean install
+.PHONY: demo test check verify bench wheel clean install
 
 demo: $(VENV)/installed $(TUBE)
 	$(BIN)/crumple compare $(TUBE) --out $(DEMO) --second-mesh 2
@@ -47,9 +48,13 @@ verify: $(VENV)/installed-test $(SANITIZED)/address/installed $(SANITIZED)/threa
 	$(BIN)/python tools/verification_table.py out/figures.json docs
 	tools/sanitized.sh address $(SANITIZED)/address/bin/python -m pytest tests/verification $(KERNEL_TESTS) -m "not slow" --capture=sys
 	tools/sanitized.sh thread $(SANITIZED)/thread/bin/python -m pytest $(KERNEL_TESTS) -k "threads or team" --capture=sys
+	$(BIN)/python tools/portability.py
 
 bench: $(VENV)/installed-test
 	@set -e; for script in tests/benchmark/*.py; do echo "== $$script"; $(BIN)/python $$script; done
+
+wheel: $(VENV)/installed-wheel
+	$(BIN)/python tools/wheel.py
 
 clean:
 	rm -rf $(VENV) build dist out

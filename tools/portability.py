@@ -137,7 +137,7 @@ def units(kernels: tuple[str, ...]) -> list[tuple[str, Path, tuple[str, ...]]]:
             f'-DCRUMPLE_KERNELS_NAME="{name}"',
         )
         if level == "v4":
-            # GCC 12 warns of its own AVX-512 header, see native/shell/shell.cmake; Clang lacks the last option
+            # GCC 12 warns of its own AVX-512 header, see native/shell/shell.cmake; Clang has no such option
             options += ("-Wno-uninitialized", "-Wno-unknown-warning-option", "-Wno-maybe-uninitialized")
         found.append(
             (f"kernel_{level}", element, options if level == "generic" else (*options, f"-march={name}"))
