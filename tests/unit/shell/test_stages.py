@@ -174,7 +174,7 @@ def test_walls_inside_an_obstacle_are_refused_by_name():
 def test_slim_obstacle_is_warned_of():
     given = cantilever(obstacles={"wire": pole(radius=5e-3)})
     result = solve_shell(given, run([{"name": "a", "duration": 2e-4}]))
-    assert any("wire is round so tightly" in warning for warning in result.warnings)
+    assert any("Obstacle wire has so small a radius" in warning for warning in result.warnings)
 
 
 def test_analysis_with_stages_solves_and_keeps_its_stages(tmp_path):

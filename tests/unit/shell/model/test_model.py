@@ -198,7 +198,7 @@ def test_failure_strain_and_a_table_reach_the_elements():
     metal = shell_material(given)
     assert [list(column) for column in metal.table()] == [[0.0, 0.02, 0.3], [300e6, 350e6, 500e6]]
     assert metal.failure_strain == 0.4
-    assert "tears at a plastic strain of 0.4" in in_words(given)
+    assert "deleted at a plastic strain of 0.4" in in_words(given)
 
 
 def test_walls_of_other_metals_keep_theirs():

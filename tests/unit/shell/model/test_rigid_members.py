@@ -198,7 +198,7 @@ def test_hinges_in_rigid_parts_and_parts_outside_are_refused():
     ("supports", "words"),
     [
         ({"one": {"node": "mid", "fix": "pin"}, "two": {"node": "tip", "fix": "pin"}}, "at several nodes"),
-        ({"one": {"node": "tip", "fix": ["z"]}}, "in some directions alone"),
+        ({"one": {"node": "tip", "fix": ["z"]}}, "in some directions only"),
         ({"one": {"node": "tip", "fix": ["x", "y", "z", "rx", "ry", "rz"]}}, ""),
         ({"one": {"node": "tip", "fix": ["z", "rx", "ry", "rz"]}}, ""),
         ({"one": {"node": "tip", "fix": ["rx"]}}, ""),
