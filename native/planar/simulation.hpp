@@ -45,6 +45,8 @@ public:
     // joint rates at time 0 from velocities and impulses at the centres of mass; returns the energy lost in fitting
     Real set_motion(const Twist* velocity, const Twist* impulse);
     void set_rates(const Real* w);
+    // before the first step; a run does so itself
+    void make_ready();
     // runs to the last of the times; `poll` gets the time reached and returns false to cancel
     Record run(const std::vector<double>& times, const std::function<bool(double)>& poll);
     // the present state alone
@@ -56,6 +58,7 @@ private:
         Stop* stop;
     };
     void set_damping();
+    void run_to_end(const std::vector<double>& times, const std::function<bool(double)>& poll, Record& record);
     void set_critical_damping(bool all);
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
     bool step_twice(double h, bool again);
@@ -72,6 +75,7 @@ private:
     std::vector<Real> between_;     // rates
     double step_tolerance_;  // of the error measure
     double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, work_max_ = 0, residual_max_ = 0, negligible_energy_ = 0;
+    bool ready_ = false;
     long poll_at_ = 0;  // work at which `poll` is asked next
 };
 

@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "common/pause.hpp"
+
 namespace crumple::spatial {
 
 namespace {
@@ -102,6 +104,7 @@ void BlockCholesky::eliminate(const std::vector<int>& size, std::vector<std::vec
     std::vector<std::vector<int>> columns;
     std::vector<int> merged;
     while (!queue.empty()) {
+        pause();
         const int node = queue.begin()->second;
         queue.erase(queue.begin());
         place_[at(node)] = static_cast<int>(order_.size());
@@ -196,6 +199,7 @@ void BlockCholesky::factor(double threshold, const std::vector<double>& floor, c
         for (int i = 0; i < n; i++) inverse_[at(start_[node] + i)] = values_[diagonal_[node] + at(i * n + i)];
     }
     for (size_t k = 0; k < order_.size(); k++) {
+        pause();
         const int node = order_[k], n = size_[at(node)];
         const size_t first = at(start_[at(node)]);
         factor_diagonal(node, threshold, &floor[first], known ? &(*known)[first] : nullptr);

@@ -15,10 +15,17 @@ For a solver:
 from crumple.structure.bending import across_plane, planar
 from crumple.structure.change import changed, value_at
 from crumple.structure.checks.checks import output_problems, problems_in, shell_problems
+from crumple.structure.checks.limit_checks import history_problems
 from crumple.structure.checks.obstacle_checks import gap, stage_problems
 from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges.automatic import any_automatic
-from crumple.structure.hinges.hinges import HingePlace, PlacedHinge, hinge_places, placed_hinges
+from crumple.structure.hinges.hinges import (
+    HingePlace,
+    PlacedHinge,
+    hinge_places,
+    member_hinge_places,
+    placed_hinges,
+)
 from crumple.structure.keys.joint import Joint
 from crumple.structure.keys.law import (
     LAW_SPECS,
@@ -127,6 +134,8 @@ __all__ = [
     "frame_of",
     "gap",
     "hinge_places",
+    "history_problems",
+    "member_hinge_places",
     "output_problems",
     "placed_hinges",
     "planar",

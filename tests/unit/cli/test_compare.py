@@ -138,7 +138,6 @@ def test_an_interrupted_comparison_goes_on(tmp_path: Path, monkeypatch, capsys) 
 
     with monkeypatch.context() as patch:
         patch.setattr("crumple.cli.console.shell_run.news", end)
-        patch.setattr("crumple.cli.console.shell_run.NEWS_EVERY", -1.0)
         patch.setattr("crumple.shell.stepping.WATCH_EVERY", 0.0)
         words = ["crumple", "compare", file, "--out", parts, "--threads", 1, "--no-variants"]
         patch.setattr(sys, "argv", [str(word) for word in words])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -11,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from crumple.cli.console.progress import Bar, stop_on_interrupt
-from crumple.cli.console.shell_run import available_threads, duration, long_run_of, news
+from crumple.cli.console.progress import Bar, duration, stop_on_interrupt
+from crumple.cli.console.shell_run import available_threads, long_run_of, news
 from crumple.cli.main import main
 from crumple.shell import Moment
 
@@ -73,7 +74,6 @@ def test_run_told_to_end_can_be_read_and_goes_on_with_the_same_bits(
         return ""
 
     monkeypatch.setattr("crumple.cli.console.shell_run.news", end)
-    monkeypatch.setattr("crumple.cli.console.shell_run.NEWS_EVERY", -1.0)
     monkeypatch.setattr("crumple.shell.stepping.WATCH_EVERY", 0.0)
     words = ["crumple", "run", file, "--fidelity", "shell", "--out", parts, "--threads", 1]
     monkeypatch.setattr(sys, "argv", [str(word) for word in words])
@@ -116,10 +116,15 @@ def test_wall_times_for_people() -> None:
 
 
 def test_news_go_to_standard_error_where_there_is_no_terminal(monkeypatch, capsys, tmp_path) -> None:
-    monkeypatch.setattr("crumple.cli.console.shell_run.NEWS_EVERY", -1.0)
-    watch = long_run_of(tmp_path, None, Bar("solving")).watch
+    monkeypatch.setattr("crumple.cli.console.progress.NEWS_EVERY", -1.0)
+    bar = Bar("solving")
+    bar(0.0)
+    bar(0.25)
+    assert re.fullmatch(r"solving: 0 %\nsolving: 25 %, about \d+ s left\n", capsys.readouterr().err)
+    watch = long_run_of(tmp_path, None, bar).watch
     assert watch is not None
     watch(MOMENT)
+    bar(0.5)
     assert "of 100 ms" in capsys.readouterr().err
 
 

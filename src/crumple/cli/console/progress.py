@@ -1,6 +1,7 @@
 """A progress bar that appears where work is long, and Ctrl-C as a wish to stop.
 
-The bar is drawn on standard error and only after `PATIENCE`; most runs end before.
+The bar is drawn on standard error and only after `PATIENCE`; most runs end before.  Where standard error is
+no terminal, a line is written every `NEWS_EVERY`.
 """
 
 from __future__ import annotations
@@ -19,18 +20,24 @@ if TYPE_CHECKING:
 
 PATIENCE = 0.4
 """Seconds of silence before the bar: shorter work would only flicker."""
+NEWS_EVERY = 10.0
+"""Wall time between two lines of news where there is no terminal to draw a bar on [s]."""
 
 
 class Bar:
-    """Call it with the fraction done, 0 to 1."""
+    """Call it with the fraction done, 0 to 1; without a terminal it writes a line now and then."""
 
     def __init__(self, title: str) -> None:
         self._title, self._started = title, time.monotonic()
+        self._told, self._news = self._started, ""
         self._bar: Progress | None = None
 
     def __call__(self, fraction: float) -> None:
+        if not sys.stderr.isatty():
+            self._tell(fraction)
+            return
         if self._bar is None:
-            if time.monotonic() - self._started < PATIENCE or not sys.stderr.isatty():
+            if time.monotonic() - self._started < PATIENCE:
                 return
             from rich.console import Console
             from rich.progress import Progress
@@ -40,13 +47,9 @@ class Bar:
             self._bar.start()
         self._bar.update(self._bar.task_ids[0], completed=fraction)
 
-    @property
-    def drawn(self) -> bool:
-        """Whether there is a bar on the terminal."""
-        return self._bar is not None
-
     def say(self, text: str) -> None:
-        """Write what is going on beside the bar, once there is one."""
+        """Say what is going on: beside the bar, or in the next line."""
+        self._news = text
         if self._bar is not None:
             self._bar.update(self._bar.task_ids[0], description=text)
 
@@ -54,6 +57,22 @@ class Bar:
         """Take the bar away."""
         if self._bar is not None:
             self._bar.stop()
+
+    def _tell(self, fraction: float) -> None:
+        now = time.monotonic()
+        if now - self._told < NEWS_EVERY:
+            return
+        self._told = now
+        spent = now - self._started
+        left = f", about {duration(spent * (1.0 - fraction) / fraction)} left" if fraction > 0.0 else ""
+        print(self._news or f"{self._title}: {100.0 * fraction:.3g} %{left}", file=sys.stderr, flush=True)
+
+
+def duration(seconds: float) -> str:
+    """Wall time for people."""
+    if seconds < 100.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 6000.0 else f"{seconds / 3600.0:.1f} h"
 
 
 @contextmanager

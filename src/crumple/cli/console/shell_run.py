@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import os
 import sys
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from crumple.cli.console.progress import duration
+from crumple.errors import Status
 
 if TYPE_CHECKING:
     from crumple.analysis import Analysis
     from crumple.cli.console.progress import Bar
+    from crumple.result import Result
     from crumple.shell import LongRun, Moment
 
 RESTART = "restart.npz"
 """Name of the restart file in the folder of the results."""
-NEWS_EVERY = 10.0
-"""Wall time between two lines of news where there is no terminal to draw a bar on [s]."""
 PUT_IN = ("kinetic", "elastic", "plastic", "hourglass", "contact")
 """Energies that the news tell."""
 
@@ -52,18 +53,19 @@ def long_run_of(folder: Path, restart: Path | None, bar: Bar) -> LongRun:
     """Restart files and a watcher that tells on standard error where the run is."""
     from crumple.shell import LongRun
 
-    told = time.monotonic()
-
     def watch(moment: Moment) -> None:
-        nonlocal told
-        text = news(moment)
-        if bar.drawn:
-            bar.say(text)
-        elif not sys.stderr.isatty() and time.monotonic() - told > NEWS_EVERY:
-            told = time.monotonic()
-            print(text, file=sys.stderr, flush=True)
+        bar.say(news(moment))
 
-    return LongRun(restart_from=restart, restart_to=folder / RESTART, watch=watch)
+    def warn(text: str) -> None:
+        print(f"Warning: {text}", file=sys.stderr, flush=True)
+
+    return LongRun(restart_from=restart, restart_to=folder / RESTART, watch=watch, warn=warn)
+
+
+def remove_restart(folder: Path, result: Result) -> None:
+    """Remove the restart file of a run that came to its end and whose results are on the disk."""
+    if result.status in (Status.COMPLETE, Status.RESIDUAL_EXCEEDED):
+        (folder / RESTART).unlink(missing_ok=True)
 
 
 def news(moment: Moment) -> str:
@@ -73,10 +75,3 @@ def news(moment: Moment) -> str:
         f"{1e3 * moment.time:.4g} of {1e3 * moment.duration:.4g} ms, step {1e6 * moment.time_step:.3g} us, "
         f"{energies}; about {duration(moment.seconds_left)} left"
     )
-
-
-def duration(seconds: float) -> str:
-    """Wall time for people."""
-    if seconds < 100.0:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60.0:.0f} min" if seconds < 6000.0 else f"{seconds / 3600.0:.1f} h"

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from crumple.multibody.bodies.linkage import Linkage
-from crumple.multibody.bodies.mobility import NOTHING, Tree, loop_system, tree_of
+from crumple.multibody.bodies.mobility import NOTHING, Tree, loop_system, too_large, tree_of
 from crumple.numeric.arrays import Floats
 
 SMALL = 1e-4
@@ -26,7 +26,7 @@ MOST_MOTIONS = 6
 
 def infinitesimal(linkage: Linkage) -> str:
     """A sentence where the structure can begin to move and not go on; else empty."""
-    if not linkage.bodies:
+    if not linkage.bodies or too_large(linkage):
         return ""
     tree = tree_of(linkage)
     system = loop_system(linkage, tree)

@@ -9,12 +9,13 @@ and welds hold the parts together.
 
 from __future__ import annotations
 
-from collections import defaultdict, deque
+from collections import Counter, defaultdict, deque
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
+from crumple.cancelling import go_on
 from crumple.errors import InputError, Problem
 from crumple.multibody.bodies.assembly import Assembly, Piece, assemble
 from crumple.multibody.bodies.rigid import RigidMass
@@ -149,6 +150,7 @@ def _walk(assembly: Assembly, plane: Plane, ground: int, pins: dict[int, str]) -
     def spread(start: list[int]) -> None:
         queue = deque(start)
         while queue:
+            go_on()
             here = queue.popleft()
             for hinge, first, second in edges[here]:
                 if hinge.name in used:
@@ -171,7 +173,11 @@ def _walk(assembly: Assembly, plane: Plane, ground: int, pins: dict[int, str]) -
         if cluster not in number and masses[cluster].mass > 0.0:
             enter(cluster, Link(GROUND, masses[cluster].centre, free=True))
             spread([cluster])
-    bodies = tuple(_part(masses, order, links, root(ground), i) for i in range(len(order)))
+    parts = Counter(order)
+    bodies = tuple(
+        masses[order[link.parent]] if cluster == root(ground) else _part(masses[cluster], parts[cluster])
+        for cluster, link in zip(order, links, strict=True)
+    )
     _check_inertia(bodies, links, plane)
     pieces = {
         name: tuple(Piece(name, a, b, number.get(root(i), GROUND)) for a, b, i in cuts)
@@ -183,13 +189,8 @@ def _walk(assembly: Assembly, plane: Plane, ground: int, pins: dict[int, str]) -
     )
 
 
-def _part(
-    masses: dict[int, RigidMass], order: list[int], links: list[Link], ground: int, i: int
-) -> RigidMass:
-    """Mass of body i: its share of a cut body.  A part of the ground never moves; any mass serves."""
-    if order[i] == ground:
-        return masses[order[links[i].parent]]
-    whole, parts = masses[order[i]], order.count(order[i])
+def _part(whole: RigidMass, parts: int) -> RigidMass:
+    """Share of a body that is cut; a part of the ground never moves, so that any mass serves there."""
     return RigidMass(whole.mass / parts, whole.centre, whole.inertia / parts)
 
 

@@ -20,7 +20,7 @@ from crumple.multibody.bodies.initial_motion import Placed
 from crumple.multibody.bodies.linkage import check_inertia, link
 from crumple.multibody.bodies.mobility import free_parts
 from crumple.multibody.bodies.obstacle_bodies import with_obstacles
-from crumple.multibody.run import Run, output_times
+from crumple.multibody.run import Run, output_times, refuse_unbegun
 from crumple.multibody.spatial.case import added_motion, kernel_stage, recorded_hinges
 from crumple.multibody.spatial.model import spatial_model, support_drives
 from crumple.multibody.spatial.stages import (
@@ -106,9 +106,13 @@ class SpatialSolver:
             clock = time.perf_counter()
             records.append(simulation.run(times, poll))
             seconds += time.perf_counter() - clock
+            if len(records) == 1:
+                refuse_unbegun(records[0].outcome, records[0].time)
             conditions = kernel_conditions(self._structure, self.linkage, self._touching, stage)
             ended = told(stage, conditions, records[-1])
-            stages.append(StageSummary(stage.name, begin, float(records[-1].time[-1]), ended))
+            # a stage that was cancelled at once has no output
+            reached = float(records[-1].time[-1]) if len(records[-1].time) else begin
+            stages.append(StageSummary(stage.name, begin, reached, ended))
             if records[-1].outcome is not Outcome.COMPLETE:
                 break
         record = _joined(records)

@@ -18,16 +18,16 @@ from crumple.structure.hinges.hinges import (
 )
 from crumple.structure.keys.law import LAW_SPECS
 from crumple.structure.parts import StructureParts
-from crumple.structure.schema.problems import outside
+from crumple.structure.schema.problems import Names, outside
 
 APART = 1e-6
 """Distance of two hinges, as a share of the member, below which the bar between has next to no inertia."""
 
 
-def place_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
+def place_problems(structure: StructureParts, known: Mapping[str, Names]) -> Iterator[Problem]:
     """Places, names and laws of hinges."""
     where: dict[str, list[str]] = defaultdict(list)
-    told: list[Problem] = []
+    told: set[Problem] = set()
     for name in sound_members(structure):
         places, length = member_hinge_places(structure, name), structure.frame_of(name).length
         for place in places:
@@ -37,7 +37,7 @@ def place_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> 
         # one message for the many hinges between equal bars, and for those of a wish for many members
         for place in {(place.where, place.axis): place for place in places}.values():
             found = [problem for problem in _law_problems(structure, place) if problem not in told]
-            told += found
+            told.update(found)
             yield from found
         for first, second in pairwise(places):
             if second.station - first.station < APART * length:
@@ -51,7 +51,7 @@ def place_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> 
             yield Problem(what, name, "a name of its own", todo, f"{named[-1]}.name")
 
 
-def inertia_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
+def inertia_problems(structure: StructureParts, known: Mapping[str, Names]) -> Iterator[Problem]:
     """Hinges at a free end, beyond which there is nothing to turn."""
     joined = Counter(node for member in structure.members.values() for node in member.nodes)
     turning = {m.node for m in structure.masses.values() if any(m.rotary_inertia) or any(m.offset)}
@@ -88,8 +88,8 @@ def _law_problems(structure: StructureParts, place: HingePlace) -> Iterator[Prob
     """Why laws and axes do not fit the section of their hinge; an unknown name is another check's."""
     keys = place.keys
     places = [replace(place, axis=axis, law=keys.law_about(axis)) for axis in keys.bending] or [place]
-    known = {*structure.hinge_laws, *LAW_SPECS}
-    if any(isinstance(about.law, str) and about.law not in known for about in places):
+    named = [about.law for about in places if isinstance(about.law, str)]
+    if any(law not in structure.hinge_laws and law not in LAW_SPECS for law in named):
         return
     found = [problem for about in places for problem in _refusals(partial(law_of, structure, about))]
     where = f"{place.where}.law"

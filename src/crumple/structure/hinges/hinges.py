@@ -14,6 +14,7 @@ from typing import Literal
 import numpy as np
 
 from crumple import hinge
+from crumple.cancelling import go_on
 from crumple.errors import InputError, Problem
 from crumple.hinge import Form, HingeLaw, HingeRecord, SofteningVariable, SpatialHingeRecord, Stop
 from crumple.material import Material
@@ -118,6 +119,13 @@ def hinge_places(structure: StructureParts) -> tuple[HingePlace, ...]:
 
 def member_hinge_places(structure: StructureParts, member: str) -> list[HingePlace]:
     """Hinges of one member by increasing station."""
+    found: list[HingePlace] | None = structure.kept.get(("hinges", member))
+    if found is None:
+        structure.kept["hinges", member] = found = _hinge_places(structure, member)
+    return found
+
+
+def _hinge_places(structure: StructureParts, member: str) -> list[HingePlace]:
     spec, length = structure.members[member], structure.frame_of(member).length
     bars, where, axis = spec.bars, f"members.{member}", bending_axis(structure, member)
     places = [
@@ -156,8 +164,8 @@ def hinge_station(structure: StructureParts, member: str, given: Hinge) -> float
 
 def holds_rotation(structure: StructureParts, node: str, direction: Floats) -> bool:
     """Whether supports hold or drive the rotation of a node about a direction."""
-    supports = [support for support in structure.supports.values() if support.node == node]
-    held = {freedom for support in supports for freedom in (*support.held, *support.driven)}
+    supports = structure.supports_at.get(node, ())
+    held = {freedom for _, support in supports for freedom in (*support.held, *support.driven)}
     needed = (FREEDOMS[3 + i] for i in range(3) if abs(direction[i]) > SAME_DIRECTION)
     return all(freedom in held for freedom in needed)
 
@@ -180,6 +188,7 @@ def placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
         stations = [place.station for place in places]
         parts = structure.members[member].rigid_parts(length)
         for place, share in zip(places, tributary_lengths(stations, length, parts), strict=True):
+            go_on()
             try:
                 placed.append(_placed(structure, place, share, length if len(places) == 1 else share))
             except InputError as error:
