@@ -53,6 +53,7 @@ struct Model {
     ContactModel contact;
     Vec3 gravity;
     double length = 1;  // [m] turns displacements into angles for the error measure
+    std::vector<double> breaks;  // [s] after the start of a stage, increasing: where steps end
 
     Pose pose(const std::vector<Pose>& poses, int body) const { return body < 0 ? Pose{} : poses[static_cast<size_t>(body)]; }
     Twist twist(const std::vector<Twist>& twists, int body) const {

@@ -119,11 +119,10 @@ void Stepper::work_of_loads(State& s, double h) {
         if (!model_.bodies[i].obstacle) on_structure += work;
     }
     for (const Load& load : model_.loads) {
-        int hint = 0;
         const size_t i = at(load.body);
         const Vec3 way = end_[i].at(load.arm) - s.pose[i].at(load.arm);
         const Vec3 turn = (h / 2) * (s.velocity[i].w + velocity_[i].w);
-        const double work = load.value.at(s.t + h / 2 - s.stage_start, hint) * (dot(load.force, way) + dot(load.moment, turn));
+        const double work = load.value.mean(s.t - s.stage_start, h) * (dot(load.force, way) + dot(load.moment, turn));
         s.work_on(false, work);
         on_structure += work;
     }

@@ -130,6 +130,8 @@ class SpatialRecord(SpatialRows):
     ended_by: int
     lost_time: float
     residual: float
+    unseen: float
+    """Speed that loads and drives may have given or taken unseen within steps, over the largest speed."""
     steps: int
     rejected: int
     forced: int
@@ -147,6 +149,8 @@ class SpatialSimulation:
         Allowed error of the motion, relative to the largest rotation.
     minimum_step, maximum_step
         Bounds of the step [s].
+    parts
+        Least number of steps between two of the model's breaks.
     """
 
     def __init__(
@@ -155,9 +159,13 @@ class SpatialSimulation:
         accuracy: float = 1e-3,
         minimum_step: float = MINIMUM_STEP,
         maximum_step: float = math.inf,
+        *,
+        parts: int = 1,
     ) -> None:
         self.model = model
-        self._kernel = _kernels.spatial.Simulation(as_dict(model), accuracy, minimum_step, maximum_step)
+        self._kernel = _kernels.spatial.Simulation(
+            as_dict(model), accuracy, minimum_step, maximum_step, parts
+        )
 
     def set_motion(self, velocity: Floats, impulse: Floats) -> float:
         """Add velocities of the bodies and impulses on them, both (bodies, 6): (omega, v), (moment, force).
@@ -252,6 +260,7 @@ def as_dict(model: SpatialModel) -> dict[str, Any]:
         "contact": (model.contact.friction, model.contact.restitution),
         "gravity": list(model.gravity),
         "length": model.length,
+        "breaks": model.breaks.tolist(),
     }
 
 

@@ -20,7 +20,7 @@ from crumple._core.planar.simulation import (
 from crumple.errors import InputError, Problem
 from crumple.hinge import Envelope, Form, HingeRecord, SofteningVariable, Stop
 from crumple.multibody.bodies.initial_motion import InitialMotion, motion_of, moving_parts, refuse_speeding
-from crumple.multibody.bodies.sampled_functions import sampled, sampled_motion
+from crumple.multibody.bodies.sampled_functions import breaks_of, sampled, sampled_motion
 from crumple.multibody.planar.mechanism import GROUND, Mechanism
 from crumple.numeric.arrays import Floats
 from crumple.structure import Structure
@@ -62,6 +62,7 @@ def tree_model(structure: Structure, mechanism: Mechanism, duration: float) -> T
         welds=tuple(_welds(mechanism)),
         gravity=_pair(plane.flat(np.asarray(structure.gravity, float))),
         length=max(structure.frame_of(name).length for name in structure.members),
+        breaks=breaks_of(structure, duration),
     )
 
 

@@ -21,7 +21,7 @@ from crumple._core.spatial.model import (
 )
 from crumple.hinge import Coupling, HingeRecord
 from crumple.multibody.bodies.linkage import GROUND, Connection, Linkage
-from crumple.multibody.bodies.sampled_functions import sampled, sampled_motion
+from crumple.multibody.bodies.sampled_functions import breaks_of, sampled, sampled_motion
 from crumple.multibody.planar.model import FORMS, SOFTENING, stop_of
 from crumple.structure import FREEDOMS, Structure
 
@@ -57,6 +57,7 @@ def spatial_model(structure: Structure, linkage: Linkage, duration: float) -> Sp
         drives=tuple(drive for _, drive in support_drives(structure, linkage, duration)),
         gravity=(x, y, z),
         length=max(structure.frame_of(name).length for name in structure.members),
+        breaks=breaks_of(structure, duration),
     )
 
 
