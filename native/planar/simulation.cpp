@@ -20,6 +20,9 @@ double step_tolerance(double accuracy) { return accuracy * std::min(1.0, std::sq
 // Turn [rad] by which a locked hinge may creep; the strongest hinge's work over it is no energy worth balancing.
 constexpr double negligible_turn = 1e-9;
 constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
+// Steps in a row, rejected ones too, that advance a run by less than a share of its time and end it.
+constexpr int most_attempts = 10'000;
+constexpr double advance_share = 1e-3;
 
 // length and error of a step that was made
 struct Attempt {
@@ -143,6 +146,15 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
                 return false;
             }
         }
+        if (state_.t >= mark_) {
+            mark_ = state_.t + advance_share * duration_;
+            attempts_ = 0;
+        }
+        if (++attempts_ > most_attempts) {
+            record.outcome = Outcome::stalled;
+            record.reason = "10000 steps in a row advanced the run by less than 0.1 % of its time";
+            return false;
+        }
         const double left = target - state_.t;
         const bool last = h_ >= left * (1 - 1e-9);
         const double h = last ? left : (h_ > left / 2 ? left / 2 : h_);
@@ -249,6 +261,8 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     Record record;
     const long solves = stepper_.solves();
     const double duration = times.back() - state_.t;
+    duration_ = duration;
+    mark_ = state_.t;
     // the rotation that the strongest hinge would need for all energy: what counts as large before anything has turned
     double strongest = 0;
     for (const HingeState& h : state_.hinge) strongest = std::max(strongest, value(h.capacity));
@@ -263,8 +277,10 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     }
     show_first_moments();
     for (const double t : times) {
-        if (t > state_.t && !advance(t, record, poll)) break;
-        store(record);
+        const bool reached = t <= state_.t || advance(t, record, poll);
+        // a run that ends before its time tells where it came to
+        if (reached || record.time.empty() || record.time.back() < state_.t) store(record);
+        if (!reached) break;
     }
     record.solves = stepper_.solves() - solves;
     return record;

@@ -72,6 +72,8 @@ private:
     std::vector<Real> between_;     // rates
     double step_tolerance_;  // of the error measure
     double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, work_max_ = 0, residual_max_ = 0, negligible_energy_ = 0;
+    double duration_ = 0, mark_ = 0;  // of the run [s]; time at which it has advanced again
+    int attempts_ = 0;                // steps, rejected ones too, since it last had
     long poll_at_ = 0;  // work at which `poll` is asked next
 };
 

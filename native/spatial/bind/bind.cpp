@@ -264,6 +264,7 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
     d["reason"] = r.reason;
     d["ended_by"] = r.ended_by;
     d["lost_time"] = r.lost_time;
+    d["stuck_body"] = r.stuck_body;
     d["residual"] = r.residual;
     d["steps"] = r.steps;
     d["rejected"] = r.rejected;

@@ -7,6 +7,10 @@ between:
     force on the stretch between = mass times acceleration of its centre
     moment about the section     = change of angular momentum about it
 
+Where the piece has a free end, with masses at most, the stretch up to there is taken: nothing acts on its
+end. From the other end the small moment near a free one would be the difference of large ones, each with an
+error of the length of the last step.
+
 Contact forces on the stretch itself are not known piece by piece and are left out.
 """
 
@@ -22,7 +26,7 @@ from crumple.errors import InputError, Problem
 from crumple.multibody.answer.poses import SpatialHistory, piece_at
 from crumple.multibody.bodies.assembly import Piece
 from crumple.multibody.bodies.linkage import GROUND, Linkage
-from crumple.multibody.bodies.rigid import piece_mass
+from crumple.multibody.bodies.rigid import RigidMass, combined, lump_mass, piece_mass
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import product, turned, vector_quaternion
 from crumple.result import Channel
@@ -116,7 +120,7 @@ def check_sections(structure: Structure, linkage: Linkage, outputs: Outputs) -> 
             f"outputs.section_forces.{name}",
         )
         for name, asked in outputs.section_forces.items()
-        if _closing(linkage, piece_at(linkage.pieces, asked.member, asked.at)) is None
+        if _closing(structure, linkage, piece_at(linkage.pieces, asked.member, asked.at)) is None
     ]
     if problems:
         raise InputError(problems)
@@ -126,15 +130,21 @@ def _in_section(structure: Structure, poses: SpatialHistory, asked: SectionForce
     """What the second side exerts on the first, (n, 3) each in the member's carried axes."""
     linkage, frame = poses.linkage, structure.frame_of(asked.member)
     piece = piece_at(linkage.pieces, asked.member, asked.at)
-    closing = _closing(linkage, piece)
+    closing = _closing(structure, linkage, piece)
     assert closing is not None
     side, number = closing
-    wrench = on_second(poses, number)
-    if linkage.connections[number].second != piece.body or side == "end":
-        wrench = wrench.opposite()
-    ends = (piece.start, asked.at) if side == "start" else (asked.at, piece.end)
     section = poses.place(piece.body, frame.position(asked.at))[0]
-    needed, spin = _momentum_rate(structure, poses, piece, ends, section)
+    wrench = Wrench(np.zeros_like(section), np.zeros_like(section), section)
+    if number is not None:
+        wrench = on_second(poses, number)
+        if linkage.connections[number].second != piece.body or side == "end":
+            wrench = wrench.opposite()
+    ends = (piece.start, asked.at) if side == "start" else (asked.at, piece.end)
+    stretch = [piece_mass(structure, piece.member, *ends)]
+    if number is None:
+        node = structure.members[piece.member].nodes[0 if side == "start" else 1]
+        stretch += [lump_mass(structure, mass) for mass in structure.masses.values() if mass.node == node]
+    needed, spin = _momentum_rate(structure, poses, piece, combined(stretch), section)
     force = needed - wrench.force
     moment = spin - wrench.about(section)
     if side == "end":
@@ -144,10 +154,9 @@ def _in_section(structure: Structure, poses: SpatialHistory, asked: SectionForce
 
 
 def _momentum_rate(
-    structure: Structure, poses: SpatialHistory, piece: Piece, ends: tuple[float, float], section: Floats
+    structure: Structure, poses: SpatialHistory, piece: Piece, stretch: RigidMass, section: Floats
 ) -> tuple[Floats, Floats]:
     """Force [N] and moment about a section [N m], (n, 3), that move a stretch, less those of gravity."""
-    stretch = piece_mass(structure, piece.member, *ends)
     gravity = np.asarray(structure.gravity, float)
     centre, _ = poses.place(piece.body, stretch.centre)
     if piece.body == GROUND:
@@ -165,9 +174,15 @@ def _momentum_rate(
     return force, about + np.cross(centre - section, force)
 
 
-def _closing(linkage: Linkage, piece: Piece) -> tuple[Literal["start", "end"], int] | None:
-    """The connection at an end of a piece from which its sections follow, and at which end it is."""
+def _closing(
+    structure: Structure, linkage: Linkage, piece: Piece
+) -> tuple[Literal["start", "end"], int | None] | None:
+    """At which end of a piece its sections follow, and the connection there; None for a free end."""
     pieces = linkage.pieces[piece.member]
+    sides: tuple[Literal["start", "end"], ...] = ("start", "end")
+    for end, side in enumerate(sides):
+        if piece is pieces[-end] and _free(structure, piece.member, end):
+            return side, None
     for i, connection in enumerate(linkage.connections):
         hinge = connection.hinge
         if hinge is not None and hinge.member == piece.member:
@@ -182,6 +197,16 @@ def _closing(linkage: Linkage, piece: Piece) -> tuple[Literal["start", "end"], i
             if connection.end[1] == 1 and piece is pieces[-1]:
                 return "end", i
     return None
+
+
+def _free(structure: Structure, member: str, end: int) -> bool:
+    """Whether nothing but masses is at an end of a member."""
+    node = structure.members[member].nodes[end]
+    alone = sum(node in other.nodes for other in structure.members.values()) == 1
+    taken = [support.node for support in structure.supports.values()]
+    taken += [load.node for load in structure.loads] + [joint.node for joint in structure.joints.values()]
+    welded = any(member in welds.members for welds in structure.spot_welds.values())
+    return alone and node not in taken and not welded
 
 
 def _clamps(structure: Structure, linkage: Linkage) -> Iterator[tuple[str, str]]:
