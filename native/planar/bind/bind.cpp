@@ -23,9 +23,9 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
     d["w"] = to_array(r.w, {n, dofs});
     d["pose"] = to_array(r.pose, {n, bodies, 3});
     d["velocity"] = to_array(r.velocity, {n, bodies, 3});
-    d["hinge"] = crumple::to_dict(r.hinge, {n, hinges});
-    d["hinge_energy"] = crumple::to_dict(r.hinge_energy, {n, hinges});
-    d["energy"] = crumple::to_dict(r.energy, {n});
+    d["hinge"] = stacked(r.hinge, {n, hinges});
+    d["hinge_energy"] = stacked(r.hinge_energy, {n, hinges});
+    d["energy"] = stacked(r.energy, {n});
     d["drive"] = to_array(r.drive, {n, sim.model().drives.size()});
     d["outcome"] = static_cast<int>(r.outcome);
     d["reason"] = r.reason;
@@ -78,7 +78,7 @@ void bind(nb::module_& m) {
         .def("effective_inertia", [](Simulation& s, int dof) { return s.stepper().effective_inertia(s.state(), dof); },
              nb::arg("dof"))
         .def("summary",
-             [](const Simulation& s) { return crumple::to_dict(hinge_summary(s), {s.state().hinge.size()}); })
+             [](const Simulation& s) { return stacked(hinge_summary(s), {s.state().hinge.size()}); })
         .def_prop_ro("time", [](Simulation& s) { return s.state().t; })
         .def_prop_ro("q", [](Simulation& s) { return s.state().q; })
         .def_prop_ro("w", [](Simulation& s) { return s.state().w; });

@@ -26,20 +26,29 @@ std::vector<Twist> twists(const In& values, const In& slopes, int bodies, size_t
 }
 
 // values in the first row, derivatives in those that follow
-Array rows(const std::vector<Real>& values, size_t count) {
-    Doubles out;
+void append_rows(const std::vector<Real>& values, size_t count, Doubles& out) {
     for (const Real& x : values) out.push_back(x.v);
     for (size_t k = 0; k < count; k++) {
         for (const Real& x : values) out.push_back(x.d[k]);
     }
+}
+
+Array rows(const std::vector<Real>& values, size_t count) {
+    Doubles out;
+    append_rows(values, count, out);
     return to_array(out, {count + 1, values.size()});
 }
 
-// the same of every column of a record
-template <class R> nb::dict rows_of(const R& record, size_t count) {
-    nb::dict d;
-    R::each([&](const char* name, auto column) { d[name] = rows(record.*column, count); });
-    return d;
+// the same of every column of a record, (columns, 1 + count, n)
+template <class R> Array stacked_rows(const R& record, size_t count) {
+    Doubles out;
+    size_t columns = 0, n = 0;
+    R::each([&](const char*, auto column) {
+        append_rows(record.*column, count, out);
+        n = (record.*column).size();
+        columns++;
+    });
+    return to_array(out, {columns, count + 1, n});
 }
 
 nb::dict solve(Model& given, const std::vector<Model*>& up, const std::vector<Model*>& down, const Doubles& width,
@@ -61,10 +70,10 @@ nb::dict solve(Model& given, const std::vector<Model*>& up, const std::vector<Mo
     ends["w"] = rows(last.w, count);
     ends["pose"] = rows(last.pose, count);
     ends["velocity"] = rows(last.velocity, count);
-    ends["hinge"] = rows_of(last.hinge, count);
-    ends["hinge_energy"] = rows_of(last.hinge_energy, count);
-    ends["energy"] = rows_of(last.energy, count);
-    ends["summary"] = rows_of(hinge_summary(simulation), count);
+    ends["hinge"] = stacked_rows(last.hinge, count);
+    ends["hinge_energy"] = stacked_rows(last.hinge_energy, count);
+    ends["energy"] = stacked_rows(last.energy, count);
+    ends["summary"] = stacked_rows(hinge_summary(simulation), count);
     nb::dict d;
     d["ends"] = ends;
     d["time"] = simulation.state().t;

@@ -253,12 +253,12 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
     d["rotation"] = to_array(r.rotation, {n, bodies, 4});
     d["velocity"] = to_array(r.velocity, {n, bodies, 6});
     d["acceleration"] = to_array(r.acceleration, {n, bodies, 6});
-    d["hinge"] = crumple::to_dict(r.hinge, {n, c});
-    d["hinge_energy"] = crumple::to_dict(r.hinge_energy, {n, m.hinges.size()});
+    d["hinge"] = stacked(r.hinge, {n, c});
+    d["hinge_energy"] = stacked(r.hinge_energy, {n, m.hinges.size()});
     d["joint_force"] = to_array(r.joint_force, {n, m.joints.size(), 6});
     d["obstacle_force"] = to_array(r.obstacle_force, {n, m.contact.obstacles.size(), 3});
-    d["energy"] = crumple::to_dict(r.energy, {n});
-    d["summary"] = crumple::to_dict(sim.summary(), {m.hinges.size()});
+    d["energy"] = stacked(r.energy, {n});
+    d["summary"] = stacked(sim.summary(), {m.hinges.size()});
     d["peaks"] = to_array(sim.peaks(), {c, 2});
     d["outcome"] = static_cast<int>(r.outcome);
     d["reason"] = r.reason;

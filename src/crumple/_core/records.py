@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from crumple._core._kernels import record_columns
 from crumple.numeric.arrays import Floats
 
 Record = TypeVar("Record")
@@ -100,15 +101,20 @@ class HingeSummary:
     fracture_moment: Floats
 
 
+_KINDS: dict[str, Callable[..., Any]] = {
+    "energy": EnergyRecord,
+    "hinge": ComponentRecord,
+    "hinge_energy": HingeEnergyRecord,
+    "summary": HingeSummary,
+}
+
+
 def named(kernel_record: dict[str, Any]) -> dict[str, Any]:
-    """A kernel's answer with its records as the classes of this module."""
-    kinds: dict[str, Callable[..., Any]] = {
-        "energy": EnergyRecord,
-        "hinge": ComponentRecord,
-        "hinge_energy": HingeEnergyRecord,
-        "summary": HingeSummary,
+    """A kernel's answer with its records, arrays (columns, ...), as the classes of this module."""
+    return {
+        key: _KINDS[key](**dict(zip(record_columns[key], value, strict=True))) if key in _KINDS else value
+        for key, value in kernel_record.items()
     }
-    return {key: kinds[key](**value) if key in kinds else value for key, value in kernel_record.items()}
 
 
 def each_array(record: Record, change: Callable[[Any], Any]) -> Record:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from crumple._core import _kernels
+from crumple._core._kernels import record_columns
 from crumple._core.outcome import Outcome
 from crumple._core.planar.batch import TreeEnds
 from crumple._core.planar.simulation import MINIMUM_STEP, TreeModel, kernel_model
@@ -102,16 +103,16 @@ def solve_tangent(
 
 
 def _joined(parts: Sequence[dict[str, Any]], bodies: int) -> dict[str, Any]:
-    """The values, then all derivatives, of answers that share their values; records in them too."""
-    joined: dict[str, Any] = {}
-    for name, first in parts[0].items():
-        if isinstance(first, dict):
-            joined[name] = _joined([part[name] for part in parts], bodies)
-            continue
-        rows = np.concatenate([first[:1], *(part[name][1:] for part in parts)])
-        joined[name] = rows.reshape(len(rows), bodies, 3) if name in ("pose", "velocity") else rows
-    if "kinetic" in joined:
-        return {name: rows[:, 0] for name, rows in joined.items()}
+    """The values, then all derivatives, of answers that share their values; records have columns first."""
+    joined = {}
+    for name in parts[0]:
+        columns = name in record_columns
+        arrays = [part[name] if columns else part[name][None] for part in parts]
+        rows = np.concatenate([arrays[0][:, :1], *(array[:, 1:] for array in arrays)], axis=1)
+        joined[name] = rows if columns else rows[0]
+    for name in ("pose", "velocity"):
+        joined[name] = joined[name].reshape(-1, bodies, 3)
+    joined["energy"] = joined["energy"][:, :, 0]
     return joined
 
 

@@ -64,12 +64,32 @@ class RecordedHinge:
     first: int
     sign: float = 1.0
 
-    def columns(self, record: ComponentRecord) -> list[Floats]:
-        """Its part of every column, (n, components) each, in the hinge's own sense."""
-        span = slice(self.first, self.first + len(self.free))
-        sign = self.sign
-        signed = [record.rotation, record.rate, record.plastic, record.moment]
-        return [*(sign * values[:, span] for values in signed), record.capacity[:, span]]
+    def columns(self, record: ComponentRecord) -> dict[str, tuple[str, Floats]]:
+        """Unit and values, (n,), of its quantities: plain for one rotation; else lengths, and components."""
+        turning = [k for k, freedom in enumerate(self.free) if freedom >= 3]
+        parts = [self._component(record, k) for k in range(len(self.free))]
+        if turning == [0] and len(parts) == 1:
+            return {name: (unit, one) for (name, unit), one in zip(TURNING.items(), parts[0], strict=True)}
+        columns = {}
+        for of, (name, unit) in enumerate(TURNING.items()):
+            turned = np.reshape([parts[k][of] for k in turning], (len(turning), len(record.rotation)))
+            columns[name] = unit, np.linalg.norm(turned.T, axis=1)
+        for of, ((name, unit), (axial, axial_unit)) in enumerate(
+            zip(TURNING.items(), AXIAL.items(), strict=True)
+        ):
+            for one, freedom in zip(parts, self.free, strict=True):
+                axis = AXES[freedom % 3]
+                if freedom >= 3:
+                    columns[f"{name}.{axis}"] = unit, one[of]
+                else:
+                    columns[f"slip.{axis}.{axial}"] = axial_unit, one[of]
+        return columns
+
+    def _component(self, record: ComponentRecord, k: int) -> list[Floats]:
+        """Quantities of one component in the hinge's own sense, (n,) each; a capacity has none."""
+        column, sign = self.first + k, self.sign
+        signed = record.rotation, record.rate, record.plastic, record.moment
+        return [*(sign * values[:, column] for values in signed), record.capacity[:, column].copy()]
 
 
 def hinge_columns(
@@ -77,28 +97,9 @@ def hinge_columns(
 ) -> Iterator[tuple[PlacedHinge, dict[str, tuple[str, Floats]]]]:
     """Every hinge, and unit and values, (n,), of its quantities; see `HingeHistory`."""
     for k, recorded in enumerate(hinges):
-        columns = _named(recorded.columns(rows.hinge), recorded.free)
-        columns["energy"] = ("J", np.ascontiguousarray(rows.hinge_energy.dissipated[:, k]))
+        columns = recorded.columns(rows.hinge)
+        columns["energy"] = "J", rows.hinge_energy.dissipated[:, k].copy()
         yield recorded.hinge, columns
-
-
-def _named(parts: list[Floats], free: tuple[int, ...]) -> dict[str, tuple[str, Floats]]:
-    """Columns of one hinge: plain for one rotation; else the lengths of its rotations, and components."""
-    of_turning = list(zip(TURNING.items(), parts, strict=True))
-    if len(free) == 1 and free[0] >= 3:
-        return {name: (unit, np.ascontiguousarray(values[:, 0])) for (name, unit), values in of_turning}
-    turning = [k for k, freedom in enumerate(free) if freedom >= 3]
-    columns = {
-        name: (unit, np.linalg.norm(values[:, turning], axis=1)) for (name, unit), values in of_turning
-    }
-    for ((name, unit), values), (axial, axial_unit) in zip(of_turning, AXIAL.items(), strict=True):
-        for k, freedom in enumerate(free):
-            one, axis = np.ascontiguousarray(values[:, k]), AXES[freedom % 3]
-            if freedom >= 3:
-                columns[f"{name}.{axis}"] = (unit, one)
-            else:
-                columns[f"slip.{axis}.{axial}"] = (axial_unit, one)
-    return columns
 
 
 def hinge_histories(
