@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from crumple.errors import InputError
-from crumple.hinge import HingeLaw, axial_law_types, build_axial_law, build_law, law_types
+from crumple.hinge import axial_law_types, build_axial_law, fitting_laws
 from crumple.material import Material, grade, grade_material
 from crumple.report.drawing.scales import display_unit, largest, spread
 from crumple.report.drawing.style import (
@@ -26,26 +26,14 @@ from crumple.report.drawing.style import (
     to_svg,
 )
 from crumple.report.figures.section_figure import draw_walls
-from crumple.section import (
-    AXES,
-    Angle,
-    Axis,
-    Channel,
-    CircularTube,
-    ClosedHat,
-    Hat,
-    MultiCellTube,
-    RectangularTube,
-    Section,
-    moment_capacity,
-    walls_of,
-)
+from crumple.section import AXES, Axis, Section, moment_capacity, walls_of
+from crumple.section.shapes.registry import SHAPES
+from crumple.section.shapes.written import written_section
 
 GRADE = "S355"
 LARGEST_SVG = 60_000
 """Bytes of one picture; a page of nine stays quick to load."""
 ROTATION = np.linspace(0.0, np.radians(45.0), 300)
-NEEDS_CURVE = frozenset({"file", "table"})
 HEAD = """# Gallery of sections
 
 One picture per section type: the walls to scale (dot: centroid, cross: shear centre, thin lines: principal
@@ -58,43 +46,24 @@ the upper side, and positive bending about z the left side."""
 
 @dataclass(frozen=True)
 class Exhibit:
-    """One section type: its file name, the section, and the axis and senses that its laws are drawn for."""
+    """One section: its file name, the section, and the axis and senses that its laws are drawn for."""
 
     key: str
     section: Section
-    axis: Axis = "y"
-    senses: tuple[int, ...] = (1,)
+    axis: Axis
+    senses: tuple[int, ...]
 
 
-EXHIBITS = (
-    Exhibit("rectangular_tube", RectangularTube(0.050, 0.025, 0.002, 0.004)),
-    Exhibit("square_tube", RectangularTube(0.040, 0.040, 0.002)),
-    Exhibit("circular_tube", CircularTube(0.050, 0.002)),
-    Exhibit("channel", Channel(0.040, 0.080, 0.002, 0.004), "z", (1, -1)),
-    Exhibit("lipped_channel", Channel(0.040, 0.080, 0.002, 0.004, 0.012), "z", (1, -1)),
-    Exhibit("angle", Angle(0.050, 0.050, 0.003)),
-    Exhibit("hat", Hat(0.050, 0.040, 0.0015, 0.018, 0.003), "y", (1, -1)),
-    Exhibit("closed_hat", ClosedHat(0.050, 0.040, 0.0015, 0.018, 0.003), "y", (1, -1)),
-    Exhibit("multi_cell_tube", MultiCellTube(0.080, 0.040, 0.002, 2, 1)),
+EXHIBITS = tuple(
+    Exhibit(one.name or kind, written_section(f"{kind} {one.text}"), one.axis, one.senses)
+    for kind, shape in SHAPES.items()
+    for one in shape.examples
 )
-
-
-def fitting_laws(exhibit: Exhibit, metal: Material) -> dict[str, HingeLaw]:
-    """Bending laws that accept the section."""
-    laws: dict[str, HingeLaw] = {}
-    for name in law_types():
-        if name in NEEDS_CURVE:
-            continue
-        try:
-            laws[name] = build_law(name, exhibit.section, metal, exhibit.axis)
-        except InputError:
-            continue
-    return laws
 
 
 def picture(exhibit: Exhibit, metal: Material) -> str:
     """Walls and laws side by side as SVG."""
-    laws = fitting_laws(exhibit, metal)
+    laws, _ = fitting_laws(exhibit.section, metal, exhibit.axis)
     curves = {
         (
             f"{name} {'+' if sense > 0 else '-'}" if len(exhibit.senses) > 1 else name,
@@ -141,7 +110,7 @@ def _properties(exhibit: Exhibit, metal: Material) -> list[str]:
 
 def _laws(exhibit: Exhibit, metal: Material) -> list[str]:
     rows = []
-    for name, law in fitting_laws(exhibit, metal).items():
+    for name, law in fitting_laws(exhibit.section, metal, exhibit.axis)[0].items():
         reach = law.validity.rotation_max
         backed = "any rotation" if np.isinf(reach) else f"{np.degrees(reach):.1f} deg"
         band = law.validity.uncertainty

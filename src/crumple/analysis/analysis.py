@@ -9,6 +9,8 @@ from pydantic import AfterValidator, Field, model_validator
 
 from crumple.analysis.filters import filter_problems
 from crumple.errors import Problem
+from crumple.registry.quantity import PositiveTime
+from crumple.registry.refusal import refuse
 from crumple.structure import (
     MultibodySettings,
     Outputs,
@@ -19,8 +21,7 @@ from crumple.structure import (
     shell_problems,
     stage_problems,
 )
-from crumple.structure.schema.quantity import PositiveTime
-from crumple.structure.schema.spec import Spec, raise_all, refuse
+from crumple.structure.schema.spec import Spec, raise_all
 from crumple.units import format_quantity
 
 LONGEST_TITLE = 200

@@ -18,17 +18,20 @@ from pydantic.fields import FieldInfo
 
 from crumple.analysis.input_file import InputFile
 from crumple.analysis.schema import field_descriptions, first_sentence
+from crumple.registry.keys import MISSING
+from crumple.registry.quantity import Dimension
 from crumple.structure import LawKeys, Obstacle
 from crumple.structure.keys.member import Place
 from crumple.structure.keys.time_function import FunctionOf
-from crumple.structure.schema.quantity import Dimension
+from crumple.structure.schema.registered import Registered
 from crumple.structure.schema.spec import Name
 
 BEGIN = "<!-- written by `python -m crumple.analysis.reference docs/input.md`: begin -->"
 END = "<!-- end -->"
 COMMON: dict[type[BaseModel], str] = {LawKeys: "`hinge_laws.NAME`", Obstacle: "`obstacles.NAME`"}
 """Models whose keys every type of a part has, and where such parts stand."""
-HEAD = ("Key", "Value", "Unit", "Default", "Meaning")
+Row = tuple[str, ...]
+HEAD: Row = ("Key", "Value", "Unit", "Default", "Meaning")
 
 
 def input_reference() -> str:
@@ -52,9 +55,46 @@ def _tables(
     if common is not None and common not in seen:
         seen.add(common)
         yield from _tables(f"{COMMON[common]}, any type", common, seen)
+    if issubclass(model, Registered):
+        yield from _registered_tables(path, model, seen)
+        return
     own = {name: field for name, field in model.model_fields.items() if not _shared(model, name)}
     yield _table(path, model, own)
-    for name, field in own.items():
+    yield from _inner_tables(path, own, seen)
+
+
+def _registered_tables(path: str, model: type[Registered], seen: set[type[BaseModel]]) -> Iterator[str]:
+    """Table of the keys that every type has, where there are any but the type, and of those of each type."""
+    path = COMMON.get(model, path)
+    common = {name: field for name, field in model.model_fields.items() if name != model.tag}
+    if common:
+        yield _table(f"{path}, any type", model, common)
+        yield from _inner_tables(path, common, seen)
+    texts = field_descriptions(model)
+    for kind in model.types():
+        keys = {
+            key.name: FieldInfo.from_annotated_attribute(
+                key.annotation, ... if key.default is MISSING else key.default
+            )
+            for key in model.written_keys(kind)
+        }
+        rows: list[Row] = [
+            (
+                f"`{model.tag}`",
+                f"`{kind}`",
+                "",
+                "" if kind == model.default_type else "required",
+                texts[model.tag],
+            )
+        ]
+        rows += [_row(key.name, keys[key.name], key.text) for key in model.written_keys(kind)]
+        yield _lines(f"{path}, {model.tag} {kind}", model.sentence_of(kind), rows)
+        yield from _inner_tables(path, keys, seen)
+
+
+def _inner_tables(path: str, fields: Mapping[str, FieldInfo], seen: set[type[BaseModel]]) -> Iterator[str]:
+    """Tables of the parts inside some keys, each where it is first met."""
+    for name, field in fields.items():
         inner = _path(path, field.alias or name, field)
         for found in dict.fromkeys(_models(field.annotation)):
             if found not in seen:
@@ -63,7 +103,7 @@ def _tables(
                 # a law in place has the keys of a named one
                 base = _common(found)
                 inner = inner if base is None else COMMON[base]
-                several = kind is not None and not kind.is_required()
+                several = kind is not None and not kind.is_required() and not issubclass(found, Registered)
                 yield from _tables(
                     f"{inner}, type {kind.default}" if kind and several else inner, found, seen
                 )
@@ -82,14 +122,19 @@ def _shared(model: type[BaseModel], name: str) -> bool:
 
 def _table(path: str, model: type[BaseModel], fields: dict[str, FieldInfo]) -> str:
     texts = field_descriptions(model)
-    rows = [HEAD, ("---",) * len(HEAD)]
-    for name, field in fields.items():
-        kind = _annotated(field)
-        rows.append(
-            (f"`{field.alias or name}`", _value(kind), _unit(kind), _default(name, field, kind), texts[name])
-        )
-    lines = [f"| {' | '.join(cell.replace('|', '/') for cell in row)} |" for row in rows]
-    return "\n".join([f"### {path}", "", first_sentence(model), "", *lines])
+    rows = [_row(name, field, texts[name]) for name, field in fields.items()]
+    return _lines(path, first_sentence(model), rows)
+
+
+def _row(name: str, field: FieldInfo, text: str) -> Row:
+    kind = _annotated(field)
+    return f"`{field.alias or name}`", _value(kind), _unit(kind), _default(name, field, kind), text
+
+
+def _lines(path: str, sentence: str, rows: list[Row]) -> str:
+    table = [HEAD, ("---",) * len(HEAD), *rows]
+    lines = [f"| {' | '.join(cell.replace('|', '/') for cell in row)} |" for row in table]
+    return "\n".join([f"### {path}", "", sentence, "", *lines])
 
 
 def _path(path: str, key: str, field: FieldInfo) -> str:

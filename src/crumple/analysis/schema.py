@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import ast
 import inspect
+import re
 import textwrap
 from collections.abc import Iterator
+from copy import deepcopy
 from functools import lru_cache
 from typing import Any, get_args
 
-from pydantic import BaseModel
+from pydantic import BaseModel, TypeAdapter
 from pydantic.json_schema import GenerateJsonSchema
 
 from crumple.analysis.input_file import FORMAT, InputFile
+from crumple.registry.keys import MISSING
+from crumple.structure.schema.registered import Registered
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
@@ -26,9 +30,13 @@ def json_schema() -> dict[str, Any]:
         JSON Schema 2020-12.  Quantities are texts with a unit; ``x-unit`` names their SI unit.
     """
     schema = InputFile.model_json_schema(schema_generator=_Generator)
-    parts = {InputFile.__name__: schema, **schema.get("$defs", {})}
+    parts = schema["$defs"]
     for model in models_of(InputFile):
-        _describe(parts[model.__name__], model)
+        _describe(schema if model is InputFile else parts[model.__name__], model)
+        if issubclass(model, Registered):
+            types = {_name_of(model, kind): _type_schema(parts, model, kind) for kind in model.types()}
+            parts[model.__name__] = {"oneOf": [{"$ref": f"#/$defs/{name}"} for name in types]}
+            parts |= types
     return {"$schema": DIALECT, **_tidy(schema), "title": f"Crumple input file, format {FORMAT}"}
 
 
@@ -36,8 +44,11 @@ def models_of(model: type[BaseModel]) -> list[type[BaseModel]]:
     """A model and every model inside it, each once, outermost first."""
     found = [model]
     for one in found:
-        for field in one.model_fields.values():
-            found += [inner for inner in dict.fromkeys(_models_in(field.annotation)) if inner not in found]
+        inside = [field.annotation for field in one.model_fields.values()]
+        if issubclass(one, Registered):
+            inside += [key.annotation for kind in one.types() for key in one.written_keys(kind)]
+        for annotation in inside:
+            found += [inner for inner in dict.fromkeys(_models_in(annotation)) if inner not in found]
     return found
 
 
@@ -61,6 +72,38 @@ def field_descriptions(model: type[BaseModel]) -> dict[str, str]:
 def first_sentence(model: type[BaseModel]) -> str:
     """What a model is: the first paragraph of its docstring on one line."""
     return " ".join((model.__doc__ or "").strip().split("\n\n")[0].split())
+
+
+def _name_of(model: type[Registered], kind: str) -> str:
+    """Name of the definition of a registered type, such as HatShape."""
+    words = "".join(word.capitalize() for word in re.split("[_-]", kind))
+    return words + model.__name__.removesuffix("Spec").removesuffix("Keys")
+
+
+def _type_schema(parts: dict[str, Any], model: type[Registered], kind: str) -> dict[str, Any]:
+    """Schema of a registered type: the keys that all have, and its own."""
+    common = deepcopy(parts[model.__name__])
+    own, required = {}, []
+    for key in model.written_keys(kind):
+        entry = TypeAdapter(key.annotation).json_schema(
+            schema_generator=_Generator, ref_template="#/$defs/{model}"
+        )
+        parts |= {name: part for name, part in entry.pop("$defs", {}).items() if name not in parts}
+        _describe_key(entry, key.text, key.default)
+        own[key.name] = entry
+        if key.default is MISSING:
+            required.append(key.name)
+    common["properties"][model.tag].pop("default", None)
+    common["properties"][model.tag] |= {"const": kind}
+    if kind != model.default_type:
+        required.append(model.tag)
+    return {
+        **common,
+        "description": model.sentence_of(kind),
+        "properties": {**common["properties"], **own},
+        "required": list(dict.fromkeys([*common.get("required", []), *required])),
+        "additionalProperties": False,
+    }
 
 
 class _Generator(GenerateJsonSchema):
@@ -89,17 +132,21 @@ def _describe(part: dict[str, Any], model: type[BaseModel]) -> None:
     texts = field_descriptions(model)
     for name, field in model.model_fields.items():
         entry = part["properties"][field.alias or name]
-        quantity = entry.get("description", "")
-        entry["description"] = " ".join(
-            text for text in (texts.get(name, ""), f"({quantity})" if quantity else "") if text
-        )
-        default = entry.get("default")
-        if "x-unit" in entry and isinstance(default, float) and default:
-            entry["default"] = f"{default:g} {entry['x-unit']}"
-        if name == "type":
+        _describe_key(entry, texts.get(name, ""), entry.get("default", MISSING))
+        if name == "type" and not field.is_required():
             # the alternatives are told apart by it
             part["required"] = ["type", *part.get("required", [])]
             entry.pop("default", None)
+
+
+def _describe_key(entry: dict[str, Any], text: str, default: Any) -> None:
+    """Put its meaning and its default into the schema of a key."""
+    quantity = entry.get("description", "")
+    entry["description"] = " ".join(part for part in (text, f"({quantity})" if quantity else "") if part)
+    if "x-unit" in entry and isinstance(default, float) and default:
+        default = f"{default:g} {entry['x-unit']}"
+    if default is not MISSING and default not in (None, ()):
+        entry["default"] = default
 
 
 def _tidy(schema: Any) -> Any:

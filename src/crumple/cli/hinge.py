@@ -21,8 +21,6 @@ ROTATIONS = (0, 1, 2, 5, 10, 15, 20, 25, 30, 40, 50, 60, 75, 90)
 """Rotations of the table [deg]; those up to the largest asked for."""
 LARGEST_CURVE = 2_000_000
 """Bytes of a measured curve."""
-NEEDS_CURVE = frozenset({"file", "table"})
-"""Laws that no section and material alone can give."""
 LARGEST = 3.1416
 """Largest rotation shown [rad]: half a turn, with room for rounding."""
 
@@ -94,27 +92,19 @@ def _laws(
 ) -> tuple[dict[str, HingeLaw], list[str]]:
     """Laws to show, and a sentence for each that does not fit; one asked for by name must fit."""
     from crumple.errors import InputError, Problem
-    from crumple.hinge import build_law, law_types
+    from crumple.hinge import build_law, fitting_laws, law_types, needs_curve
 
     for name in wanted or []:
-        if name in NEEDS_CURVE:
-            allowed = ", ".join(sorted(set(law_types()) - NEEDS_CURVE))
+        if name in law_types() and needs_curve(name):
+            allowed = ", ".join(other for other in law_types() if not needs_curve(other))
             todo = "show a measured curve by --curve FILE"
             raise InputError(
                 Problem("this law comes from a file, not from the section", name, allowed, todo, "--law")
             )
     if wanted:
         return {name: build_law(name, shape, metal, axis) for name in wanted}, []
-    laws: dict[str, HingeLaw] = {}
-    left_out = []
-    for name in law_types():
-        if name in NEEDS_CURVE:
-            continue
-        try:
-            laws[name] = build_law(name, shape, metal, axis)
-        except InputError as error:
-            left_out.append(f"Not shown: {name}, {error.problems[0].what}")
-    return laws, left_out
+    laws, refused = fitting_laws(shape, metal, axis)
+    return laws, [f"Not shown: {name}, {error.problems[0].what}" for name, error in refused.items()]
 
 
 def _measured(shape: Section, metal: Material, axis: Axis, files: list[Path]) -> dict[str, HingeLaw]:

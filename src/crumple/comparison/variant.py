@@ -8,7 +8,7 @@ import numpy as np
 
 from crumple.comparison.measure.motion import HingeMotion
 from crumple.section import bending_moment
-from crumple.structure import HingePlace, Member, Structure, TableLaw
+from crumple.structure import HingePlace, Member, Structure
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges.automatic import hinges_of
 from crumple.structure.hinges.hinges import hinge_places, law_spec
@@ -78,7 +78,7 @@ def _cut(structure: Structure, name: str, member: Member) -> Member:
     return member.model_copy(update={"hinges": (*given, *between)})
 
 
-def yielding_law(structure: Structure, member: str, length: float) -> TableLaw:
+def yielding_law(structure: Structure, member: str, length: float) -> LawKeys:
     """Law of a hinge that represents a length [m] of a member in uniform bending with plane walls.
 
     Capacity over plastic rotation, length x (curvature - M/EI): it rises from the moment of first yield to
@@ -93,7 +93,8 @@ def yielding_law(structure: Structure, member: str, length: float) -> TableLaw:
     moment = bending_moment(section, material, axis, curvature)
     plastic = length * (curvature - moment / rigidity)
     rotation, kept = np.unique(np.maximum.accumulate(plastic - plastic[0]), return_index=True)
-    return TableLaw(form=ELASTIC, rotation=_numbers(rotation), moment=_numbers(moment[kept]), rate="off")
+    table = {"rotation": _numbers(rotation), "moment": _numbers(moment[kept])}
+    return LawKeys(type="table", form=ELASTIC, rate="off", **table)
 
 
 def _bars(structure: Structure, member: str) -> int:
@@ -141,7 +142,7 @@ def with_measured_laws(structure: Structure, motions: Sequence[HingeMotion]) -> 
     return base.model_copy(update={"members": members})
 
 
-def measured_law(motion: HingeMotion) -> TableLaw | None:
+def measured_law(motion: HingeMotion) -> LawKeys | None:
     """Moment for growing plastic rotation, averaged over intervals; None for too small a rotation."""
     plastic = np.maximum.accumulate(np.maximum(motion.sense * motion.plastic_rotation, 0.0))
     if not plastic[-1] > LEAST_TURN:
@@ -157,7 +158,8 @@ def measured_law(motion: HingeMotion) -> TableLaw | None:
     if not keep.any():
         return None
     capacity, places = work[keep] / turned[keep], rotation[keep] / turned[keep]
-    return TableLaw(
+    return LawKeys(
+        type="table",
         form=ELASTIC,
         rotation=(0.0, *_numbers(places)),
         moment=(float(capacity[0]), *_numbers(capacity)),
@@ -184,6 +186,4 @@ def _elastic(structure: Structure, name: str, member: Member, places: dict[str, 
 
 
 def _law(structure: Structure, place: HingePlace) -> LawReference:
-    spec: LawKeys = law_spec(structure, place)
-    changed = spec.model_copy(update={"form": ELASTIC, "regularisation": Regularisation()})
-    return changed  # type: ignore[return-value]
+    return law_spec(structure, place).model_copy(update={"form": ELASTIC, "regularisation": Regularisation()})

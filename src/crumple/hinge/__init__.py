@@ -31,8 +31,10 @@ from crumple.hinge.registry import (
     build_axial_law,
     build_law,
     build_torsion_law,
+    fitting_laws,
     law_options,
     law_types,
+    needs_curve,
     torsion_law_types,
 )
 from crumple.hinge.stop import Stop
@@ -80,8 +82,10 @@ __all__ = [
     "build_axial_law",
     "build_law",
     "build_torsion_law",
+    "fitting_laws",
     "law_options",
     "law_types",
+    "needs_curve",
     "plastic_part",
     "read_law",
     "read_table",

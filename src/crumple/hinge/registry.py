@@ -1,156 +1,159 @@
-"""Laws by name.  Adding a law is adding a file with a class under its decorator, and its line here."""
+"""Every law by its name, one line each; input file, reference, command line and gallery follow from it.
+
+A law is a class with ``of(section, material, ...)``; its options, the keyword parameters of ``of``, are its
+keys in the input file.
+"""
 
 from __future__ import annotations
 
-import importlib
-import inspect
 from collections.abc import Callable
-from functools import cache
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar, runtime_checkable
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.law import HingeLaw
-from crumple.material import Material
-from crumple.section import Axis, Section
+from crumple.registry.keys import MISSING, Key, keys_of
+from crumple.registry.registry import Registry
 
 if TYPE_CHECKING:
     from crumple.hinge.axial.axial_law import AxialLaw
+    from crumple.hinge.law import HingeLaw
     from crumple.hinge.torsion.torsion_law import TorsionLaw
-
-_Class = TypeVar("_Class")
+    from crumple.material import Material
+    from crumple.section import Axis, Section
 
 
 class LawType(Protocol):
     """A law that can be built for a section; every bending law class offers it."""
 
-    def of(self, section: Section, material: Material, axis: Axis = "y", **options: Any) -> HingeLaw:
+    @property
+    def of(self) -> Callable[..., HingeLaw]:
         """Build the law of a section about an axis; options differ from law to law."""
         ...
 
 
-class Family:
-    """Laws of one kind of collapse, one file each.
+class AxialLawType(Protocol):
+    """A law of axial crushing that can be built for a section."""
 
-    Parameters
-    ----------
-    modules
-        The files; imported on first use.
-    what
-        What messages call a law of this kind.
-    """
-
-    def __init__(self, modules: tuple[str, ...], what: str) -> None:
-        self._modules = modules
-        self._what = what
-        self._types: dict[str, Any] = {}
-        self._loaded = False
-
-    def register(self, name: str) -> Callable[[_Class], _Class]:
-        """Register a law class under the name that people use."""
-
-        def register(cls: _Class) -> _Class:
-            self._types[name] = cls
-            return cls
-
-        return register
-
-    def types(self) -> dict[str, Any]:
-        """Every law class by its name, sorted."""
-        if not self._loaded:
-            for module in self._modules:
-                importlib.import_module(module)
-            self._loaded = True
-        return dict(sorted(self._types.items()))
-
-    def type_of(self, name: str) -> Any:
-        """Law class of a name; refuses unknown ones with `InputError`."""
-        types = self.types()
-        if name not in types:
-            what, todo = f"unknown {self._what}", "choose one of these"
-            raise InputError(Problem(what, repr(name), ", ".join(types), todo, "type"))
-        return types[name]
-
-    def options(self, name: str) -> tuple[str, ...]:
-        """Names of the keyword options of a law."""
-        return _keyword_only(self.type_of(name).of)
-
-    def build(self, name: str, *arguments: Any, **options: Any) -> Any:
-        """Build a law by its name; refuses unknown and missing options with `InputError`."""
-        cls = self.type_of(name)
-        allowed = self.options(name)
-        unknown = [option for option in options if option not in allowed]
-        if unknown:
-            todo = f"give the law {name} only options that it knows"
-            raise InputError(
-                [
-                    Problem("unknown option", option, ", ".join(allowed) or "none", todo, option)
-                    for option in unknown
-                ]
-            )
-        missing = [option for option in allowed if option not in options and option in _needed(cls.of)]
-        if missing:
-            what, todo = f"the law {name} needs more than a section and a material", "give it"
-            raise InputError([Problem(what, "nothing", option, todo, option) for option in missing])
-        return cls.of(*arguments, **options)
+    @property
+    def of(self) -> Callable[..., AxialLaw]:
+        """Build the law of a section; options differ from law to law."""
+        ...
 
 
-@cache
-def _keyword_only(function: Callable[..., Any]) -> tuple[str, ...]:
-    parameters = inspect.signature(function).parameters.values()
-    return tuple(parameter.name for parameter in parameters if parameter.kind is parameter.KEYWORD_ONLY)
+class TorsionLawType(Protocol):
+    """A law of torsional collapse that can be built for a section."""
+
+    @property
+    def of(self) -> Callable[..., TorsionLaw]:
+        """Build the law of a section twisted over a length; options differ from law to law."""
+        ...
 
 
-@cache
-def _needed(function: Callable[..., Any]) -> tuple[str, ...]:
-    """Keyword options without a default."""
-    parameters = inspect.signature(function).parameters
-    return tuple(
-        name for name in _keyword_only(function) if parameters[name].default is inspect.Parameter.empty
-    )
+@runtime_checkable
+class FromFiles(Protocol):
+    """A law whose description may name files: their content takes the place of their names."""
+
+    file_keys: tuple[Key, ...]
+    """Keys that name files, or say how to read what is given."""
+
+    def embedded(self, given: dict[str, Any], folder: Path | None) -> dict[str, Any]:
+        """Keys of a description with the content of files in place of their names."""
+        ...
 
 
-_BENDING = Family(
-    (
-        "crumple.hinge.bending.circular",
-        "crumple.hinge.bending.constant",
-        "crumple.hinge.bending.folded_profile",
-        "crumple.hinge.bending.kecman",
-        "crumple.hinge.bending.oblique",
-        "crumple.hinge.bending.wierzbicki",
-        "crumple.hinge.measured.law_file",
-        "crumple.hinge.measured.tabulated",
-    ),
+BENDING: Registry[LawType] = Registry(
     "hinge law",
+    {
+        "constant": "crumple.hinge.bending.constant:ConstantLaw",
+        "table": "crumple.hinge.measured.tabulated:TabulatedLaw",
+        "kecman": "crumple.hinge.bending.kecman:KecmanLaw",
+        "wierzbicki": "crumple.hinge.bending.wierzbicki:WierzbickiLaw",
+        "oblique": "crumple.hinge.bending.oblique:ObliqueLaw",
+        "circular": "crumple.hinge.bending.circular:CircularLaw",
+        "folded_profile": "crumple.hinge.bending.folded_profile:FoldedProfileLaw",
+        "file": "crumple.hinge.measured.file_law:FileLaw",
+    },
 )
-_AXIAL = Family(
-    (
-        "crumple.hinge.axial.circular",
-        "crumple.hinge.axial.square",
-        "crumple.hinge.axial.superfolding",
-        "crumple.hinge.axial.top_hat",
-    ),
+DEFAULT_BENDING = {"rectangular_tube": "kecman"}
+"""Law of a hinge that names none, by the kind of its section."""
+AXIAL: Registry[AxialLawType] = Registry(
     "axial law",
+    {
+        "square": "crumple.hinge.axial.square:SquareCrushing",
+        "superfolding": "crumple.hinge.axial.superfolding:SuperfoldingCrushing",
+        "circular": "crumple.hinge.axial.circular:CircularCrushing",
+        "top_hat": "crumple.hinge.axial.top_hat:HatCrushing",
+    },
 )
-_TORSION = Family(("crumple.hinge.torsion.plastic", "crumple.hinge.torsion.square_tube"), "torsion law")
+TORSION: Registry[TorsionLawType] = Registry(
+    "torsion law",
+    {
+        "plastic": "crumple.hinge.torsion.plastic:PlasticTorsion",
+        "square_tube": "crumple.hinge.torsion.square_tube:SquareTubeTorsion",
+    },
+)
+DEFAULT_TORSION = "plastic"
+"""Law of a hinge that twists and names none."""
+_Law = TypeVar("_Law")
 
-law_type = _BENDING.register
-axial_law_type = _AXIAL.register
-torsion_law_type = _TORSION.register
+
+def options_of(law: LawType | AxialLawType | TorsionLawType) -> tuple[Key, ...]:
+    """Keyword options of a law."""
+    return keys_of(law.of, options=True)
+
+
+def needs_curve(name: str) -> bool:
+    """Whether a law cannot be had of a section and a material alone."""
+    return any(option.default is MISSING for option in options_of(BENDING[name]))
+
+
+def fitting_laws(
+    section: Section, material: Material, axis: Axis = "y"
+) -> tuple[dict[str, HingeLaw], dict[str, InputError]]:
+    """Laws that section and material alone give, by name, and why others of that kind do not fit."""
+    laws, refused = {}, {}
+    for name, law in law_types().items():
+        if needs_curve(name):
+            continue
+        try:
+            laws[name] = law.of(section, material, axis)
+        except InputError as error:
+            refused[name] = error
+    return laws, refused
+
+
+def _built(
+    name: str, of: Callable[..., _Law], keys: tuple[Key, ...], *arguments: Any, **options: Any
+) -> _Law:
+    """Build a law; refuses unknown and missing options with `InputError`."""
+    allowed = [key.name for key in keys]
+    todo = f"give the law {name} only options that it knows"
+    problems = [
+        Problem("unknown option", option, ", ".join(allowed) or "none", todo, option)
+        for option in options
+        if option not in allowed
+    ]
+    what, todo = f"the law {name} needs more than a section and a material", "give it"
+    missing = [key.name for key in keys if key.default is MISSING and key.name not in options]
+    problems = problems or [Problem(what, "nothing", option, todo, option) for option in missing]
+    if problems:
+        raise InputError(problems)
+    return of(*arguments, **options)
 
 
 def law_types() -> dict[str, LawType]:
     """Every bending law class by its name, sorted."""
-    return _BENDING.types()
+    return dict(sorted(BENDING.items()))
 
 
-def axial_law_types() -> dict[str, Any]:
+def axial_law_types() -> dict[str, AxialLawType]:
     """Every axial law class by its name, sorted."""
-    return _AXIAL.types()
+    return dict(sorted(AXIAL.items()))
 
 
-def torsion_law_types() -> dict[str, Any]:
+def torsion_law_types() -> dict[str, TorsionLawType]:
     """Every torsion law class by its name, sorted."""
-    return _TORSION.types()
+    return dict(sorted(TORSION.items()))
 
 
 def law_options(name: str) -> tuple[str, ...]:
@@ -161,7 +164,7 @@ def law_options(name: str) -> tuple[str, ...]:
     InputError
         If no law has this name.
     """
-    return _BENDING.options(name)
+    return tuple(option.name for option in options_of(BENDING[name]))
 
 
 def build_law(name: str, section: Section, material: Material, axis: Axis = "y", **options: Any) -> HingeLaw:
@@ -186,19 +189,19 @@ def build_law(name: str, section: Section, material: Material, axis: Axis = "y",
     InputError
         If the name or an option is unknown or missing, or the law does not fit the section.
     """
-    law: HingeLaw = _BENDING.build(name, section, material, axis, **options)
-    return law
+    law = BENDING[name]
+    return _built(name, law.of, options_of(law), section, material, axis, **options)
 
 
 def build_axial_law(name: str, section: Section, material: Material, **options: Any) -> AxialLaw:
     """Build an axial law by its name, one of `axial_law_types`; refuses like `build_law`."""
-    law: AxialLaw = _AXIAL.build(name, section, material, **options)
-    return law
+    law = AXIAL[name]
+    return _built(name, law.of, options_of(law), section, material, **options)
 
 
 def build_torsion_law(
     name: str, section: Section, material: Material, length: float, **options: Any
 ) -> TorsionLaw:
     """Build the torsion law of a member of a length [m] by its name; refuses like `build_law`."""
-    law: TorsionLaw = _TORSION.build(name, section, material, length, **options)
-    return law
+    law = TORSION[name]
+    return _built(name, law.of, options_of(law), section, material, length, **options)

@@ -7,14 +7,11 @@ from crumple.material.flow_stress import (
     power_law_flow_stress,
 )
 from crumple.material.grades import Evidence, FlowRule, Grade, grade, grade_material, grades
-from crumple.material.hardening import (
-    HardeningCurve,
-    HardeningTable,
-    PerfectlyPlastic,
-    Swift,
-    Voce,
-    swift_from_tensile_test,
-)
+from crumple.material.hardening.curve import HardeningCurve
+from crumple.material.hardening.perfectly_plastic import PerfectlyPlastic
+from crumple.material.hardening.swift import Swift, swift_from_tensile_test
+from crumple.material.hardening.table import HardeningTable
+from crumple.material.hardening.voce import Voce
 from crumple.material.material import Material
 from crumple.material.rate import CowperSymonds, JohnsonCook, RateLaw
 

@@ -20,7 +20,7 @@ import math
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.material.hardening import HardeningCurve
+from crumple.material.hardening.curve import HardeningCurve
 from crumple.numeric.arrays import Floats
 
 GAUSS_POINTS = 16

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from crumple.errors import InputError, Problem
-from crumple.material.hardening import HardeningCurve
+from crumple.material.hardening.curve import HardeningCurve
 from crumple.material.rate import RateLaw
 
 

@@ -9,18 +9,19 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from crumple.errors import InputError, Problem
+from crumple.registry.quantity import NonNegativeNumber, PositiveRate, RateExponent
 
 
 @dataclass(frozen=True)
 class CowperSymonds:
-    """Dynamic over static stress: 1 + (strain_rate / D)**(1 / q).
+    """Cowper-Symonds strain-rate law: stress times 1 + (strain rate / D)^(1/q).
 
     Attributes
     ----------
     D
-        Strain rate [1/s] at which the stress doubles, > 0.
+        Strain rate at which the stress doubles [1/s].
     q
-        Exponent [-], >= 1.
+        Exponent [-].
 
     Raises
     ------
@@ -37,8 +38,8 @@ class CowperSymonds:
     docs/theory/rate.md.  Verified in tests/unit/material/test_material.py.
     """
 
-    D: float
-    q: float
+    D: PositiveRate
+    q: RateExponent
 
     def __post_init__(self) -> None:
         problems = []
@@ -62,14 +63,14 @@ class CowperSymonds:
 
 @dataclass(frozen=True)
 class JohnsonCook:
-    """Dynamic over static stress: 1 + C ln(strain_rate / reference), 1 below the reference rate.
+    """Johnson-Cook strain-rate law: stress times 1 + C ln(strain rate / reference), 1 below the reference.
 
     Attributes
     ----------
     C
-        Rise per e-fold of strain rate [-], >= 0.
+        Rise of the stress per e-fold of strain rate [-].
     reference
-        Strain rate [1/s] of the static test, > 0.
+        Strain rate of the static test [1/s].
 
     Raises
     ------
@@ -82,8 +83,8 @@ class JohnsonCook:
     so a hinge takes `as_cowper_symonds`.
     """
 
-    C: float
-    reference: float = 1.0
+    C: NonNegativeNumber
+    reference: PositiveRate = 1.0
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.C) and self.C >= 0.0):

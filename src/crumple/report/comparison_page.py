@@ -118,7 +118,7 @@ def _render(comparison: Comparison, source: ReportInput, drawn: list[tuple[str, 
     from jinja2 import Environment, FileSystemLoader, StrictUndefined  # noqa: PLC0415
     from markupsafe import Markup  # noqa: PLC0415
 
-    from crumple.report.drawing.player import scene_of  # noqa: PLC0415
+    from crumple.report.figures.player import scene_of  # noqa: PLC0415
     from crumple.report.wording import comparison_wording as wording  # noqa: PLC0415
 
     here = Path(__file__).parent / "templates"

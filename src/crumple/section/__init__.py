@@ -1,6 +1,6 @@
 """What the cross-section is: its walls, and the properties, capacities and interaction that follow from them.
 
-The names of sections made of walls are looked up on first access: tubes need none of them.
+Names are looked up on first access: `crumple --help` needs none of them, and tubes none of walls.
 """
 
 from __future__ import annotations
@@ -8,32 +8,40 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from crumple.section.fold import half_fold_length
-from crumple.section.section import AXES, Axis, Section
-from crumple.section.shapes.circular_tube import CircularTube
-from crumple.section.shapes.rectangular_tube import RectangularTube
-
 if TYPE_CHECKING:
     from crumple.section.capacity.bending_curve import bending_moment
     from crumple.section.capacity.capacity import MomentCapacity, moment_capacity
     from crumple.section.capacity.interaction import PlasticInteraction, plastic_interaction
     from crumple.section.capacity.interaction_fit import InteractionFit, fitted_interaction
+    from crumple.section.fold import half_fold_length
     from crumple.section.properties.properties import SectionProperties
-    from crumple.section.shapes.built_up import ClosedHat, MultiCellTube
-    from crumple.section.shapes.open_sections import Angle, Channel, Hat
+    from crumple.section.section import AXES, Axis, Section
+    from crumple.section.shapes.angle import Angle
+    from crumple.section.shapes.channel import Channel
+    from crumple.section.shapes.circular_tube import CircularTube
+    from crumple.section.shapes.closed_hat import ClosedHat
+    from crumple.section.shapes.hat import Hat
+    from crumple.section.shapes.multi_cell_tube import MultiCellTube
+    from crumple.section.shapes.rectangular_tube import RectangularTube
+    from crumple.section.shapes.square_tube import square_tube
     from crumple.section.wall import Wall, Weld
-    from crumple.section.wall_section import WallSection, outline_section, square_tube, walls_of
+    from crumple.section.wall_section import WallSection, outline_section, walls_of
     from crumple.section.walled import WalledSection
 
 _FILES = {
-    "Angle": "shapes.open_sections",
-    "Channel": "shapes.open_sections",
-    "ClosedHat": "shapes.built_up",
-    "Hat": "shapes.open_sections",
+    "AXES": "section",
+    "Angle": "shapes.angle",
+    "Axis": "section",
+    "Channel": "shapes.channel",
+    "CircularTube": "shapes.circular_tube",
+    "ClosedHat": "shapes.closed_hat",
+    "Hat": "shapes.hat",
     "InteractionFit": "capacity.interaction_fit",
     "MomentCapacity": "capacity.capacity",
-    "MultiCellTube": "shapes.built_up",
+    "MultiCellTube": "shapes.multi_cell_tube",
     "PlasticInteraction": "capacity.interaction",
+    "RectangularTube": "shapes.rectangular_tube",
+    "Section": "section",
     "SectionProperties": "properties.properties",
     "Wall": "wall",
     "WallSection": "wall_section",
@@ -41,10 +49,11 @@ _FILES = {
     "Weld": "wall",
     "bending_moment": "capacity.bending_curve",
     "fitted_interaction": "capacity.interaction_fit",
+    "half_fold_length": "fold",
     "moment_capacity": "capacity.capacity",
     "outline_section": "wall_section",
     "plastic_interaction": "capacity.interaction",
-    "square_tube": "wall_section",
+    "square_tube": "shapes.square_tube",
     "walls_of": "wall_section",
 }
 

@@ -82,11 +82,6 @@ def outline_section(
     return WallSection((Wall(corners, thickness, corner_radius, closed),), name=name)
 
 
-def square_tube(side: float, thickness: float, corner_radius: float = 0.0) -> RectangularTube:
-    """Square tube by its outer side, thickness and outer corner radius [m]."""
-    return RectangularTube(side, side, thickness, corner_radius)
-
-
 def walls_of(section: Section) -> WalledSection:
     """Return the same section as walls; tubes keep their exact area and moments.
 

@@ -20,16 +20,7 @@ from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges.automatic import any_automatic
 from crumple.structure.hinges.hinges import HingePlace, PlacedHinge, hinge_places, placed_hinges
 from crumple.structure.keys.joint import Joint
-from crumple.structure.keys.law import (
-    LAW_SPECS,
-    ConstantLaw,
-    KecmanLaw,
-    LawKeys,
-    Regularisation,
-    Stops,
-    TableLaw,
-    WierzbickiLaw,
-)
+from crumple.structure.keys.law import LawKeys, Regularisation, Stops
 from crumple.structure.keys.load import ForceComponents, Load, Mass, MomentComponents, NodalImpulse
 from crumple.structure.keys.material import MaterialSpec
 from crumple.structure.keys.member import AutomaticHinges, Bars, Hinge, Member, Stretch
@@ -44,16 +35,7 @@ from crumple.structure.keys.obstacles import (
     Turning,
 )
 from crumple.structure.keys.outputs import Distance, Filter, Outputs, SectionForce, SectionRotation
-from crumple.structure.keys.section import (
-    AngleSpec,
-    ChannelSpec,
-    CircularTubeSpec,
-    ClosedHatSpec,
-    HatSpec,
-    MultiCellTubeSpec,
-    RectangularTubeSpec,
-    SquareTubeSpec,
-)
+from crumple.structure.keys.section import ShapeSpec
 from crumple.structure.keys.spot_welds import SpotWelds
 from crumple.structure.keys.stages import Stage, Until
 from crumple.structure.keys.walls import WallSectionSpec, WallSpec, WeldSpec
@@ -64,14 +46,8 @@ from crumple.structure.structure import Structure
 
 __all__ = [
     "FREEDOMS",
-    "LAW_SPECS",
-    "AngleSpec",
     "AutomaticHinges",
     "Bars",
-    "ChannelSpec",
-    "CircularTubeSpec",
-    "ClosedHatSpec",
-    "ConstantLaw",
     "CylinderObstacle",
     "Distance",
     "Filter",
@@ -79,12 +55,10 @@ __all__ = [
     "ForceComponents",
     "Frame",
     "FrozenMapping",
-    "HatSpec",
     "Hinge",
     "HingePlace",
     "InitialVelocity",
     "Joint",
-    "KecmanLaw",
     "LawKeys",
     "Load",
     "Mass",
@@ -93,34 +67,30 @@ __all__ = [
     "MemberContact",
     "MomentComponents",
     "Motion",
-    "MultiCellTubeSpec",
     "MultibodySettings",
     "NodalImpulse",
     "Obstacle",
     "Outputs",
     "PlacedHinge",
     "PlaneObstacle",
-    "RectangularTubeSpec",
     "Regularisation",
     "SectionForce",
     "SectionRotation",
+    "ShapeSpec",
     "ShellSettings",
     "SphereObstacle",
     "SpotWelds",
-    "SquareTubeSpec",
     "Stage",
     "Stops",
     "Stretch",
     "Structure",
     "Support",
-    "TableLaw",
     "Travel",
     "Turning",
     "Until",
     "WallSectionSpec",
     "WallSpec",
     "WeldSpec",
-    "WierzbickiLaw",
     "across_plane",
     "any_automatic",
     "changed",

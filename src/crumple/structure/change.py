@@ -66,7 +66,7 @@ def _changed(part: Any, values: Mapping[tuple[str, ...], Any], where: str) -> An
 def _inside(part: Any, head: str, path: str) -> Any:
     """What is called ``head`` in a part of the input."""
     if isinstance(part, Spec):
-        names = list(type(part).model_fields)
+        names = part.key_names
         if head in names:
             return getattr(part, head)
     elif isinstance(part, Mapping):

@@ -10,10 +10,11 @@ import numpy as np
 
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
+from crumple.registry.quantity import Acceleration, Position
 from crumple.section import Axis, Section
 from crumple.structure.geometry import Frame, frame_of, plane_normal
 from crumple.structure.keys.joint import Joint
-from crumple.structure.keys.law import LawSpec
+from crumple.structure.keys.law import LawKeys
 from crumple.structure.keys.load import Load, Mass, NodalImpulse
 from crumple.structure.keys.material import MaterialSpec
 from crumple.structure.keys.member import Member, OnlyAutomatic
@@ -22,7 +23,6 @@ from crumple.structure.keys.obstacles import MemberContact, ObstacleSpec
 from crumple.structure.keys.section import SectionSpec
 from crumple.structure.keys.spot_welds import SpotWelds
 from crumple.structure.schema.mapping import FrozenMapping
-from crumple.structure.schema.quantity import Acceleration, Position
 from crumple.structure.schema.spec import Named, Spec
 
 
@@ -46,7 +46,7 @@ class StructureParts(Spec):
     """Spot welds of members with members, or along the weld lines of members' own sections, by name."""
     hinges: OnlyAutomatic | None = None
     """`auto`: candidate hinges, wherever a fold can form, in every member that has no hinges of its own."""
-    hinge_laws: Named[LawSpec] = FrozenMapping()
+    hinge_laws: Named[LawKeys] = FrozenMapping()
     """Hinge laws by name."""
     supports: Named[Support] = FrozenMapping()
     """Supports by name."""

@@ -20,7 +20,7 @@ from crumple.analysis import solve
 from crumple.comparison import CurveFile, Signal, at_times, compare, with_frames
 from crumple.comparison.variant import with_elastic_hinges
 from crumple.report import ReportInput, write_comparison
-from crumple.report.drawing.player import _times, hinge_states, scene_of
+from crumple.report.figures.player import _times, hinge_states, scene_of
 
 WEBGL = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 NO_WEBGL = ("--disable-webgl", "--disable-3d-apis")
@@ -220,7 +220,7 @@ def test_a_result_too_large_or_without_shapes_has_no_moving_picture(found, tmp_p
     )
     assert scene_of(bare) is None
     assert "<canvas" not in write_comparison(bare, ReportInput(), tmp_path).read_text(encoding="utf-8")
-    monkeypatch.setattr("crumple.report.drawing.player.RAW_BYTES", 1000)
+    monkeypatch.setattr("crumple.report.figures.player.RAW_BYTES", 1000)
     assert scene_of(found) is None
 
 

@@ -1,26 +1,19 @@
 """Sections and materials as they are written on the command line.
 
-rectangular_tube 50x25x2.65 mm                     width x depth x thickness, outer dimensions
-rectangular_tube 50x25x2.65 mm, corner radius 5 mm
-square_tube 40x2 mm, circular_tube 60x2 mm         outer side or diameter x thickness
-channel 40x80x2 mm, lip 15 mm, corner radius 4 mm
-angle 40x60x3 mm
-hat 60x50x1.5 mm, flange 20 mm                     crown width x depth x thickness
-closed_hat 60x50x1.5 mm, flange 20 mm, plate 1 mm  plate: its thickness
-multi_cell_tube 90x60x3 mm, cells 3x2, inner walls 2 mm
-yield 488 MPa, E 210 GPa, nu 0.3                   a material
-S355, yield 400 MPa                                a named grade, with a value of its own
-model.yaml:tube                                    the section or material of this name in an input file
+rectangular_tube 50x25x2.65 mm, corner radius 5 mm   a shape: see crumple.section.shapes.written
+yield 488 MPa, E 210 GPa, nu 0.3                     a material
+S355, yield 400 MPa                                  a named grade, with a value of its own
+model.yaml:tube                                      the section or material of this name in an input file
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from crumple.errors import InputError, Problem
+from crumple.section.shapes.registry import SHAPES
 from crumple.units import format_quantity, parse_quantity
 
 if TYPE_CHECKING:
@@ -30,9 +23,9 @@ if TYPE_CHECKING:
 
 SECTION_HELP = (
     "A shape, its outer width x depth x thickness and its details, as 'rectangular_tube 50x25x2.65 mm, "
-    "corner radius 5 mm' or 'hat 60x50x1.5 mm, flange 20 mm'; the shapes are rectangular_tube, square_tube, "
-    "circular_tube, channel (lip), angle, hat, closed_hat (flange, plate), multi_cell_tube (cells 3x2, inner "
-    "walls). Or 'model.yaml:tube' for a section of an input file, where walls of any shape can be described."
+    "corner radius 5 mm', 'hat 60x50x1.5 mm, flange 20 mm' or 'multi_cell_tube 90x60x3 mm, cells 3x2, inner "
+    f"walls 2 mm'; the shapes are {', '.join(SHAPES)}. Or 'model.yaml:tube' for a section of an input file, "
+    "where walls of any shape can be described."
 )
 MATERIAL_HELP = (
     "'yield 488 MPa, E 210 GPa' (also nu, density, ultimate, flow), a grade such as 'S355', or "
@@ -40,33 +33,6 @@ MATERIAL_HELP = (
 )
 
 
-class _Shape(NamedTuple):
-    """A section written in one line: its name in the section room, count of sizes, details by their words."""
-
-    factory: str
-    sizes: int
-    details: Mapping[str, str] = {}
-    needed: tuple[str, ...] = ()
-
-
-_RADIUS = {"corner radius": "corner_radius"}
-_FLANGE = {"flange": "flange", "flanges": "flange"}
-_SHAPES = {
-    "rectangular_tube": _Shape("RectangularTube", 3, _RADIUS),
-    "square_tube": _Shape("square_tube", 2, _RADIUS),
-    "circular_tube": _Shape("CircularTube", 2),
-    "channel": _Shape("Channel", 3, {**_RADIUS, "lip": "lip", "lips": "lip"}),
-    "angle": _Shape("Angle", 3, _RADIUS),
-    "hat": _Shape("Hat", 3, {**_RADIUS, **_FLANGE}, ("flange",)),
-    "closed_hat": _Shape("ClosedHat", 3, {**_RADIUS, **_FLANGE, "plate": "plate_thickness"}, ("flange",)),
-    "multi_cell_tube": _Shape("MultiCellTube", 3, {**_RADIUS, "inner walls": "inner_thickness"}),
-}
-
-_DIMENSIONS = re.compile(
-    r"(?P<kind>[A-Za-z]+(?:[ _-][A-Za-z]+){0,2})\s+(?P<numbers>[0-9.eE+x×-]+)\s*(?P<unit>[A-Za-z]+)"
-)
-_DETAIL = re.compile(r"(?P<words>[A-Za-z]+(?:[ _-][A-Za-z]+)?)\s+(?P<value>[0-9.].{0,40})")
-_CELLS = re.compile(r"cells\s+(?P<columns>[0-9]{1,3})\s*[x×]\s*(?P<rows>[0-9]{1,3})")
 _NAMED = re.compile(r"(?P<path>.+\.(?:ya?ml|json)):(?P<name>.+)", re.IGNORECASE)
 
 
@@ -103,24 +69,9 @@ def section_of(text: str) -> Section:
         return structure.sections[_known(named["name"], structure.sections, text, "section")].section(
             structure.materials
         )
-    from crumple import section
+    from crumple.section.shapes.written import written_section
 
-    head, *extras = (part.strip() for part in text.split(","))
-    match = _DIMENSIONS.fullmatch(head)
-    kind = re.sub(r"[ -]", "_", match["kind"]).lower() if match else ""
-    shape = _SHAPES.get(kind)
-    if match is None or shape is None:
-        raise _refused("this is not a section", text, SECTION_HELP)
-    numbers = re.split("[x×]", match["numbers"])
-    if len(numbers) != shape.sizes:
-        raise _refused(f"{_one(kind)} has {shape.sizes} dimensions, not {len(numbers)}", text, SECTION_HELP)
-    lengths = [parse_quantity(f"{number} {match['unit']}", "m") for number in numbers]
-    details = _details(extras, text, kind, shape)
-    missing = [word for word in shape.needed if word not in details]
-    if missing:
-        raise _refused(f"{_one(kind)} needs its {', '.join(missing)}", text, SECTION_HELP)
-    made: Section = getattr(section, shape.factory)(*lengths, **details)
-    return made
+    return written_section(text, SECTION_HELP)
 
 
 def material_of(text: str) -> tuple[Material, list[str]]:
@@ -160,10 +111,6 @@ def material_of(text: str) -> tuple[Material, list[str]]:
     return Material(name="command line", **(defaults | values)), assumed  # type: ignore[arg-type]
 
 
-def _one(kind: str) -> str:
-    return f"{'an' if kind.startswith('a') else 'a'} {kind}"
-
-
 def _material_values(parts: list[str], text: str) -> dict[str, float]:
     """Given properties by the field of the material."""
     values: dict[str, float] = {}
@@ -195,25 +142,6 @@ def _graded(name: str, values: dict[str, float]) -> tuple[Material, list[str]]:
     given = {{"given_flow_stress": "flow_stress"}.get(key, key): value for key, value in values.items()}
     spec = MaterialSpec.model_validate({"grade": name, **given})
     return spec.material(name), [spec.statement]
-
-
-def _details(extras: list[str], text: str, kind: str, shape: _Shape) -> dict[str, float]:
-    """What follows the outer dimensions, as keywords of the section."""
-    details: dict[str, float] = {}
-    for extra in extras:
-        cells = _CELLS.fullmatch(extra) if kind == "multi_cell_tube" else None
-        match = _DETAIL.fullmatch(extra)
-        field = shape.details.get(re.sub("[_-]", " ", match["words"]).lower()) if match else None
-        if cells is not None:
-            found: dict[str, float] = {"columns": int(cells["columns"]), "rows": int(cells["rows"])}
-        elif match is not None and field is not None:
-            found = {field: parse_quantity(match["value"], "m")}
-        else:
-            raise _refused(f"{extra!r} does not belong to {_one(kind)}", text, SECTION_HELP)
-        if found.keys() & details.keys():
-            raise _refused(f"{extra!r} is given twice", text, SECTION_HELP)
-        details |= found
-    return details
 
 
 def _loaded(path: str) -> Analysis:

@@ -1,1 +1,1 @@
-"""Laws of axial crushing, one per file; each registers itself with `axial_law_type`."""
+"""Laws of axial crushing, one per file, with one line each in `crumple.hinge.registry`."""

@@ -30,7 +30,6 @@ from crumple.hinge.axial.axial_law import (
 )
 from crumple.hinge.law import Source, Trust
 from crumple.hinge.options import choice
-from crumple.hinge.registry import axial_law_type
 from crumple.material import Material
 from crumple.section import CircularTube, Section
 
@@ -48,7 +47,6 @@ class Lobes(Enum):
     DIAMOND = "diamond"
 
 
-@axial_law_type("circular")
 @dataclass(frozen=True)
 class CircularCrushing:
     """Axial crushing of a circular tube.

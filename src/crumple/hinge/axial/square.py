@@ -30,7 +30,6 @@ from crumple.hinge.axial.axial_law import (
 from crumple.hinge.axial.squash import HELD, squash_force
 from crumple.hinge.law import Source, Trust
 from crumple.hinge.options import choice
-from crumple.hinge.registry import axial_law_type
 from crumple.material import Material
 from crumple.section import RectangularTube, Section
 
@@ -58,7 +57,6 @@ class Mode(Enum):
     LOWEST = "lowest"
 
 
-@axial_law_type("square")
 @dataclass(frozen=True)
 class SquareCrushing:
     """Axial crushing of a square tube.

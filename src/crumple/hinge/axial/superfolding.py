@@ -32,7 +32,6 @@ from crumple.hinge.axial.axial_law import (
 from crumple.hinge.axial.squash import HELD, squash_force
 from crumple.hinge.law import Source, Trust
 from crumple.hinge.options import choice
-from crumple.hinge.registry import axial_law_type
 from crumple.material import Material
 from crumple.section import RectangularTube, Section
 
@@ -50,7 +49,6 @@ LONGEST_RECTANGLE = 1.5
 RATE_SHAPE = 0.33
 
 
-@axial_law_type("superfolding")
 @dataclass(frozen=True)
 class SuperfoldingCrushing:
     """Axial crushing of a square or rectangular tube.

@@ -27,7 +27,6 @@ from crumple.hinge.axial.axial_law import (
     rate_warnings,
 )
 from crumple.hinge.law import Source, Trust
-from crumple.hinge.registry import axial_law_type
 from crumple.material import Material
 from crumple.section import Section
 
@@ -42,7 +41,6 @@ RATE_SHAPE = 0.33
 CLOSED = frozenset({"closed_hat"})
 
 
-@axial_law_type("top_hat")
 @dataclass(frozen=True)
 class HatCrushing:
     """Axial crushing of a closed hat.

@@ -1,1 +1,1 @@
-"""Collapse laws, one per file; each registers itself with `crumple.hinge.registry.law_type`."""
+"""Collapse laws of bending, one per file, with one line each in `crumple.hinge.registry`."""

@@ -30,11 +30,11 @@ from crumple.hinge.bending.mechanism import FoldMechanism
 from crumple.hinge.law import Source, Trust, Validity
 from crumple.hinge.options import choice
 from crumple.hinge.rate import hinge_rate
-from crumple.hinge.registry import law_type
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.numeric.sign_change import sign_change
+from crumple.registry.quantity import RollingWeight
 from crumple.section import Axis, CircularTube, Section, half_fold_length
 
 SOURCE = Source(
@@ -47,10 +47,11 @@ FLATTENED = math.sqrt(0.5) * (2.0 - math.pi / 2.0)
 """Plastic modulus of the flat four-hinge ring over that of the round one [-], 0.3035."""
 
 
-@law_type("circular")
 @dataclass(frozen=True)
 class CircularLaw(FoldingLaw):
-    """Collapse law of a circular tube; the same about every axis and in both senses.
+    """Circular tube: plastic or ovalisation moment, then a kink scaled from a square tube.
+
+    The same about every axis and in both senses.
 
     Attributes
     ----------
@@ -85,7 +86,7 @@ class CircularLaw(FoldingLaw):
         material: Material,
         axis: Axis = "y",
         *,
-        rolling_weight: float = 1.0,
+        rolling_weight: RollingWeight = 1.0,
         after_jamming: AfterJamming | str = AfterJamming.HOLD,
     ) -> CircularLaw:
         """Law of a circular tube.
@@ -98,8 +99,10 @@ class CircularLaw(FoldingLaw):
             Yield stress, elastic constants; flow stress for the kink; flow rate for the rate factor.
         axis
             Any: the tube looks the same about all.
-        rolling_weight, after_jamming
-            As in the Kecman-type law; by default the capacity is held when the scaled fold jams.
+        rolling_weight
+            Weight of the second rolling line of each web of the square tube.
+        after_jamming
+            What follows when the walls touch: a further fold in series, an elastic stop, or the moment held.
 
         Raises
         ------

@@ -18,10 +18,10 @@ from numpy.typing import ArrayLike
 from crumple.errors import InputError, Problem
 from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
 from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor, rate_warnings
-from crumple.hinge.registry import law_type
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
+from crumple.registry.quantity import PositiveMoment
 from crumple.section import Axis, Section
 
 CHOSEN = Source("none", Trust.ASSUMED, "the moment is the user's choice")
@@ -32,10 +32,9 @@ PLASTIC_MOMENT = Source(
 )
 
 
-@law_type("constant")
 @dataclass(frozen=True)
 class ConstantLaw:
-    """Constant capacity in both senses.
+    """Constant moment: a perfectly plastic hinge.
 
     Attributes
     ----------
@@ -68,9 +67,17 @@ class ConstantLaw:
 
     @classmethod
     def of(
-        cls, section: Section, material: Material, axis: Axis = "y", *, moment: float | None = None
+        cls, section: Section, material: Material, axis: Axis = "y", *, moment: PositiveMoment | None = None
     ) -> ConstantLaw:
-        """Law of a section: the given moment [N m], else the section's plastic moment."""
+        """Law of a section.
+
+        Parameters
+        ----------
+        section, material, axis
+            For the plastic moment, and the rate of the flow stress.
+        moment
+            Moment [N m]; without it the plastic moment of the section.
+        """
         rate, warnings = hinge_rate(material.flow_rate), rate_warnings(material)
         if moment is not None:
             given = cls(moment, rate=rate)

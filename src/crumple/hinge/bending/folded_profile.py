@@ -31,14 +31,15 @@ from crumple.hinge.bending.profile_mechanism import ProfileMechanism
 from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
 from crumple.hinge.options import choice, number_between
 from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
-from crumple.hinge.registry import law_type
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
+from crumple.registry.quantity import RollingWeight
 from crumple.section import Axis, Section
 from crumple.section.capacity.capacity import MomentCapacity, moment_capacity
-from crumple.section.shapes.built_up import ClosedHat
-from crumple.section.shapes.open_sections import Channel, Hat
+from crumple.section.shapes.channel import Channel
+from crumple.section.shapes.closed_hat import ClosedHat
+from crumple.section.shapes.hat import Hat
 
 SOURCE = Source(
     "Kecman-type mechanism with the faces of the profile, and folding of free edges",
@@ -51,10 +52,11 @@ UNCERTAINTY = 0.35
 and 0.155, what plane strain in the folds would add (2/sqrt(3)).  Not a statistic: no profile was compared."""
 
 
-@law_type("folded_profile")
 @dataclass(frozen=True)
 class FoldedProfileLaw:
-    """Collapse law of a channel or a hat; different in its two senses.
+    """Channel about z, hat or closed hat about y: folding mechanisms of each side, scaled from the tube's.
+
+    Different in its two senses.
 
     Attributes
     ----------
@@ -87,7 +89,7 @@ class FoldedProfileLaw:
         material: Material,
         axis: Axis = "y",
         *,
-        rolling_weight: float = 1.0,
+        rolling_weight: RollingWeight = 1.0,
         after_jamming: AfterJamming | str = AfterJamming.HOLD,
     ) -> FoldedProfileLaw:
         """Law of a profile.
@@ -101,8 +103,10 @@ class FoldedProfileLaw:
             stress for the mechanisms, flow rate for the rate factor.
         axis
             Along the face that is compressed or stretched.
-        rolling_weight, after_jamming
-            As in the Kecman-type law; by default the capacity is held when the fold jams.
+        rolling_weight
+            Weight of the second rolling line of each web.
+        after_jamming
+            What follows when the walls touch: a further fold in series, an elastic stop, or the moment held.
 
         Raises
         ------

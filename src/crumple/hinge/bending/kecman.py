@@ -30,11 +30,11 @@ from crumple.hinge.bending.mechanism import FoldMechanism
 from crumple.hinge.law import Source, Trust
 from crumple.hinge.options import choice, number_between
 from crumple.hinge.rate import hinge_rate
-from crumple.hinge.registry import law_type
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.numeric.sign_change import sign_change
+from crumple.registry.quantity import RollingWeight
 from crumple.section import Axis, RectangularTube, Section
 
 SOURCE = Source(
@@ -54,10 +54,11 @@ class Start(Enum):
     """Parabola from the largest moment, tangent to the mechanism."""
 
 
-@law_type("kecman")
 @dataclass(frozen=True)
 class KecmanLaw(FoldingLaw):
-    """Kecman-type collapse law of a rectangular tube about one axis; the same in both senses.
+    """Kecman-type mechanism of a rectangular tube.
+
+    About one axis; the same in both senses.
 
     Attributes
     ----------
@@ -87,7 +88,7 @@ class KecmanLaw(FoldingLaw):
         material: Material,
         axis: Axis = "y",
         *,
-        rolling_weight: float = 1.0,
+        rolling_weight: RollingWeight = 1.0,
         start: Start | str = Start.CAP,
         after_jamming: AfterJamming | str = AfterJamming.SECOND_FOLD,
     ) -> KecmanLaw:
@@ -102,9 +103,11 @@ class KecmanLaw(FoldingLaw):
         axis
             Axis of bending.
         rolling_weight
-            Weight of the second rolling line, 0 to 1.
-        start, after_jamming
-            Choices, by enum or by its text.
+            Weight of the second rolling line of each web.
+        start
+            Start: the largest moment until the mechanism falls below it, or a parabola tangent to it.
+        after_jamming
+            What follows when the walls touch: a further fold in series, an elastic stop, or the moment held.
 
         Returns
         -------

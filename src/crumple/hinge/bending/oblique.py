@@ -32,11 +32,11 @@ from crumple.hinge.bending.jamming import AfterJamming
 from crumple.hinge.bending.kecman import KecmanLaw
 from crumple.hinge.law import Source, Trust, Validity
 from crumple.hinge.options import choice, number_between
-from crumple.hinge.registry import law_type
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.numeric.sign_change import sign_change
+from crumple.registry.quantity import Angle, RollingWeight
 from crumple.section import Axis, RectangularTube, Section
 
 SOURCE = Source(
@@ -49,10 +49,11 @@ SAME_KINK = 1e-9
 """Kinks closer than this share of the jamming angle are one: a slope between them means nothing."""
 
 
-@law_type("oblique")
 @dataclass(frozen=True)
 class ObliqueLaw(FoldingLaw):
-    """Collapse law of a rectangular tube about an axis between its sides; the same in both senses.
+    """Rectangular tube bent about an axis between its sides: two Kecman-type folds at once.
+
+    The same in both senses.
 
     Attributes
     ----------
@@ -85,8 +86,8 @@ class ObliqueLaw(FoldingLaw):
         material: Material,
         axis: Axis = "y",
         *,
-        angle: float = math.pi / 4.0,
-        rolling_weight: float = 1.0,
+        angle: Angle = math.pi / 4.0,
+        rolling_weight: RollingWeight = 1.0,
         after_jamming: AfterJamming | str = AfterJamming.SECOND_FOLD,
     ) -> ObliqueLaw:
         """Law of a rectangular tube.
@@ -100,9 +101,11 @@ class ObliqueLaw(FoldingLaw):
         axis
             Side that the angle is measured from.
         angle
-            Of the bending axis from that side [rad], 0 to pi/2; either way: the tube has both mirrors.
-        rolling_weight, after_jamming
-            As in the Kecman-type law.
+            Of the bending axis from the hinge's own axis [rad], 0 deg to 90 deg; the tube has both mirrors.
+        rolling_weight
+            Weight of the second rolling line of each web.
+        after_jamming
+            What follows when the walls touch: a further fold in series, an elastic stop, or the moment held.
 
         Raises
         ------

@@ -24,10 +24,10 @@ from crumple.hinge.bending.largest_moment import peak_moment
 from crumple.hinge.law import Source, Trust, Validity
 from crumple.hinge.options import choice
 from crumple.hinge.rate import hinge_rate
-from crumple.hinge.registry import law_type
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
+from crumple.registry.quantity import PositiveLength
 from crumple.section import Axis, RectangularTube, Section, half_fold_length
 
 SOURCE = Source(
@@ -44,10 +44,11 @@ SAME_SIDE = 1e-3
 """Relative difference of the sides up to which a tube counts as square."""
 
 
-@law_type("wierzbicki")
 @dataclass(frozen=True)
 class WierzbickiLaw(FoldingLaw):
-    """Closed-form law of a square tube; the same in both senses.
+    """Closed form of a square tube after Wierzbicki and others (1994).
+
+    The same in both senses.
 
     Attributes
     ----------
@@ -79,7 +80,7 @@ class WierzbickiLaw(FoldingLaw):
         material: Material,
         axis: Axis = "y",
         *,
-        equivalent_side: float | None = None,
+        equivalent_side: PositiveLength | None = None,
         after_jamming: AfterJamming | str = AfterJamming.SECOND_FOLD,
     ) -> WierzbickiLaw:
         """Law of a square tube.
@@ -95,7 +96,7 @@ class WierzbickiLaw(FoldingLaw):
         equivalent_side
             Mid-line side [m] of the square tube that stands for a rectangular one.
         after_jamming
-            Choice, by enum or by its text.
+            What follows when the walls touch: a further fold in series, an elastic stop, or the moment held.
 
         Returns
         -------
@@ -157,7 +158,7 @@ class WierzbickiLaw(FoldingLaw):
         return np.minimum(self.peak, self.scale * (STEADY + 0.5 / np.sqrt(folded)))
 
 
-def _side(section: RectangularTube, equivalent_side: float | None) -> float:
+def _side(section: RectangularTube, equivalent_side: PositiveLength | None) -> float:
     """Mid-line side [m] of the square tube."""
     if equivalent_side is not None:
         if not (math.isfinite(equivalent_side) and equivalent_side > section.thickness):
@@ -176,7 +177,7 @@ def _side(section: RectangularTube, equivalent_side: float | None) -> float:
     return section.width - section.thickness
 
 
-def _validity(jamming_angle: float, material: Material, equivalent_side: float | None) -> Validity:
+def _validity(jamming_angle: float, material: Material, equivalent_side: PositiveLength | None) -> Validity:
     warnings = ["the coefficient of the curve is quoted without a text that confirms it"]
     if equivalent_side is not None:
         warnings.append("the side of the equivalent square tube is the user's choice")

@@ -16,10 +16,7 @@ from crumple.hinge.measured.law_group import Group
 from crumple.hinge.measured.stored import StoredCurve, StoredLaw
 from crumple.hinge.rate import HingeRate
 from crumple.hinge.record.sampling import sampled_envelope
-from crumple.hinge.registry import law_type
 from crumple.hinge.stop import Stop
-from crumple.material import Material
-from crumple.section import Axis, Section
 from crumple.text.plain_yaml import read_plain_yaml
 
 FORMAT = 1
@@ -32,29 +29,6 @@ _KEYS = (
     *("jamming_angle", "rate", "stop", "curve", "lower", "upper"),
 )
 _NONE = "none"
-
-
-@law_type("file")
-class LawFile:
-    """The law type that takes any law from the text of a law file."""
-
-    @classmethod
-    def of(cls, section: Section, material: Material, axis: Axis = "y", *, text: str) -> StoredLaw:
-        """Law of a file's text.
-
-        Parameters
-        ----------
-        section, material, axis
-            Not used: the curve is already that of a section.
-        text
-            Content of a law file.
-
-        Raises
-        ------
-        InputError
-            With lines, if the text is no law file.
-        """
-        return read_law(text)
 
 
 def stored_law(

@@ -8,29 +8,57 @@ form.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import ClassVar
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
+from crumple.hinge.measured.embedding import MOST_POINTS, FileName, with_curve_read, with_units
 from crumple.hinge.measured.table import Curve, plastic_part
 from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor, rate_warnings
-from crumple.hinge.registry import law_type
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
+from crumple.registry.keys import As, Key
+from crumple.registry.quantity import Angle, Longest, Moment
+from crumple.registry.refusal import refuse
 from crumple.section import Axis, Section
 
+Angles = Annotated[tuple[Angle, ...], Longest(MOST_POINTS)]
+Moments = Annotated[tuple[Moment, ...], Longest(MOST_POINTS)]
+FILE_KEYS = (
+    Key(
+        "file",
+        FileName | None,
+        None,
+        "CSV file with one head such as `rotation [deg], moment [kN*m]`, in the folder of the input file or "
+        "below, in place of the lists.",
+    ),
+    Key(
+        "negative_file",
+        FileName | None,
+        None,
+        "CSV file of the negative sense, as positive numbers; without it as in the positive sense.",
+    ),
+    Key(
+        "units",
+        Mapping[Literal["rotation", "moment"], str] | None,
+        None,
+        "Units of plain numbers in the lists, as {rotation: deg, moment: kN*m}; rad and N*m without it.",
+    ),
+)
+"""Keys of a description that name files and units; what they say is in the curves when the law is built."""
 MEASURED = Source("table", Trust.MEASURED, "as good as the curve that was supplied")
 
 
-@law_type("table")
 @dataclass(frozen=True)
 class TabulatedLaw:
-    """Piecewise linear capacity.
+    """Measured or computed curve of moment against rotation, straight between its points.
 
     Attributes
     ----------
@@ -53,6 +81,7 @@ class TabulatedLaw:
     """
 
     name: ClassVar[str] = "table"
+    file_keys: ClassVar[tuple[Key, ...]] = FILE_KEYS
 
     rotation: Curve
     moment: Curve
@@ -95,10 +124,10 @@ class TabulatedLaw:
         material: Material,
         axis: Axis = "y",
         *,
-        rotation: Curve,
-        moment: Curve,
-        negative_rotation: Curve | None = None,
-        negative_moment: Curve | None = None,
+        rotation: Annotated[Curve, As(Angles)],
+        moment: Annotated[Curve, As(Moments)],
+        negative_rotation: Annotated[Curve | None, As(Angles | None)] = None,
+        negative_moment: Annotated[Curve | None, As(Moments | None)] = None,
         remove_elastic: bool = False,
         elastic_stiffness: float | None = None,
         static: bool = True,
@@ -111,16 +140,20 @@ class TabulatedLaw:
             Not used: the curve is already that of the section.
         material
             Its flow rate gives the rate factor of a static curve.
-        rotation, moment
-            Curve [rad], [N m]; total rotation if the elastic part is to be removed.
-        negative_rotation, negative_moment
-            Curve of the negative sense, as positive numbers.
+        rotation
+            Rotations, increasing from 0 [rad]; total rotations if the elastic part is to be removed.
+        moment
+            Moment at each rotation [N m].
+        negative_rotation
+            Rotations of the negative sense, as positive numbers [rad].
+        negative_moment
+            Moments of the negative sense, as positive numbers [N m].
         remove_elastic
-            Take the elastic rise out of both curves.
+            Whether to take out the elastic rise with which a test starts.
         elastic_stiffness
             Of the rise [N m/rad]; None: found from the curve where it is removed.
         static
-            Whether the curve was measured slowly; a dynamic one already holds its rate effect.
+            Whether the test was slow; a dynamic one already holds its rate effect.
 
         Returns
         -------
@@ -143,6 +176,27 @@ class TabulatedLaw:
         return cls(
             rotation, moment, negative_rotation, negative_moment, elastic_stiffness, rate, warnings=warnings
         )
+
+    @staticmethod
+    def embedded(given: dict[str, Any], folder: Path | None) -> dict[str, Any]:
+        """Keys of a description with the points of curve files in place of their names.
+
+        Parameters
+        ----------
+        given
+            Keys of the law, `FILE_KEYS` among them.
+        folder
+            Folder of the input file, in which the files must lie; None: built in Python, any file.
+        """
+        given = with_curve_read(with_curve_read(given, folder), folder, "negative_")
+        given = with_units(given)
+        if given.get("rotation") is None and given.get("moment") is None:
+            refuse("the table has no points", allowed="file, or rotation and moment", todo="add one of them")
+        for key in ("rotation", "negative_rotation"):
+            if isinstance(given.get(key), Sequence) and len(given[key]) == 1:
+                todo = "add points, or write a constant law with this moment"
+                refuse("the table has one point", key=key, allowed="at least two points", todo=todo)
+        return given
 
     @property
     def title(self) -> str:
@@ -189,9 +243,9 @@ def _curve_problems(rotation: Curve, moment: Curve, prefix: str) -> list[Problem
         todo = "begin at plastic rotation 0 and leave out repeated points"
         problems.append(Problem(what, f"{came}, ... rad", "0 < 1st < 2nd < ...", todo, where_rotation))
     if not np.all(np.isfinite(moment)) or min(moment) <= 0.0:
-        what, todo = (
-            "capacities must be positive",
-            "remove the elastic rise: the hinge turns plastically only",
-        )
+        what = "capacities must be positive"
+        todo = "remove the elastic rise: the hinge turns plastically only"
+        if moment[0] > 0.0:
+            todo = "keep a small residual capacity, or let the hinge break: fracture"
         problems.append(Problem(what, f"{min(moment):g} N m", "> 0 N m", todo, where_moment))
     return problems

@@ -1,1 +1,1 @@
-"""Laws of torsional collapse, one per file; each registers itself with `torsion_law_type`."""
+"""Laws of torsional collapse, one per file, with one line each in `crumple.hinge.registry`."""

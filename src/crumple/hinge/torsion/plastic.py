@@ -18,10 +18,10 @@ from numpy.typing import ArrayLike
 from crumple.errors import InputError, Problem
 from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
 from crumple.hinge.rate import HingeRate, rate_factor
-from crumple.hinge.registry import torsion_law_type
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
+from crumple.registry.quantity import PositiveMoment
 from crumple.section import Section
 
 SOURCE = Source(
@@ -31,7 +31,6 @@ SOURCE = Source(
 )
 
 
-@torsion_law_type("plastic")
 @dataclass(frozen=True)
 class PlasticTorsion:
     """Constant torque, the same in both senses.
@@ -68,9 +67,18 @@ class PlasticTorsion:
 
     @classmethod
     def of(
-        cls, section: Section, material: Material, length: float, *, torque: float | None = None
+        cls, section: Section, material: Material, length: float, *, torque: PositiveMoment | None = None
     ) -> PlasticTorsion:
-        """Law of a section twisted over a length [m]: the given torque [N m], else its plastic torque.
+        """Law of a section twisted over a length.
+
+        Parameters
+        ----------
+        section, material
+            For the plastic torque and the elastic stiffness.
+        length
+            Twisted length [m].
+        torque
+            Constant torque [N m]; without it the plastic torque of the section.
 
         Raises
         ------

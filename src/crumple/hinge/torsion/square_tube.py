@@ -24,10 +24,10 @@ from numpy.typing import ArrayLike
 from crumple.errors import InputError, Problem
 from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
 from crumple.hinge.rate import HingeRate, rate_factor
-from crumple.hinge.registry import torsion_law_type
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
+from crumple.registry.quantity import PositiveAngle
 from crumple.section import RectangularTube, Section
 
 SOURCE = Source(
@@ -39,7 +39,6 @@ SAME_SIDE = 1e-3
 """Relative difference of the sides up to which a tube counts as square."""
 
 
-@torsion_law_type("square_tube")
 @dataclass(frozen=True)
 class SquareTubeTorsion:
     """Torsion law of a square tube; the same in both senses.
@@ -72,7 +71,7 @@ class SquareTubeTorsion:
 
     @classmethod
     def of(
-        cls, section: Section, material: Material, length: float, *, decay: float | None = None
+        cls, section: Section, material: Material, length: float, *, decay: PositiveAngle | None = None
     ) -> SquareTubeTorsion:
         """Law of a square tube.
 
@@ -85,7 +84,8 @@ class SquareTubeTorsion:
         length
             Twisted length [m].
         decay
-            Twist [rad] of the decay, from a test or a shell model; None: steady torque from the start.
+            Twist [rad] in which the torque loses 63 % of its way to the steady one, from a test or a shell
+            model; without it that is held from the start.
 
         Raises
         ------

@@ -1,1 +1,1 @@
-"""Appearance of figures: styles, scales, views, the animation."""
+"""Appearance of figures: styles, scales, views."""

@@ -8,8 +8,10 @@ from typing import ClassVar
 
 from crumple.errors import InputError, Problem
 from crumple.numeric.arrays import Floats
+from crumple.registry.quantity import PositiveLength
 from crumple.section.outline import circle
 from crumple.section.section import Axis, ByAxis, checked_axis, in_mm, not_positive
+from crumple.section.shapes.shape import Example, Shape
 
 
 @dataclass(frozen=True)
@@ -21,7 +23,7 @@ class CircularTube(ByAxis):
     diameter
         Outer diameter [m].
     thickness
-        Wall thickness [m], below half the diameter.
+        Wall thickness, less than half the diameter [m].
 
     Raises
     ------
@@ -35,8 +37,8 @@ class CircularTube(ByAxis):
 
     kind: ClassVar[str] = "circular_tube"
 
-    diameter: float
-    thickness: float
+    diameter: PositiveLength
+    thickness: PositiveLength
 
     def __post_init__(self) -> None:
         problems = not_positive(
@@ -119,3 +121,6 @@ class CircularTube(ByAxis):
     def inner_outline(self) -> Floats:
         """Polygon of the inner surface (y, z) [m], shape (n, 2)."""
         return circle(self.inner_diameter)
+
+
+SHAPE = Shape(CircularTube, (Example("50x2 mm"),))

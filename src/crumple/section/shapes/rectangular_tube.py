@@ -20,24 +20,26 @@ from typing import ClassVar
 
 from crumple.errors import InputError, Problem
 from crumple.numeric.arrays import Floats
+from crumple.registry.quantity import NonNegativeLength, PositiveLength
 from crumple.section.outline import rounded_rectangle
 from crumple.section.section import Axis, ByAxis, checked_axis, in_mm, not_positive
+from crumple.section.shapes.shape import Example, Shape
 
 
 @dataclass(frozen=True)
 class RectangularTube(ByAxis):
-    """Rectangular tube given by its outer dimensions.
+    """Rectangular tube: width along local y, depth along local z, both outer dimensions.
 
     Attributes
     ----------
     width
-        Outer dimension along y [m].
+        Outer dimension along local y [m].
     depth
-        Outer dimension along z [m].
+        Outer dimension along local z [m].
     thickness
-        Wall thickness [m], below half the smaller side.
+        Wall thickness, less than half the smaller side [m].
     corner_radius
-        Outer corner radius [m], from 0 (sharp) to half the smaller side.
+        Outer corner radius, 0 for a sharp corner, at most half the smaller side [m].
 
     Raises
     ------
@@ -51,10 +53,10 @@ class RectangularTube(ByAxis):
 
     kind: ClassVar[str] = "rectangular_tube"
 
-    width: float
-    depth: float
-    thickness: float
-    corner_radius: float = 0.0
+    width: PositiveLength
+    depth: PositiveLength
+    thickness: PositiveLength
+    corner_radius: NonNegativeLength = 0.0
 
     def __post_init__(self) -> None:
         lengths = {"width": self.width, "depth": self.depth, "thickness": self.thickness}
@@ -184,3 +186,6 @@ def _second_moment(width: float, depth: float, radius: float) -> float:
         math.pi * radius**4 / 16.0 + 2.0 * centre * radius**3 / 3.0 + math.pi * radius**2 / 4.0 * centre**2
     )
     return width * depth**3 / 12.0 - 4.0 * (square - quarter_disc)
+
+
+SHAPE = Shape(RectangularTube, (Example("50x25x2 mm, corner radius 4 mm"),))

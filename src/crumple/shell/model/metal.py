@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from crumple._core.shell.simulation import ShellMaterial
-from crumple.material import CowperSymonds, HardeningCurve, HardeningTable, JohnsonCook, Material
+from crumple.material import CowperSymonds, HardeningCurve, JohnsonCook, Material
 from crumple.numeric.arrays import Floats
 
 TABLE_STRAINS = np.concatenate([[0.0], np.geomspace(1e-4, 3.0, 80)])
@@ -33,10 +33,9 @@ def shell_material(material: Material) -> ShellMaterial:
 
 
 def _table(curve: HardeningCurve) -> tuple[Floats, Floats]:
-    """Points that the elements join by straight lines: a table's own, else samples."""
-    if isinstance(curve, HardeningTable):
-        return np.array(curve.plastic_strain), np.array(curve.true_stress)
-    return TABLE_STRAINS, curve.stress(TABLE_STRAINS)
+    """Points that the elements join by straight lines: the curve's own, else samples."""
+    strains = np.array(curve.kinks) if curve.kinks else TABLE_STRAINS
+    return strains, curve.stress(strains)
 
 
 def in_words(material: Material) -> str:

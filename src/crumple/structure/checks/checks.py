@@ -13,6 +13,7 @@ from itertools import combinations, product
 import numpy as np
 
 from crumple.errors import Problem
+from crumple.hinge.registry import BENDING
 from crumple.numeric.arrays import Floats
 from crumple.structure.checks.hinge_checks import inertia_problems, place_problems
 from crumple.structure.checks.joint_checks import bare_node_problems, joint_problems
@@ -20,8 +21,7 @@ from crumple.structure.checks.obstacle_checks import obstacle_problems
 from crumple.structure.checks.rigid_checks import rigid_problems
 from crumple.structure.checks.start_checks import start_problems
 from crumple.structure.checks.weld_checks import pitch_problems, spot_weld_problems
-from crumple.structure.hinges.hinge_axes import AxisLaws, HingeAxes
-from crumple.structure.keys.law import LAW_SPECS
+from crumple.structure.keys.hinge_axes import AxisLaws, HingeAxes
 from crumple.structure.keys.member import AutomaticHinges
 from crumple.structure.keys.outputs import Outputs
 from crumple.structure.parts import StructureParts
@@ -142,7 +142,7 @@ def shell_problems(
 
 def _names(structure: StructureParts, known: Known) -> Iterator[Problem]:
     """Names that members refer to."""
-    laws = {*known["hinge_laws"], *LAW_SPECS}
+    laws = {*known["hinge_laws"], *BENDING}
     if structure.hinges is not None:
         yield from _unknown_laws(structure.hinges, laws, "hinges")
     for name, member in structure.members.items():

@@ -9,6 +9,7 @@ from functools import partial
 from itertools import pairwise, product
 
 from crumple.errors import InputError, Problem
+from crumple.hinge.registry import BENDING
 from crumple.structure.hinges.hinges import (
     HingePlace,
     holds_rotation,
@@ -16,7 +17,6 @@ from crumple.structure.hinges.hinges import (
     member_hinge_places,
     spatial_record_of,
 )
-from crumple.structure.keys.law import LAW_SPECS
 from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import outside
 
@@ -88,7 +88,7 @@ def _law_problems(structure: StructureParts, place: HingePlace) -> Iterator[Prob
     """Why laws and axes do not fit the section of their hinge; an unknown name is another check's."""
     keys = place.keys
     places = [replace(place, axis=axis, law=keys.law_about(axis)) for axis in keys.bending] or [place]
-    known = {*structure.hinge_laws, *LAW_SPECS}
+    known = {*structure.hinge_laws, *BENDING}
     if any(isinstance(about.law, str) and about.law not in known for about in places):
         return
     found = [problem for about in places for problem in _refusals(partial(law_of, structure, about))]

@@ -14,7 +14,7 @@ import numpy as np
 
 from crumple.section import Axis, half_fold_length
 from crumple.structure.bending import bending_axis, planar
-from crumple.structure.hinges.hinge_axes import HingeAxes
+from crumple.structure.keys.hinge_axes import HingeAxes
 from crumple.structure.keys.member import AutomaticHinges, Hinge
 from crumple.structure.parts import StructureParts
 

@@ -16,14 +16,15 @@ import numpy as np
 from crumple import hinge
 from crumple.errors import InputError, Problem
 from crumple.hinge import Form, HingeLaw, HingeRecord, SofteningVariable, SpatialHingeRecord, Stop
+from crumple.hinge.registry import BENDING, DEFAULT_BENDING
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section, half_fold_length
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges.automatic import hinges_of, where_automatic
-from crumple.structure.hinges.hinge_axes import HingeAxes
 from crumple.structure.hinges.spatial_hinges import spatial_hinge_record
-from crumple.structure.keys.law import LAW_SPECS, LawKeys, LawReference, Stops
+from crumple.structure.keys.hinge_axes import HingeAxes
+from crumple.structure.keys.law import LawKeys, LawReference, Stops
 from crumple.structure.keys.member import Hinge
 from crumple.structure.keys.motion import FREEDOMS
 from crumple.structure.parts import StructureParts
@@ -31,8 +32,6 @@ from crumple.structure.remembered import remembered
 
 PLAIN = HingeAxes()
 """A hinge that bends about one axis, the one across the plane of bending."""
-DEFAULT_LAW = {"rectangular_tube": "kecman"}
-"""Law type of a hinge that names none, by kind of section."""
 MADE = 1024
 """Laws, and records, that a process keeps: far more than any structure has."""
 NEARER = np.sqrt(0.5)
@@ -231,14 +230,14 @@ def law_spec(structure: StructureParts, place: HingePlace) -> LawKeys:
     reference = place.law
     if reference is None:
         kind = structure.section_of(place.member).kind
-        if kind not in DEFAULT_LAW:
+        if kind not in DEFAULT_BENDING:
             what, todo = f"a hinge in a {kind} needs a law", "add 'law'"
-            allowed = "a name in hinge_laws, or " + ", ".join(LAW_SPECS)
+            allowed = "a name in hinge_laws, or " + ", ".join(BENDING)
             raise InputError(Problem(what, "", allowed, todo))
-        reference = DEFAULT_LAW[kind]
+        reference = DEFAULT_BENDING[kind]
     if not isinstance(reference, str):
         return reference
-    return structure.hinge_laws[reference] if reference in structure.hinge_laws else LAW_SPECS[reference]()
+    return structure.hinge_laws[reference] if reference in structure.hinge_laws else LawKeys(type=reference)
 
 
 def law_of(structure: StructureParts, place: HingePlace) -> HingeLaw:
@@ -256,12 +255,11 @@ def law_of(structure: StructureParts, place: HingePlace) -> HingeLaw:
 # a law is a pure function of these four: the hinges of a chain and the runs of a study share it
 @remembered(MADE)
 def _law(section: Section, material: Material, axis: Axis, spec: LawKeys) -> HingeLaw:
-    given = spec.model_dump(exclude=set(LawKeys.model_fields) | {"type"}, exclude_none=True)
-    kind = str(getattr(spec, "type"))  # noqa: B009  (every law has it, each with its own literal type)
-    options = set(hinge.law_options(kind))
+    given = {name: value for name, value in spec.own.items() if value is not None}
+    options = set(hinge.law_options(spec.type))
     if "elastic_stiffness" in options and not isinstance(spec.elastic_stiffness, str):
         given["elastic_stiffness"] = spec.elastic_stiffness
-    return hinge.bounded(hinge.build_law(kind, section, material, axis, **given), spec.bound)
+    return hinge.bounded(hinge.build_law(spec.type, section, material, axis, **given), spec.bound)
 
 
 def _bending(structure: StructureParts, place: HingePlace, share: float) -> tuple[HingeLaw, HingeRecord]:

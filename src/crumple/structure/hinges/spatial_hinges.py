@@ -12,7 +12,7 @@ from crumple.hinge.record.spatial_record import Coupling, Freedom, HingeComponen
 from crumple.hinge.record.spatial_recording import spatial_record
 from crumple.material import Material
 from crumple.section import Section
-from crumple.structure.hinges.hinge_axes import AxialSlip, BendingAxis, HingeAxes, Twist
+from crumple.structure.keys.hinge_axes import AxialSlip, BendingAxis, HingeAxes, Twist
 from crumple.structure.remembered import remembered
 
 if TYPE_CHECKING:
@@ -89,8 +89,7 @@ def _like(
 
 
 def _twist(keys: Twist, section: Section, material: Material, length: float) -> object:
-    options = {"torque": keys.torque} if keys.law == "plastic" else {"decay": keys.decay}
-    return build_torsion_law(keys.law, section, material, length, **options)
+    return build_torsion_law(keys.law, section, material, length, **keys.own)
 
 
 def _axial(

@@ -15,11 +15,12 @@ from pydantic import Discriminator, Tag, model_validator
 
 from crumple.errors import InputError, Problem
 from crumple.material import Material
+from crumple.registry.refusal import refuse
 from crumple.section import Section
 from crumple.structure.keys.material import MaterialSpec
 from crumple.structure.remembered import remembered
 from crumple.structure.schema.problems import one_of
-from crumple.structure.schema.spec import Name, Spec, refuse
+from crumple.structure.schema.spec import Name, Spec
 
 
 def _material_tag(given: Any) -> str:
@@ -52,7 +53,7 @@ class AnySection(Spec):
         placed: dict[tuple[str, str], Problem] = {}
         for problem in problems:
             key = problem.where.rpartition(".")[2]
-            where = key if key in type(self).model_fields else ""
+            where = key if key in self.key_names else ""
             placed.setdefault((problem.what, where), replace(problem, where=where))
         return list(placed.values())
 

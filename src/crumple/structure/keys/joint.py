@@ -9,8 +9,9 @@ from typing import Literal
 
 from pydantic import model_validator
 
-from crumple.structure.schema.quantity import Direction
-from crumple.structure.schema.spec import Name, Spec, refuse
+from crumple.registry.quantity import Direction
+from crumple.registry.refusal import refuse
+from crumple.structure.schema.spec import Name, Spec
 
 JointType = Literal["revolute", "universal", "spherical", "prismatic", "cylindrical", "planar"]
 

@@ -1,36 +1,32 @@
 """Hinge laws as the description gives them: which law, in which form, with which stops.
 
-Each law type is one class here beside its formula in `crumple.hinge.bending`; its own keys are the options
-that the formula takes.
+The keys of a law's own are the options of its class: see `crumple.hinge.registry`.
 """
 
 from __future__ import annotations
 
-import math
+from collections.abc import Iterable
 from numbers import Integral
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationInfo, model_validator
+from pydantic import BeforeValidator, Discriminator, Tag, model_validator
 
-from crumple.structure.keys.curve import MOST_POINTS, with_curve_read, with_law_read, with_units
-from crumple.structure.schema.quantity import (
-    Angle,
+from crumple.hinge.registry import BENDING, FromFiles, options_of
+from crumple.registry.keys import Key, sentence_on
+from crumple.registry.quantity import (
     DampingOrCritical,
-    Moment,
     NonNegativeAngle,
     NonNegativeRotationalDamping,
     PositiveAngle,
     PositiveAngularVelocity,
-    PositiveLength,
-    PositiveMoment,
     PositiveRotationalStiffness,
-    RollingWeight,
     StiffnessOrAuto,
     StopExponent,
 )
-from crumple.structure.schema.spec import Name, Spec, refuse, type_tag
-from crumple.text.plain_yaml import LARGEST_TEXT
+from crumple.registry.refusal import refuse
+from crumple.structure.schema.registered import Registered
+from crumple.structure.schema.spec import Name, Spec
 
 
 class Regularisation(Spec):
@@ -69,15 +65,11 @@ def _on_or_off(given: Any) -> Any:
     return {True: "on", False: "off"}[given] if isinstance(given, bool) else given
 
 
-def _folder(info: ValidationInfo) -> Path | None:
-    """Folder of the input file; None where the law is built in Python."""
-    directory = (info.context or {}).get("directory")
-    return None if directory is None else Path(directory)
-
-
-class LawKeys(Spec):
+class LawKeys(Registered):
     """Keys that every law has."""
 
+    type: str
+    """Kind of law."""
     form: Literal["set-valued", "elastic-plastic", "regularised"] = "set-valued"
     """How the capacity becomes a moment: rigid until reached, a spring in series, or a ramp over the rate."""
     elastic_stiffness: StiffnessOrAuto = "auto"
@@ -102,195 +94,39 @@ class LawKeys(Spec):
             refuse(what, key="regularisation", todo="write 'form: regularised', or leave it out")
         return self
 
-
-class ConstantLaw(LawKeys):
-    """Constant moment: a perfectly plastic hinge."""
-
-    type: Literal["constant"] = "constant"
-    """Kind of law."""
-    moment: PositiveMoment | None = None
-    """Moment; without it the plastic moment of the section."""
-
-
-Angles = Annotated[tuple[Angle, ...], Field(max_length=MOST_POINTS)]
-Moments = Annotated[tuple[Moment, ...], Field(max_length=MOST_POINTS)]
-FileName = Annotated[str, Field(max_length=400)]
-
-
-class ColumnUnits(Spec):
-    """Units of plain numbers in a table's lists."""
-
-    rotation: str = "rad"
-    """Unit of the rotations, for example deg."""
-    moment: str = "N*m"
-    """Unit of the moments, for example kN*m."""
-
-
-class TableLaw(LawKeys):
-    """Measured or computed curve of moment against rotation, straight between its points."""
-
-    type: Literal["table"] = "table"
-    """Kind of law."""
-    file: FileName | None = None
-    """CSV file with one head such as `rotation [deg], moment [kN*m]`, in the folder of the input file or
-    below."""
-    rotation: Angles = ()
-    """Rotations, increasing from 0, in place of a file."""
-    moment: Moments = ()
-    """Moment at each rotation."""
-    negative_file: FileName | None = None
-    """CSV file of the negative sense, as positive numbers; without it as in the positive sense."""
-    negative_rotation: Angles | None = None
-    """Rotations of the negative sense."""
-    negative_moment: Moments | None = None
-    """Moments of the negative sense."""
-    units: ColumnUnits | None = None
-    """Units of plain numbers in the lists."""
-    remove_elastic: bool = False
-    """Whether to take out the elastic rise with which a test starts."""
-    static: bool = True
-    """Whether the test was slow; a dynamic one already holds its rate effect."""
-
-    @model_validator(mode="before")
     @classmethod
-    def _embedded(cls, given: Any, info: ValidationInfo) -> Any:
-        """Read the curve files, so that the law carries points and not paths."""
-        if not isinstance(given, dict):
-            return given
-        directory = _folder(info)
-        given = with_curve_read(given, directory)
-        return with_units(with_curve_read(given, directory, "negative_"))
+    def types(cls) -> Iterable[str]:
+        """Laws of bending."""
+        return BENDING
 
-    @model_validator(mode="after")
-    def _two_points(self) -> TableLaw:
-        for key in ("rotation", "negative_rotation"):
-            if len(getattr(self, key) or ()) == 1:
-                todo = "add points, or write a constant law with this moment"
-                refuse("the table has one point", key=key, allowed="at least two points", todo=todo)
-        return self
-
-
-class KecmanLaw(LawKeys):
-    """Kecman-type mechanism of a rectangular tube."""
-
-    type: Literal["kecman"] = "kecman"
-    """Kind of law."""
-    rolling_weight: RollingWeight = 1.0
-    """Weight of the second rolling line of each web."""
-    start: Literal["cap", "parabola"] = "cap"
-    """Start: the largest moment until the mechanism falls below it, or a parabola tangent to it."""
-    after_jamming: Literal["second_fold", "stop", "hold"] = "second_fold"
-    """What follows when the walls touch: a further fold in series, an elastic stop, or the moment held."""
-
-
-class WierzbickiLaw(LawKeys):
-    """Closed form of a square tube after Wierzbicki and others (1994)."""
-
-    type: Literal["wierzbicki"] = "wierzbicki"
-    """Kind of law."""
-    equivalent_side: PositiveLength | None = None
-    """Mid-line side of the square tube that stands for a rectangular one."""
-    after_jamming: Literal["second_fold", "stop", "hold"] = "second_fold"
-    """What follows when the walls touch: a further fold in series, an elastic stop, or the moment held."""
-
-
-AfterJamming = Literal["second_fold", "stop", "hold"]
-
-
-class ObliqueLaw(LawKeys):
-    """Rectangular tube bent about an axis between its sides: two Kecman-type folds at once."""
-
-    type: Literal["oblique"] = "oblique"
-    """Kind of law."""
-    angle: Angle = math.pi / 4.0
-    """Of the bending axis from the hinge's own axis, 0 deg to 90 deg."""
-    rolling_weight: RollingWeight = 1.0
-    """Weight of the second rolling line of each web."""
-    after_jamming: AfterJamming = "second_fold"
-    """What follows when the walls touch: a further fold in series, an elastic stop, or the moment held."""
-
-
-class CircularLaw(LawKeys):
-    """Circular tube: plastic or ovalisation moment, then a kink scaled from a square tube."""
-
-    type: Literal["circular"] = "circular"
-    """Kind of law."""
-    rolling_weight: RollingWeight = 1.0
-    """Weight of the second rolling line of each web of the square tube."""
-    after_jamming: AfterJamming = "hold"
-    """What follows when the walls touch: a further fold in series, an elastic stop, or the moment held."""
-
-
-class FoldedProfileLaw(LawKeys):
-    """Channel about z, hat or closed hat about y: folding mechanisms of each side, scaled from the tube's."""
-
-    type: Literal["folded_profile"] = "folded_profile"
-    """Kind of law."""
-    rolling_weight: RollingWeight = 1.0
-    """Weight of the second rolling line of each web."""
-    after_jamming: AfterJamming = "hold"
-    """What follows when the walls touch: a further fold in series, an elastic stop, or the moment held."""
-
-
-class FileLaw(LawKeys):
-    """Law of a law file, as `crumple hinge --save` writes it."""
-
-    type: Literal["file"] = "file"
-    """Kind of law."""
-    file: FileName | None = None
-    """Law file (YAML), in the folder of the input file or below."""
-    text: Annotated[str, Field(max_length=LARGEST_TEXT)] = ""
-    """Content of a law file, in place of its name."""
-
-    @model_validator(mode="before")
     @classmethod
-    def _embedded(cls, given: Any, info: ValidationInfo) -> Any:
-        """Read and check the file, so that the law carries its curve and not a path."""
-        if not isinstance(given, dict):
-            return given
-        return with_law_read(given, _folder(info))
+    def keys_of_type(cls, kind: str) -> tuple[Key, ...]:
+        """Options of a law."""
+        return tuple(key for key in options_of(BENDING[kind]) if key.name not in cls.model_fields)
 
+    @classmethod
+    def sentence_of(cls, kind: str) -> str:
+        """What a law is."""
+        return sentence_on(BENDING[kind])
 
-LawSpec = Annotated[
-    Annotated[ConstantLaw, Tag("(type=constant)")]
-    | Annotated[TableLaw, Tag("(type=table)")]
-    | Annotated[KecmanLaw, Tag("(type=kecman)")]
-    | Annotated[WierzbickiLaw, Tag("(type=wierzbicki)")]
-    | Annotated[ObliqueLaw, Tag("(type=oblique)")]
-    | Annotated[CircularLaw, Tag("(type=circular)")]
-    | Annotated[FoldedProfileLaw, Tag("(type=folded_profile)")]
-    | Annotated[FileLaw, Tag("(type=file)")],
-    Discriminator(type_tag),
-]
-"""Any law; ``type`` says which."""
+    @classmethod
+    def file_keys(cls, kind: str) -> tuple[Key, ...]:
+        """Keys of a law that name files."""
+        law = BENDING[kind]
+        return law.file_keys if isinstance(law, FromFiles) else ()
 
-LAW_SPECS: dict[str, type[LawKeys]] = {
-    "constant": ConstantLaw,
-    "table": TableLaw,
-    "kecman": KecmanLaw,
-    "wierzbicki": WierzbickiLaw,
-    "oblique": ObliqueLaw,
-    "circular": CircularLaw,
-    "folded_profile": FoldedProfileLaw,
-    "file": FileLaw,
-}
-"""Laws by type; a reference to one of these names means the law with its defaults."""
+    @classmethod
+    def embedded(cls, kind: str, given: dict[str, Any], folder: Path | None) -> dict[str, Any]:
+        """Read the files that a law names, so that it carries curves and not paths."""
+        law = BENDING[kind]
+        return law.embedded(given, folder) if isinstance(law, FromFiles) else given
 
 
 def _reference_tag(given: Any) -> str:
-    return "(name)" if isinstance(given, str | Integral) else type_tag(given)
+    return "(name)" if isinstance(given, str | Integral) else "(law)"
 
 
 LawReference = Annotated[
-    Annotated[Name, Tag("(name)")]
-    | Annotated[ConstantLaw, Tag("(type=constant)")]
-    | Annotated[TableLaw, Tag("(type=table)")]
-    | Annotated[KecmanLaw, Tag("(type=kecman)")]
-    | Annotated[WierzbickiLaw, Tag("(type=wierzbicki)")]
-    | Annotated[ObliqueLaw, Tag("(type=oblique)")]
-    | Annotated[CircularLaw, Tag("(type=circular)")]
-    | Annotated[FoldedProfileLaw, Tag("(type=folded_profile)")]
-    | Annotated[FileLaw, Tag("(type=file)")],
-    Discriminator(_reference_tag),
+    Annotated[Name, Tag("(name)")] | Annotated[LawKeys, Tag("(law)")], Discriminator(_reference_tag)
 ]
 """A law, or the name of one in ``hinge_laws``, or the name of a law type."""

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from pydantic import model_validator
 
-from crumple.structure.keys.time_function import ForceFunction, MomentFunction
-from crumple.structure.schema.quantity import (
+from crumple.registry.quantity import (
     AngularImpulse,
     Impulse,
     NonNegativeMass,
     NonNegativeRotaryInertia,
     Position,
 )
-from crumple.structure.schema.spec import Name, Spec, refuse
+from crumple.registry.refusal import refuse
+from crumple.structure.keys.time_function import ForceFunction, MomentFunction
+from crumple.structure.schema.spec import Name, Spec
 
 Inertia = tuple[NonNegativeRotaryInertia, NonNegativeRotaryInertia, NonNegativeRotaryInertia]
 

@@ -10,17 +10,18 @@ from pydantic import ConfigDict, Field, model_validator
 
 from crumple import material
 from crumple.errors import InputError
-from crumple.structure.keys.metal_curves import HardeningSpec, RateSpec, hardening_keys, rate_keys
-from crumple.structure.remembered import remembered
-from crumple.structure.schema.problems import suggestion
-from crumple.structure.schema.quantity import (
+from crumple.registry.quantity import (
     Converted,
     PoissonsRatio,
     PositiveDensity,
     PositiveNumber,
     PositiveStress,
 )
-from crumple.structure.schema.spec import Spec, refuse
+from crumple.registry.refusal import refuse
+from crumple.structure.keys.metal_curves import HardeningSpec, RateSpec, hardening_keys, rate_keys
+from crumple.structure.remembered import remembered
+from crumple.structure.schema.problems import suggestion
+from crumple.structure.schema.spec import Spec
 
 
 def _grade_or_values(schema: dict[str, Any]) -> None:

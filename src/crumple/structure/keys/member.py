@@ -17,8 +17,7 @@ from pydantic import (
     model_validator,
 )
 
-from crumple.structure.hinges.hinge_axes import HingeAxes
-from crumple.structure.schema.quantity import (
+from crumple.registry.quantity import (
     LENGTH,
     Angle,
     Direction,
@@ -26,7 +25,9 @@ from crumple.structure.schema.quantity import (
     NonNegativeLength,
     PositiveLength,
 )
-from crumple.structure.schema.spec import Name, Spec, refuse
+from crumple.registry.refusal import refuse
+from crumple.structure.keys.hinge_axes import HingeAxes
+from crumple.structure.schema.spec import Name, Spec
 
 MOST_BARS = 10_000
 """Bars in one member; more is a slip of the pen and would fill the memory."""

@@ -2,153 +2,103 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
-from typing import Annotated, Any, Literal
+from collections.abc import Iterable
+from typing import Any, ClassVar
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import model_validator
 
 from crumple import material
 from crumple.errors import InputError
-from crumple.structure.schema.quantity import (
-    NUMBER,
-    NonNegativeNumber,
-    PositiveNumber,
-    PositiveRate,
-    PositiveStress,
-    RateExponent,
-)
-from crumple.structure.schema.spec import Spec, refuse, type_tag
+from crumple.material.registry import DEFAULT_RATE, HARDENING, RATE
+from crumple.registry.keys import Key, keys_of, sentence_on
+from crumple.registry.refusal import refuse
+from crumple.structure.schema.registered import Registered
 
-MOST_POINTS = 1000
-"""Points of one hardening table."""
-HardeningExponent = Annotated[float, replace(NUMBER, example="0.12", at_least=0.0, at_most=1.0)]
+YIELD = "yield_stress"
+"""Parameter of a hardening curve that the material gives."""
 
 
-class CowperSymondsSpec(Spec):
-    """Cowper-Symonds strain-rate law: stress times 1 + (strain rate / D)^(1/q)."""
+class RateSpec(Registered):
+    """Strain-rate law."""
 
-    type: Literal["cowper-symonds"] = "cowper-symonds"
-    """Kind of law; this one where it is left out."""
-    D: PositiveRate
-    """Strain rate at which the stress doubles."""
-    q: RateExponent
-    """Exponent."""
+    default_type: ClassVar[str | None] = DEFAULT_RATE
 
-    def law(self) -> material.CowperSymonds:
-        """Law of the physics room."""
-        return material.CowperSymonds(D=self.D, q=self.q)
-
-
-class JohnsonCookSpec(Spec):
-    """Johnson-Cook strain-rate law: stress times 1 + C ln(strain rate / reference), 1 below the reference."""
-
-    type: Literal["johnson-cook"] = "johnson-cook"
+    type: str = DEFAULT_RATE
     """Kind of law."""
-    C: NonNegativeNumber
-    """Rise of the stress per e-fold of strain rate."""
-    reference: PositiveRate = 1.0
-    """Strain rate of the static test."""
 
-    def law(self) -> material.JohnsonCook:
+    @classmethod
+    def types(cls) -> Iterable[str]:
+        """Strain-rate laws."""
+        return RATE
+
+    @classmethod
+    def keys_of_type(cls, kind: str) -> tuple[Key, ...]:
+        """Parameters of a law."""
+        return keys_of(RATE[kind])
+
+    @classmethod
+    def sentence_of(cls, kind: str) -> str:
+        """What a law is."""
+        return sentence_on(RATE[kind])
+
+    def law(self) -> material.RateLaw:
         """Law of the physics room."""
-        return material.JohnsonCook(C=self.C, reference=self.reference)
+        return RATE[self.type](**self.own)
 
 
-def _rate_tag(given: Any) -> str:
-    """The key ``type`` chooses; without it the power law."""
-    return "(type=cowper-symonds)" if isinstance(given, Mapping) and "type" not in given else type_tag(given)
+class HardeningSpec(Registered):
+    """Hardening curve."""
 
-
-RateSpec = Annotated[
-    Annotated[CowperSymondsSpec, Tag("(type=cowper-symonds)")]
-    | Annotated[JohnsonCookSpec, Tag("(type=johnson-cook)")],
-    Discriminator(_rate_tag),
-]
-"""Any strain-rate law; ``type`` says which, Cowper-Symonds without it."""
-
-
-class HardeningTableSpec(Spec):
-    """Straight lines of true stress against plastic strain; the last stress is held."""
-
-    type: Literal["table"] = "table"
+    type: str
     """Kind of curve."""
-    plastic_strain: Annotated[tuple[NonNegativeNumber, ...], Field(min_length=1, max_length=MOST_POINTS)]
-    """Plastic strains, from 0."""
-    true_stress: Annotated[tuple[PositiveStress, ...], Field(min_length=1, max_length=MOST_POINTS)]
-    """True stresses, the first one the yield stress."""
+
+    @classmethod
+    def types(cls) -> Iterable[str]:
+        """Hardening curves."""
+        return HARDENING
+
+    @classmethod
+    def keys_of_type(cls, kind: str) -> tuple[Key, ...]:
+        """Parameters of a curve."""
+        return tuple(key for key in keys_of(HARDENING[kind]) if key.name != YIELD)
+
+    @classmethod
+    def sentence_of(cls, kind: str) -> str:
+        """What a curve is."""
+        return sentence_on(HARDENING[kind])
 
     @model_validator(mode="after")
-    def _rises(self) -> HardeningTableSpec:
+    def _consistent(self) -> HardeningSpec:
         try:
-            material.HardeningTable(self.plastic_strain, self.true_stress)
+            # whatever the yield stress is, which the material knows
+            self.curve(1.0)
         except InputError as error:
-            refuse("this is no hardening table", problems=error.problems)
+            refuse("this is no hardening curve", problems=error.problems)
         return self
 
     def curve(self, yield_stress: float) -> material.HardeningCurve:
         """Curve of the physics room."""
-        return material.HardeningTable(self.plastic_strain, self.true_stress)
-
-
-class SwiftSpec(Spec):
-    """Power law: yield stress times (1 + plastic strain / prestrain)^exponent."""
-
-    type: Literal["swift"] = "swift"
-    """Kind of curve."""
-    prestrain: PositiveNumber
-    """Plastic strain that scales the law."""
-    exponent: HardeningExponent
-    """Exponent."""
-
-    def curve(self, yield_stress: float) -> material.HardeningCurve:
-        """Curve of the physics room."""
-        return material.Swift(yield_stress, self.prestrain, self.exponent)
-
-
-class VoceSpec(Spec):
-    """Saturating law: yield stress + saturation (1 - exp(-plastic strain / strain))."""
-
-    type: Literal["voce"] = "voce"
-    """Kind of curve."""
-    saturation: PositiveStress
-    """How much the stress rises in the end."""
-    strain: PositiveNumber
-    """Plastic strain in which 63 % of the rise happens."""
-
-    def curve(self, yield_stress: float) -> material.HardeningCurve:
-        """Curve of the physics room."""
-        return material.Voce(yield_stress, self.saturation, self.strain)
-
-
-HardeningSpec = Annotated[
-    Annotated[HardeningTableSpec, Tag("(type=table)")]
-    | Annotated[SwiftSpec, Tag("(type=swift)")]
-    | Annotated[VoceSpec, Tag("(type=voce)")],
-    Discriminator(type_tag),
-]
-"""Any hardening curve; ``type`` says which."""
+        make = HARDENING[self.type]
+        given = {YIELD: yield_stress} if YIELD in {key.name for key in keys_of(make)} else {}
+        return make(**given, **self.own)
 
 
 def rate_keys(law: material.RateLaw) -> dict[str, Any]:
     """Keys that describe a rate law of the physics room."""
-    if isinstance(law, material.JohnsonCook):
-        return {"type": "johnson-cook", "C": law.C, "reference": law.reference}
-    return {"D": law.D, "q": law.q}
+    kind = next(name for name, make in RATE.items() if type(law) is make)
+    return {"type": kind, **_values(law, RateSpec.keys_of_type(kind))}
 
 
 def hardening_keys(curve: material.HardeningCurve) -> dict[str, Any]:
     """Keys that describe a hardening curve of the physics room."""
-    if isinstance(curve, material.Swift):
-        return {"type": "swift", "prestrain": curve.prestrain, "exponent": curve.exponent}
-    if isinstance(curve, material.Voce):
-        return {"type": "voce", "saturation": curve.saturation, "strain": curve.strain}
     if isinstance(curve, material.PerfectlyPlastic):
-        return {"type": "table", "plastic_strain": [0.0], "true_stress": [curve.yield_stress]}
-    if isinstance(curve, material.HardeningTable):
-        return {
-            "type": "table",
-            "plastic_strain": list(curve.plastic_strain),
-            "true_stress": list(curve.true_stress),
-        }
-    refuse("this hardening curve cannot be described", allowed="a table, Swift or Voce", key="hardening")
+        curve = curve.as_table()
+    kind = next((name for name, make in HARDENING.items() if type(curve) is make), None)
+    if kind is None:
+        allowed = f"a curve of one of the types {', '.join(HARDENING)}"
+        refuse("this hardening curve cannot be described", allowed=allowed, key="hardening")
+    return {"type": kind, **_values(curve, HardeningSpec.keys_of_type(kind))}
+
+
+def _values(given: object, keys: tuple[Key, ...]) -> dict[str, Any]:
+    return {key.name: getattr(given, key.name) for key in keys}

@@ -7,10 +7,11 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator, model_validator
 
 from crumple.function import TimeFunction
+from crumple.registry.quantity import AngularVelocity, Direction, Position, Velocity
+from crumple.registry.refusal import refuse
 from crumple.structure.keys.time_function import AngleFunction, LengthFunction
 from crumple.structure.schema.problems import shown
-from crumple.structure.schema.quantity import AngularVelocity, Direction, Position, Velocity
-from crumple.structure.schema.spec import Name, Spec, refuse
+from crumple.structure.schema.spec import Name, Spec
 
 Freedom = Literal["x", "y", "z", "rx", "ry", "rz"]
 """Displacement along, or rotation about, a global axis."""

@@ -8,8 +8,7 @@ import numpy as np
 from pydantic import Discriminator, Tag, model_validator
 
 from crumple.numeric.arrays import Floats
-from crumple.structure.keys.time_function import AngleFunction, LengthFunction
-from crumple.structure.schema.quantity import (
+from crumple.registry.quantity import (
     Direction,
     FrictionCoefficient,
     Position,
@@ -18,7 +17,9 @@ from crumple.structure.schema.quantity import (
     Restitution,
     Velocity,
 )
-from crumple.structure.schema.spec import Name, Spec, refuse, type_tag
+from crumple.registry.refusal import refuse
+from crumple.structure.keys.time_function import AngleFunction, LengthFunction
+from crumple.structure.schema.spec import Name, Spec, type_tag
 
 SLANT = 1e-9
 """Cosine between two directions below which they are at right angles but for rounding."""

@@ -6,8 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from crumple.registry.quantity import NonNegativeLength, NonNegativeTime, Position, PositiveTime
 from crumple.structure.schema.mapping import FrozenMapping
-from crumple.structure.schema.quantity import NonNegativeLength, NonNegativeTime, Position, PositiveTime
 from crumple.structure.schema.spec import Name, Named, Spec
 
 MOST_PICTURES = 1000

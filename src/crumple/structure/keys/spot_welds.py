@@ -8,15 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from crumple.structure.geometry import Frame
-from crumple.structure.schema.quantity import (
+from crumple.registry.quantity import (
     Length,
     NonNegativeLength,
     Position,
     PositiveForce,
     PositiveLength,
 )
-from crumple.structure.schema.spec import Name, Spec, refuse
+from crumple.registry.refusal import refuse
+from crumple.structure.geometry import Frame
+from crumple.structure.schema.spec import Name, Spec
 
 MOST_SPOTS = 10_000
 """Spots of one entry; more is a slip of the pen."""

@@ -6,16 +6,17 @@ from typing import Literal
 
 from pydantic import model_validator
 
-from crumple.structure.keys.load import NodalImpulse
-from crumple.structure.keys.motion import InitialVelocity
-from crumple.structure.schema.quantity import (
+from crumple.registry.quantity import (
     Length,
     PositiveEnergy,
     PositiveForce,
     PositiveLength,
     PositiveTime,
 )
-from crumple.structure.schema.spec import Name, Spec, refuse
+from crumple.registry.refusal import refuse
+from crumple.structure.keys.load import NodalImpulse
+from crumple.structure.keys.motion import InitialVelocity
+from crumple.structure.schema.spec import Name, Spec
 
 Quantity = Literal["force", "energy", "displacement", "distance"]
 QUANTITIES: tuple[Quantity, ...] = ("force", "energy", "displacement", "distance")

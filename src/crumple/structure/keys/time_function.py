@@ -10,7 +10,7 @@ from pydantic_core import CoreSchema, core_schema
 
 from crumple.errors import InputError
 from crumple.function import TimeFunction, parse_time_function
-from crumple.structure.schema.spec import refuse
+from crumple.registry.refusal import refuse
 
 _RAMP = {"type": "object", "required": ["x0", "h0", "x1", "h1"], "additionalProperties": False}
 _STOP = {"type": "object", "required": ["x", "x1", "k", "e", "cmax", "d"]}

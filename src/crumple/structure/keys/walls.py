@@ -9,8 +9,8 @@ from pydantic import Field
 
 from crumple import section
 from crumple.errors import InputError, Problem
+from crumple.registry.quantity import Length, NonNegativeLength, PositiveLength
 from crumple.structure.keys.any_section import AnySection, MaterialReference, Metal
-from crumple.structure.schema.quantity import Length, NonNegativeLength, PositiveLength
 from crumple.structure.schema.spec import Spec
 
 MOST_WALLS = 100

@@ -136,6 +136,7 @@ def _problem(
     where, came = spelled(place), shown(value)
     key = shown(place[-1]) if place else ""
     if kind == "refused":
+        came = came if context.get("came") is None else context["came"]
         return Problem(context["what"], came, context["allowed"], context["todo"], where)
     if kind == "extra_forbidden":
         todo = suggestion(key, keys) or "remove it or correct its spelling"

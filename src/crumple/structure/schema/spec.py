@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from numbers import Integral
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn, Self, TypeVar, cast
+from typing import TYPE_CHECKING, Annotated, Any, Self, TypeVar, cast
 
 from pydantic import (
     AfterValidator,
@@ -18,9 +18,9 @@ from pydantic import (
     ConfigDict,
     ValidationError,
 )
-from pydantic_core import PydanticCustomError
 
 from crumple.errors import InputError, Problem
+from crumple.registry.refusal import refuse
 from crumple.structure.schema.mapping import frozen
 from crumple.structure.schema.problems import problems_of
 
@@ -53,25 +53,12 @@ class Spec(BaseModel, metaclass=_Refusing):
         """Copy with some keys changed; unlike pydantic's it is checked like any other part."""
         if update is None:
             return super().model_copy(deep=deep)
-        return type(self)(**{**{name: getattr(self, name) for name in type(self).model_fields}, **update})
+        return type(self)(**{**{name: getattr(self, name) for name in self.key_names}, **update})
 
-
-def refuse(what: str, *, allowed: str = "", todo: str = "", key: str = "", problems: Any = None) -> NoReturn:
-    """Refuse a value from inside a validator.
-
-    Parameters
-    ----------
-    what
-        The mistake in one sentence.
-    allowed, todo
-        As in `crumple.errors.Problem`.
-    key
-        Name of the part's key that is to blame, where the validator sees the whole part.
-    problems
-        Ready problems that replace this one, such as the bad rows of a curve file.
-    """
-    context = {"what": what, "allowed": allowed, "todo": todo, "key": key, "problems": problems or []}
-    raise PydanticCustomError("refused", "{what}", context)
+    @property
+    def key_names(self) -> list[str]:
+        """Its keys, those of its own type last."""
+        return [*type(self).model_fields, *(self.__pydantic_extra__ or ())]
 
 
 def type_tag(given: Any) -> str:

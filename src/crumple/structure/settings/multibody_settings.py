@@ -6,8 +6,9 @@ from typing import Literal
 
 from pydantic import model_validator
 
-from crumple.structure.schema.quantity import Accuracy, Fraction, PositiveTime
-from crumple.structure.schema.spec import Spec, refuse
+from crumple.registry.quantity import Accuracy, Fraction, PositiveTime
+from crumple.registry.refusal import refuse
+from crumple.structure.schema.spec import Spec
 
 
 class MultibodySettings(Spec):

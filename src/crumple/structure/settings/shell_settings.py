@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from crumple.structure.schema.quantity import (
+from crumple.registry.quantity import (
     NUMBER,
     Dimension,
     Fraction,
@@ -16,7 +16,8 @@ from crumple.structure.schema.quantity import (
     PositiveLength,
     PositiveTime,
 )
-from crumple.structure.schema.spec import Name, Spec, refuse
+from crumple.registry.refusal import refuse
+from crumple.structure.schema.spec import Name, Spec
 
 
 def _on_or_off(given: Any) -> Any:

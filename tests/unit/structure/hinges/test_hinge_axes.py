@@ -126,7 +126,7 @@ def test_axial_false_is_no_slip():
         ({"axis": "y", "axes": ["y", "z"]}, "exclude each other"),
         ({"twist": {"torque": "1 kN*m"}}, "needs x among the axes"),
         ({"axes": ["y"], "twist": {}}, "needs x among the axes"),
-        ({"axes": ["x", "y"], "twist": {"decay": "5 deg"}}, "belongs to the law square_tube"),
+        ({"axes": ["x", "y"], "twist": {"decay": "5 deg"}}, "write law: square_tube"),
         ({"axial": {"peak": "1 kN"}}, "needs 'mean'"),
         ({"axial": {"law": "square", "mean": "1 kN"}}, "exclude each other"),
         ({"axes": ["y", "z"], "laws": {"z": "nothing"}}, "nothing"),

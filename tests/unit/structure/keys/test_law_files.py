@@ -6,7 +6,7 @@ from crumple.errors import InputError
 from crumple.hinge import build_law, stored_law, write_law
 from crumple.material import Material
 from crumple.section import RectangularTube
-from crumple.structure.keys.law import FileLaw
+from crumple.structure import LawKeys
 
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 488e6)
 TUBE = RectangularTube(0.05, 0.025, 0.00265)
@@ -16,8 +16,8 @@ TEXT = write_law(stored_law(build_law("kecman", TUBE, STEEL), {"method": "formul
 def test_content_is_embedded(tmp_path, monkeypatch):
     (tmp_path / "root.yaml").write_text(TEXT, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
-    law = FileLaw(file="root.yaml", bound="upper")
-    assert law.file is None
+    law = LawKeys(type="file", file="root.yaml", bound="upper")
+    assert "file" not in law.own
     assert law.text == TEXT
     assert law.bound == "upper"
     (tmp_path / "root.yaml").unlink()
@@ -37,4 +37,4 @@ def test_content_is_embedded(tmp_path, monkeypatch):
 )
 def test_mistakes(given, what):
     with pytest.raises(InputError, match=what):
-        FileLaw(**given)
+        LawKeys(type="file", **given)

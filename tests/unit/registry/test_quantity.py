@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
-from crumple.structure.schema import quantity
+from crumple.registry import quantity
 
 FILE = {"file": True}
 

@@ -6,12 +6,13 @@ import csv
 from collections.abc import Mapping
 from numbers import Integral, Real
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 from crumple.errors import InputError, Problem
-from crumple.hinge import read_law, read_table
-from crumple.structure.schema.quantity import Converted
-from crumple.structure.schema.spec import refuse
+from crumple.hinge.measured.law_file import read_law
+from crumple.hinge.measured.table import read_table
+from crumple.registry.quantity import Converted, Longest
+from crumple.registry.refusal import refuse
 from crumple.units import QuantityError, unit_factor
 
 LARGEST_FILE = 2_000_000
@@ -20,6 +21,7 @@ MOST_POINTS = 20_000
 """Points of one curve."""
 SHOWN_PROBLEMS = 10
 """Bad rows of one file that are reported; the first ones tell what is wrong."""
+FileName = Annotated[str, Longest(400)]
 SI_UNIT = {"rotation": "rad", "moment": "N*m"}
 
 

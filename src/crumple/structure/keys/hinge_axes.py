@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
+from crumple.hinge.registry import AXIAL, DEFAULT_TORSION, TORSION, options_of
+from crumple.registry.keys import Key, sentence_on
+from crumple.registry.quantity import PositiveAngle, PositiveForce, PositiveLength
+from crumple.registry.refusal import refuse
 from crumple.structure.keys.law import LawReference
-from crumple.structure.schema.quantity import PositiveAngle, PositiveForce, PositiveLength, PositiveMoment
-from crumple.structure.schema.spec import Spec, refuse
+from crumple.structure.schema.registered import Registered
+from crumple.structure.schema.spec import Spec
 
 BendingAxis = Literal["y", "z"]
 """Section axis that the moment vector of a hinge lies along."""
@@ -17,29 +22,42 @@ HingeAxis = Literal["x", "y", "z"]
 CouplingName = Literal["section", "ellipsoid", "none", "ball", "tension-flange"]
 
 
-class Twist(Spec):
+if TYPE_CHECKING:
+    AxialName = str
+else:
+    # pydantic checks and lists the names
+    AxialName = Literal[*AXIAL]
+
+
+class Twist(Registered):
     """What a hinge carries in twist."""
 
-    law: Literal["plastic", "square_tube"] = "plastic"
-    """A constant torque, or the collapse of a square tube."""
-    torque: PositiveMoment | None = None
-    """Constant torque; without it the plastic torque of the section."""
-    decay: PositiveAngle | None = None
-    """Twist in which the torque of a square tube loses 63 % of its way to the steady one; without it that is
-    held from the start."""
+    tag: ClassVar[str] = "law"
+    default_type: ClassVar[str | None] = DEFAULT_TORSION
 
-    @model_validator(mode="after")
-    def _own_keys(self) -> Twist:
-        for key, kind in (("torque", "plastic"), ("decay", "square_tube")):
-            if getattr(self, key) is not None and self.law != kind:
-                refuse(f"'{key}' belongs to the law {kind}", key=key, todo=f"remove it, or write law: {kind}")
-        return self
+    law: str = DEFAULT_TORSION
+    """Law of the torque against the twist."""
+
+    @classmethod
+    def types(cls) -> Iterable[str]:
+        """Laws of torsion."""
+        return TORSION
+
+    @classmethod
+    def keys_of_type(cls, kind: str) -> tuple[Key, ...]:
+        """Options of a law."""
+        return options_of(TORSION[kind])
+
+    @classmethod
+    def sentence_of(cls, kind: str) -> str:
+        """What a law is."""
+        return sentence_on(TORSION[kind])
 
 
 class AxialSlip(Spec):
     """What a hinge carries along its member: yield in tension, folding in compression."""
 
-    law: Literal["square", "superfolding", "circular", "top_hat"] | None = None
+    law: AxialName | None = None
     """Law of axial crushing over the stretch of member that the hinge stands for; without it, and without
     'mean', the walls yield in both senses and do not fold."""
     peak: PositiveForce | None = None

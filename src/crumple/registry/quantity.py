@@ -9,13 +9,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from numbers import Real
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import GetJsonSchemaHandler, ValidationInfo
-from pydantic_core import CoreSchema, core_schema
-
-from crumple.structure.schema.spec import refuse
+from crumple.registry.refusal import refuse
 from crumple.units import QuantityError, parse_quantity
+
+if TYPE_CHECKING:
+    from pydantic import GetJsonSchemaHandler, ValidationInfo
+    from pydantic_core import CoreSchema
 
 LARGEST = 1e18
 """Largest magnitude in SI; beyond it products overflow and no structure is that stiff, big or heavy."""
@@ -125,6 +126,8 @@ class Dimension:
         )
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
+        from pydantic_core import core_schema  # noqa: PLC0415  (sections and laws alone need none)
+
         return core_schema.with_info_plain_validator_function(self.value_of)
 
     def __get_pydantic_json_schema__(
@@ -149,6 +152,31 @@ class Dimension:
             "examples": [self.example],
             "x-unit": self.unit,
         }
+
+
+@dataclass(frozen=True)
+class Whole:
+    """Whole number between two bounds."""
+
+    at_least: int
+    at_most: int
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
+        from pydantic_core import core_schema  # noqa: PLC0415  (sections and laws alone need none)
+
+        return core_schema.int_schema(ge=self.at_least, le=self.at_most, strict=True)
+
+
+@dataclass(frozen=True)
+class Longest:
+    """Largest, and least, number of characters of a text or of entries of a list."""
+
+    number: int
+    least: int = 0
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
+        schema: CoreSchema = handler(source)
+        return {**schema, "max_length": self.number, "min_length": self.least}
 
 
 def _positive(dimension: Dimension) -> Dimension:
@@ -180,6 +208,7 @@ ROTATIONAL_DAMPING = Dimension("a rotational damping", "N*m*s/rad", "2 kN*m*s/ra
 ENERGY = Dimension("an energy", "J", "5 kJ")
 RATE = Dimension("a strain rate", "1/s", "40.4 1/s")
 NUMBER = Dimension("a number", "1", "0.5")
+COUNT = Whole(1, 20)
 
 Length = Annotated[float, LENGTH]
 PositiveLength = Annotated[float, _positive(LENGTH)]
@@ -223,10 +252,14 @@ FrictionCoefficient = Annotated[float, replace(NUMBER, example="0.2", at_least=0
 Restitution = Annotated[float, replace(NUMBER, example="0.1", at_least=0.0, at_most=1.0)]
 RateExponent = Annotated[float, replace(NUMBER, example="5", at_least=1.0)]
 StopExponent = RateExponent
+HardeningExponent = Annotated[float, replace(NUMBER, example="0.12", at_least=0.0, at_most=1.0)]
 RollingWeight = Annotated[float, replace(NUMBER, example="0.5", at_least=0.0, at_most=1.0)]
 PoissonsRatio = Annotated[float, replace(NUMBER, example="0.3", at_least=0.0, below=0.5)]
 Accuracy = Annotated[float, replace(NUMBER, example="1e-3", at_least=1e-12, at_most=0.1)]
 Fraction = Annotated[float, replace(NUMBER, example="0.01", above=0.0, at_most=1.0)]
+
+Count = Annotated[int, COUNT]
+"""Of a few things in a row, such as the cells of a section."""
 
 Position = tuple[Length, Length, Length]
 Direction = tuple[Number, Number, Number]

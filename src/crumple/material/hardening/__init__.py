@@ -1,0 +1,1 @@
+"""Hardening curves, one per file, with one line each in `crumple.material.registry`."""
