@@ -51,7 +51,7 @@ void planar() {
     run.set_rates(&rate);
     const Record record = run.run({0.1, 0.2}, {});
     expect("planar.rest", record.q.back(), rest_angle);
-    expect("planar.dissipated", record.energy[record.energy.size() - 4], 0.5 * mass * length * length * rate * rate);
+    expect("planar.dissipated", record.energy.dissipated.back(), 0.5 * mass * length * length * rate * rate);
     print("planar.residual", record.residual);
 }
 
@@ -85,7 +85,7 @@ void spatial() {
     run.set_motion(&motion, &none);
     const Record record = run.run({0.1, 0.2}, {});
     const double inertia = mass * length * length + 1e-3;
-    expect("spatial.rest", record.hinge_rotation.back(), 0.5 * inertia * rate * rate / moment);
+    expect("spatial.rest", record.hinge.rotation.back(), 0.5 * inertia * rate * rate / moment);
     print("spatial.residual", record.residual);
 }
 
