@@ -10,13 +10,12 @@ import numpy as np
 
 from crumple.errors import Problem
 from crumple.result import Channel, Result, cfc
+from crumple.result.channels import names_of
 from crumple.result.filters import CUT_OFF, SAMPLES_PER_CUT_OFF
 from crumple.structure import Filter, Outputs, hinge_places
 from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import one_of, suggestion
 
-HINGE_QUANTITIES = ("rotation", "rotation_rate", "plastic_rotation", "moment", "capacity", "energy")
-NODE_QUANTITIES = ("displacement", "velocity", "acceleration", "rotation")
 LEAST_SAMPLES = 4
 """Samples that a filter needs."""
 
@@ -74,11 +73,11 @@ def with_filters(result: Result, outputs: Outputs, interval: float) -> Result:
 def _channels(structure: StructureParts, outputs: Outputs) -> Iterator[str]:
     """Names of the channels that a run will have and that can be filtered."""
     for place in hinge_places(structure):
-        yield from (f"hinge.{place.name}.{quantity}" for quantity in HINGE_QUANTITIES)
+        yield from names_of("hinge", place.name)
     for node in outputs.nodes:
-        yield from (f"node.{node}.{quantity}.{axis}" for quantity in NODE_QUANTITIES for axis in "xyz")
+        yield from names_of("node", node)
     for obstacle in structure.obstacles:
-        yield from (f"obstacle.{obstacle}.force.{axis}" for axis in "xyz")
+        yield from names_of("obstacle", obstacle)
     yield from outputs.section_rotations
     yield from outputs.distances
     yield from outputs.clearances

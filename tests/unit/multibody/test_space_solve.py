@@ -143,9 +143,7 @@ def test_energies_of_members_are_those_of_their_hinges():
 
 def history(hinge, *plastic):
     values = np.array(plastic, float)
-    return HingeHistory(
-        hinge, {"plastic_rotation": ("rad", values)}, float(np.abs(values).max()), 1.0, None, 2.0
-    )
+    return HingeHistory(hinge, {"plastic_rotation": values}, float(np.abs(values).max()), 1.0, None, 2.0)
 
 
 def hinges():

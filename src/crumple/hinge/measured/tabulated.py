@@ -243,9 +243,9 @@ def _curve_problems(rotation: Curve, moment: Curve, prefix: str) -> list[Problem
         todo = "begin at plastic rotation 0 and leave out repeated points"
         problems.append(Problem(what, f"{came}, ... rad", "0 < 1st < 2nd < ...", todo, where_rotation))
     if not np.all(np.isfinite(moment)) or min(moment) <= 0.0:
-        what, todo = (
-            "capacities must be positive",
-            "remove the elastic rise: the hinge turns plastically only",
-        )
+        what = "capacities must be positive"
+        todo = "remove the elastic rise: the hinge turns plastically only"
+        if moment[0] > 0.0:
+            todo = "keep a small residual capacity, or let the hinge break: fracture"
         problems.append(Problem(what, f"{min(moment):g} N m", "> 0 N m", todo, where_moment))
     return problems

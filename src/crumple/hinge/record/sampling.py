@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from crumple.errors import CrumpleError
+from crumple.errors import CrumpleError, InputError, Problem
 from crumple.hinge.law import HingeLaw
 from crumple.hinge.record.record import Envelope
 from crumple.numeric.arrays import Floats
@@ -48,12 +48,15 @@ def sampled_envelope(
 
     Raises
     ------
+    InputError
+        If the capacity is not positive somewhere: the error is relative, and such a hinge is a joint.
     CrumpleError
         If the law's capacity is not smooth between its kinks.
     """
     ends = np.array([0.0, *sorted({k for k in law.kinks(sense) if 0.0 < k < rotation_max}), rotation_max])
     dense = ends[:-1, None] + (ends[1:] - ends[:-1])[:, None] * DENSE
     exact = law.moment_capacity(dense.ravel(), sense).reshape(dense.shape)
+    _refuse_without_capacity(law, dense, exact)
     grown = _spread(exact, error)
     counts = np.maximum(1, np.floor(SPARE * grown[:, -1])).astype(np.int64)
     share = grown / grown[:, -1:]
@@ -64,7 +67,9 @@ def sampled_envelope(
         points: Floats = np.interp(np.arange(first[-1] + 1), number.ravel(), dense.ravel())
         points[first] = ends
         middles = (points[1:] + points[:-1]) / 2.0
-        both = law.moment_capacity(np.concatenate([points, middles]), sense)
+        places = np.concatenate([points, middles])
+        both = law.moment_capacity(places, sense)
+        _refuse_without_capacity(law, places, both)
         moment, between = both[: points.size], both[points.size :]
         off_chord = np.abs((moment[1:] + moment[:-1]) / 2.0 / between - 1.0)
         off_dense = np.abs(np.interp(dense, points, moment) / exact - 1.0)
@@ -78,6 +83,19 @@ def sampled_envelope(
     raise CrumpleError(
         f"the capacity is not smooth between {low:.6g} and {high:.6g} rad: its law hides a kink"
     )
+
+
+def _refuse_without_capacity(law: HingeLaw, rotation: Floats, capacity: Floats) -> None:
+    wrong = ~(np.isfinite(capacity) & (capacity > 0.0))
+    if wrong.any():
+        first = np.argmin(np.where(wrong, rotation, np.inf))
+        came = f"{capacity.ravel()[first]:g} N m at {math.degrees(rotation.ravel()[first]):.4g} deg"
+        what, allowed = (
+            f"the law '{law.title}' has no capacity",
+            "more than 0 N m at every rotation up to 180 deg",
+        )
+        todo = "keep a small residual capacity, or let the hinge break: fracture"
+        raise InputError(Problem(what, came, allowed, todo))
 
 
 def _spread(exact: Floats, error: float) -> Floats:

@@ -57,7 +57,7 @@ def end_quantities(case: Ended, ends: Ends, outputs: Outputs) -> dict[str, Float
     for k, (hinge, columns) in enumerate(hinge_columns(case.hinges, ends)):
         found |= {
             f"hinge.{hinge.name}.{name}": values
-            for name, (_, values) in columns.items()
+            for name, values in columns.items()
             if not name.startswith("rotation_rate")
         }
         found[f"hinge.{hinge.name}.rotation_max"] = ends.summary.rotation_max[:, k]

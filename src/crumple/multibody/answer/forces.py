@@ -26,10 +26,9 @@ from crumple.multibody.bodies.rigid import piece_mass
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import product, turned, vector_quaternion
 from crumple.result import Channel
+from crumple.result.channels import AXES, channels_along
 from crumple.section import fitted_interaction, plastic_interaction
 from crumple.structure import Outputs, SectionForce, Structure
-
-AXES = ("x", "y", "z")
 
 
 @dataclass(frozen=True, eq=False)
@@ -225,6 +224,5 @@ def _on_clamp(structure: Structure, poses: SpatialHistory, node: str, local_time
 
 
 def _channels(name: str, wrench: Wrench) -> Iterator[Channel]:
-    for quantity, unit, values in (("force", "N", wrench.force), ("moment", "N*m", wrench.moment)):
-        for i, axis in enumerate(AXES):
-            yield Channel(f"{name}.{quantity}.{axis}", unit, np.ascontiguousarray(values[:, i]))
+    yield from channels_along(f"{name}.force", wrench.force)
+    yield from channels_along(f"{name}.moment", wrench.moment)

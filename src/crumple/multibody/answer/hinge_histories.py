@@ -15,15 +15,9 @@ from crumple.numeric.arrays import Floats
 from crumple.structure import PlacedHinge
 
 AXES = ("x", "y", "z")
-TURNING = {
-    "rotation": "rad",
-    "rotation_rate": "rad/s",
-    "plastic_rotation": "rad",
-    "moment": "N*m",
-    "capacity": "N*m",
-}
-"""Names and units of a component that is a rotation, in the order of `ComponentRecord`."""
-AXIAL = {"travel": "m", "rate": "m/s", "plastic_travel": "m", "force": "N", "capacity": "N"}
+TURNING = ("rotation", "rotation_rate", "plastic_rotation", "moment", "capacity")
+"""Names of a component that is a rotation, in the order of `ComponentRecord`."""
+AXIAL = ("travel", "rate", "plastic_travel", "force", "capacity")
 """The same of a component along an axis."""
 
 
@@ -74,30 +68,28 @@ class RecordedHinge:
 
 def hinge_columns(
     hinges: Sequence[RecordedHinge], rows: Rows
-) -> Iterator[tuple[PlacedHinge, dict[str, tuple[str, Floats]]]]:
-    """Every hinge, and unit and values, (n,), of its quantities; see `HingeHistory`."""
+) -> Iterator[tuple[PlacedHinge, dict[str, Floats]]]:
+    """Every hinge and its quantities, (n,) each, by name; see `HingeHistory`."""
     for k, recorded in enumerate(hinges):
         columns = _named(recorded.columns(rows.hinge), recorded.free)
-        columns["energy"] = ("J", np.ascontiguousarray(rows.hinge_energy.dissipated[:, k]))
+        columns["energy"] = np.ascontiguousarray(rows.hinge_energy.dissipated[:, k])
         yield recorded.hinge, columns
 
 
-def _named(parts: list[Floats], free: tuple[int, ...]) -> dict[str, tuple[str, Floats]]:
+def _named(parts: list[Floats], free: tuple[int, ...]) -> dict[str, Floats]:
     """Columns of one hinge: plain for one rotation; else the lengths of its rotations, and components."""
-    of_turning = list(zip(TURNING.items(), parts, strict=True))
+    of_turning = list(zip(TURNING, parts, strict=True))
     if len(free) == 1 and free[0] >= 3:
-        return {name: (unit, np.ascontiguousarray(values[:, 0])) for (name, unit), values in of_turning}
+        return {name: np.ascontiguousarray(values[:, 0]) for name, values in of_turning}
     turning = [k for k, freedom in enumerate(free) if freedom >= 3]
-    columns = {
-        name: (unit, np.linalg.norm(values[:, turning], axis=1)) for (name, unit), values in of_turning
-    }
-    for ((name, unit), values), (axial, axial_unit) in zip(of_turning, AXIAL.items(), strict=True):
+    columns = {name: np.linalg.norm(values[:, turning], axis=1) for name, values in of_turning}
+    for (name, values), axial in zip(of_turning, AXIAL, strict=True):
         for k, freedom in enumerate(free):
             one, axis = np.ascontiguousarray(values[:, k]), AXES[freedom % 3]
             if freedom >= 3:
-                columns[f"{name}.{axis}"] = (unit, one)
+                columns[f"{name}.{axis}"] = one
             else:
-                columns[f"slip.{axis}.{axial}"] = (axial_unit, one)
+                columns[f"slip.{axis}.{axial}"] = one
     return columns
 
 

@@ -11,11 +11,10 @@ from crumple.multibody.answer.solved import HingeHistory, Solved
 from crumple.multibody.bodies.rigid import lump_mass, piece_mass
 from crumple.numeric.arrays import Floats
 from crumple.result import Channel, HingeSummary
+from crumple.result.channels import channel, channels_along
 from crumple.result.clearance import clearance
 from crumple.structure import Outputs, Structure
 from crumple.structure.bending import bending_axis
-
-AXES = ("x", "y", "z")
 
 
 def hinge_channels(hinges: Iterable[HingeHistory]) -> Iterator[Channel]:
@@ -24,15 +23,15 @@ def hinge_channels(hinges: Iterable[HingeHistory]) -> Iterator[Channel]:
     for history in hinges:
         member = history.hinge.member
         by_member[member] = by_member.get(member, 0.0) + history.values("energy")
-        for name, (unit, values) in history.columns.items():
-            yield Channel(f"hinge.{history.hinge.name}.{name}", unit, values)
-    yield from (Channel(f"member.{name}.energy", "J", values) for name, values in by_member.items())
+        for name, values in history.columns.items():
+            yield channel(f"hinge.{history.hinge.name}.{name}", values)
+    yield from (channel(f"member.{name}.energy", values) for name, values in by_member.items())
 
 
 def energy_channels(solved: Solved) -> Iterator[Channel]:
     """Ledger: kinetic + elastic + dissipated (+ contact + friction) - external work - start = residual."""
     columns = {**solved.energy, "residual": solved.balance}
-    yield from (Channel(f"energy.{name}", "J", values) for name, values in columns.items())
+    yield from (channel(f"energy.{name}", values) for name, values in columns.items())
 
 
 def node_channels(
@@ -51,14 +50,13 @@ def node_motion(
     start = np.asarray(structure.nodes[name], float)
     place, velocity = poses.place(body, start)
     rotation, rate = poses.rotation(body)
-    fields = [("displacement", "m", place - start), ("velocity", "m/s", velocity)]
+    fields = {"displacement": place - start, "velocity": velocity}
     if time is not None:
         acceleration = np.gradient(velocity, time, axis=0) if time.size > 1 else 0.0 * velocity
-        fields.append(("acceleration", "m/s^2", acceleration))
-    fields += [("rotation", "rad", rotation), ("rotation_rate", "rad/s", rate)]
-    for field, unit, values in fields:
-        for i, axis in enumerate(AXES):
-            yield Channel(f"node.{name}.{field}.{axis}", unit, np.ascontiguousarray(values[:, i]))
+        fields["acceleration"] = acceleration
+    fields |= {"rotation": rotation, "rotation_rate": rate}
+    for field, values in fields.items():
+        yield from channels_along(f"node.{name}.{field}", values)
 
 
 def section_channels(structure: Structure, poses: Poses, outputs: Outputs) -> Iterator[Channel]:
@@ -116,7 +114,7 @@ def gravity_channels(structure: Structure, poses: Poses) -> Iterator[Channel]:
     work = sum(
         part.mass * ((poses.place(body, part.centre)[0] - part.centre) @ gravity) for part, body in parts
     )
-    yield Channel("energy.gravity", "J", np.asarray(work, float))
+    yield channel("energy.gravity", np.asarray(work, float))
 
 
 def summaries(hinges: Iterable[HingeHistory], errors: Floats | None = None) -> dict[str, HingeSummary]:

@@ -26,7 +26,7 @@ class HingeHistory:
     hinge
         Where it is and what it can carry.
     columns
-        Unit and values, (n,), of ``rotation``, ``rotation_rate``, ``plastic_rotation``, ``moment``,
+        Values, (n,), of ``rotation``, ``rotation_rate``, ``plastic_rotation``, ``moment``,
         ``capacity`` and ``energy``; of a hinge of several components these are lengths of the vectors of its
         rotations, and the components come beside: ``rotation.y`` and so on, and of one along the axis x
         ``slip.x.travel``, ``.rate``, ``.plastic_travel``, ``.force`` and ``.capacity``.
@@ -41,7 +41,7 @@ class HingeHistory:
     """
 
     hinge: PlacedHinge
-    columns: Mapping[str, tuple[str, Floats]]
+    columns: Mapping[str, Floats]
     rotation_max: float
     moment_max: float
     time_of_rest: float | None
@@ -50,7 +50,7 @@ class HingeHistory:
 
     def values(self, name: str) -> Floats:
         """One of its columns, (n,)."""
-        return self.columns[name][1]
+        return self.columns[name]
 
 
 @dataclass(frozen=True, eq=False)

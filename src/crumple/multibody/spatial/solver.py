@@ -32,6 +32,7 @@ from crumple.multibody.spatial.stages import (
 )
 from crumple.numeric.arrays import Floats
 from crumple.result import Channel, StageSummary
+from crumple.result.channels import channels_along
 from crumple.structure import PlacedHinge, Stage, Structure
 
 HISTORIES = (
@@ -178,18 +179,15 @@ class SpatialSolver:
     def _obstacle_channels(self, record: SpatialRecord) -> Iterator[Channel]:
         first = len(self.linkage.connections)
         for k, name in enumerate(self._structure.obstacles):
-            columns = [("force", "N", record.obstacle_force[:, k])]
+            columns = {"force": record.obstacle_force[:, k]}
             joint = self._touching.joint.get(name)
             if joint is not None:
                 body = len(self.linkage.bodies) + joint - first
                 start = self._touching.model.bodies[body].centre
-                columns.append(("displacement", "m", record.centre[:, body] - start))
-                columns.append(("velocity", "m/s", record.velocity[:, body, 3:]))
-            for quantity, unit, values in columns:
-                for i, axis in enumerate("xyz"):
-                    yield Channel(
-                        f"obstacle.{name}.{quantity}.{axis}", unit, np.ascontiguousarray(values[:, i])
-                    )
+                columns["displacement"] = record.centre[:, body] - start
+                columns["velocity"] = record.velocity[:, body, 3:]
+            for quantity, values in columns.items():
+                yield from channels_along(f"obstacle.{name}.{quantity}", values)
 
 
 def _stage_times(grid: Floats, begin: float, end: float) -> Floats:

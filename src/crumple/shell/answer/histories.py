@@ -9,12 +9,12 @@ import numpy as np
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import continuous, relative_rotation, rotation_vector
 from crumple.result import Channel, HingeSummary
+from crumple.result.channels import channel, channels_along
 from crumple.shell.answer.record import ENERGIES, IMPULSE, Record, Sampler
 from crumple.shell.answer.weld_histories import weld_channels
 from crumple.shell.model.places import HingeZone
 from crumple.structure import Outputs, Structure
 
-AXES = ("x", "y", "z")
 AT_REST = 2e-3
 """Share of a hinge's plastic work that may follow after its time of rest: vibration adds as much."""
 CHANNEL_NAMES = {"plastic": "dissipated"}
@@ -42,23 +42,21 @@ def energy_channels(record: Record) -> Iterator[Channel]:
     for i, name in enumerate(ENERGIES):
         if name in ("damping", "eroded") and not energy[:, i].any():
             continue
-        yield Channel(f"energy.{CHANNEL_NAMES.get(name, name)}", "J", energy[:, i].copy())
+        yield channel(f"energy.{CHANNEL_NAMES.get(name, name)}", energy[:, i].copy())
 
 
 def hinge_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
     """Rotation between the sections on both sides, moment in the cut, plastic work between."""
     for k, zone in enumerate(sampler.case.zones):
         rotation, moment, energy = hinge_history(sampler, record, k, zone)
-        columns = (
-            ("rotation", "rad", rotation),
-            ("rotation_rate", "rad/s", _slope(rotation, record["time"])),
-            ("plastic_rotation", "rad", rotation - moment / zone.stiffness),
-            ("moment", "N*m", moment),
-            ("energy", "J", energy),
-        )
-        yield from (
-            Channel(f"hinge.{zone.place.name}.{name}", unit, values) for name, unit, values in columns
-        )
+        columns = {
+            "rotation": rotation,
+            "rotation_rate": _slope(rotation, record["time"]),
+            "plastic_rotation": rotation - moment / zone.stiffness,
+            "moment": moment,
+            "energy": energy,
+        }
+        yield from (channel(f"hinge.{zone.place.name}.{name}", values) for name, values in columns.items())
 
 
 def hinge_history(
@@ -90,9 +88,8 @@ def cut_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
         if cut is not None and cut.about is not None:
             about = cut.about if cut.stays else cut.about + centre - centre[0]
             moment = moment + np.cross(centre - about, force)
-        for quantity, unit, values in (("force", "N", force), ("moment", "N*m", moment)):
-            for i, axis in enumerate(AXES):
-                yield Channel(f"{name}.{quantity}.{axis}", unit, values[:, i].copy())
+        yield from channels_along(f"{name}.force", force)
+        yield from channels_along(f"{name}.moment", moment)
 
 
 def obstacle_channels(structure: Structure, record: Record) -> Iterator[Channel]:
@@ -105,14 +102,9 @@ def obstacle_channels(structure: Structure, record: Record) -> Iterator[Channel]
         rows = record["obstacle"][:, k]
         steps = np.maximum(np.diff(time), np.finfo(float).tiny)[:, None]
         force = np.concatenate([rows[:1, 8:11], np.diff(rows[:, IMPULSE], axis=0) / steps])
-        fields = (
-            ("force", "N", force),
-            ("displacement", "m", rows[:, :3]),
-            ("velocity", "m/s", rows[:, 3:6]),
-        )
-        for quantity, unit, values in fields:
-            for i, axis in enumerate(AXES):
-                yield Channel(f"obstacle.{name}.{quantity}.{axis}", unit, np.ascontiguousarray(values[:, i]))
+        fields = {"force": force, "displacement": rows[:, :3], "velocity": rows[:, 3:6]}
+        for quantity, values in fields.items():
+            yield from channels_along(f"obstacle.{name}.{quantity}", values)
 
 
 def node_channels(sampler: Sampler, record: Record, outputs: Outputs) -> Iterator[Channel]:
@@ -120,16 +112,15 @@ def node_channels(sampler: Sampler, record: Record, outputs: Outputs) -> Iterato
     for name in outputs.nodes:
         motion = record["node"][:, sampler.nodes.index(name)]
         velocity = motion[:, 1]
-        fields = (
-            ("displacement", "m", motion[:, 0]),
-            ("velocity", "m/s", velocity),
-            ("acceleration", "m/s^2", _slope(velocity, record["time"])),
-            ("rotation", "rad", continuous(rotation_vector(motion[:, 3:]))),
-            ("rotation_rate", "rad/s", motion[:, 2]),
-        )
-        for quantity, unit, values in fields:
-            for i, axis in enumerate(AXES):
-                yield Channel(f"node.{name}.{quantity}.{axis}", unit, np.ascontiguousarray(values[:, i]))
+        fields = {
+            "displacement": motion[:, 0],
+            "velocity": velocity,
+            "acceleration": _slope(velocity, record["time"]),
+            "rotation": continuous(rotation_vector(motion[:, 3:])),
+            "rotation_rate": motion[:, 2],
+        }
+        for quantity, values in fields.items():
+            yield from channels_along(f"node.{name}.{quantity}", values)
 
 
 def section_channels(

@@ -8,6 +8,7 @@ import numpy as np
 
 from crumple.numeric.arrays import Floats, Integers
 from crumple.result import Channel
+from crumple.result.channels import channel
 from crumple.shell.answer.record import Record
 from crumple.shell.model.model import ShellCase
 from crumple.shell.model.welds import in_words
@@ -25,11 +26,11 @@ def weld_channels(structure: Structure, case: ShellCase, record: Record) -> Iter
     for name, welds in structure.spot_welds.items():
         rows = record["weld"][:, _numbers(case, name)]
         whole = rows[..., BROKEN] < 0.5
-        yield Channel(f"weld.{name}.failed", "1", (~whole).mean(axis=1))
+        yield channel(f"weld.{name}.failed", (~whole).mean(axis=1))
         for key, column in (("normal_force", NORMAL), ("shear_force", SHEAR)):
-            yield Channel(f"weld.{name}.{key}", "N", np.where(whole, rows[..., column], 0.0).max(axis=1))
+            yield channel(f"weld.{name}.{key}", np.where(whole, rows[..., column], 0.0).max(axis=1))
         if welds.fails:
-            yield Channel(f"weld.{name}.use", "1", rows[..., USE].max(axis=1))
+            yield channel(f"weld.{name}.use", rows[..., USE].max(axis=1))
 
 
 def weld_assumptions(structure: Structure, case: ShellCase) -> Iterator[str]:

@@ -133,3 +133,37 @@ class _HiddenJump(ConstantLaw):
 def test_a_jump_that_a_law_hides_is_not_smoothed_over():
     with pytest.raises(CrumpleError, match="hides a kink"):
         record_of(_HiddenJump(1000.0))
+
+
+class _Fading(ConstantLaw):
+    """Capacity that falls in a straight line and is gone from 1 rad on."""
+
+    def kinks(self, sense=1):
+        return (1.0,)
+
+    def moment_capacity(self, rotation, sense=1):
+        return 1000.0 * np.maximum(1.0 - np.asarray(rotation), 0.0)
+
+
+class _Gap(ConstantLaw):
+    """Capacity without a value at one place, which no first point meets."""
+
+    def moment_capacity(self, rotation, sense=1):
+        return np.where(np.abs(np.asarray(rotation) - math.pi / 2.0) < 1e-9, np.nan, 1000.0)
+
+
+@pytest.mark.parametrize(
+    ("law", "came"), [(_Fading(1000.0), "0 N m at 57.3 deg"), (_Gap(1000.0), "nan N m at 90 deg")]
+)
+def test_a_law_without_capacity_somewhere_is_refused_with_the_place(law, came):
+    with pytest.raises(InputError, match="has no capacity") as refusal:
+        record_of(law)
+    assert came in str(refusal.value)
+    assert "fracture" in str(refusal.value)
+
+
+def test_a_table_that_falls_to_zero_is_refused_with_what_helps():
+    with pytest.raises(InputError, match="residual"):
+        TabulatedLaw([0.0, 0.5], [1000.0, 0.0])
+    with pytest.raises(InputError, match="elastic rise"):
+        TabulatedLaw([0.0, 0.5], [0.0, 1000.0])
