@@ -54,8 +54,8 @@ def component(freedom, envelope, stop=(), rate=0.05, **options):
         envelope = (np.zeros(1), np.array([float(envelope)]))
     return SpatialComponent(
         freedom,
-        envelope,
-        envelope,
+        positive=envelope,
+        negative=envelope,
         regularisation_rate=rate,
         stop_positive=stop,
         stop_negative=stop,

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from crumple._core import _kernels
+from crumple._core.hinge import HingeConstants
 from crumple._core.outcome import Outcome
 from crumple._core.records import ComponentRecord, EnergyRecord, HingeEnergyRecord, HingeSummary, named
 from crumple.numeric.arrays import Floats
@@ -48,56 +49,22 @@ class TreeBody:
         return 1 if self.joint is JointKind.REVOLUTE else 3
 
 
-@dataclass(frozen=True)
-class TreeHinge:
+@dataclass(frozen=True, eq=False)
+class TreeHinge(HingeConstants):
     """Hinge of one joint coordinate; codes of form and softening variable as in native/hinge/hinge.hpp.
 
-    A stop is (rotation, stiffness, exponent, damping, penetration): empty for none, damping NaN for critical.
+    `capacity_scale` multiplies both curves.
     """
 
     dof: int
     form: int
     softening: int
-    positive: tuple[Floats, Floats]
-    negative: tuple[Floats, Floats]
-    elastic_stiffness: float = math.inf
-    regularisation_rate: float = 0.05
-    rate_reference: float = math.inf
-    rate_exponent: float = 1.0
-    viscous_damping: float = 0.0
-    stop_positive: tuple[float, ...] = ()
-    stop_negative: tuple[float, ...] = ()
     capacity_scale: float = 1.0
-    """Times both curves."""
 
     def as_dict(self) -> dict[str, Any]:
         """As the kernel takes it."""
-        (positive_rotation, positive_moment), (negative_rotation, negative_moment) = (
-            self.positive,
-            self.negative,
-        )
-        plain = {name: getattr(self, name) for name in _PLAIN}
-        return plain | {
-            "positive_rotation": positive_rotation.tolist(),
-            "positive_moment": positive_moment.tolist(),
-            "negative_rotation": negative_rotation.tolist(),
-            "negative_moment": negative_moment.tolist(),
-            "stop_positive": list(self.stop_positive),
-            "stop_negative": list(self.stop_negative),
-        }
-
-
-_PLAIN = (
-    "dof",
-    "form",
-    "softening",
-    "elastic_stiffness",
-    "regularisation_rate",
-    "rate_reference",
-    "rate_exponent",
-    "viscous_damping",
-    "capacity_scale",
-)
+        own = {"dof": self.dof, "form": self.form, "softening": self.softening}
+        return own | {"capacity_scale": self.capacity_scale} | self.constants()
 
 
 @dataclass(frozen=True)

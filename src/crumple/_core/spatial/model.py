@@ -15,6 +15,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import ArrayLike
 
+from crumple._core.hinge import HingeConstants
 from crumple.numeric.arrays import Floats
 
 GROUND = -1
@@ -112,22 +113,10 @@ def planar(first: int, second: int, position: ArrayLike, normal: ArrayLike) -> S
 
 
 @dataclass(frozen=True, eq=False)
-class SpatialComponent:
-    """One component of a hinge: curves (rotation or slip, moment or force) in both senses, and the rest.
-
-    A stop is (place, stiffness, exponent, damping, penetration): empty for none, damping NaN for critical.
-    """
+class SpatialComponent(HingeConstants):
+    """One component of a hinge: a relative freedom of its joint, and what resists in it."""
 
     freedom: int
-    positive: tuple[Floats, Floats]
-    negative: tuple[Floats, Floats]
-    elastic_stiffness: float = math.inf
-    regularisation_rate: float = 0.05
-    rate_reference: float = math.inf
-    rate_exponent: float = 1.0
-    viscous_damping: float = 0.0
-    stop_positive: tuple[float, ...] = ()
-    stop_negative: tuple[float, ...] = ()
 
 
 class Coupling(IntEnum):

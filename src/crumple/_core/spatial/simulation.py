@@ -287,20 +287,7 @@ def _hinge(hinge: SpatialHinge) -> dict[str, Any]:
 
 
 def _component(component: SpatialComponent) -> dict[str, Any]:
-    return {
-        "freedom": component.freedom,
-        "positive_rotation": _list(component.positive[0]),
-        "positive_moment": _list(component.positive[1]),
-        "negative_rotation": _list(component.negative[0]),
-        "negative_moment": _list(component.negative[1]),
-        "elastic_stiffness": component.elastic_stiffness,
-        "regularisation_rate": component.regularisation_rate,
-        "rate_reference": component.rate_reference,
-        "rate_exponent": component.rate_exponent,
-        "viscous_damping": component.viscous_damping,
-        "stop_positive": list(component.stop_positive),
-        "stop_negative": list(component.stop_negative),
-    }
+    return {"freedom": component.freedom} | component.constants()
 
 
 def _load(load: SpatialLoad) -> tuple[Any, ...]:

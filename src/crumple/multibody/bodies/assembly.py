@@ -82,7 +82,7 @@ class Assembly:
         for cut in self.cuts:
             first, second = self.root(cut.first), self.root(cut.second)
             if first == second:
-                raise idle(self.structure, cut)
+                raise idle(self.structure, cut.hinge, cut.joint)
             found.append(Cut(first, second, cut.hinge, cut.joint))
         return found
 
@@ -147,17 +147,17 @@ def joint_of(structure: Structure, cut: Cut) -> Joint | None:
     return None if cut.joint is None else structure.joints[cut.joint]
 
 
-def idle(structure: Structure, cut: Cut) -> InputError:
-    """What is wrong with a cut both sides of which move as one, or not at all."""
-    if cut.hinge is not None:
-        came = f"hinge {cut.hinge.name} of member {cut.hinge.member}"
+def idle(structure: Structure, hinge: PlacedHinge | None, joint: str | None) -> InputError:
+    """What is wrong with a hinge or joint both sides of which move as one, or not at all."""
+    if hinge is not None:
+        came = f"hinge {hinge.name} of member {hinge.member}"
         what = "this hinge are held or joined rigidly elsewhere, so it cannot turn"
-        where = f"members.{cut.hinge.member}.hinges"
+        where = f"members.{hinge.member}.hinges"
     else:
-        came = f"joint {cut.joint} of member {structure.joints[str(cut.joint)].member}"
+        came = f"joint {joint} of member {structure.joints[str(joint)].member}"
         what, where = (
             "this joint are held or joined rigidly elsewhere, so it cannot move",
-            f"joints.{cut.joint}",
+            f"joints.{joint}",
         )
     return InputError(
         Problem(

@@ -127,7 +127,7 @@ def link(structure: Structure, hinges: tuple[PlacedHinge, ...] | None = None) ->
     clamped = {assembly.root(assembly.node[node]) for node, freedoms in held.items() if len(freedoms) == 6}
     for cut in cuts:
         if cut.first in clamped and cut.second in clamped:
-            raise idle(structure, cut)
+            raise idle(structure, cut.hinge, cut.joint)
     parts = list(dict.fromkeys(assembly.root(i) for i in range(len(assembly.parent))))
     used = {side for cut in cuts for side in (cut.first, cut.second)} | set(masses)
     moving = [part for part in parts if part in used and part not in clamped]

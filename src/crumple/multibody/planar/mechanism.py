@@ -1,28 +1,30 @@
-"""From a structure to rigid bodies joined by hinges: a tree in space, as the engine sees it.
+"""From the bodies and connections of a structure to a tree in a plane, as the planar kernel takes it.
 
-Members are cut at their hinges.  Pieces that meet at a node are one rigid body; a body that holds a clamped
-node is the ground.  What is left is a graph of bodies and hinges, walked breadth first from the ground (a
-structure that floats from its heaviest body) so that parents come before children.  A hinge that leads back
-to a body already met closes a loop: that body is cut in equal parts, one for each of its hinges to hang on,
-and welds hold the parts together.
+The linkage is the one that both kernels are lowered from.  In the plane a body that holds a clamped node is
+the ground.  The graph of bodies and hinges is walked breadth first from the ground (a structure that floats
+from its heaviest body) so that parents come before children.  A hinge that leads back to a body already met
+closes a loop: that body is cut in equal parts, one for each of its hinges to hang on, and welds hold the
+parts together.
 """
 
 from __future__ import annotations
 
-from collections import defaultdict, deque
+from collections import Counter, defaultdict, deque
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.multibody.bodies.assembly import Assembly, Piece, assemble
+from crumple.multibody.bodies.assembly import Piece, idle
+from crumple.multibody.bodies.linkage import GROUND, Linkage, link
 from crumple.multibody.bodies.rigid import RigidMass
 from crumple.multibody.planar.plane import Plane, plane_of
 from crumple.numeric.arrays import Floats
 from crumple.structure import PlacedHinge, Structure, placed_hinges
 
-GROUND = -1
+Edge = tuple[PlacedHinge, int, int]
+"""A hinge and the bodies on its sides."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,10 +56,10 @@ class Link:
 def hinge_links(links: Iterable[Link]) -> Iterator[tuple[int, PlacedHinge, float]]:
     """Joint coordinate, hinge and sign of every hinge, in the kernel's order."""
     dof = 0
-    for link in links:
-        if link.hinge is not None:
-            yield dof, link.hinge, link.sign
-        dof += 3 if link.free else 1
+    for joint in links:
+        if joint.hinge is not None:
+            yield dof, joint.hinge, joint.sign
+        dof += 3 if joint.free else 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,43 +116,68 @@ def lower(structure: Structure, hinges: tuple[PlacedHinge, ...] | None = None) -
     if structure.joints:
         raise _needs_space()
     plane = plane_of(structure, hinges)
-    assembly = assemble(structure, hinges)
-    ground = assembly.new()
-    pins: dict[int, str] = {}
-    for node, cluster in assembly.node.items():
-        held = plane.held(structure, node)
-        if held.clamped:
-            assembly.join(ground, cluster)
-        elif held.pinned:
-            pins[cluster] = node
-    return _walk(assembly, plane, ground, pins)
+    return _walk(structure, link(structure, hinges), plane)
 
 
-def _walk(assembly: Assembly, plane: Plane, ground: int, pins: dict[int, str]) -> Mechanism:
+@dataclass
+class _Graph:
+    """Bodies of a linkage as they move in the plane: what supports clamp there is the ground."""
+
+    clamped: set[int]
+    pinned: list[tuple[int, str]]
+    """Bodies and their nodes that supports pin, in the order of the nodes."""
+    edges: dict[int, list[Edge]]
+    heaviest: list[int]
+    """Bodies with mass, the heaviest first, of equal ones that of the first member."""
+
+    def body(self, number: int) -> int:
+        """The body that moves in the plane."""
+        return GROUND if number in self.clamped else number
+
+
+def _graph(structure: Structure, linkage: Linkage, plane: Plane) -> _Graph:
+    held = {node: plane.held(structure, node) for node in structure.nodes}
+    clamped = {linkage.node_body[node] for node, by in held.items() if by.clamped}
+    pinned = [(linkage.node_body[node], node) for node, by in held.items() if by.pinned and not by.clamped]
+    pieces = [piece.body for pieces in linkage.pieces.values() for piece in pieces]
+    lumps = [linkage.node_body[mass.node] for mass in structure.masses.values()]
+    massive = [i for i in dict.fromkeys([*pieces, *lumps]) if i != GROUND and linkage.bodies[i].mass > 0.0]
+    heaviest = sorted(massive, key=lambda i: -linkage.bodies[i].mass)
+    graph = _Graph(clamped, pinned, defaultdict(list), heaviest)
+    for connection in linkage.connections:
+        if connection.hinge is None:
+            continue
+        first, second = graph.body(connection.first), graph.body(connection.second)
+        if first == second:
+            raise idle(structure, connection.hinge, None)
+        graph.edges[first].append((connection.hinge, first, second))
+        graph.edges[second].append((connection.hinge, first, second))
+    return graph
+
+
+def _walk(structure: Structure, linkage: Linkage, plane: Plane) -> Mechanism:
     """Number the bodies from the ground outwards."""
-    structure, root = assembly.structure, assembly.root
-    masses = assembly.masses()
-    edges = _edges(assembly)
-    number: dict[int, int] = {root(ground): GROUND}
+    graph = _graph(structure, linkage, plane)
+    number: dict[int, int] = {GROUND: GROUND}
     links: list[Link] = []
     order: list[int] = []
     welds: list[tuple[int, int]] = []
     used: set[str] = set()
     jointed: set[str] = set()
 
-    def enter(cluster: int, link: Link) -> None:
-        if cluster in number:
-            welds.append((len(links), number[cluster]))
+    def enter(body: int, joint: Link) -> None:
+        if body in number:
+            welds.append((len(links), number[body]))
         else:
-            number[cluster] = len(links)
-        links.append(link)
-        order.append(cluster)
+            number[body] = len(links)
+        links.append(joint)
+        order.append(body)
 
-    def spread(start: list[int]) -> None:
-        queue = deque(start)
+    def spread(start: int) -> None:
+        queue = deque([start])
         while queue:
             here = queue.popleft()
-            for hinge, first, second in edges[here]:
+            for hinge, first, second in graph.edges[here]:
                 if hinge.name in used:
                     continue
                 used.add(hinge.name)
@@ -160,62 +187,56 @@ def _walk(assembly: Assembly, plane: Plane, ground: int, pins: dict[int, str]) -
                     queue.append(there)
                 enter(there, Link(number[here], hinge.position, hinge, sign=sign))
 
-    spread([root(ground)])
-    for cluster, node in pins.items():
-        if root(cluster) in number:
+    spread(GROUND)
+    for body, node in graph.pinned:
+        if graph.body(body) in number:
             continue
         jointed.add(node)
-        enter(root(cluster), Link(GROUND, np.asarray(structure.nodes[node], float)))
-        spread([root(cluster)])
-    for cluster in sorted(masses, key=lambda c: -masses[c].mass):
-        if cluster not in number and masses[cluster].mass > 0.0:
-            enter(cluster, Link(GROUND, masses[cluster].centre, free=True))
-            spread([cluster])
-    bodies = tuple(_part(masses, order, links, root(ground), i) for i in range(len(order)))
+        enter(body, Link(GROUND, np.asarray(structure.nodes[node], float)))
+        spread(body)
+    for body in graph.heaviest:
+        if graph.body(body) not in number:
+            enter(body, Link(GROUND, linkage.bodies[body].centre, free=True))
+            spread(body)
+    parts = Counter(order)
+    bodies = tuple(
+        linkage.bodies[order[joint.parent]] if body == GROUND else _part(linkage.bodies[body], parts[body])
+        for body, joint in zip(order, links, strict=True)
+    )
     _check_inertia(bodies, links, plane)
+
+    def numbered(body: int) -> int:
+        return number.get(graph.body(body), GROUND)
+
     pieces = {
-        name: tuple(Piece(name, a, b, number.get(root(i), GROUND)) for a, b, i in cuts)
-        for name, cuts in assembly.pieces.items()
+        name: tuple(Piece(name, piece.start, piece.end, numbered(piece.body)) for piece in of)
+        for name, of in linkage.pieces.items()
     }
-    node_body = {node: number.get(root(i), GROUND) for node, i in assembly.node.items()}
+    node_body = {node: numbered(body) for node, body in linkage.node_body.items()}
     return Mechanism(
         plane, bodies, tuple(links), pieces, node_body, welds=tuple(welds), pin_joints=frozenset(jointed)
     )
 
 
-def _part(
-    masses: dict[int, RigidMass], order: list[int], links: list[Link], ground: int, i: int
-) -> RigidMass:
-    """Mass of body i: its share of a cut body.  A part of the ground never moves; any mass serves."""
-    if order[i] == ground:
-        return masses[order[links[i].parent]]
-    whole, parts = masses[order[i]], order.count(order[i])
+def _part(whole: RigidMass, parts: int) -> RigidMass:
+    """Share of a body that is cut; a part of the ground never moves, so that any mass serves there."""
     return RigidMass(whole.mass / parts, whole.centre, whole.inertia / parts)
-
-
-def _edges(assembly: Assembly) -> dict[int, list[tuple[PlacedHinge, int, int]]]:
-    edges: dict[int, list[tuple[PlacedHinge, int, int]]] = defaultdict(list)
-    for cut in assembly.moving_cuts():
-        if cut.hinge is not None:
-            edges[cut.first].append((cut.hinge, cut.first, cut.second))
-            edges[cut.second].append((cut.hinge, cut.first, cut.second))
-    return edges
 
 
 def _check_inertia(bodies: tuple[RigidMass, ...], links: list[Link], plane: Plane) -> None:
     problems = []
-    for body, link in zip(bodies, links, strict=True):
+    for body, joint in zip(bodies, links, strict=True):
         if body.mass > 0.0 and plane.normal @ body.inertia @ plane.normal > 0.0:
             continue
-        place = ", ".join(f"{value:.4g}" for value in link.position)
-        body_at = f"beyond hinge {link.hinge.name}" if link.hinge else f"held by the pin at ({place}) m"
+        place = ", ".join(f"{value:.4g}" for value in joint.position)
+        body_at = f"beyond hinge {joint.hinge.name}" if joint.hinge else f"held by the pin at ({place}) m"
         problems.append(
             Problem(
                 f"the body {body_at} has no inertia",
                 "mass 0 kg",
                 "a body with mass and rotary inertia",
                 "move the hinge into the member, or give the node a mass",
-                f"hinges.{link.hinge.name}" if link.hinge else "supports",
+                f"hinges.{joint.hinge.name}" if joint.hinge else "supports",
             )
         )
     if problems:

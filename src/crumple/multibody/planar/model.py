@@ -18,15 +18,15 @@ from crumple._core.planar.simulation import (
     TreeWeld,
 )
 from crumple.errors import InputError, Problem
-from crumple.hinge import Envelope, Form, HingeRecord, SofteningVariable, Stop
+from crumple.hinge import HingeRecord
+from crumple.multibody.bodies.actions import applied_loads, driven_freedoms
+from crumple.multibody.bodies.hinge_constants import FORMS, SOFTENING, hinge_constants
 from crumple.multibody.bodies.initial_motion import InitialMotion, motion_of, moving_parts, refuse_speeding
-from crumple.multibody.bodies.sampled_functions import sampled, sampled_motion
-from crumple.multibody.planar.mechanism import GROUND, Mechanism
+from crumple.multibody.bodies.linkage import GROUND
+from crumple.multibody.planar.mechanism import Mechanism
 from crumple.numeric.arrays import Floats
 from crumple.structure import Structure
 
-FORMS = {Form.SET_VALUED: 0, Form.ELASTIC_PLASTIC: 1, Form.REGULARISED: 2}
-SOFTENING = {SofteningVariable.PEAK: 0, SofteningVariable.ROTATION: 1, SofteningVariable.ACCUMULATED: 2}
 ACROSS = 1e-6
 """Share of a driven or initial motion that may point out of the plane: rounding of directions."""
 
@@ -67,22 +67,8 @@ def tree_model(structure: Structure, mechanism: Mechanism, duration: float) -> T
 
 def tree_hinge(record: HingeRecord, dof: int, sign: float = 1.0) -> TreeHinge:
     """A record as the kernel takes it; a joint that turns the other way swaps the senses."""
-    senses = ((record.positive, record.stop_positive), (record.negative, record.stop_negative))
-    (positive, stop_positive), (negative, stop_negative) = senses if sign > 0.0 else senses[::-1]
-    return TreeHinge(
-        dof=dof,
-        form=FORMS[record.form],
-        softening=SOFTENING[record.softening_variable],
-        positive=_curve(positive),
-        negative=_curve(negative),
-        elastic_stiffness=record.elastic_stiffness,
-        regularisation_rate=record.regularisation_rate,
-        rate_reference=record.rate_reference,
-        rate_exponent=record.rate_exponent,
-        viscous_damping=record.viscous_damping,
-        stop_positive=stop_of(stop_positive),
-        stop_negative=stop_of(stop_negative),
-    )
+    form, softening = FORMS[record.form], SOFTENING[record.softening_variable]
+    return TreeHinge(dof=dof, form=form, softening=softening, **hinge_constants(record, sign))
 
 
 def planar_initial_motion(structure: Structure, mechanism: Mechanism) -> InitialMotion:
@@ -138,43 +124,30 @@ def _in_plane(mechanism: Mechanism, body: int, vector: Floats, where: str) -> No
 
 
 def _loads(structure: Structure, mechanism: Mechanism, duration: float) -> Iterator[TreeLoad]:
-    plane = mechanism.plane
-    for load in structure.loads:
-        body = mechanism.node_body[load.node]
-        if body == GROUND:
-            continue
-        point = _point(structure, mechanism, load.node)
-        for kind, components in (("", load.force), ("r", load.moment)):
-            for axis in components.model_fields_set:
-                function, row = getattr(components, axis), plane.row(kind + axis)
-                if function is not None and any(row):
-                    yield TreeLoad(body, point, row, *sampled(function, duration))
+    for load in applied_loads(structure, mechanism.node_body, duration):
+        row = mechanism.plane.row(load.freedom)
+        if any(row):
+            yield TreeLoad(load.body, _point(structure, mechanism, load.node), row, load.times, load.values)
 
 
 def _drives(structure: Structure, mechanism: Mechanism, duration: float) -> Iterator[TreeDrive]:
     """Driven freedoms of supports."""
-    plane = mechanism.plane
-    for name, support in structure.supports.items():
-        body = mechanism.node_body[support.node]
+    for driven in driven_freedoms(structure, duration):
+        body, row = mechanism.node_body[driven.node], mechanism.plane.row(driven.freedom)
         if body == GROUND:
             continue
-        point = _point(structure, mechanism, support.node)
-        for freedom in support.motion.model_fields_set:
-            function, row = getattr(support.motion, freedom), plane.row(freedom)
-            if function is None:
-                continue
-            if abs(math.hypot(*row) - 1.0) > ACROSS:
-                raise InputError(
-                    Problem(
-                        "the driven direction lies across the plane of motion",
-                        f"{freedom} of node {support.node}",
-                        "a direction in the plane, or the rotation about its normal",
-                        "drive another freedom, or turn the hinges' axes",
-                        f"supports.{name}.motion",
-                    )
+        if abs(math.hypot(*row) - 1.0) > ACROSS:
+            raise InputError(
+                Problem(
+                    "the driven direction lies across the plane of motion",
+                    f"{driven.freedom} of node {driven.node}",
+                    "a direction in the plane, or the rotation about its normal",
+                    "drive another freedom, or turn the hinges' axes",
+                    f"supports.{driven.support}.motion",
                 )
-            times, values, rates = sampled_motion(function, duration)
-            yield TreeDrive(body, point, row, times, values, rates=rates)
+            )
+        point = _point(structure, mechanism, driven.node)
+        yield TreeDrive(body, point, row, driven.times, driven.values, rates=driven.rates)
 
 
 def _holds(structure: Structure, mechanism: Mechanism) -> Iterator[TreeHold]:
@@ -205,17 +178,6 @@ def _point(structure: Structure, mechanism: Mechanism, node: str) -> tuple[float
     """A node in the frame of its body."""
     link = mechanism.links[mechanism.node_body[node]]
     return _pair(mechanism.plane.flat(np.asarray(structure.nodes[node], float) - link.position))
-
-
-def _curve(envelope: Envelope) -> tuple[Floats, Floats]:
-    return envelope.rotation, envelope.moment
-
-
-def stop_of(stop: Stop | None) -> tuple[float, ...]:
-    """A stop as the kernels take it: rotation, stiffness, exponent, damping, penetration; empty for none."""
-    if stop is None:
-        return ()
-    return (stop.rotation, stop.stiffness, stop.exponent, stop.damping, stop.full_damping_penetration)
 
 
 def _pair(vector: Floats) -> tuple[float, float]:

@@ -20,9 +20,9 @@ from crumple._core.spatial.model import (
     SpatialSurface,
 )
 from crumple.hinge import Coupling, HingeRecord
-from crumple.multibody.bodies.linkage import GROUND, Connection, Linkage
-from crumple.multibody.bodies.sampled_functions import sampled, sampled_motion
-from crumple.multibody.planar.model import FORMS, SOFTENING, stop_of
+from crumple.multibody.bodies.actions import applied_loads, driven_freedoms
+from crumple.multibody.bodies.hinge_constants import FORMS, SOFTENING, hinge_constants
+from crumple.multibody.bodies.linkage import Connection, Linkage
 from crumple.structure import FREEDOMS, Structure
 
 COUPLINGS = {
@@ -64,15 +64,12 @@ def support_drives(
     structure: Structure, linkage: Linkage, duration: float
 ) -> Iterator[tuple[str, SpatialDrive]]:
     """Driven freedoms of supports, each with the support's name."""
-    for i, connection in enumerate(linkage.connections):
-        if connection.kind != "support":
-            continue
-        for freedom, function in structure.supports[connection.name].driven.items():
-            times, _, rates = sampled_motion(function, duration)
-            yield (
-                connection.name,
-                SpatialDrive(i, FREEDOMS.index(freedom), times, rates, float(function(0.0))),
-            )
+    joints = {c.name: i for i, c in enumerate(linkage.connections) if c.kind == "support"}
+    for driven in driven_freedoms(structure, duration):
+        if driven.support in joints:
+            joint, freedom = joints[driven.support], FREEDOMS.index(driven.freedom)
+            start = float(structure.supports[driven.support].driven[driven.freedom](0.0))
+            yield driven.support, SpatialDrive(joint, freedom, driven.times, driven.rates, start)
 
 
 def _joint(connection: Connection) -> SpatialJoint:
@@ -111,30 +108,13 @@ def _hinge(joint: int, connection: Connection) -> SpatialHinge:
 
 
 def _component(freedom: int, record: HingeRecord) -> SpatialComponent:
-    return SpatialComponent(
-        freedom=freedom,
-        positive=(record.positive.rotation, record.positive.moment),
-        negative=(record.negative.rotation, record.negative.moment),
-        elastic_stiffness=record.elastic_stiffness,
-        regularisation_rate=record.regularisation_rate,
-        rate_reference=record.rate_reference,
-        rate_exponent=record.rate_exponent,
-        viscous_damping=record.viscous_damping,
-        stop_positive=stop_of(record.stop_positive),
-        stop_negative=stop_of(record.stop_negative),
-    )
+    return SpatialComponent(freedom, **hinge_constants(record))
 
 
 def _loads(structure: Structure, linkage: Linkage, duration: float) -> Iterator[SpatialLoad]:
-    for load in structure.loads:
-        body = linkage.node_body[load.node]
-        if body == GROUND:
-            continue
-        point = np.asarray(structure.nodes[load.node], float)
-        for along, axis in enumerate("xyz"):
-            unit, none = np.eye(3)[along], np.zeros(3)
-            force, moment = getattr(load.force, axis), getattr(load.moment, axis)
-            if force is not None:
-                yield SpatialLoad(body, point, unit, none, *sampled(force, duration))
-            if moment is not None:
-                yield SpatialLoad(body, point, none, unit, *sampled(moment, duration))
+    for load in applied_loads(structure, linkage.node_body, duration):
+        point, none = np.asarray(structure.nodes[load.node], float), np.zeros(3)
+        kind, along = divmod(FREEDOMS.index(load.freedom), 3)
+        unit = np.eye(3)[along]
+        force, moment = (none, unit) if kind else (unit, none)
+        yield SpatialLoad(load.body, point, force, moment, load.times, load.values)

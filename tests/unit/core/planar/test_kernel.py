@@ -25,7 +25,7 @@ def body(parent=-1, joint=JointKind.REVOLUTE, mass=1.0, inertia=0.1):
 
 
 def hinge(dof=0, curve=CURVE):
-    return TreeHinge(dof, 0, 0, curve, curve)
+    return TreeHinge(dof, 0, 0, positive=curve, negative=curve)
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from tests.support.multibody.frames import CLAMP, THROWN, X_LINE, member, struct
 from crumple.errors import InputError
 from crumple.multibody import lower
 from crumple.multibody.answer.poses import piece_at
-from crumple.multibody.planar.mechanism import GROUND
+from crumple.multibody.bodies.linkage import GROUND
 from crumple.section import RectangularTube, half_fold_length
 
 ABOUT_Y = {"axis": "y"}

@@ -1,0 +1,34 @@
+"""Hinge records as the kernels take them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from crumple.hinge import Form, HingeRecord, SofteningVariable, Stop
+
+FORMS = {Form.SET_VALUED: 0, Form.ELASTIC_PLASTIC: 1, Form.REGULARISED: 2}
+SOFTENING = {SofteningVariable.PEAK: 0, SofteningVariable.ROTATION: 1, SofteningVariable.ACCUMULATED: 2}
+
+
+def hinge_constants(record: HingeRecord, sign: float = 1.0) -> dict[str, Any]:
+    """What `HingeConstants` holds of a record; a joint that turns the other way swaps the senses."""
+    senses = ((record.positive, record.stop_positive), (record.negative, record.stop_negative))
+    (positive, stop_positive), (negative, stop_negative) = senses if sign > 0.0 else senses[::-1]
+    return {
+        "positive": (positive.rotation, positive.moment),
+        "negative": (negative.rotation, negative.moment),
+        "elastic_stiffness": record.elastic_stiffness,
+        "regularisation_rate": record.regularisation_rate,
+        "rate_reference": record.rate_reference,
+        "rate_exponent": record.rate_exponent,
+        "viscous_damping": record.viscous_damping,
+        "stop_positive": _stop(stop_positive),
+        "stop_negative": _stop(stop_negative),
+    }
+
+
+def _stop(stop: Stop | None) -> tuple[float, ...]:
+    """Rotation, stiffness, exponent, damping, penetration; empty for none."""
+    if stop is None:
+        return ()
+    return (stop.rotation, stop.stiffness, stop.exponent, stop.damping, stop.full_damping_penetration)
