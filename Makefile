@@ -3,7 +3,8 @@
 #   make demo     solve the first example with both engines, compare, and say where the report is (AXIS=strong)
 #   make test     unit, verification and regression tests
 #   make check    format, lint, types, import contract, sizes, circles of imports
-#   make verify   slow verification too, the native code under sanitizers, and docs/verification.md written again
+#   make verify   slow verification too, native code under sanitizers, lowest and newest versions of what users
+#                 install, and docs/verification.md written again
 #   make bench    speed, as ratios within one run
 #   make wheel    a wheel in dist/, tested in an environment without a compiler
 #   make clean    remove what make made
@@ -14,14 +15,22 @@ PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 pytho
 BIN := $(VENV)/bin
 NATIVE := $(shell find native -type f -name '*.[ch]pp') CMakeLists.txt pyproject.toml
 KERNEL_TESTS := tests/unit/core
+# one process a core; a file stays in one process, since its tests may share a solution
+PARALLEL ?= --numprocesses auto --dist loadfile
 DEMO := out/demo
 # AXIS=strong turns the section of the tube upright
 TUBE := $(if $(filter strong,$(AXIS)),out/tube_upright.yaml,examples/01_tube_bending.yaml)
+# exact versions for every environment but those of `make verify` that test users' ranges; older versions of pip
+# apply PIP_CONSTRAINT to isolated builds too, newer ones (25.3) read a variable of its own
+CONSTRAINTS ?= tools/constraints.txt
+export PIP_CONSTRAINT := $(CONSTRAINTS)
+export PIP_BUILD_CONSTRAINT := $(CONSTRAINTS)
+RANGES := build/ranges
 SANITIZED := build/sanitized
 SANITIZERS_address := address,undefined,float-cast-overflow
 SANITIZERS_thread := thread
 
-.PHONY: demo test check verify bench wheel clean install
+.PHONY: demo test check verify bench wheel clean install lowest newest
 
 demo: $(VENV)/installed $(TUBE)
 	$(BIN)/crumple compare $(TUBE) --out $(DEMO) --second-mesh 2
@@ -32,7 +41,7 @@ out/tube_upright.yaml: examples/01_tube_bending.yaml
 	sed -e 's/roll: 0 deg /roll: 90 deg/' -e 's/weak axis/strong axis/' $< > $@
 
 test: $(VENV)/installed-test
-	$(BIN)/python -m pytest -m "not slow"
+	$(BIN)/python -m pytest -m "not slow" $(PARALLEL)
 
 check: $(VENV)/installed-test $(VENV)/installed-check
 	$(BIN)/ruff format --check .
@@ -41,8 +50,9 @@ check: $(VENV)/installed-test $(VENV)/installed-check
 	$(BIN)/lint-imports
 	$(BIN)/python tools/sizes.py
 	$(BIN)/python tools/circles.py
+	$(if $(CONSTRAINTS),$(BIN)/python tools/pinned.py $(CONSTRAINTS))
 
-verify: $(VENV)/installed-test $(SANITIZED)/address/installed $(SANITIZED)/thread/installed
+verify: $(VENV)/installed-test $(SANITIZED)/address/installed $(SANITIZED)/thread/installed lowest newest
 	mkdir -p out
 	$(BIN)/python -m pytest --figures out/figures.json
 	$(BIN)/python tools/verification_table.py out/figures.json docs
@@ -65,15 +75,33 @@ $(BIN)/python:
 	@test -n "$(PYTHON)" || { echo "Crumple needs Python 3.11 or newer; none was found. Install it, or run: make PYTHON=/path/to/python3 ..."; exit 1; }
 	$(PYTHON) -m venv $(VENV)
 
-# pip builds in isolation and brings CMake and Ninja itself where the machine has none
-$(VENV)/installed: $(BIN)/python $(NATIVE)
-	$(BIN)/python -m pip install --quiet --editable .
+# what the build needs stays in the environment: so the next build compiles only what changed
+$(VENV)/installed-build: tools/extra.py $(BIN)/python $(CONSTRAINTS)
+	$(BIN)/python $< build > $(VENV)/build.txt
+	$(BIN)/python -m pip install --quiet --requirement $(VENV)/build.txt
+	@touch $@
+
+$(VENV)/installed: $(VENV)/installed-build $(NATIVE)
+	PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python -m pip install --quiet --no-build-isolation --editable .
 	@touch $@
 
 $(VENV)/installed-%: tools/extra.py $(VENV)/installed
 	$(BIN)/python $< $* > $(VENV)/$*.txt
 	$(BIN)/python -m pip install --quiet --requirement $(VENV)/$*.txt
 	@touch $@
+
+# fresh environments with the lowest, and with the newest, versions that pyproject.toml allows.  What an old
+# version says of its own newer dependencies is no error of Crumple; what the newest versions say will be one
+lowest: PIP_CONSTRAINT = $(RANGES)/lowest/constraints.txt
+lowest: WARNINGS = -W default::DeprecationWarning
+newest: PIP_CONSTRAINT =
+lowest newest: PIP_BUILD_CONSTRAINT = $(PIP_CONSTRAINT)
+lowest newest: $(BIN)/python
+	$(BIN)/python -m venv --clear $(RANGES)/$@
+	$(if $(PIP_CONSTRAINT),$(RANGES)/$@/bin/python tools/lowest.py > $(PIP_CONSTRAINT))
+	$(RANGES)/$@/bin/python -m pip install --quiet --upgrade '.[test]' --config-settings=build-dir=build/ranges-kernels/$@
+	$(RANGES)/$@/bin/python -m pip freeze > $(RANGES)/$@/versions.txt
+	$(RANGES)/$@/bin/python -m pytest -m "not slow" $(PARALLEL) $(WARNINGS)
 
 # environments that borrow the packages of the first, but not its editable Crumple
 $(SANITIZED)/%/installed: $(VENV)/installed-test $(NATIVE) $(shell find src -name '*.py')
