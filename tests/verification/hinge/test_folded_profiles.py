@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from crumple.errors import InputError
 from crumple.hinge import build_law
 from crumple.hinge.bending.free_edge import FreeEdgeMechanism
-from crumple.hinge.bending.mechanism import FoldMechanism
+from crumple.hinge.bending.kecman_mechanism import FoldMechanism
 from crumple.hinge.bending.profile_mechanism import ProfileMechanism
 from crumple.material import Material
 from crumple.section import Channel, ClosedHat, Hat, RectangularTube, moment_capacity

@@ -15,7 +15,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from crumple.hinge.bending.mechanism import FoldMechanism
+from crumple.hinge.bending.kecman_mechanism import FoldMechanism
 
 
 def mechanisms():

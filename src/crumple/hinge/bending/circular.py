@@ -26,7 +26,7 @@ from crumple.errors import InputError, Problem
 from crumple.hinge.bending.capped import CappedMechanism
 from crumple.hinge.bending.folding import FoldingLaw
 from crumple.hinge.bending.jamming import AfterJamming
-from crumple.hinge.bending.mechanism import FoldMechanism
+from crumple.hinge.bending.kecman_mechanism import FoldMechanism
 from crumple.hinge.law import Source, Trust, Validity
 from crumple.hinge.options import choice
 from crumple.hinge.rate import hinge_rate

@@ -26,7 +26,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from crumple.hinge.bending.mechanism import COMPLEX_STEP, SMALLEST_ROTATION
+from crumple.hinge.bending.kecman_mechanism import COMPLEX_STEP, SMALLEST_ROTATION
 from crumple.numeric.arrays import Floats
 
 WALLS = 2

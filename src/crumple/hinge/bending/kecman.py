@@ -4,7 +4,7 @@ Unknown: the capacity M(theta).  Three branches:
 
     theta <= theta_T             start: cap        Mmax (and M = min(Mmax, M_mech): continuous, one kink)
                                  start: parabola   Mmax - c theta^2, value and slope of M_mech at theta_T
-    theta_T <= theta <= theta_J  M_mech = dW/dtheta of the mechanism (crumple.hinge.bending.mechanism)
+    theta_T <= theta <= theta_J  M_mech = dW/dtheta of the mechanism (crumple.hinge.bending.kecman_mechanism)
     theta > theta_J              after_jamming (crumple.hinge.bending.jamming)
 
 The parabola's theta_T solves Mmax - M_mech + theta M_mech'/2 = 0, and c = (Mmax - M_mech)/theta_T^2.
@@ -24,9 +24,9 @@ import numpy as np
 from crumple.errors import InputError, Problem
 from crumple.hinge.bending.folding import FoldingLaw
 from crumple.hinge.bending.jamming import AfterJamming
+from crumple.hinge.bending.kecman_mechanism import FoldMechanism
 from crumple.hinge.bending.kecman_range import kecman_validity
 from crumple.hinge.bending.largest_moment import PeakMoment, peak_moment
-from crumple.hinge.bending.mechanism import FoldMechanism
 from crumple.hinge.law import Source, Trust
 from crumple.hinge.options import choice, number_between
 from crumple.hinge.rate import hinge_rate

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from crumple.hinge.bending.kecman_mechanism import FoldMechanism
 from crumple.hinge.bending.largest_moment import PeakMoment, Regime
-from crumple.hinge.bending.mechanism import FoldMechanism
 from crumple.hinge.law import Validity
 from crumple.hinge.rate import rate_warnings
 from crumple.material import Material

@@ -1,9 +1,9 @@
 """The tube's folding mechanism with the faces that a profile has: channels and hats.
 
-The mechanism of crumple.hinge.bending.mechanism needs two webs that bulge outwards; its faces only have to
-keep their lengths.  So a face may be missing, lie outside the webs (a flange in the plane of the face follows
-the same hinge lines: it contains them), or be doubled (welded sheets slide on each other and each folds with
-its own m_p).  With a the spacing of the webs:
+The mechanism of crumple.hinge.bending.kecman_mechanism needs two webs that bulge outwards; its faces only
+have to keep their lengths.  So a face may be missing, lie outside the webs (a flange in the plane of the
+face follows the same hinge lines: it contains them), or be doubled (welded sheets slide on each other and
+each folds with its own m_p). With a the spacing of the webs:
 
     W1, W2   times w_c/a     w_c = sum over sheets of the compressed face of width (t_i/t)^2
     W3       times w_t/a     w_t = the same of the stretched face
@@ -19,7 +19,7 @@ from typing import Any
 
 from numpy.typing import ArrayLike, NDArray
 
-from crumple.hinge.bending.mechanism import FoldMechanism
+from crumple.hinge.bending.kecman_mechanism import FoldMechanism
 from crumple.numeric.arrays import Floats
 
 
