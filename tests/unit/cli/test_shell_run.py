@@ -42,7 +42,7 @@ def coarse(folder: Path, milliseconds: int) -> Path:
 
 def crumple(*arguments: object) -> subprocess.CompletedProcess[str]:
     words = [sys.executable, "-m", "crumple", *map(str, arguments)]
-    return subprocess.run(words, capture_output=True, text=True, check=False, timeout=100)
+    return subprocess.run(words, capture_output=True, text=True, check=False, timeout=600)
 
 
 def test_run_writes_results_and_pictures(tmp_path: Path) -> None:
