@@ -143,37 +143,6 @@ Real ramp_over_integral(Real x0, Real x) {
 
 Real ramp_width(const Hinge& hinge) { return hinge.form == Form::regularised ? hinge.ramp_rate : stick_rate; }
 
-Curve::Curve(std::vector<Real> x, std::vector<Real> y) : x_(std::move(x)), y_(std::move(y)), area_(x_.size(), 0.0) {
-    integrate();
-}
-
-void Curve::integrate() {
-    for (size_t i = 1; i < x_.size(); i++) area_[i] = area_[i - 1] + (x_[i] - x_[i - 1]) * (y_[i] + y_[i - 1]) / 2;
-}
-
-size_t Curve::piece(Real v, int& hint) const {
-    int i = min(hint, static_cast<int>(x_.size()) - 2);
-    while (v < x_[static_cast<size_t>(i)]) i--;
-    while (v >= x_[static_cast<size_t>(i + 1)]) i++;
-    hint = i;
-    return static_cast<size_t>(i);
-}
-
-Real Curve::at(Real v, int& hint) const {
-    if (v <= x_.front()) return y_.front();
-    if (v >= x_.back()) return y_.back();
-    const size_t k = piece(v, hint);
-    return y_[k] + (y_[k + 1] - y_[k]) * (v - x_[k]) / (x_[k + 1] - x_[k]);
-}
-
-Real Curve::integral(Real v, int& hint) const {
-    if (v <= x_.front()) return (v - x_.front()) * y_.front();
-    if (v >= x_.back()) return area_.back() + (v - x_.back()) * y_.back();
-    const size_t k = piece(v, hint);
-    const Real d = v - x_[k];
-    return area_[k] + d * (y_[k] + (y_[k + 1] - y_[k]) * d / (x_[k + 1] - x_[k]) / 2);
-}
-
 // Capacities before it flows, in the sense of the flow the mean over it; the elastic form needs that at the end of the
 // step, where its moment M1 stands.
 void set_capacity(const Hinge& hinge, const HingeState& s, Real flow, int* hint, FrozenHinge& f) {

@@ -20,7 +20,7 @@
 #include <limits>
 #include <vector>
 
-#include "hinge/real.hpp"
+#include "hinge/curve.hpp"
 
 namespace crumple::hinge {
 inline namespace CRUMPLE_ARITHMETIC {
@@ -33,24 +33,6 @@ constexpr double stick_rate = 1e-8;
 
 enum class Form { set_valued, elastic_plastic, regularised };
 enum class Softening { peak, rotation, accumulated };
-
-// Piecewise linear curve, constant outside its ends.  The hint makes a lookup that moves slowly O(1).
-class Curve {
-public:
-    Curve() = default;
-    Curve(std::vector<Real> x, std::vector<Real> y);
-    std::vector<Real>& places() { return x_; }
-    std::vector<Real>& values() { return y_; }
-    // the areas anew, after a change of places or values
-    void integrate();
-    Real at(Real v, int& hint) const;
-    // integral from the first point to v; negative before it
-    Real integral(Real v, int& hint) const;
-
-private:
-    size_t piece(Real v, int& hint) const;
-    std::vector<Real> x_, y_, area_;
-};
 
 struct Stop {
     Real rotation = std::numeric_limits<double>::infinity();  // infinite: no stop

@@ -116,7 +116,8 @@ double Simulation::error(const State& coarse, const State& fine) const {
         worst = std::max(worst, value(fine.hinge[j].overrun - state_.hinge[j].overrun));
     }
     double e = worst / scale_;
-    if (speed_ > 0) e = std::max(e, kinetic_norm(model_.tree, coarse.velocity, &fine.velocity) / speed_);
+    const double speed = std::max(speed_, negligible_speed_);
+    if (speed > 0) e = std::max(e, kinetic_norm(model_.tree, coarse.velocity, &fine.velocity) / speed);
     return e / step_tolerance_;
 }
 
@@ -143,9 +144,12 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
                 return false;
             }
         }
-        const double left = target - state_.t;
-        const bool last = h_ >= left * (1 - 1e-9);
-        const double h = last ? left : (h_ > left / 2 ? left / 2 : h_);
+        const double stop = std::min(target, next_break()), left = stop - state_.t;
+        const double ahead = std::min(h_, longest_part());
+        const double wanted = ahead >= left * (1 - 1e-9) ? left : (ahead > left / 2 ? left / 2 : ahead);
+        const StepBound::Step seen = resolved(wanted);
+        const double h = seen.h;
+        const bool last = h == left, cut = last || h < wanted || ahead < h_;
         const bool solved = step_twice(h, rejected.h > 0);
         const double e = solved ? error(coarse_, fine_) : INFINITY;
         const bool smallest = h <= settings_.minimum_step * 1.001;
@@ -171,14 +175,82 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
         }
         rejected = {};
         if (e > 1) record.forced++;
-        if (last) fine_.t = target;
+        if (last) fine_.t = stop;
+        const bool rested = resting();
         std::swap(state_, fine_);
-        h_ = last && e <= 1 ? std::max(h_, next) : next;
+        h_ = cut && e <= 1 ? std::max(h_, next) : next;
+        std::fill(moved_.begin(), moved_.end(), NAN);
+        if (seen.unresolved > 0 && (rested || resting())) {
+            unseen_ = std::max(unseen_, seen.unresolved * settings_.accuracy * std::max(speed_, large_speed_));
+        }
         record.steps++;
         watch(record);
         set_critical_damping(false);
     }
     return true;
+}
+
+// Loads and drives that vary bound the steps.
+void Simulation::bound_steps(double duration) {
+    auto plain = [](const std::vector<Real>& given) {
+        std::vector<double> out;
+        for (const Real& x : given) out.push_back(value(x));
+        return out;
+    };
+    bound_ = {};
+    grouped_.clear();
+    for (size_t k = 0; k < model_.loads.size(); k++) {
+        const Curve& curve = model_.loads[k].value;
+        const int group = bound_.add_load(plain(curve.places()), plain(curve.values()));
+        if (group < 0) continue;
+        grouped_.resize(std::max(grouped_.size(), static_cast<size_t>(group) + 1));
+        grouped_[static_cast<size_t>(group)].push_back(k);
+    }
+    moved_.assign(grouped_.size(), NAN);
+    for (const Drive& d : model_.drives) bound_.add_drive(plain(d.rate.places()), plain(d.rate.values()));
+    breaks_ = model_.breaks;
+    // a rate that prescribed motion begins with is taken up at once, as in an impact
+    if (stepper_.jerked(state_)) {
+        breaks_.push_back(state_.t + std::min(settings_.minimum_step, duration / 2));
+        std::sort(breaks_.begin(), breaks_.end());
+    }
+    // the speed at which the strongest hinge would turn by what counts as large before it stops
+    double strongest = 0, mass = 0;
+    for (const HingeState& h : state_.hinge) strongest = std::max(strongest, value(h.capacity));
+    for (int i = 0; i < model_.tree.bodies(); i++) mass += value(model_.tree[i].mass);
+    const double slow = std::sqrt(mass) * settings_.scale_floor * value(model_.length) / std::max(duration, settings_.minimum_step);
+    negligible_speed_ = bound_.empty() ? 0 : slow;
+    large_speed_ = strongest > 0 ? std::sqrt(2 * strongest * settings_.scale_floor) : slow;
+}
+
+// Breaks nearer than the smallest step are passed with what follows.
+double Simulation::next_break() const {
+    const auto next = std::lower_bound(breaks_.begin(), breaks_.end(), state_.t + settings_.minimum_step * (1 - 1e-6));
+    return next == breaks_.end() ? INFINITY : *next;
+}
+
+// Where breaks bound the steps they still differ between two runs that ask for different numbers of parts.
+double Simulation::longest_part() const {
+    if (breaks_.empty() || settings_.parts < 2) return INFINITY;
+    const auto next = std::lower_bound(breaks_.begin(), breaks_.end(), state_.t + settings_.minimum_step * (1 - 1e-6));
+    const double since = next == breaks_.begin() ? begin_ : *(next - 1), until = next == breaks_.end() ? end_ : *next;
+    return std::max((until - since) / settings_.parts, settings_.minimum_step);
+}
+
+// whether a hinge does not turn
+bool Simulation::resting() const {
+    return std::any_of(state_.hinge.begin(), state_.hinge.end(), [](const HingeState& h) { return !h.sliding; });
+}
+
+// Length of a step, at most h, that sees what loads and drives do within it.
+StepBound::Step Simulation::resolved(double h) {
+    if (bound_.empty()) return {h, 0};
+    const double large = std::max(speed_, large_speed_);
+    auto speed = [&](size_t group) {
+        if (std::isnan(moved_[group])) moved_[group] = stepper_.moved_by(state_, grouped_[group]);
+        return moved_[group] / large;
+    };
+    return bound_.dynamic(state_.t, h, settings_.accuracy, std::min(settings_.minimum_step, h), speed);
 }
 
 void Simulation::watch(Record& record) {
@@ -257,6 +329,9 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     scale_ = std::max(scale_, std::clamp(expected, settings_.scale_floor, 0.5));
     speed_ = std::max(speed_, kinetic_norm(model_.tree, state_.velocity, nullptr));
     start_energy_ = value(energies(model_, state_).balance());
+    begin_ = state_.t;
+    end_ = times.back();
+    bound_steps(duration);
     if (h_ <= 0) {
         h_ = std::clamp(duration / 100, settings_.minimum_step, settings_.maximum_step);
         stepper_.set_drift_time(2 * h_);
@@ -266,6 +341,7 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
         if (t > state_.t && !advance(t, record, poll)) break;
         store(record);
     }
+    if (unseen_ > 0) record.unseen = unseen_ / std::max(speed_, large_speed_);
     record.solves = stepper_.solves() - solves;
     return record;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/records.hpp"
+#include "common/unresolved.hpp"
 #include "planar/stepper.hpp"
 
 namespace crumple::planar {
@@ -16,6 +17,7 @@ struct Settings {
     double accuracy = 1e-3;      // allowed error of the motion, relative to the largest rotation
     double minimum_step = 1e-9;  // [s]
     double maximum_step = 1e30;  // [s]
+    int parts = 1;               // least number of steps between two breaks
     double scale_floor = 2e-3;   // [rad] smallest rotation that counts as large
 };
 
@@ -30,6 +32,9 @@ struct Record {
     Outcome outcome = Outcome::complete;
     std::string reason;
     double residual = 0;                   // largest |balance - start| over (start + largest external work)
+    // speed that loads and drives may have given or taken unseen, over the largest: where hinges rest, a step does not see a pulse
+    // that its mean hides
+    double unseen = 0;
     std::int64_t steps = 0, rejected = 0, forced = 0, solves = 0;
 };
 
@@ -58,6 +63,11 @@ private:
     };
     void set_damping();
     void set_critical_damping(bool all);
+    void bound_steps(double duration);
+    double longest_part() const;
+    bool resting() const;
+    double next_break() const;
+    StepBound::Step resolved(double h);
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
     bool step_twice(double h, bool again);
     double error(const State& coarse, const State& fine) const;
@@ -71,6 +81,14 @@ private:
     State state_, coarse_, fine_;
     std::vector<Critical> critical_;  // stops whose damper is left to the solver
     std::vector<Real> between_;     // rates
+    StepBound bound_;                          // by loads and drives
+    std::vector<std::vector<size_t>> grouped_;  // loads of one function of time
+    std::vector<double> moved_;                // by a unit impulse of each group [kinetic norm]; NaN: not asked yet
+    std::vector<double> breaks_;               // those of the model, and the first instant of a drive that begins with a rate
+    double begin_ = 0, end_ = 0;               // of the run [s]
+    double unseen_ = 0;                        // see `Record::unseen` [kinetic norm]
+    double large_speed_ = 0;                   // kinetic norm that counts as large before anything moves
+    double negligible_speed_ = 0;              // where loads or drives act: moves bodies by less than what counts as large in the run
     double step_tolerance_;  // of the error measure
     double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, work_max_ = 0, residual_max_ = 0, negligible_energy_ = 0;
     std::int64_t poll_at_ = 0;  // work at which `poll` is asked next

@@ -12,6 +12,8 @@ namespace {
 constexpr double correction_turn = 0.02;
 // Share of its rate that a hinge of a loop may keep and still count as come to rest: what the loop's gap asks of it.
 constexpr double at_rest = 1e-3;
+// Difference of two rates, relative to them, that is rounding.
+constexpr double same_rate = 1e-9;
 
 }  // namespace
 
@@ -111,6 +113,39 @@ Real Stepper::effective_inertia(const State& at, int dof) {
     return 1 / column_[static_cast<size_t>(dof)];
 }
 
+double Stepper::moved_by(const State& at, const std::vector<size_t>& loads) {
+    std::fill(impedance_.begin(), impedance_.end(), 0.0);
+    std::fill(rhs_.begin(), rhs_.end(), 0.0);
+    std::fill(work_.begin(), work_.end(), Twist{});
+    for (const size_t k : loads) {
+        const Load& load = model_.loads[k];
+        Twist& b = work_[static_cast<size_t>(load.body)];
+        b.v = b.v + load.scale * load.direction.v;
+        b.w += load.scale * (load.direction.w + cross(arm(load.body, load.point, at.pose.data()), load.direction.v));
+    }
+    solver_.place(at.pose.data());
+    solver_.solve(impedance_.data(), work_.data(), rhs_.data(), column_.data());
+    keep_joined(at, column_.data());
+    model_.tree.twists(at.pose.data(), column_.data(), twist_.data());
+    double power = 0;
+    for (const size_t k : loads) {
+        const Load& load = model_.loads[k];
+        const Vec2 lever = arm(load.body, load.point, at.pose.data());
+        power += value(load.scale * point_rate(load.direction, twist_[static_cast<size_t>(load.body)], lever));
+    }
+    return std::sqrt(std::max(power, 0.0));
+}
+
+bool Stepper::jerked(const State& at) const {
+    std::vector<Twist> twist(at.pose.size());
+    model_.tree.twists(at.pose.data(), at.w.data(), twist.data());
+    for (size_t k = 0; k < model_.drives.size(); k++) {
+        const Real rate = row_rate(rows_[k], at.pose.data(), twist.data()), begins = model_.drives[k].rate.at_time(at.t);
+        if (fabs(rate - begins) > same_rate * max(fabs(rate), fabs(begins))) return true;
+    }
+    return false;
+}
+
 bool Stepper::step(State& s, double h, const Real* guess, int passes) {
     w_.assign(guess, guess + w_.size());
     for (size_t j = 0; j < model_.hinges.size(); j++) {
@@ -147,8 +182,7 @@ void Stepper::predict(const State& s, double h) {
     }
     solver_.place(middle_.data());
     for (const Load& load : model_.loads) {
-        int hint = 0;
-        const Real impulse = h * load.scale * load.value.at(s.t + h / 2, hint);
+        const Real impulse = h * load.scale * load.value.mean(s.t, h);
         Twist& b = bias_[static_cast<size_t>(load.body)];
         b.v = b.v + impulse * load.direction.v;
         b.w += impulse * (load.direction.w + cross(arm(load.body, load.point, middle_.data()), load.direction.v));
@@ -170,9 +204,8 @@ void Stepper::aim_rows(const State& s, double h) {
         Real place = 0, rate = 0, correction = joint_correction;
         if (k < model_.drives.size()) {
             const Drive& drive = model_.drives[k];
-            int hint = 0;
-            place = drive.start + drive.rate.integral(s.t, hint);
-            rate = drive.rate.at(s.t + h, hint);
+            place = drive.start + drive.rate.integral_to(s.t);
+            rate = drive.rate.at_time(s.t + h);
             correction = drive_correction;
         }
         const Real drift = relative(rows_[k], s.pose.data()) - rows_[k].origin - place;
@@ -267,8 +300,7 @@ void Stepper::commit(State& s, double h) {
         s.external_work += tree[i].mass * dot(model_.gravity, end_[k].at(tree[i].centre) - s.pose[k].at(tree[i].centre));
     }
     for (const Load& load : model_.loads) {
-        int hint = 0;
-        s.external_work += h * load.scale * load.value.at(s.t + h / 2, hint) * mean_rate(load.body, load.point, load.direction);
+        s.external_work += h * load.scale * load.value.mean(s.t, h) * mean_rate(load.body, load.point, load.direction);
     }
     for (size_t d = 0; d < model_.drives.size(); d++) {
         const Drive& drive = model_.drives[d];

@@ -59,6 +59,7 @@ struct Model {
     Vec2 gravity;
     std::vector<Real> q0;  // reference joint coordinates
     Real length = 1;       // [m] turns translations of free bodies into angles for the error measure
+    std::vector<double> breaks;  // [s] increasing: jumps and kinks of loads and drives, where steps end
 };
 
 struct State {
@@ -95,6 +96,10 @@ public:
     bool step(State& state, double h, const Real* guess, int passes);
     // inertia that the joint coordinate feels with all other hinges free: 1 / (J M^-1 J^T)
     Real effective_inertia(const State& at, int dof);
+    // Kinetic norm of what loads do to the structure, each by its scale, with all hinges free.
+    double moved_by(const State& at, const std::vector<size_t>& loads);
+    // whether prescribed motion begins at another rate than the structure has
+    bool jerked(const State& at) const;
     // least time in which drives make up for drift; without it twice the step, so that the drift of a long step
     // would jerk a short one that follows
     void set_drift_time(double time) { drift_time_ = time; }

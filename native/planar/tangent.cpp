@@ -1,6 +1,7 @@
 // The engine once more, with derivatives: the same sources over the other arithmetic of real.hpp.
 #define CRUMPLE_TANGENT
 
+#include "hinge/curve.cpp"
 #include "hinge/hinge.cpp"
 #include "planar/tree.cpp"
 #include "planar/newton.cpp"

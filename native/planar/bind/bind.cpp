@@ -30,6 +30,7 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
     d["outcome"] = static_cast<int>(r.outcome);
     d["reason"] = r.reason;
     d["residual"] = r.residual;
+    d["unseen"] = r.unseen;
     d["steps"] = r.steps;
     d["rejected"] = r.rejected;
     d["forced"] = r.forced;
@@ -56,10 +57,12 @@ void bind(nb::module_& m) {
     bind_batch(m);
     nb::class_<Simulation>(m, "Simulation", "One run: a frozen model, its state, and the adaptive stepper.")
         .def("__init__",
-             [](Simulation* self, const Model& model, double accuracy, double minimum_step, double maximum_step) {
-                 new (self) Simulation(model, {accuracy, minimum_step, maximum_step});
+             [](Simulation* self, const Model& model, double accuracy, double minimum_step, double maximum_step,
+                int parts) {
+                 new (self) Simulation(model, {accuracy, minimum_step, maximum_step, parts});
              },
-             nb::arg("model"), nb::arg("accuracy"), nb::arg("minimum_step"), nb::arg("maximum_step"))
+             nb::arg("model"), nb::arg("accuracy"), nb::arg("minimum_step"), nb::arg("maximum_step"),
+             nb::arg("parts") = 1)
         .def("set_motion",
              [](Simulation& s, const In& velocity, const In& impulse) {
                  const int n = s.model().tree.bodies();

@@ -64,7 +64,7 @@ nb::dict solve(const std::vector<const Model*>& models, const InNumbers& model_o
     v.load_scale = rows(load_scale, v.count, first.loads.size(), "load_scale must have shape (variants, loads)");
     v.bodies = rows(bodies, v.count, 4 * n, "bodies must have shape (variants, bodies, 4)");
     v.gravity = rows(gravity, v.count, 2, "gravity must have shape (variants, 2)");
-    const Settings settings{accuracy, minimum_step, maximum_step};
+    const Settings settings{accuracy, minimum_step, maximum_step, 1};
     const EndValues end_values = unlocked(poll, [&](const auto& ask) { return solve_many(v, end, settings, threads, ask); });
     return to_dict(end_values, first, v.count);
 }

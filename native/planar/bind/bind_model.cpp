@@ -1,6 +1,8 @@
 // The frozen model of a planar tree, from plain Python data; nothing here decides physics.
 #include "planar/bind/bind_model.hpp"
 
+#include <algorithm>
+
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -58,8 +60,9 @@ Weld make_weld(const nb::tuple& t) {
 
 Model make_model(const InNumbers& parent, const InNumbers& joint, const In& bodies, const Doubles& q0,
                  const nb::list& hinges, const nb::list& loads, const nb::list& drives, const nb::list& holds,
-                 const nb::list& welds, const Doubles& gravity, double length) {
-    Model model{make_tree(parent, joint, bodies), {}, {}, {}, {}, {}, {gravity.at(0), gravity.at(1)}, {q0.begin(), q0.end()}, length};
+                 const nb::list& welds, const Doubles& gravity, double length, const Doubles& breaks) {
+    Model model{make_tree(parent, joint, bodies), {}, {}, {}, {}, {}, {gravity.at(0), gravity.at(1)}, {q0.begin(), q0.end()}, length, breaks};
+    require(std::is_sorted(breaks.begin(), breaks.end()), "breaks must increase");
     require(q0.size() == static_cast<size_t>(model.tree.dofs()), "q0 must have one entry per joint coordinate");
     for (nb::handle h : hinges) model.hinges.push_back(make_tree_hinge(nb::cast<nb::dict>(h)));
     for (nb::handle l : loads) model.loads.push_back(make_load(nb::cast<nb::tuple>(l)));
@@ -84,11 +87,12 @@ void bind_model(nb::module_& m) {
         .def("__init__",
              [](Model* self, const InNumbers& parent, const InNumbers& joint, const In& bodies, const Doubles& q0,
                 const nb::list& hinges, const nb::list& loads, const nb::list& drives, const nb::list& holds,
-                const nb::list& welds, const Doubles& gravity, double length) {
-                 new (self) Model(make_model(parent, joint, bodies, q0, hinges, loads, drives, holds, welds, gravity, length));
+                const nb::list& welds, const Doubles& gravity, double length, const Doubles& breaks) {
+                 new (self) Model(make_model(parent, joint, bodies, q0, hinges, loads, drives, holds, welds, gravity, length, breaks));
              },
              nb::arg("parent"), nb::arg("joint"), nb::arg("bodies"), nb::arg("q0"), nb::arg("hinges"), nb::arg("loads"),
-             nb::arg("drives"), nb::arg("holds"), nb::arg("welds"), nb::arg("gravity"), nb::arg("length"));
+             nb::arg("drives"), nb::arg("holds"), nb::arg("welds"), nb::arg("gravity"), nb::arg("length"),
+             nb::arg("breaks"));
 }
 
 }  // namespace CRUMPLE_ARITHMETIC

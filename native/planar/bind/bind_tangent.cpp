@@ -52,7 +52,7 @@ nb::dict solve(Model& given, const std::vector<Model*>& up, const std::vector<Mo
     const int bodies = model.tree.bodies();
     const std::vector<Twist> v = twists(velocity, velocity_slopes, bodies, count);
     const std::vector<Twist> blow = twists(impulse, impulse_slopes, bodies, count);
-    Simulation simulation(std::move(model), {accuracy, minimum_step, maximum_step});
+    Simulation simulation(std::move(model), {accuracy, minimum_step, maximum_step, 1});
     simulation.set_motion(v.data(), blow.data());
     const Record record = unlocked(poll, [&](const auto& ask) { return simulation.run({end}, ask); });
     const Record last = simulation.present();

@@ -198,6 +198,8 @@ Model make_model(const nb::dict& d) {
     model.gravity = vector(d["gravity"]);
     model.length = nb::cast<double>(d["length"]);
     require(model.length > 0, "the length must be positive");
+    model.breaks = nb::cast<Doubles>(d["breaks"]);
+    require(std::is_sorted(model.breaks.begin(), model.breaks.end()), "breaks must increase");
     return model;
 }
 
@@ -253,6 +255,8 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
     d["rotation"] = to_array(r.rotation, {n, bodies, 4});
     d["velocity"] = to_array(r.velocity, {n, bodies, 6});
     d["acceleration"] = to_array(r.acceleration, {n, bodies, 6});
+    d["travel"] = to_array(r.travel, {n, bodies, 6});
+    d["step"] = to_array(r.step, {n});
     d["hinge"] = crumple::to_dict(r.hinge, {n, c});
     d["hinge_energy"] = crumple::to_dict(r.hinge_energy, {n, m.hinges.size()});
     d["joint_force"] = to_array(r.joint_force, {n, m.joints.size(), 6});
@@ -265,6 +269,7 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
     d["ended_by"] = r.ended_by;
     d["lost_time"] = r.lost_time;
     d["residual"] = r.residual;
+    d["unseen"] = r.unseen;
     d["steps"] = r.steps;
     d["rejected"] = r.rejected;
     d["forced"] = r.forced;
@@ -291,9 +296,10 @@ nb::dict run(Simulation& sim, const Doubles& times, nb::object poll) {
 void bind(nb::module_& m) {
     nb::class_<Simulation>(m, "Simulation", "One run: a frozen model, its state, and the adaptive stepper.")
         .def("__init__",
-             [](Simulation* self, const nb::dict& model, double accuracy, double minimum_step, double maximum_step) {
-                 new (self) Simulation(make_model(model), {accuracy, minimum_step, maximum_step});
-             })
+             [](Simulation* self, const nb::dict& model, double accuracy, double minimum_step, double maximum_step, int parts) {
+                 new (self) Simulation(make_model(model), {accuracy, minimum_step, maximum_step, parts});
+             },
+             nb::arg("model"), nb::arg("accuracy"), nb::arg("minimum_step"), nb::arg("maximum_step"), nb::arg("parts") = 1)
         .def("set_motion",
              [](Simulation& s, const In& velocity, const In& impulse) {
                  const size_t n = s.model().bodies.size();

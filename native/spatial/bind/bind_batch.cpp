@@ -69,7 +69,7 @@ nb::dict solve(const std::vector<const Case*>& cases, const InNumbers& case_of, 
     v.load_scale = rows(load_scale, v.count, first.model.loads.size(), "load_scale must have shape (variants, loads)");
     v.bodies = rows(bodies, v.count, body_columns * n, "bodies must have shape (variants, bodies, 13)");
     v.gravity = rows(gravity, v.count, 3, "gravity must have shape (variants, 3)");
-    const Settings settings{accuracy, minimum_step, maximum_step};
+    const Settings settings{accuracy, minimum_step, maximum_step, 1};
     const auto solver = led ? solve_led : solve_many;
     const EndValues end_values = unlocked(poll, [&](const auto& ask) { return solver(v, settings, threads, ask); });
     return to_dict(end_values, first, v.count);

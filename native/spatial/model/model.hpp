@@ -53,6 +53,7 @@ struct Model {
     ContactModel contact;
     Vec3 gravity;
     double length = 1;  // [m] turns displacements into angles for the error measure
+    std::vector<double> breaks;  // [s] after the start of a stage, increasing: where steps end
 
     Pose pose(const std::vector<Pose>& poses, int body) const { return body < 0 ? Pose{} : poses[static_cast<size_t>(body)]; }
     Twist twist(const std::vector<Twist>& twists, int body) const {
@@ -70,6 +71,8 @@ struct State {
     double t = 0, stage_start = 0;
     std::vector<Pose> pose;
     std::vector<Twist> velocity, acceleration;  // at the centres, world axes; of the last step
+    std::vector<Twist> travel;                  // turn and way of the centres in the last step, world axes
+    double last_step = 0;                       // length of the last step [s]
     std::vector<SpatialHingeState> hinge;
     std::vector<double> rotation;               // of every hinge component, see JointGeometry::error
     std::vector<double> turned;                 // the same as hinges count it: for several rotations the sum of their rates,

@@ -1,5 +1,6 @@
 // What a run asks of the model at rest: motion that fits the joints, inertias that hinges feel, displacements.
 #include <algorithm>
+#include <cmath>
 
 #include "spatial/step/stepper.hpp"
 
@@ -48,6 +49,29 @@ double Stepper::effective_inertia(const State& s, size_t hinge, int component) {
     system_.push(x_.data(), direction_.data());
     const Twist a = model_.twist(direction_, l.body[0]), b = model_.twist(direction_, l.body[1]);
     return 1 / rate(row, a, b);
+}
+
+double Stepper::moved_by(const State& s, const std::vector<size_t>& loads) {
+    locate_all(s, s.pose, s.t, rows_, error_.data());
+    set_mobilities(s.pose);
+    std::fill(momentum_.begin(), momentum_.end(), Twist{});
+    for (const size_t k : loads) {
+        const Load& load = model_.loads[k];
+        const Vec3 arm = turned(s.pose[at(load.body)].q, load.arm);
+        Twist& m = momentum_[at(load.body)];
+        m = m + Twist{load.moment + cross(arm, load.force), load.force};
+    }
+    for (size_t i = 0; i < momentum_.size(); i++) direction_[i] = system_.mobility(i, momentum_[i]);
+    hold_rows();
+    system_.factor();
+    system_.rates(direction_.data(), x_.data());
+    system_.solve(x_.data(), 0);
+    system_.push(x_.data(), direction_.data());
+    double power = 0;
+    for (size_t i = 0; i < momentum_.size(); i++) {
+        power += dot(momentum_[i].w, direction_[i].w) + dot(momentum_[i].v, direction_[i].v);
+    }
+    return std::sqrt(std::max(power, 0.0));
 }
 
 double Stepper::relative(const State& s, int joint, int freedom) const {

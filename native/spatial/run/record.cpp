@@ -18,6 +18,7 @@ void add(std::vector<double>& out, const Twist& t) {
 
 void Simulation::store(Record& r) {
     r.time.push_back(state_.t);
+    r.step.push_back(state_.last_step);
     for (size_t i = 0; i < state_.pose.size(); i++) {
         const Quat& q = state_.pose[i].q;
         add(r.centre, state_.pose[i].x);
@@ -25,6 +26,7 @@ void Simulation::store(Record& r) {
         add(r.rotation, q.v);
         add(r.velocity, state_.velocity[i]);
         add(r.acceleration, state_.acceleration[i]);
+        add(r.travel, state_.travel[i]);
     }
     size_t first = 0;
     for (size_t j = 0; j < state_.hinge.size(); j++) {

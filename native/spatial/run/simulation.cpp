@@ -203,9 +203,12 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
             if (!strike(record)) return false;
             continue;
         }
-        const double left = target - state_.t, wanted = landing_ > 0 ? std::min(landing_, h_) : h_;
-        const bool last = wanted >= left * (1 - 1e-9);
-        const double h = last ? left : (wanted > left / 2 && landing_ == 0 ? left / 2 : wanted);
+        const double stop = std::min(target, next_break()), left = stop - state_.t;
+        const double longest = std::min(h_, longest_part()), ahead = landing_ > 0 ? std::min(landing_, longest) : longest;
+        const double wanted = ahead >= left * (1 - 1e-9) ? left : (ahead > left / 2 && landing_ == 0 ? left / 2 : ahead);
+        const StepBound::Step seen = resolved(wanted);
+        const double h = seen.h;
+        const bool last = h == left, cut = last || h < wanted || longest < h_ || landing_ > 0;
         const bool solved = solve(h);
         if (solved && closing_ > 0 && h > shortest_landing * settings_.minimum_step) {
             record.rejected++;
@@ -232,10 +235,15 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
             continue;
         }
         if (e > 1) record.forced++;
-        if (last) fine_.t = target;
+        if (last) fine_.t = stop;
+        const bool rested = resting();
         std::swap(state_, fine_);
-        h_ = (last || landing_ > 0) && e <= 1 ? std::max(h_, next) : next;
+        h_ = cut && e <= 1 ? std::max(h_, next) : next;
+        std::fill(moved_.begin(), moved_.end(), NAN);
         landing_ = 0;
+        if (seen.unresolved > 0 && (rested || resting())) {
+            unseen_ = std::max(unseen_, seen.unresolved * settings_.accuracy * std::max(speed_, large_speed_));
+        }
         record.steps++;
         overshot_ = NAN;
         watch(record);
@@ -292,6 +300,8 @@ void Simulation::show_first_moments() {
         }
     }
     state_.acceleration = probe.acceleration;
+    state_.travel = probe.travel;
+    state_.last_step = probe.last_step;
     state_.joint_force = probe.joint_force;
     state_.contact.force = probe.contact.force;
 }
@@ -317,6 +327,10 @@ void Simulation::prepare(double end) {
     double mass = 0;
     for (const Body& body : model_.bodies) mass += body.mass;
     negligible_speed_ = std::sqrt(mass) * settings_.scale_floor * model_.length / std::max(duration, settings_.minimum_step);
+    // the speed at which the strongest hinge would turn by what counts as large before it stops
+    large_speed_ = strongest > 0 ? std::sqrt(2 * strongest * settings_.scale_floor) : negligible_speed_;
+    end_ = end - state_.stage_start;
+    bound_steps();
     if (!started_) start_ = e;
     started_ = true;
     balance_ = e.balance();
@@ -337,6 +351,7 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
         if (reached || record.ended_by >= 0 || !std::isnan(record.lost_time)) store(record);
         if (!reached) break;
     }
+    if (unseen_ > 0) record.unseen = unseen_ / std::max(speed_, large_speed_);
     record.solves = stepper_.solves() - solves;
     return record;
 }

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/records.hpp"
+#include "common/unresolved.hpp"
 #include "spatial/step/stepper.hpp"
 
 namespace crumple::spatial {
@@ -16,6 +18,7 @@ struct Settings {
     double accuracy = 1e-3;      // allowed error of the motion, relative to the largest rotation
     double minimum_step = 1e-9;  // [s]
     double maximum_step = 1e30;  // [s]
+    int parts = 1;               // least number of steps between two breaks
     double scale_floor = 2e-3;   // [rad] smallest rotation that counts as large
 };
 
@@ -32,7 +35,7 @@ struct Condition {
 };
 
 struct Record {
-    std::vector<double> time, centre, rotation, velocity, acceleration, joint_force, obstacle_force;
+    std::vector<double> time, centre, rotation, velocity, acceleration, travel, step, joint_force, obstacle_force;
     ComponentRecord<double> hinge;
     HingeEnergyRecord<double> hinge_energy;
     EnergyRecord<double> energy;
@@ -41,6 +44,9 @@ struct Record {
     int ended_by = -1;
     double lost_time = NAN;      // when the equilibrium ended that a quasi-static stage does not find again
     double residual = 0;         // largest |balance - start| over the energy that the structure was given
+    // speed that loads and drives may have given or taken unseen, over the largest: where hinges rest, a step does not see a pulse
+    // that its mean hides
+    double unseen = 0;
     std::int64_t steps = 0, rejected = 0, forced = 0, solves = 0;
 };
 
@@ -80,6 +86,11 @@ private:
     };
     void set_damping();
     void prepare(double end);
+    void bound_steps();
+    double longest_part() const;
+    bool resting() const;
+    double next_break() const;
+    StepBound::Step resolved(double h);
     void record_step(double h);
     bool touched_soon(const Critical& stop) const;
     void set_critical_damping(const std::vector<bool>& which);
@@ -102,6 +113,13 @@ private:
     Model model_;
     Settings settings_;
     Stepper stepper_;
+    StepBound bound_;                           // by loads and drives
+    std::vector<std::vector<size_t>> grouped_;  // loads of one function of time
+    std::vector<double> moved_;                 // by a unit impulse of each group [kinetic norm]; NaN: not asked yet
+    std::optional<Stepper> weigher_;            // asked for that: what the stepper keeps between steps is not touched
+    double end_ = 0;                            // of the run, from the start of the stage [s]
+    double unseen_ = 0;                        // see `Record::unseen` [kinetic norm]
+    double large_speed_ = 0;                    // kinetic norm that counts as large before anything moves
     State state_, coarse_, fine_, first_;
     std::vector<Twist> guess_;
     std::vector<Critical> critical_;  // stops whose damper is left to the solver

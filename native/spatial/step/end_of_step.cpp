@@ -57,7 +57,11 @@ Energies energies(const Model& model, const State& s) {
 
 // False where the held rows cannot be met.
 bool Stepper::commit(State& s, double h) {
-    for (size_t i = 0; i < end_.size(); i++) end_[i] = moved(s.pose[i], (h / 2) * (s.velocity[i] + velocity_[i]));
+    for (size_t i = 0; i < end_.size(); i++) {
+        s.travel[i] = (h / 2) * (s.velocity[i] + velocity_[i]);
+        end_[i] = moved(s.pose[i], s.travel[i]);
+    }
+    s.last_step = h;
     commit_contacts(s, h);
     work_on_links(s, h);
     if (!project_positions(s, h)) return false;
@@ -119,11 +123,10 @@ void Stepper::work_of_loads(State& s, double h) {
         if (!model_.bodies[i].obstacle) on_structure += work;
     }
     for (const Load& load : model_.loads) {
-        int hint = 0;
         const size_t i = at(load.body);
         const Vec3 way = end_[i].at(load.arm) - s.pose[i].at(load.arm);
         const Vec3 turn = (h / 2) * (s.velocity[i].w + velocity_[i].w);
-        const double work = load.value.at(s.t + h / 2 - s.stage_start, hint) * (dot(load.force, way) + dot(load.moment, turn));
+        const double work = load.value.mean(s.t - s.stage_start, h) * (dot(load.force, way) + dot(load.moment, turn));
         s.work_on(false, work);
         on_structure += work;
     }

@@ -102,6 +102,7 @@ State Stepper::start() {
     for (const Body& body : model_.bodies) s.pose.push_back({body.centre, {}});
     s.velocity.resize(s.pose.size());
     s.acceleration.resize(s.pose.size());
+    s.travel.resize(s.pose.size());
     s.hinge.resize(model_.hinges.size());
     s.rotation.assign(at(component_.back()), 0.0);
     s.turned = s.rotation;
@@ -132,8 +133,7 @@ const SpatialHinge* Stepper::hinge_of(size_t link) const {
 double Stepper::displacement(const Drive& drive, size_t index, const State& s, double t) const {
     const DriveStage& stage = stage_.drives[index];
     if (!stage.acts) return stage.origin;
-    int hint = 0;
-    return stage.origin + drive.rate.integral(t - s.stage_start, hint);
+    return stage.origin + drive.rate.integral_to(t - s.stage_start);
 }
 
 Target Stepper::target(const Joint& joint, const State& s, double t) const {
@@ -142,9 +142,8 @@ Target Stepper::target(const Joint& joint, const State& s, double t) const {
         if (joint.drive[k] < 0) continue;
         const size_t index = at(joint.drive[k]);
         const Drive& drive = model_.drives[index];
-        int hint = 0;
         out.place[k] = displacement(drive, index, s, t);
-        out.rate[k] = stage_.drives[index].acts ? drive.rate.at(t - s.stage_start, hint) : 0;
+        out.rate[k] = stage_.drives[index].acts ? drive.rate.at_time(t - s.stage_start) : 0;
     }
     return out;
 }
@@ -214,8 +213,7 @@ void Stepper::predict(const State& s, double h, const std::vector<Twist>& end) {
     }
     for (size_t i = 0; i < model_.bodies.size(); i++) momentum_[i] = {{}, h * model_.bodies[i].mass * model_.gravity};
     for (const Load& load : model_.loads) {
-        int hint = 0;
-        const double factor = h * load.value.at(s.t + h / 2 - s.stage_start, hint);
+        const double factor = h * load.value.mean(s.t - s.stage_start, h);
         const Vec3 arm = turned(middle_[at(load.body)].q, load.arm);
         Twist& m = momentum_[at(load.body)];
         m = m + factor * Twist{load.moment + cross(arm, load.force), load.force};

@@ -50,6 +50,8 @@ public:
     double displacement(const Drive& drive, size_t index, const State& s, double t) const;
     // inertia (mass for a slip) that a hinge's component feels with all hinges free
     double effective_inertia(const State& state, size_t hinge, int component);
+    // kinetic norm of what loads do to the structure, with all hinges free and contacts open
+    double moved_by(const State& state, const std::vector<size_t>& loads);
     // displacement in any freedom of a joint, in the axes of its first body
     double relative(const State& state, int joint, int freedom) const;
     // column of a hinge's first component

@@ -21,11 +21,17 @@ class _Planar:
             welds: list[tuple[Any, ...]],
             gravity: Sequence[float],
             length: float,
+            breaks: Sequence[float],
         ) -> None: ...
 
     class Simulation:
         def __init__(
-            self, model: _Planar.Model, accuracy: float, minimum_step: float, maximum_step: float
+            self,
+            model: _Planar.Model,
+            accuracy: float,
+            minimum_step: float,
+            maximum_step: float,
+            parts: int = 1,
         ) -> None: ...
         def set_motion(self, velocity: NDArray[np.float64], impulse: NDArray[np.float64]) -> float: ...
         def set_rates(self, w: Sequence[float]) -> None: ...
@@ -64,7 +70,12 @@ class _Planar:
 class _Spatial:
     class Simulation:
         def __init__(
-            self, model: dict[str, Any], accuracy: float, minimum_step: float, maximum_step: float
+            self,
+            model: dict[str, Any],
+            accuracy: float,
+            minimum_step: float,
+            maximum_step: float,
+            parts: int = 1,
         ) -> None: ...
         def set_motion(self, velocity: NDArray[np.float64], impulse: NDArray[np.float64]) -> float: ...
         def stage(

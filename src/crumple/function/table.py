@@ -33,18 +33,25 @@ def table(x: ArrayLike, xs: Sequence[float] | Floats, ys: Sequence[float] | Floa
     InputError
         If the table has fewer than two points, unequal lengths, or places that do not increase.
     """
-    places, values = _checked(xs, ys)
+    places, values = checked_table(xs, ys)
     return np.asarray(np.interp(np.asarray(x, np.float64), places, values))
 
 
 def table_slope(x: ArrayLike, xs: Sequence[float] | Floats, ys: Sequence[float] | Floats) -> Floats:
     """Slope of the table at `x`: at a point of the table that of the piece to its right, 0 outside."""
-    places, values = _checked(xs, ys)
-    slopes = np.concatenate([[0.0], np.diff(values) / np.diff(places), [0.0]])
-    return np.asarray(slopes[np.searchsorted(places, np.asarray(x, np.float64), side="right")])
+    places, values = checked_table(xs, ys)
+    return np.asarray(
+        slopes_of(places, values)[np.searchsorted(places, np.asarray(x, np.float64), side="right")]
+    )
 
 
-def _checked(xs: Sequence[float] | Floats, ys: Sequence[float] | Floats) -> tuple[Floats, Floats]:
+def slopes_of(places: Floats, values: Floats) -> Floats:
+    """Slope before the first place, between the places and after the last one, (n + 1,)."""
+    return np.concatenate([[0.0], np.diff(values) / np.diff(places), [0.0]])
+
+
+def checked_table(xs: Sequence[float] | Floats, ys: Sequence[float] | Floats) -> tuple[Floats, Floats]:
+    """Places and values as arrays; raises what `table` raises."""
     places, values = np.asarray(xs, np.float64), np.asarray(ys, np.float64)
     if places.ndim != 1 or places.shape != values.shape or places.size < 2:
         raise InputError(

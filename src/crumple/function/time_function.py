@@ -3,6 +3,9 @@
 Linear interpolation of a function with |f''| <= C over pieces of length h errs by at most C h^2/8.
 For a passage of height H over the time T, C = c H/T^2 with c known for each kind, so n equal pieces
 err by at most c H/(8 n^2): the number of pieces follows from the tolerance.
+
+Jumps and kinks have a method of their own, since a time stepper ends its steps there
+(docs/theory/time_functions.md).
 """
 
 from __future__ import annotations
@@ -10,6 +13,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
@@ -17,12 +21,20 @@ from numpy.typing import ArrayLike
 
 from crumple.errors import InputError
 from crumple.function.contact import bistop, impact
-from crumple.function.table import table, table_slope
+from crumple.function.key_points import key_points
+from crumple.function.table import checked_table, slopes_of
 from crumple.function.transition import PASSAGES
 from crumple.numeric.arrays import Floats
 
 MAX_SAMPLES = 1_000_000
 """Points of a sampled function; a tolerance that needs more is a mistake."""
+MAX_BREAKS = 100
+"""Breaks of one function.  Each costs a time stepper a step or two; a run takes some hundred steps anyhow."""
+BREAK_SHARE = 0.01
+"""Distance from the straight lines between breaks, relative to the range of the values, that is no break
+any more where a function has more kinks than `MAX_BREAKS`."""
+STRAIGHT = 1e-9
+"""Change of a table's slope at a point, relative to its largest slope, that is rounding."""
 
 
 class TimeFunction(ABC):
@@ -38,6 +50,10 @@ class TimeFunction(ABC):
     @abstractmethod
     def sample_times(self, start: float, end: float, tolerance: float) -> Floats:
         """Times between which straight lines err by at most the tolerance, any order."""
+
+    @abstractmethod
+    def kinks(self, start: float, end: float) -> Floats:
+        """Times within the range at which the function or one of its derivatives jumps, any order."""
 
     @abstractmethod
     def as_mapping(self) -> dict[str, Any]:
@@ -74,6 +90,35 @@ class TimeFunction(ABC):
             )
         return times, self(times)
 
+    def breaks(self, start: float, end: float) -> Floats:
+        """Jumps and isolated kinks: where a step of a time integration should end.
+
+        Up to `MAX_BREAKS` kinks are all breaks.  Of more, for example the points of a measured table, breaks
+        are those that a polygon needs to follow the function within `BREAK_SHARE` of its range, chosen one by
+        one where the distance is largest, and `MAX_BREAKS` at most.
+
+        Parameters
+        ----------
+        start, end
+            Range [s], start < end.
+
+        Returns
+        -------
+        times
+            Shape (n,), n <= `MAX_BREAKS`; increasing, within the range and without its ends.
+        """
+        times = np.unique(self.kinks(start, end))
+        times = times[(times > start) & (times < end)]
+        if times.size <= MAX_BREAKS:
+            return times
+        corners = np.concatenate([[start], times, [end]])
+        return corners[key_points(corners, self(corners), BREAK_SHARE, MAX_BREAKS)]
+
+    def largest(self, start: float, end: float) -> float:
+        """Largest absolute value within the range, to a few percent; exact where it lies at a kink."""
+        times = np.concatenate([np.linspace(start, end, 257), self.kinks(start, end)])
+        return float(np.abs(self(np.clip(times, start, end))).max())
+
 
 @dataclass(frozen=True)
 class Constant(TimeFunction):
@@ -88,6 +133,9 @@ class Constant(TimeFunction):
         return np.zeros(np.shape(t))
 
     def sample_times(self, start: float, end: float, tolerance: float) -> Floats:
+        return np.empty(0)
+
+    def kinks(self, start: float, end: float) -> Floats:
         return np.empty(0)
 
     def as_mapping(self) -> dict[str, Any]:
@@ -124,6 +172,9 @@ class Transition(TimeFunction):
             raise InputError(f"sampling within {tolerance:g} takes more than {MAX_SAMPLES} points")
         return np.linspace(self.x0, self.x1, max(1, math.ceil(pieces)) + 1)
 
+    def kinks(self, start: float, end: float) -> Floats:
+        return np.array([self.x0, self.x1])
+
     def as_mapping(self) -> dict[str, Any]:
         return {self.kind: {"x0": self.x0, "h0": self.h0, "x1": self.x1, "h1": self.h1}}
 
@@ -136,16 +187,28 @@ class Table(TimeFunction):
     value: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        table(0.0, self.time, self.value)
+        _ = self._points
+
+    @cached_property
+    def _points(self) -> tuple[Floats, Floats, Floats]:
+        """Times, values, and slopes of the pieces, 0 outside; converted once, for tables can be long."""
+        times, values = checked_table(self.time, self.value)
+        return times, values, slopes_of(times, values)
 
     def __call__(self, t: ArrayLike) -> Floats:
-        return table(t, self.time, self.value)
+        times, values, _ = self._points
+        return np.asarray(np.interp(np.asarray(t, np.float64), times, values))
 
     def derivative(self, t: ArrayLike) -> Floats:
-        return table_slope(t, self.time, self.value)
+        times, _, slopes = self._points
+        return np.asarray(slopes[np.searchsorted(times, np.asarray(t, np.float64), side="right")])
 
     def sample_times(self, start: float, end: float, tolerance: float) -> Floats:
-        return np.asarray(self.time)
+        return self._points[0]
+
+    def kinks(self, start: float, end: float) -> Floats:
+        times, _, slopes = self._points
+        return np.asarray(times[np.abs(np.diff(slopes)) > STRAIGHT * np.abs(slopes).max()])
 
     def as_mapping(self) -> dict[str, Any]:
         return {"table": {"time": list(self.time), "value": list(self.value)}}
@@ -171,6 +234,9 @@ class Sum(TimeFunction):
         # the errors add; a finer grid than a term asked for never makes its error larger
         share = tolerance / len(self.terms)
         return np.concatenate([term.sample_times(start, end, share) for term in self.terms])
+
+    def kinks(self, start: float, end: float) -> Floats:
+        return np.concatenate([term.kinks(start, end) for term in self.terms])
 
     def as_mapping(self) -> dict[str, Any]:
         return {"sum": [term.as_mapping() for term in self.terms]}
@@ -214,6 +280,21 @@ class Stop(TimeFunction):
                 return times
             times = np.sort(np.concatenate([times, (times[:-1] + 0.5 * np.diff(times))[rough]]))
         raise InputError(f"sampling within {tolerance:g} takes more than {MAX_SAMPLES} points")
+
+    def kinks(self, start: float, end: float) -> Floats:
+        # where the stop is touched and let go, to a thousandth of the motion's range
+        own = self.motion.kinks(start, end)
+        grid = np.unique(np.clip(np.concatenate([np.linspace(start, end, 257), own]), start, end))
+        reach = float(np.ptp(self.motion(grid)))
+        times, x = self.motion.sampled(start, end, max(1e-3 * reach, 1e-12))
+        found = [own]
+        for place in (self.x1, self.x2):
+            if place is None:
+                continue
+            ahead = x - place
+            k = np.flatnonzero((ahead[:-1] < 0.0) != (ahead[1:] < 0.0))
+            found.append(times[k] + (times[k + 1] - times[k]) * ahead[k] / (ahead[k] - ahead[k + 1]))
+        return np.concatenate(found)
 
     def as_mapping(self) -> dict[str, Any]:
         numbers = {"x1": self.x1, "x2": self.x2, "k": self.k, "e": self.e, "cmax": self.cmax, "d": self.d}

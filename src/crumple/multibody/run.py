@@ -55,6 +55,16 @@ def output_times(run: Run, *, ends_only: bool = False) -> Floats:
     return np.concatenate([times[:1], times[1:][apart]])
 
 
+def step_bounds(run: Run, *, ends_only: bool) -> tuple[float, int]:
+    """Largest step [s], and least number of steps between two breaks.
+
+    The answer makes twice as many steps as the run that shows its error: were both bounded alike, they
+    would take the same steps and show no error.
+    """
+    longest = run.settings.maximum_time_step
+    return (2.0 * longest, 1) if ends_only else (longest, 2)
+
+
 def poll_of(
     duration: float, share: tuple[float, float], progress: Progress | None, cancel: Cancel | None
 ) -> Callable[[float], bool]:

@@ -88,6 +88,27 @@ def test_moment_in_a_released_bar_follows_from_its_inertia():
     assert 0.0 < share < 0.01
 
 
+@pytest.mark.parametrize("place", [0.2, 0.7, 0.975])
+def test_the_moment_near_a_free_end_is_as_good_as_elsewhere(place):
+    """Of a swinging bar of unit length: weight of the part beyond, less the change of its angular momentum.
+
+    Forces are those of the middle of the last step, a quarter of an output interval earlier at most.
+    """
+    whole = pendulum(type="revolute", axis=(0, 1, 0))
+    section = whole.section_of("ab")
+    mass, gyration = section.mass_per_length(7850.0), section.second_moment("y") / section.area
+    outputs = Outputs(nodes=["b"], section_forces={"cut": {"member": "ab", "at": place}})
+    result = solve_multibody(whole, Run(0.4, 1e-3, outputs=outputs))
+    across = G * (1.0 + result["node.b.displacement.x"])
+    turning = across / 2.0 / (1.0 / 3.0 + gyration)
+    beyond = 1.0 - place
+    reach = beyond**2 / 12.0 + gyration + (place + beyond / 2.0) * beyond / 2.0
+    expected = mass * beyond * (across * beyond / 2.0 - turning * reach)
+    # closed: 2 rad/s at most for a quarter of a millisecond
+    error = np.abs(np.abs(result["cut.moment.y"]) - np.abs(expected))
+    assert error.max() < 1e-3 * np.abs(expected).max()
+
+
 def test_a_section_between_rigid_nodes_is_refused():
     nodes = {"a": (0, 0, 0), "b": (1, 0, 0), "c": (2, 0, 0)}
     members = {"ab": member("a", "b", ("h", 0.5)), "bc": member("b", "c")}

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Any
 
@@ -123,6 +123,8 @@ class TreeModel:
     gravity: tuple[float, float] = (0.0, 0.0)
     length: float = 1.0
     """Turns translations of free bodies into angles for the error measure [m]."""
+    breaks: Floats = field(default_factory=lambda: np.empty(0))
+    """Times [s] at which steps end: jumps and kinks of loads and drives, increasing, (n,)."""
 
     @property
     def dofs(self) -> int:
@@ -178,6 +180,8 @@ class TreeRecord(TreeRows):
     outcome: Outcome
     reason: str
     residual: float
+    unseen: float
+    """Speed that loads and drives may have given or taken unseen within steps, over the largest speed."""
     steps: int
     rejected: int
     forced: int
@@ -197,6 +201,8 @@ class Simulation:
         Bounds of the step [s].
     compiled
         The model's compiled form if there is one already: runs share it.
+    parts
+        Least number of steps between two of the model's breaks.
     """
 
     def __init__(
@@ -206,10 +212,12 @@ class Simulation:
         minimum_step: float = MINIMUM_STEP,
         maximum_step: float = math.inf,
         compiled: Any = None,
+        *,
+        parts: int = 1,
     ) -> None:
         self.model = model
         self._kernel = _kernels.planar.Simulation(
-            compiled or kernel_model(model), accuracy, minimum_step, maximum_step
+            compiled or kernel_model(model), accuracy, minimum_step, maximum_step, parts
         )
 
     def set_motion(self, velocity: Floats, impulse: Floats) -> float:
@@ -273,6 +281,7 @@ def kernel_model(model: TreeModel, kind: Callable[..., Any] | None = None) -> An
         [(weld.body, weld.other, list(weld.point), list(weld.other_point)) for weld in model.welds],
         list(model.gravity),
         model.length,
+        model.breaks.tolist(),
     )
 
 

@@ -272,6 +272,9 @@ class SpatialModel:
     gravity: tuple[float, float, float] = (0.0, 0.0, 0.0)
     length: float = 1.0
     """Turns displacements into angles for the error measure [m]."""
+    breaks: Floats = field(default_factory=lambda: np.empty(0))
+    """Times [s] after the start of every stage at which steps end: jumps and kinks of loads and drives,
+    (n,)."""
 
     @property
     def component_offsets(self) -> list[int]:

@@ -104,6 +104,10 @@ class SpatialRecord(SpatialRows):
         (n,) [s].
     acceleration
         At the centres, in world axes, (n, b, 6): the mean of the last step.
+    travel
+        Rotation vector and displacement of the centres in the last step, world axes, (n, b, 6).
+    step
+        Length of the last step [s], (n,).
     joint_force
         Force and moment of the held and hinged freedoms on the second body, along the joint's axes (midway
         between both bodies), mean of the last step, (n, joints, 6).
@@ -121,6 +125,8 @@ class SpatialRecord(SpatialRows):
 
     time: Floats
     acceleration: Floats
+    travel: Floats
+    step: Floats
     joint_force: Floats
     obstacle_force: Floats
     summary: HingeSummary
@@ -130,6 +136,8 @@ class SpatialRecord(SpatialRows):
     ended_by: int
     lost_time: float
     residual: float
+    unseen: float
+    """Speed that loads and drives may have given or taken unseen within steps, over the largest speed."""
     steps: int
     rejected: int
     forced: int
@@ -147,6 +155,8 @@ class SpatialSimulation:
         Allowed error of the motion, relative to the largest rotation.
     minimum_step, maximum_step
         Bounds of the step [s].
+    parts
+        Least number of steps between two of the model's breaks.
     """
 
     def __init__(
@@ -155,9 +165,13 @@ class SpatialSimulation:
         accuracy: float = 1e-3,
         minimum_step: float = MINIMUM_STEP,
         maximum_step: float = math.inf,
+        *,
+        parts: int = 1,
     ) -> None:
         self.model = model
-        self._kernel = _kernels.spatial.Simulation(as_dict(model), accuracy, minimum_step, maximum_step)
+        self._kernel = _kernels.spatial.Simulation(
+            as_dict(model), accuracy, minimum_step, maximum_step, parts
+        )
 
     def set_motion(self, velocity: Floats, impulse: Floats) -> float:
         """Add velocities of the bodies and impulses on them, both (bodies, 6): (omega, v), (moment, force).
@@ -252,6 +266,7 @@ def as_dict(model: SpatialModel) -> dict[str, Any]:
         "contact": (model.contact.friction, model.contact.restitution),
         "gravity": list(model.gravity),
         "length": model.length,
+        "breaks": model.breaks.tolist(),
     }
 
 

@@ -7,17 +7,22 @@ between:
     force on the stretch between = mass times acceleration of its centre
     moment about the section     = change of angular momentum about it
 
+Both are taken in the middle of the last step before an output, where the kernel's forces balance the change
+of momentum of every body exactly.  So near a free end, where the moment is a small difference of large ones,
+its relative error is that of the whole motion.
+
 Contact forces on the stretch itself are not known piece by piece and are left out.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
+from crumple._core.spatial.simulation import MINIMUM_STEP
 from crumple.errors import InputError, Problem
 from crumple.multibody.answer.poses import SpatialHistory, piece_at
 from crumple.multibody.bodies.assembly import Piece
@@ -85,8 +90,9 @@ def section_force_channels(
     structure: Structure, poses: SpatialHistory, outputs: Outputs
 ) -> Iterator[Channel]:
     """Force and moment in sections, in the member's carried axes, and their use of the capacity."""
+    middle = _midway(poses) if outputs.section_forces else poses
     for name, asked in outputs.section_forces.items():
-        force, moment = _in_section(structure, poses, asked)
+        force, moment = _in_section(structure, middle, asked)
         for quantity, unit, values in (("force", "N", force), ("moment", "N*m", moment)):
             for i, axis in enumerate(AXES):
                 yield Channel(f"{name}.{quantity}.{axis}", unit, np.ascontiguousarray(values[:, i]))
@@ -121,6 +127,14 @@ def check_sections(structure: Structure, linkage: Linkage, outputs: Outputs) -> 
         raise InputError(problems)
 
 
+def _midway(poses: SpatialHistory) -> SpatialHistory:
+    """The bodies in the middle of the last step before every output."""
+    record = poses.record
+    turn, way = np.split(record.travel / 2.0, 2, axis=2)
+    rotation = product(vector_quaternion(-turn), record.rotation)
+    return replace(poses, record=replace(record, centre=record.centre - way, rotation=rotation))
+
+
 def _in_section(structure: Structure, poses: SpatialHistory, asked: SectionForce) -> tuple[Floats, Floats]:
     """What the second side exerts on the first, (n, 3) each in the member's carried axes."""
     linkage, frame = poses.linkage, structure.frame_of(asked.member)
@@ -152,16 +166,29 @@ def _momentum_rate(
     if piece.body == GROUND:
         force = np.tile(-stretch.mass * gravity, (poses.rows, 1))
         return force, np.cross(centre - section, force)
-    spin, _ = np.split(poses.record.velocity[:, piece.body], 2, axis=1)
-    turning, moving = np.split(poses.record.acceleration[:, piece.body], 2, axis=1)
-    arm = centre - poses.record.centre[:, piece.body]
-    acceleration = moving + np.cross(turning, arm) + np.cross(spin, np.cross(spin, arm))
-    force = stretch.mass * (acceleration - gravity)
-    columns = turned(poses.quaternion(piece.body)[:, None], np.eye(3)[None])
-    inertia = np.einsum("nki,kl,nlj->nij", columns, stretch.inertia, columns)
-    about = np.einsum("nij,nj->ni", inertia, turning)
-    about += np.cross(spin, np.einsum("nij,nj->ni", inertia, spin))
-    return force, about + np.cross(centre - section, force)
+    record, body = poses.record, poses.linkage.bodies[piece.body]
+    after, _ = np.split(record.velocity[:, piece.body], 2, axis=1)
+    turning, moving = np.split(record.acceleration[:, piece.body], 2, axis=1)
+    step = np.maximum(record.step, MINIMUM_STEP)[:, None]
+    before, spin = after - step * turning, after - step * turning / 2.0
+    arm = centre - record.centre[:, piece.body]
+    moved = stretch.mass * (moving - gravity)
+    force = moved + stretch.mass * (np.cross(turning, arm) + np.cross(spin, np.cross(spin, arm)))
+    # about the body's centre, between the true ends of the step as the kernel takes it
+    offset = np.asarray(stretch.centre - body.centre)
+    inertia = stretch.inertia + stretch.mass * (offset @ offset * np.eye(3) - np.outer(offset, offset))
+    half = record.travel[:, piece.body, :3] / 2.0
+    middle = poses.quaternion(piece.body)
+    change = _momentum(inertia, product(vector_quaternion(half), middle), after)
+    change -= _momentum(inertia, product(vector_quaternion(-half), middle), before)
+    about = change / step + np.cross(arm, moved)
+    return force, about + np.cross(centre - arm - section, force)
+
+
+def _momentum(inertia: Floats, quaternion: Floats, spin: Floats) -> Floats:
+    """Angular momentum of a body with an inertia at the start, (n, 3)."""
+    columns = turned(quaternion[:, None], np.eye(3)[None])
+    return np.asarray(np.einsum("nki,kl,nlj,nj->ni", columns, inertia, columns, spin))
 
 
 def _closing(linkage: Linkage, piece: Piece) -> tuple[Literal["start", "end"], int] | None:

@@ -59,7 +59,7 @@ class Solved:
 
     Attributes
     ----------
-    outcome, reason, residual, steps, rejected, forced
+    outcome, reason, residual, unseen, steps, rejected, forced
         As the kernel tells them.
     time
         Output times [s], (n,).
@@ -85,6 +85,7 @@ class Solved:
     outcome: Outcome
     reason: str
     residual: float
+    unseen: float
     steps: int
     rejected: int
     forced: int

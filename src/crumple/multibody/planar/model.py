@@ -23,6 +23,7 @@ from crumple.multibody.bodies.actions import applied_loads, driven_freedoms
 from crumple.multibody.bodies.hinge_constants import FORMS, SOFTENING, hinge_constants
 from crumple.multibody.bodies.initial_motion import InitialMotion, motion_of, moving_parts, refuse_speeding
 from crumple.multibody.bodies.linkage import GROUND
+from crumple.multibody.bodies.sampled_functions import breaks_of
 from crumple.multibody.planar.mechanism import Mechanism
 from crumple.numeric.arrays import Floats
 from crumple.structure import Structure
@@ -62,6 +63,7 @@ def tree_model(structure: Structure, mechanism: Mechanism, duration: float) -> T
         welds=tuple(_welds(mechanism)),
         gravity=_pair(plane.flat(np.asarray(structure.gravity, float))),
         length=max(structure.frame_of(name).length for name in structure.members),
+        breaks=breaks_of(structure, duration),
     )
 
 

@@ -13,7 +13,7 @@ from crumple.multibody.answer.solved import Poll, Solved
 from crumple.multibody.planar.case import recorded_hinges
 from crumple.multibody.planar.mechanism import Mechanism, lower
 from crumple.multibody.planar.model import planar_initial_motion, tree_model
-from crumple.multibody.run import Run, output_times
+from crumple.multibody.run import Run, output_times, step_bounds
 from crumple.structure import PlacedHinge, Structure
 
 
@@ -62,8 +62,9 @@ class TreeSolver:
     def run(self, accuracy: float, poll: Poll | None, *, ends_only: bool = False) -> Solved:
         """See `Solver`."""
         settings = self._run.settings
-        bounds = settings.minimum_time_step, settings.maximum_time_step
-        simulation = Simulation(self._model, accuracy, *bounds, self._compiled)
+        longest, parts = step_bounds(self._run, ends_only=ends_only)
+        bounds = settings.minimum_time_step, longest
+        simulation = Simulation(self._model, accuracy, *bounds, self._compiled, parts=parts)
         lost = simulation.set_motion(self._start.velocity, self._start.impulse)
         begin = time.perf_counter()
         record = simulation.run(output_times(self._run, ends_only=ends_only), poll)
@@ -72,6 +73,7 @@ class TreeSolver:
             outcome=record.outcome,
             reason=record.reason,
             residual=record.residual,
+            unseen=record.unseen,
             steps=record.steps,
             rejected=record.rejected,
             forced=record.forced,

@@ -23,6 +23,7 @@ from crumple.hinge import Coupling, HingeRecord
 from crumple.multibody.bodies.actions import applied_loads, driven_freedoms
 from crumple.multibody.bodies.hinge_constants import FORMS, SOFTENING, hinge_constants
 from crumple.multibody.bodies.linkage import Connection, Linkage
+from crumple.multibody.bodies.sampled_functions import breaks_of
 from crumple.structure import FREEDOMS, Structure
 
 COUPLINGS = {
@@ -57,6 +58,7 @@ def spatial_model(structure: Structure, linkage: Linkage, duration: float) -> Sp
         drives=tuple(drive for _, drive in support_drives(structure, linkage, duration)),
         gravity=(x, y, z),
         length=max(structure.frame_of(name).length for name in structure.members),
+        breaks=breaks_of(structure, duration),
     )
 
 

@@ -20,7 +20,7 @@ from crumple.multibody.bodies.initial_motion import Placed
 from crumple.multibody.bodies.linkage import check_inertia, link
 from crumple.multibody.bodies.mobility import free_parts
 from crumple.multibody.bodies.obstacle_bodies import with_obstacles
-from crumple.multibody.run import Run, output_times
+from crumple.multibody.run import Run, output_times, step_bounds
 from crumple.multibody.spatial.case import added_motion, kernel_stage, recorded_hinges
 from crumple.multibody.spatial.model import spatial_model, support_drives
 from crumple.multibody.spatial.stages import (
@@ -36,8 +36,8 @@ from crumple.result.channels import channels_along
 from crumple.structure import PlacedHinge, Stage, Structure
 
 HISTORIES = (
-    "time", "centre", "rotation", "velocity", "acceleration", "hinge", "hinge_energy", "joint_force",
-    "obstacle_force", "energy",
+    "time", "centre", "rotation", "velocity", "acceleration", "travel", "step", "hinge", "hinge_energy",
+    "joint_force", "obstacle_force", "energy",
 )  # fmt: skip
 """Fields of a record with a row for every output time."""
 COUNTS = ("steps", "rejected", "forced", "solves")
@@ -90,11 +90,13 @@ class SpatialSolver:
     def run(self, accuracy: float, poll: Poll | None, *, ends_only: bool = False) -> Solved:
         """See `Solver`."""
         model, settings = self._touching.model, self._run.settings
-        # error control alone lets hinges that lock within a step err by twice the accuracy
-        longest = (
-            settings.maximum_time_step if ends_only else min(settings.maximum_time_step, self._run.every / 2)
+        longest, least_parts = step_bounds(self._run, ends_only=ends_only)
+        if not ends_only:
+            # error control alone lets hinges that lock within a step err by twice the accuracy
+            longest = min(longest, self._run.every / 2)
+        simulation = SpatialSimulation(
+            model, accuracy, settings.minimum_time_step, longest, parts=least_parts
         )
-        simulation = SpatialSimulation(model, accuracy, settings.minimum_time_step, longest)
         grid = output_times(self._run, ends_only=ends_only)
         records: list[SpatialRecord] = []
         stages: list[StageSummary] = []
@@ -151,6 +153,7 @@ class SpatialSolver:
             outcome=record.outcome,
             reason=record.reason,
             residual=record.residual,
+            unseen=record.unseen,
             steps=record.steps,
             rejected=record.rejected,
             forced=record.forced,
@@ -205,4 +208,5 @@ def _joined(records: list[SpatialRecord]) -> SpatialRecord:
     }
     counts: dict[str, Any] = {name: sum(getattr(record, name) for record in records) for name in COUNTS}
     residual = max(record.residual for record in records)
-    return replace(records[-1], **histories, **counts, residual=residual)
+    unseen = max(record.unseen for record in records)
+    return replace(records[-1], **histories, **counts, residual=residual, unseen=unseen)
