@@ -18,7 +18,7 @@ from crumple.comparison.rating.pairing import RELEVANT, pairs_of
 from crumple.comparison.rating.signal import member_signals, signals_of
 from crumple.errors import InputError, Problem
 from crumple.result import Result
-from crumple.structure import PlacedHinge, Structure, placed_hinges
+from crumple.structure import PlacedHinge, Structure, plastic_hinges
 
 SAME_TIME = 1e-9
 """Share of the run below which the times of two shapes are equal but for rounding."""
@@ -62,7 +62,7 @@ def compare(
     ----------
     Definitions in docs/theory/comparison.md.
     """
-    hinges = placed_hinges(structure)
+    hinges = plastic_hinges(structure)
     names = _names(candidate, reference, variants or {})
     results = (candidate, *(variants or {}).values(), reference)
     sources = [_source(name, result, structure, hinges) for name, result in zip(names, results, strict=True)]

@@ -11,7 +11,7 @@ from crumple.section import bending_moment
 from crumple.structure import HingePlace, Member, Structure
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges.automatic import hinges_of
-from crumple.structure.hinges.hinges import hinge_places, law_spec
+from crumple.structure.hinges.places import hinge_places, law_spec
 from crumple.structure.keys.law import LawKeys, LawReference, Regularisation
 from crumple.structure.keys.member import Bars, Hinge
 

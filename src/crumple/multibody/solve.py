@@ -118,7 +118,8 @@ def _doubt(
 ) -> str | None:
     """A warning where a small change of the capacities folds the structure elsewhere."""
     asked = run.settings.mechanism_check
-    if asked == "off" or (asked == "auto" and not any_automatic(structure)) or len(solver.hinges) < 2:
+    n_plastic = sum(hinge.plastic for hinge in solver.hinges)
+    if asked == "off" or (asked == "auto" and not any_automatic(structure)) or n_plastic < 2:
         return None
     if rough.outcome is not Outcome.COMPLETE:
         return None

@@ -8,6 +8,7 @@ For a solver:
 - ``structure.frame_of(member)`` -> `Frame` (origin, axes as rows x y z, length, ``position(station)``);
 - ``structure.section_of(member)`` and ``structure.material_of(member)`` -> objects of those rooms;
 - ``placed_hinges(structure)`` -> `PlacedHinge` per hinge: member, station, position, direction, law, record;
+  elastic joints, which have no plastic law, are among them: ``plastic_hinges(structure)`` leaves them out;
 - ``support.held`` -> freedoms held at zero, ``support.driven`` -> functions of time by driven freedom;
 - `MultibodySettings`, `ShellSettings` and `Outputs` -> what the solver is told beside the structure.
 """
@@ -18,7 +19,8 @@ from crumple.structure.checks.checks import output_problems, problems_in, shell_
 from crumple.structure.checks.obstacle_checks import gap, stage_problems
 from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges.automatic import any_automatic
-from crumple.structure.hinges.hinges import HingePlace, PlacedHinge, hinge_places, placed_hinges
+from crumple.structure.hinges.hinges import PlacedHinge, placed_hinges, plastic_hinges, shares_left_out
+from crumple.structure.hinges.places import HingePlace, hinge_places
 from crumple.structure.keys.joint import Joint
 from crumple.structure.keys.law import LawKeys, Regularisation, Stops
 from crumple.structure.keys.load import ForceComponents, Load, Mass, MomentComponents, NodalImpulse
@@ -100,7 +102,9 @@ __all__ = [
     "output_problems",
     "placed_hinges",
     "planar",
+    "plastic_hinges",
     "problems_in",
+    "shares_left_out",
     "shell_problems",
     "stage_problems",
     "value_at",

@@ -28,7 +28,8 @@ from crumple.report.wording.comparison_wording import busy_note, key_figures, sp
 from crumple.result import Provenance
 from crumple.section import bending_moment
 from crumple.structure import Structure
-from crumple.structure.hinges.hinges import hinge_places, law_spec, placed_hinges
+from crumple.structure.hinges.hinges import placed_hinges, plastic_hinges
+from crumple.structure.hinges.places import hinge_places, law_spec
 
 TIMES = np.linspace(0.0, 0.1, 101)
 
@@ -346,8 +347,8 @@ def test_elastic_members_leave_rigid_ones_and_parts_alone():
     )
     cut = with_elastic_members(structure)
     assert cut.members["far"] == structure.members["far"]
-    stations = {hinge.name: hinge.station for hinge in placed_hinges(cut)}
-    own = {hinge.name for hinge in placed_hinges(structure)}
+    stations = {hinge.name: hinge.station for hinge in plastic_hinges(cut)}
+    own = {hinge.name for hinge in plastic_hinges(structure)}
     assert own
     assert own <= set(stations)
     cuts = {name: at for name, at in stations.items() if name not in own}

@@ -16,6 +16,7 @@ import pytest
 from tests.support.structures import cantilever
 
 from crumple.multibody import Run, solve_multibody
+from crumple.section import half_fold_length
 from crumple.structure import MultibodySettings, Outputs
 
 # largest tip rotation [rad], its time [s], plastic energy [J] at the plastic tip rotations [rad] below
@@ -26,7 +27,7 @@ REFERENCE = {
 }
 STATED = {
     "set-valued": (0.5328, 0.0796, (173.6, 347.2, 504.7, 634.9, 748.8)),
-    "elastic-plastic": (0.5548, 0.0798, (176.5, 350.1, 506.5, 636.2, 749.9)),
+    "elastic-plastic": (0.5558, 0.0798, (173.6, 347.1, 504.6, 634.8, 748.7)),
 }
 STIFFNESS = 3 * 210e9 * (0.050 * 0.025**3 - 0.0447 * 0.0197**3) / 12
 
@@ -42,7 +43,9 @@ def tube(request):
     result = solve_multibody(structure, run)
     x, z = (result[f"node.tip.displacement.{axis}"] for axis in "xz")
     chord = np.arctan2(z, 1.0 + x)
-    elastic = -result["hinge.root.moment"] / STIFFNESS if request.param == "elastic-plastic" else 0.0
+    # the moment at the root is that of the hinge over its share of the lever arm
+    root = -result["hinge.root.moment"] / (1.0 - half_fold_length(structure.section_of("tube"), "y"))
+    elastic = root / STIFFNESS if request.param == "elastic-plastic" else 0.0
     until = int(np.argmax(chord)) + 1
     plastic = np.maximum.accumulate((chord - elastic)[:until])
     energies = np.interp(ROTATIONS, plastic, result["hinge.root.energy"][:until])

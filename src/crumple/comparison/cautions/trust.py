@@ -17,7 +17,7 @@ from crumple.comparison.measure.energy import energy_put_in, largest_of
 from crumple.comparison.measure.metrics import deg, mm, percent
 from crumple.hinge import Form
 from crumple.numeric.arrays import Floats
-from crumple.structure import PlacedHinge, Structure, placed_hinges
+from crumple.structure import PlacedHinge, Structure, plastic_hinges
 
 ELASTIC = 0.05
 """Share of elastic energy from which rigid hinges are a caution."""
@@ -43,7 +43,7 @@ def trust_of(comparison: Comparison, structure: Structure) -> Trust:
     structure
         For the laws' ranges and the sections' sizes.
     """
-    hinges = {hinge.name: hinge for hinge in placed_hinges(structure)}
+    hinges = {hinge.name: hinge for hinge in plastic_hinges(structure)}
     failed = [s for s in comparison.sources if not s.result.status.ok]
     facts: list[str] = []
     cautions: list[str] = []

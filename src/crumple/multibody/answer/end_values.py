@@ -54,7 +54,7 @@ class Ended(Protocol):
 def end_quantities(case: Ended, ends: Ends, outputs: Outputs) -> dict[str, Floats]:
     """Named quantities of runs that share a case, (n,) each."""
     found: dict[str, Floats] = {}
-    for k, (hinge, columns) in enumerate(hinge_columns(case.hinges, ends)):
+    for k, hinge, columns in hinge_columns(case.hinges, ends):
         found |= {
             f"hinge.{hinge.name}.{name}": values
             for name, values in columns.items()

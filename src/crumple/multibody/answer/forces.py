@@ -75,6 +75,8 @@ def force_channels(structure: Structure, poses: SpatialHistory, local_time: Floa
         Time since the start of the stage [s], (n,), in which loads are given.
     """
     for i, connection in enumerate(poses.linkage.connections):
+        if connection.hinge is not None and not connection.hinge.plastic:
+            continue
         wrench = on_second(poses, i)
         if connection.kind == "hinge":
             yield from _channels(f"cut.{connection.name}", wrench.opposite())

@@ -68,12 +68,14 @@ class RecordedHinge:
 
 def hinge_columns(
     hinges: Sequence[RecordedHinge], rows: Rows
-) -> Iterator[tuple[PlacedHinge, dict[str, Floats]]]:
-    """Every hinge and its quantities, (n,) each, by name; see `HingeHistory`."""
+) -> Iterator[tuple[int, PlacedHinge, dict[str, Floats]]]:
+    """Row, hinge and quantities, (n,) each by name, of every plastic hinge; see `HingeHistory`."""
     for k, recorded in enumerate(hinges):
+        if not recorded.hinge.plastic:
+            continue
         columns = _named(recorded.columns(rows.hinge), recorded.free)
         columns["energy"] = np.ascontiguousarray(rows.hinge_energy.dissipated[:, k])
-        yield recorded.hinge, columns
+        yield k, recorded.hinge, columns
 
 
 def _named(parts: list[Floats], free: tuple[int, ...]) -> dict[str, Floats]:
@@ -96,8 +98,8 @@ def _named(parts: list[Floats], free: tuple[int, ...]) -> dict[str, Floats]:
 def hinge_histories(
     hinges: Sequence[RecordedHinge], rows: Rows, summary: HingeSummary
 ) -> Iterator[HingeHistory]:
-    """What every hinge did, in the kernel's order."""
-    for k, (hinge, columns) in enumerate(hinge_columns(hinges, rows)):
+    """What every plastic hinge did, in the kernel's order."""
+    for k, hinge, columns in hinge_columns(hinges, rows):
         broke = float(summary.fracture_time[k])
         yield HingeHistory(
             hinge,

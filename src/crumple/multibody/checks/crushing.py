@@ -69,12 +69,13 @@ def _at_hinges(structure: Structure, solved: Solved) -> Iterator[tuple[str, floa
     if not isinstance(poses, SpatialPoses):
         return
     for i, connection in enumerate(poses.linkage.connections):
-        if connection.hinge is None or int(Freedom.AXIAL) in connection.free:
+        hinge = connection.hinge
+        if hinge is None or not hinge.plastic or int(Freedom.AXIAL) in connection.free:
             continue
-        axis = turned(poses.quaternion(connection.first), structure.frame_of(connection.hinge.member).x)
+        axis = turned(poses.quaternion(connection.first), structure.frame_of(hinge.member).x)
         pressed = np.einsum("ni,ni->n", on_second(poses, i).force, np.broadcast_to(axis, (len(axis), 3)))
         if pressed.size > 1:
-            yield connection.hinge.member, float(np.minimum(pressed[1:], pressed[:-1]).max())
+            yield hinge.member, float(np.minimum(pressed[1:], pressed[:-1]).max())
 
 
 def _blows(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:

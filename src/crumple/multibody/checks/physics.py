@@ -152,11 +152,12 @@ def axial_tensions(structure: Structure, solved: Solved) -> Iterator[tuple[str, 
     if not isinstance(poses, SpatialPoses):
         return
     for i, connection in enumerate(poses.linkage.connections):
-        if connection.hinge is None or int(Freedom.AXIAL) in connection.free:
+        hinge = connection.hinge
+        if hinge is None or not hinge.plastic or int(Freedom.AXIAL) in connection.free:
             continue
-        axis = turned(poses.quaternion(connection.first), structure.frame_of(connection.hinge.member).x)
+        axis = turned(poses.quaternion(connection.first), structure.frame_of(hinge.member).x)
         pulling = -np.einsum("ni,ni->n", on_second(poses, i).force, np.broadcast_to(axis, (len(axis), 3)))
-        yield connection.hinge.member, float(np.minimum(pulling[1:], pulling[:-1]).max())
+        yield hinge.member, float(np.minimum(pulling[1:], pulling[:-1]).max())
 
 
 def fast_nodes(structure: Structure, solved: Solved, total: float) -> Iterator[Caution]:

@@ -6,11 +6,12 @@ import math
 
 import numpy as np
 
-from crumple.hinge import Form, Freedom, SofteningVariable, tributary_stiffness
+from crumple.hinge import Form, Freedom, SofteningVariable
 from crumple.multibody.answer.solved import Solved, Solver
 from crumple.multibody.bodies.linkage import link
 from crumple.multibody.bodies.mobility import free_parts
 from crumple.multibody.checks.broken import broken_warnings
+from crumple.multibody.checks.elastic_energy import energy_left_out
 from crumple.multibody.checks.held_parts import held_part_warnings
 from crumple.multibody.checks.names import named, shown
 from crumple.multibody.checks.overlap import overlap_warnings
@@ -57,9 +58,18 @@ def assumptions(structure: Structure, solver: Solver) -> tuple[str, ...]:
             found.append(f"Spot welds {name} of member {welds.members[0]} do not fail.")
     alike: dict[tuple[Form, bool, SofteningVariable], list[PlacedHinge]] = {}
     for hinge in solver.hinges:
+        if not hinge.plastic:
+            continue
         key = (hinge.record.form, math.isfinite(hinge.record.rate_reference), hinge.record.softening_variable)
         alike.setdefault(key, []).append(hinge)
     found += [_carries(structure, hinges) for hinges in alike.values()]
+    jointed = dict.fromkeys(hinge.member for hinge in solver.hinges if not hinge.plastic)
+    if jointed:
+        found.append(
+            f"{named('Member', list(jointed))} also bend{'s' if len(jointed) == 1 else ''} elastically at "
+            f"{sum(not hinge.plastic for hinge in solver.hinges)} elastic joint(s) between the hinges, which "
+            "have no plastic law: together they are as stiff as the member."
+        )
     return tuple(found)
 
 
@@ -127,7 +137,7 @@ def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solv
             f"{vanished:.4g} J of the given {max(solved.given, kinetic + solved.lost):.4g} J is lost "
             "at the start: the given motion does not fit the supports and hinges."
         )
-    stored = sum(_elastic_limit(structure, hinge, hinges[hinge.name]) for hinge in placed)
+    stored = energy_left_out(structure, solved.hinges)
     total = energy_put_in(solved)
     if total > 0.0 and stored > ELASTIC_SHARE * total:
         found.append(
@@ -195,14 +205,3 @@ def _inaccurate(hinges: dict[str, HingeSummary], largest: float) -> list[str]:
         f"The rotations of {number} of {len(errors)} hinges err by up to {math.degrees(worst):.2g} deg "
         "(estimated): ask for a tighter accuracy."
     ]
-
-
-def _elastic_limit(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -> float:
-    """Energy [J] that the elastic part left out by a rigid hinge could store, at its capacity."""
-    if hinge.record.form is Form.ELASTIC_PLASTIC:
-        return 0.0
-    stiffness = tributary_stiffness(
-        structure.flexural_rigidity(hinge.member, hinge.axis), hinge.tributary_length
-    )
-    capacity = max(float(hinge.record.positive.moment.max()), float(hinge.record.negative.moment.max()))
-    return min(summary.moment_max, capacity) ** 2 / (2.0 * stiffness)

@@ -17,7 +17,7 @@ from crumple.shell.model.metal import in_words
 from crumple.shell.model.model import ShellCase
 from crumple.shell.model.obstacles import too_sharp
 from crumple.structure import ShellSettings, Stage, Structure
-from crumple.structure.hinges.hinges import hinge_places
+from crumple.structure.hinges.places import hinge_places
 
 LOST_SHARE = 5e-3
 """Share of the given energy that may vanish at the start before a warning."""

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from crumple.errors import Problem
 from crumple.structure.checks.hinge_checks import sound_members
-from crumple.structure.hinges.hinges import member_hinge_places
+from crumple.structure.hinges.places import member_hinge_places
 from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import outside
 

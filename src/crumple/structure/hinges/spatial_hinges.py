@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from crumple.hinge import Form, HingeRecord, SofteningVariable, build_axial_law, build_torsion_law, record_of
+from crumple.hinge import HingeRecord, SofteningVariable, build_axial_law, build_torsion_law, record_of
 from crumple.hinge.axial.axial_collapse import AxialCollapse
 from crumple.hinge.record.spatial_record import Coupling, Freedom, HingeComponent, SpatialHingeRecord
 from crumple.hinge.record.spatial_recording import spatial_record
@@ -17,6 +17,7 @@ from crumple.structure.remembered import remembered
 
 if TYPE_CHECKING:
     from crumple.section import InteractionFit, PlasticInteraction
+    from crumple.structure.hinges.shares import HingeShares
 
 BENDING = {"y": Freedom.Y, "z": Freedom.Z}
 ROWS = 16
@@ -29,9 +30,8 @@ def spatial_hinge_record(
     keys: HingeAxes,
     record_about: Callable[[BendingAxis], HingeRecord],
     axis: BendingAxis,
-    section: Section,
-    material: Material,
-    length: float,
+    metal: tuple[Section, Material],
+    shares: HingeShares,
 ) -> SpatialHingeRecord:
     """Record of a hinge.
 
@@ -43,24 +43,24 @@ def spatial_hinge_record(
         Gives the record of a bending axis.
     axis
         Bending axis where the keys name none.
-    section, material
-        Of its member.
-    length
-        Stretch of member [m] that it stands for in twist and along.
+    metal
+        Section and material of its member.
+    shares
+        Lengths of member that it stands for.
 
     Raises
     ------
     InputError
         If the axes and their laws do not fit together.
     """
+    section, material = metal
     bending = keys.bending or (axis,)
     components = [HingeComponent(BENDING[about], record_about(about)) for about in bending]
     first = components[0].record
     if "x" in (keys.axes or ()):
-        twist = _twist(keys.twist or Twist(), section, material, length)
-        components.append(HingeComponent(Freedom.X, _like(first, twist)))
+        components.append(HingeComponent(Freedom.X, _twist(keys.twist or Twist(), first, metal, shares)))
     if keys.axial is not None:
-        components.append(HingeComponent(Freedom.AXIAL, _axial(keys.axial, first, section, material, length)))
+        components.append(HingeComponent(Freedom.AXIAL, _axial(keys.axial, first, metal, shares)))
     coupling = Coupling(keys.coupling or "section")
     several = len(components) > 1
     return spatial_record(
@@ -88,13 +88,19 @@ def _like(
     )
 
 
-def _twist(keys: Twist, section: Section, material: Material, length: float) -> object:
-    return build_torsion_law(keys.law, section, material, length, **keys.own)
+def _twist(
+    keys: Twist, first: HingeRecord, metal: tuple[Section, Material], shares: HingeShares
+) -> HingeRecord:
+    section, material = metal
+    law = build_torsion_law(keys.law, section, material, shares.stretch, **keys.own)
+    elastic = material.shear_modulus * section.torsion_constant / shares.twist
+    return _like(first, law, elastic)
 
 
 def _axial(
-    keys: AxialSlip, first: HingeRecord, section: Section, material: Material, length: float
+    keys: AxialSlip, first: HingeRecord, metal: tuple[Section, Material], shares: HingeShares
 ) -> HingeRecord:
+    (section, material), length = metal, shares.stretch
     stiffness = material.youngs_modulus * section.area / length
     squash = _interaction(section, material).squash_force
     tension = keys.tension or squash
@@ -109,7 +115,7 @@ def _axial(
             tension=tension,
             closed_stiffness=stiffness,
         )
-    elastic = stiffness if first.form is Form.ELASTIC_PLASTIC else None
+    elastic = material.youngs_modulus * section.area / shares.axial
     return _like(first, law, elastic, one_sided=True)
 
 

@@ -73,7 +73,7 @@ class LawKeys(Registered):
     form: Literal["set-valued", "elastic-plastic", "regularised"] = "set-valued"
     """How the capacity becomes a moment: rigid until reached, a spring in series, or a ramp over the rate."""
     elastic_stiffness: StiffnessOrAuto = "auto"
-    """Spring of the elastic-plastic form; auto: the law's own, else EI over the tributary length."""
+    """Spring of the elastic-plastic form; auto: the law's own, else the hinge's share of the member's."""
     regularisation: Regularisation = Regularisation()
     """Ramp of the regularised form."""
     softening: Literal["peak", "rotation", "accumulated"] = "peak"

@@ -11,7 +11,7 @@ from crumple.multibody.answer.hinge_histories import RecordedHinge, hinge_column
 from crumple.result.channels import channel
 
 TIMES, COMPONENTS, HINGES = 3, 4, 2
-HINGE = SimpleNamespace(name="root")
+HINGE = SimpleNamespace(name="root", plastic=True)
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ def _rows():
 
 
 def columns(rows, free, first=0, sign=1.0):
-    ((_, found),) = hinge_columns([RecordedHinge(HINGE, free, first, sign)], rows)
+    ((_, _, found),) = hinge_columns([RecordedHinge(HINGE, free, first, sign)], rows)
     return found
 
 

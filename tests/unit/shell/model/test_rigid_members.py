@@ -157,13 +157,6 @@ def test_automatic_hinges_avoid_rigid_parts():
     ]  # fmt: skip
 
 
-def test_elastic_length_of_a_hinge_leaves_out_what_is_rigid():
-    from crumple.structure.hinges.hinges import tributary_lengths
-
-    assert tributary_lengths([0.1], 0.9, ((0.3, 0.6),)) == pytest.approx([0.2])
-    assert tributary_lengths([0.1, 0.7], 0.9, ((0.3, 0.6),)) == pytest.approx([0.3, 0.3])
-
-
 def refused(**more):
     with pytest.raises(InputError) as error:
         lower(bar(**more), COARSE)

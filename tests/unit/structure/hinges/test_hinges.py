@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from crumple.errors import InputError
-from crumple.hinge import Form, SofteningVariable
+from crumple.hinge import Form, Freedom, SofteningVariable
 from crumple.section import half_fold_length
-from crumple.structure import Structure, hinge_places, placed_hinges
+from crumple.structure import Structure, hinge_places, placed_hinges, plastic_hinges, shares_left_out
 
 
 def placed(keys):
@@ -68,21 +68,101 @@ def test_bars_put_a_hinge_between_neighbours(keys):
     assert len({id(hinge.law) for hinge in hinges[1:]}) == 1
 
 
-def test_tributary_lengths_are_a_third_alone_and_shares_together(keys):
-    assert placed(keys)[0].tributary_length == pytest.approx(1.0 / 3.0)
+def test_the_hinge_of_a_cantilever_stands_for_its_triangle_of_moments(keys):
+    (hinge,) = placed(keys)
+    # the third of its length, for a hinge at the clamp itself
+    assert hinge.tributary_length == pytest.approx(1.0 / 3.0 / (1.0 - hinge.station) ** 2)
     keys["members"]["arm"] |= {"bars": 4, "hinges": []}
-    assert [hinge.tributary_length for hinge in placed(keys)] == pytest.approx([0.375, 0.25, 0.375])
+    # the tributary lengths 3/8, 2/8, 3/8, times what gives the tip of the beam
+    expected = np.array([0.375, 0.25, 0.375])
+    expected *= 1.0 / 3.0 / (expected @ np.array([0.75, 0.5, 0.25]) ** 2)
+    assert [hinge.tributary_length for hinge in placed(keys)] == pytest.approx(expected)
+
+
+ELASTIC = {"type": "constant", "form": "elastic-plastic"}
+
+
+def between_clamps(keys, **hinge):
+    """The arm between two clamps, with hinges at 0.1 and 0.8 m."""
+    keys["supports"]["other"] = {"node": "tip", "fix": "all"}
+    keys["members"]["arm"]["hinges"] = [
+        {"name": name, "at": at, "law": ELASTIC} | hinge for name, at in (("a", 0.1), ("b", 0.8))
+    ]
+    return keys
+
+
+def test_a_member_that_needs_it_gets_an_elastic_joint(keys):
+    hinges = placed(between_clamps(keys))
+    assert [hinge.name for hinge in hinges] == ["a", "b", "arm elastic"]
+    assert [hinge.plastic for hinge in hinges] == [True, True, False]
+    stations, lengths = ([getattr(hinge, key) for hinge in hinges] for key in ("station", "tributary_length"))
+    for k in range(3):
+        assert np.sum(np.array(lengths) * np.array(stations) ** k) == pytest.approx(1.0 / (k + 1))
+    rigidity = Structure(**keys).flexural_rigidity("arm", "y")
+    for hinge, length in zip(hinges, lengths, strict=True):
+        assert hinge.record.elastic_stiffness == pytest.approx(rigidity / length)
+    # never reached
+    assert hinges[2].record.positive.moment.min() == pytest.approx(
+        100.0 * hinges[0].record.positive.moment.max()
+    )
+    assert [hinge.name for hinge in plastic_hinges(Structure(**keys))] == ["a", "b"]
+
+
+def test_rigid_forms_and_given_stiffnesses_get_no_joint(keys):
+    for law in (
+        "constant",
+        {"type": "constant", "form": "regularised"},
+        ELASTIC | {"elastic_stiffness": 1e4},
+    ):
+        assert all(hinge.plastic for hinge in placed(between_clamps(keys, law=law)))
+    structure = Structure(**between_clamps(keys, law="constant"))
+    # but the warning about elastic energy knows where they would be
+    assert shares_left_out(structure)["arm"]["y"].joints
+    assert not shares_left_out(Structure(**between_clamps(keys)))["arm"]
+
+
+def test_the_elastic_hinge_of_a_member_stands_for_all_of_it(keys):
+    keys = between_clamps(keys)
+    keys["members"]["arm"]["hinges"][1]["law"] = "constant"
+    first, second, joint = placed(keys)
+    assert (joint.name, second.tributary_length) == ("arm elastic", 0.0)
+    assert first.tributary_length + joint.tributary_length == pytest.approx(1.0)
+    assert second.record.form is Form.SET_VALUED
+
+
+def test_a_joint_bends_about_the_axes_of_its_hinges(keys):
+    hinges = placed(between_clamps(keys, axes=["y", "z"], coupling="none"))
+    joint = hinges[-1]
+    assert joint.spatial.freedoms == (Freedom.Y, Freedom.Z)
+    structure = Structure(**keys)
+    for component, axis in zip(joint.spatial.components, "yz", strict=True):
+        rigidity = structure.flexural_rigidity("arm", axis)
+        assert component.record.elastic_stiffness == pytest.approx(rigidity / joint.tributary_length)
+
+
+@pytest.mark.parametrize(
+    ("more", "joint"),
+    [
+        ({}, False),
+        ({"masses": {"m": {"node": "tip", "mass": 1.0}}}, False),
+        ({"masses": {"m": {"node": "tip", "mass": 1.0, "offset": (0.1, 0, 0)}}}, True),
+        ({"loads": [{"node": "tip", "force": {"z": 1.0}}]}, False),
+        ({"loads": [{"node": "tip", "moment": {"y": 1.0}}]}, True),
+        ({"impulses": [{"node": "tip", "angular_impulse": (0.0, 1.0, 0.0)}]}, True),
+    ],
+)
+def test_what_bends_the_end_of_a_cantilever(keys, more, joint):
+    keys["members"]["arm"]["hinges"][0]["law"] = ELASTIC
+    assert any(not hinge.plastic for hinge in placed(keys | more)) is joint
 
 
 def test_elastic_stiffness_follows_the_share_of_each_hinge(keys):
-    keys["members"]["arm"] |= {
-        "bars": {"number": 4, "law": {"type": "constant", "form": "elastic-plastic"}},
-        "hinges": [],
-    }
+    keys["members"]["arm"] |= {"bars": {"number": 4, "law": ELASTIC}, "hinges": []}
     structure = Structure(**keys)
     rigidity = 210e9 * structure.section_of("arm").second_moment("y")
     stiffness = [hinge.record.elastic_stiffness for hinge in placed_hinges(structure)]
-    assert stiffness == pytest.approx([rigidity / length for length in (0.375, 0.25, 0.375)])
+    lengths = [hinge.tributary_length for hinge in placed_hinges(structure)]
+    assert stiffness == pytest.approx([rigidity / length for length in lengths])
     keys["members"]["arm"]["bars"]["law"]["elastic_stiffness"] = "12 kN*m/rad"
     assert {hinge.record.elastic_stiffness for hinge in placed(keys)} == {12e3}
 

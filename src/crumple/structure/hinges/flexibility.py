@@ -1,0 +1,217 @@
+"""How hinges on a bar share its flexibility, so that bending moments store the energy of the whole bar.
+
+Between its ends a bar carries a bending moment m(x) that is linear, and stores the energy
+
+    1/2 int m(x)^2 / (E I) dx        over the parts of the bar that bend.
+
+Hinges at x_i with springs E I / w_i store 1/2 sum w_i m(x_i)^2 / (E I): a quadrature of the integral with the
+lengths w_i as weights.  It is exact for every linear moment if
+
+    sum w_i x_i^k = int x^k dx       for k = 0, 1, 2,
+
+and so are all deflections of the ends (Castigliano).  Of all weights that fulfil this, those nearest to the
+tributary lengths t_i are taken, w_i = t_i p(x_i) with a quadratic p.  Where one would be negative or next to
+nothing, elastic joints are added as further points.  Limits and proof: docs/theory/member_stiffness.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations, pairwise
+
+import numpy as np
+
+from crumple.numeric.arrays import Floats
+from crumple.structure.remembered import remembered
+
+Stretches = tuple[tuple[float, float], ...]
+
+LEAST = 0.1
+"""Smallest share of its tributary length that a hinge gets: below it, the spring would be ten times as stiff
+as its surroundings and its vibration would rule the time steps."""
+MOST = 1.4
+"""Largest length of a hinge over its tributary one where a free end leaves one condition: a bar cut in two
+equal parts needs 4/3."""
+EXACT = 1e-9
+"""Error of the three moments, over the flexible length, that is rounding."""
+PLACES = 24
+"""Joints are sought at multiples of the flexible length over this, and no nearer to
+hinges and ends."""
+MOST_JOINTS = 2
+"""Joints that suffice beside at least one hinge, wherever it is."""
+FLOOR = 0.05
+"""Least tributary length over the mean: a hinge between rigid parts still is a point."""
+KEPT = 4096
+"""Bars kept; equal members of a frame, and the runs of a study, share one answer."""
+
+
+@dataclass(frozen=True)
+class Flexibility:
+    """Lengths of a bar that its hinges stand for.
+
+    Attributes
+    ----------
+    lengths
+        One for each hinge [m].
+    joints
+        Station and length [m] of the elastic joints that are needed beside the hinges.
+    """
+
+    lengths: tuple[float, ...]
+    joints: Stretches = ()
+
+
+@remembered(KEPT)
+def flexibility(
+    stations: tuple[float, ...],
+    length: float,
+    rigid: Stretches = (),
+    free: tuple[bool, bool] = (False, False),
+) -> Flexibility:
+    """Share the flexibility of a bar among its hinges.
+
+    Parameters
+    ----------
+    stations
+        Hinges' distances from the first end [m], increasing; at least one.
+    length
+        Of the bar [m].
+    rigid
+        Stretches that do not bend [m], increasing.
+    free
+        Whether the first and the last end carry no moment.  With a free end fewer conditions remain, so that
+        joints are not needed.
+
+    References
+    ----------
+    docs/theory/member_stiffness.md.  Verified in tests/unit/structure/hinges/test_flexibility.py and
+    tests/verification/hinge/test_member_stiffness.py.
+    """
+    bar = _Bar(length, _complement(length, rigid))
+    points = np.asarray(stations, float)
+    lengths, least = bar.exact(points)
+    if least >= LEAST:
+        return Flexibility(_numbers(lengths))
+    eased = bar.with_free_end(points, free)
+    if eased is not None:
+        return Flexibility(_numbers(eased))
+    joints = bar.joints_beside(points)
+    together = np.sort(np.concatenate([points, joints]))
+    lengths, least = bar.exact(together)
+    if not least > 0.0:
+        return Flexibility(_numbers(bar.tributary(points)))
+    added = np.isin(together, joints)
+    found = tuple(zip(_numbers(together[added]), _numbers(lengths[added]), strict=True))
+    return Flexibility(_numbers(lengths[~added]), found)
+
+
+def tributary_lengths(stations: Sequence[float], length: float, rigid: Stretches = ()) -> list[float]:
+    """Flexible length of a bar [m] that is nearest to each of its hinges; together all of it.
+
+    Parameters
+    ----------
+    stations
+        Hinges' distances from the first end [m], increasing.
+    length
+        Of the bar [m].
+    rigid
+        Stretches that do not count [m].
+    """
+    return list(_numbers(_Bar(length, _complement(length, rigid)).tributary(np.asarray(stations, float))))
+
+
+@dataclass(frozen=True)
+class _Bar:
+    """A bar and the stretches of it that bend, increasing [m]."""
+
+    length: float
+    flexible: Stretches
+
+    @property
+    def total(self) -> float:
+        return sum(b - a for a, b in self.flexible)
+
+    def tributary(self, points: Floats) -> Floats:
+        """Flexible length that is nearest to each point, more than nothing."""
+        borders = np.concatenate([[0.0], (points[1:] + points[:-1]) / 2.0, [self.length]])
+        below = sum((np.clip(borders, a, b) - a for a, b in self.flexible), np.zeros(len(borders)))
+        near, least = np.diff(below), FLOOR * self.total / len(points)
+        if (near >= least).all():
+            return near
+        near = np.maximum(near, least)
+        return np.asarray(near * (self.total / near.sum()))
+
+    def exact(self, points: Floats) -> tuple[Floats, float]:
+        """Weights exact for quadratics, and the least over its tributary length; -1: there are none."""
+        near = self.tributary(points)
+        powers = np.vander(self._scaled(points), 3, increasing=True).T
+        ends = self._scaled(np.array(self.flexible))
+        order = np.arange(1, 4)[:, None]
+        integrals = (ends[:, 1] ** order - ends[:, 0] ** order).sum(axis=1) / order[:, 0] * self.length / 2.0
+        change = np.linalg.lstsq((powers * near) @ powers.T, integrals - powers @ near, rcond=1e-10)[0]
+        weights = near * (1.0 + change @ powers)
+        exact = np.abs(powers @ weights - integrals).max() <= EXACT * self.total
+        return weights, float((weights / near).min()) if exact else -1.0
+
+    def with_free_end(self, points: Floats, free: tuple[bool, bool]) -> Floats | None:
+        """Weights where moments vanish at free ends: exact for the one linear field that is left."""
+        near = self.tributary(points)
+        if all(free):
+            # nothing but a force on the bar bends it: the triangle under one, where there is a single hinge
+            return near / 3.0 if len(points) == 1 else near
+        if not any(free):
+            return None
+        end = 0.0 if free[0] else self.length
+        integral = sum(((b - end) ** 3 - (a - end) ** 3) / 3.0 for a, b in self.flexible)
+        sampled = float(near @ (points - end) ** 2)
+        # a hinge near the free end would have to be softer than the whole bar
+        return near * (integral / sampled) if integral <= MOST * sampled else None
+
+    def joints_beside(self, points: Floats) -> Floats:
+        """Fewest further points that give all weights at least their least share, the most even ones."""
+        best, stations = LEAST, np.zeros(0)
+        for number in range(1, MOST_JOINTS + 1):
+            for chosen in combinations(self._candidates(points, number), number):
+                if any(b - a < self._clearance for a, b in pairwise(sorted(chosen))):
+                    continue
+                least = self.exact(np.sort(np.concatenate([points, chosen])))[1]
+                if least > best * (1.0 + EXACT):
+                    best, stations = least, np.array(chosen)
+            if len(stations):
+                break
+        return stations
+
+    @property
+    def _clearance(self) -> float:
+        return self.total / PLACES * (1.0 - 1e-6)
+
+    def _candidates(self, points: Floats, number: int) -> list[float]:
+        """Places for joints, away from hinges and ends; for one beside one hinge also what suits it."""
+        places = []
+        gone = 0.0
+        for a, b in self.flexible:
+            steps = (k * self.total / PLACES - gone + a for k in range(PLACES + 1))
+            places += [step for step in steps if a <= step <= b]
+            gone += b - a
+        if len(points) == number == 1:
+            first, second, third = (sum((b**k - a**k) / k for a, b in self.flexible) for k in (1, 2, 3))
+            arm = second - points[0] * first
+            partner = (third - points[0] * second) / arm if arm else np.inf
+            places += [partner] if any(a <= partner <= b for a, b in self.flexible) else []
+        taken = np.concatenate([points, [0.0, self.length]])
+        return [place for place in places if np.abs(taken - place).min() >= self._clearance]
+
+    def _scaled(self, stations: Floats) -> Floats:
+        return np.asarray(2.0 * stations / self.length - 1.0)
+
+
+def _complement(length: float, rigid: Stretches) -> Stretches:
+    """What lies between stretches of a bar."""
+    borders = [0.0, *(end for part in rigid for end in part), length]
+    pairs = zip(borders[::2], borders[1::2], strict=True)
+    return tuple((a, min(b, length)) for a, b in pairs if min(b, length) > a)
+
+
+def _numbers(values: Floats) -> tuple[float, ...]:
+    return tuple(float(value) for value in values)

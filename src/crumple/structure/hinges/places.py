@@ -1,0 +1,160 @@
+"""Where the hinges of a structure are, and which law each has.
+
+A hinge at a node that is held against its rotation lies half a fold length inside the member: a fold needs
+room, and a clamp gives none.  Between the equal bars of a member lies one hinge each.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from crumple import hinge
+from crumple.errors import InputError, Problem
+from crumple.hinge import HingeLaw
+from crumple.hinge.registry import BENDING, DEFAULT_BENDING
+from crumple.material import Material
+from crumple.numeric.arrays import Floats
+from crumple.section import Axis, Section, half_fold_length
+from crumple.structure.bending import bending_axis
+from crumple.structure.hinges.automatic import hinges_of, where_automatic
+from crumple.structure.keys.hinge_axes import HingeAxes
+from crumple.structure.keys.law import LawKeys, LawReference
+from crumple.structure.keys.member import Hinge
+from crumple.structure.keys.motion import FREEDOMS
+from crumple.structure.parts import StructureParts
+from crumple.structure.remembered import remembered
+
+PLAIN = HingeAxes()
+"""A hinge that bends about one axis, the one across the plane of bending."""
+MADE = 1024
+"""Laws, and records, that a process keeps: far more than any structure has."""
+SAME_DIRECTION = 1e-9
+"""Component of a unit vector below which it does not point along an axis."""
+
+
+@dataclass(frozen=True)
+class HingePlace:
+    """One hinge before its law is built.
+
+    Attributes
+    ----------
+    name
+        Unique in the structure.
+    member
+        Member that it belongs to; the first side of the hinge is that of the member's first node.
+    station
+        Distance from the member's first node [m].
+    axis
+        Section axis of its moment vector.
+    law
+        Reference as the input gives it.
+    where
+        Path in the input, for messages.
+    keys
+        All that the input says of its axes.
+    """
+
+    name: str
+    member: str
+    station: float
+    axis: Axis
+    law: LawReference | None
+    where: str
+    keys: HingeAxes = PLAIN
+
+
+def hinge_places(structure: StructureParts) -> tuple[HingePlace, ...]:
+    """Every hinge of a sound structure, member by member, along each member.
+
+    The structure's members must have nodes that exist and are apart; everything else is not looked at.
+    """
+    return tuple(place for member in structure.members for place in member_hinge_places(structure, member))
+
+
+def member_hinge_places(structure: StructureParts, member: str) -> list[HingePlace]:
+    """Hinges of one member by increasing station."""
+    spec, length = structure.members[member], structure.frame_of(member).length
+    bars, where, axis = spec.bars, f"members.{member}", bending_axis(structure, member)
+    places = [
+        _place(f"{member}-{i}", member, length * i / bars.number, bars, f"{where}.bars", axis)
+        for i in range(1, bars.number)
+    ]
+    automatic = where_automatic(structure, member)
+    for i, given in enumerate(hinges_of(structure, member)):
+        station = hinge_station(structure, member, given)
+        places.append(_place(given.name, member, station, given, automatic or f"{where}.hinges[{i}]", axis))
+    return sorted(places, key=lambda place: place.station)
+
+
+def _place(name: str, member: str, station: float, keys: HingeAxes, where: str, axis: Axis) -> HingePlace:
+    first = first_axis(keys) or axis
+    return HingePlace(name, member, station, first, keys.law_about(first), where, keys)
+
+
+def first_axis(keys: HingeAxes) -> Axis | None:
+    """Bending axis that a hinge names, the first of several."""
+    return keys.bending[0] if keys.bending else keys.axis
+
+
+def hinge_station(structure: StructureParts, member: str, given: Hinge) -> float:
+    """Distance of a hinge from the member's first node [m]; may lie outside the member."""
+    spec = structure.members[member]
+    if not isinstance(given.at, str):
+        return given.at + (given.offset or 0.0)
+    offset = given.offset
+    if offset is None:
+        axis = first_axis(given) or bending_axis(structure, member)
+        held = holds_rotation(structure, given.at, structure.frame_of(member).axis(axis))
+        offset = half_fold_length(structure.section_of(member), axis) if held else 0.0
+    return offset if given.at == spec.nodes[0] else structure.frame_of(member).length - offset
+
+
+def holds_rotation(structure: StructureParts, node: str, direction: Floats) -> bool:
+    """Whether supports hold or drive the rotation of a node about a direction."""
+    supports = [support for support in structure.supports.values() if support.node == node]
+    held = {freedom for support in supports for freedom in (*support.held, *support.driven)}
+    needed = (FREEDOMS[3 + i] for i in range(3) if abs(direction[i]) > SAME_DIRECTION)
+    return all(freedom in held for freedom in needed)
+
+
+def law_spec(structure: StructureParts, place: HingePlace) -> LawKeys:
+    """Law that a hinge refers to.
+
+    Raises
+    ------
+    InputError
+        If it names none and its section has no default.
+    """
+    reference = place.law
+    if reference is None:
+        kind = structure.section_of(place.member).kind
+        if kind not in DEFAULT_BENDING:
+            what, todo = f"a hinge in a {kind} needs a law", "add 'law'"
+            allowed = "a name in hinge_laws, or " + ", ".join(BENDING)
+            raise InputError(Problem(what, "", allowed, todo))
+        reference = DEFAULT_BENDING[kind]
+    if not isinstance(reference, str):
+        return reference
+    return structure.hinge_laws[reference] if reference in structure.hinge_laws else LawKeys(type=reference)
+
+
+def law_of(structure: StructureParts, place: HingePlace) -> HingeLaw:
+    """Formula of a hinge.
+
+    Raises
+    ------
+    InputError
+        If the law does not fit the section.
+    """
+    section, material = structure.section_of(place.member), structure.material_of(place.member)
+    return _law(section, material, place.axis, law_spec(structure, place))
+
+
+# a law is a pure function of these four: the hinges of a chain and the runs of a study share it
+@remembered(MADE)
+def _law(section: Section, material: Material, axis: Axis, spec: LawKeys) -> HingeLaw:
+    given = {name: value for name, value in spec.own.items() if value is not None}
+    options = set(hinge.law_options(spec.type))
+    if "elastic_stiffness" in options and not isinstance(spec.elastic_stiffness, str):
+        given["elastic_stiffness"] = spec.elastic_stiffness
+    return hinge.bounded(hinge.build_law(spec.type, section, material, axis, **given), spec.bound)

@@ -1,0 +1,185 @@
+"""What the hinges of a member stand for of its elastic flexibility, axis by axis, and its elastic joints."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Literal, get_args
+
+from crumple.errors import InputError
+from crumple.section import Axis
+from crumple.structure.hinges.flexibility import flexibility, tributary_lengths
+from crumple.structure.hinges.places import HingePlace, law_of, law_spec
+from crumple.structure.parts import StructureParts
+
+Spring = Literal["none", "given", "auto"]
+"""Whether a hinge bends elastically about an axis, and whether by a stiffness of its own or the member's."""
+AXES: tuple[Axis, ...] = get_args(Axis)
+
+
+@dataclass(frozen=True)
+class HingeShares:
+    """Lengths of member [m] that a hinge stands for.
+
+    Attributes
+    ----------
+    bending
+        In elastic bending, by axis.
+    axial, twist
+        In elastic lengthening, and in elastic twist.
+    stretch
+        Of the laws of axial folding and of twist: the part of the member that folds.
+    """
+
+    bending: Mapping[Axis, float] = field(default_factory=dict)
+    axial: float = 1.0
+    twist: float = 1.0
+    stretch: float = 1.0
+
+
+@dataclass(frozen=True)
+class AxisShares:
+    """How the hinges of a member share its bending about one axis.
+
+    Attributes
+    ----------
+    lengths
+        By hinge [m]; one that takes no part has none.
+    joints
+        Station and length [m] of the elastic joints that the member needs beside them.
+    elastic
+        Whether the model has these joints: whether a hinge takes its stiffness from the member.
+    rigid
+        Whether no hinge is elastic about the axis; lengths and joints are then those that the elastic form
+        would have.
+    """
+
+    lengths: Mapping[str, float]
+    joints: tuple[tuple[float, float], ...]
+    elastic: bool
+    rigid: bool
+
+
+def member_shares(
+    structure: StructureParts, places: Sequence[HingePlace], free: tuple[bool, bool]
+) -> tuple[list[HingeShares], dict[Axis, AxisShares]]:
+    """Shares of each hinge of a member, and those about each bending axis.
+
+    Parameters
+    ----------
+    structure
+        Its members and laws.
+    places
+        Hinges of one member, along it; at least one.
+    free
+        Whether the member's first and second end carry no moment.
+    """
+    member = structure.members[places[0].member]
+    length = structure.frame_of(places[0].member).length
+    rigid = member.rigid_parts(length)
+    about = {axis: _about(structure, places, axis, (length, rigid, free)) for axis in AXES}
+    found = {axis: shares for axis, shares in about.items() if shares is not None}
+
+    def along(takes_part: Callable[[HingePlace], bool]) -> dict[str, float]:
+        own = [place for place in places if takes_part(place)]
+        lengths = tributary_lengths([place.station for place in own], length, rigid) if own else []
+        return {place.name: share for place, share in zip(own, lengths, strict=True)}
+
+    axial = along(lambda place: place.keys.axial is not None)
+    twist = along(lambda place: "x" in (place.keys.axes or ()))
+    nearest = along(lambda place: True)
+    return [
+        HingeShares(
+            {
+                axis: shares.lengths[place.name]
+                for axis, shares in found.items()
+                if place.name in shares.lengths
+            },
+            axial.get(place.name, 1.0),
+            twist.get(place.name, 1.0),
+            length if len(places) == 1 else nearest[place.name],
+        )
+        for place in places
+    ], found
+
+
+def axes_of(place: HingePlace) -> tuple[Axis, ...]:
+    """Bending axes of a hinge."""
+    return place.keys.bending or (place.axis,)
+
+
+def about_axis(place: HingePlace, axis: Axis) -> HingePlace:
+    """A hinge as its law about one of its bending axes sees it."""
+    return place if axis == place.axis else replace(place, axis=axis, law=place.keys.law_about(axis))
+
+
+def _about(
+    structure: StructureParts,
+    places: Sequence[HingePlace],
+    axis: Axis,
+    bar: tuple[float, tuple[tuple[float, float], ...], tuple[bool, bool]],
+) -> AxisShares | None:
+    """Shares about an axis: of the elastic hinges, or of all where none is elastic."""
+    own = [place for place in places if axis in axes_of(place)]
+    if not own:
+        return None
+    seen: dict[int, Spring] = {}
+    springs: list[Spring] = []
+    for place in own:
+        # the hinges between the bars of a member have one and the same keys
+        if id(place.keys) not in seen:
+            seen[id(place.keys)] = _spring(structure, about_axis(place, axis))
+        springs.append(seen[id(place.keys)])
+    elastic = [place for place, spring in zip(own, springs, strict=True) if spring != "none"]
+    points = elastic or own
+    shared = flexibility(tuple(place.station for place in points), *bar)
+    lengths = {place.name: length for place, length in zip(points, shared.lengths, strict=True)}
+    return AxisShares(lengths, shared.joints, "auto" in springs, not elastic)
+
+
+def _spring(structure: StructureParts, place: HingePlace) -> Spring:
+    try:
+        spec = law_spec(structure, place)
+        if spec.form != "elastic-plastic":
+            return "none"
+        own = spec.elastic_stiffness != "auto" or law_of(structure, place).elastic_stiffness is not None
+    except InputError:
+        # told where the hinge is built
+        return "none"
+    return "given" if own else "auto"
+
+
+def moment_free_ends(structure: StructureParts) -> Callable[[str], tuple[bool, bool]]:
+    """For a member: whether its first and second end carry no bending moment.
+
+    An end is free where no other member is joined rigidly, no support holds or drives a rotation, and no
+    rotary inertia and no moment acts, or where a spherical joint is.  Of a member that spot welds join to
+    another nothing is known, and parts of it cannot move against each other: it counts as free at both ends.
+    """
+    freed = {(joint.member, joint.node) for joint in structure.joints.values() if joint.type == "spherical"}
+    joined = Counter(
+        node for name, spec in structure.members.items() for node in spec.nodes if (name, node) not in freed
+    )
+    bent = {
+        support.node
+        for support in structure.supports.values()
+        if any(freedom[0] == "r" for freedom in (*support.held, *support.driven))
+    }
+    bent |= {mass.node for mass in structure.masses.values() if any(mass.rotary_inertia) or any(mass.offset)}
+    bent |= {
+        load.node for load in structure.loads if any(getattr(load.moment, axis) is not None for axis in "xyz")
+    }
+    bent |= {impulse.node for impulse in structure.impulses if any(impulse.angular_impulse)}
+    welded = {
+        name for welds in structure.spot_welds.values() if len(welds.members) == 2 for name in welds.members
+    }
+
+    def free(member: str) -> tuple[bool, bool]:
+        first, second = (
+            member in welded or (member, node) in freed or (joined[node] == 1 and node not in bent)
+            for node in structure.members[member].nodes
+        )
+        return first, second
+
+    return free
