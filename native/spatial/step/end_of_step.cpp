@@ -12,9 +12,9 @@ namespace {
 constexpr int projection_limit = 4;
 // Share of the model's length to which held points meet: rounding.
 constexpr double gap_tolerance = 1e-14;
-// The same, or angle [rad]: above it the projection's Newton steps have found no solution.  Where there is one they go to rounding; a
-// drive against what cannot give way misses by all its way, however short the steps.
-constexpr double newton_tolerance = 1e-6;
+// The same, or angle [rad]: with a larger gap after its Newton steps the projection counts as unsolvable.  Where there is a solution
+// they go to rounding; a drive against what cannot give way misses by all its way, however short the steps.
+constexpr double unsolvable_gap = 1e-6;
 // Rates of held rows at the end of a step, relative to the speed.
 constexpr double projection_tolerance = 1e-12;
 
@@ -192,7 +192,7 @@ bool Stepper::meets() const {
         for (int i = 0; i < system_.links()[c].held; i++) {
             const size_t k = at(start(c) + i);
             const bool turns = dot(rows_[k].t, rows_[k].t) == 0;
-            if (!(std::fabs(error_[k]) <= newton_tolerance * (turns ? 1 : model_.length))) return false;
+            if (!(std::fabs(error_[k]) <= unsolvable_gap * (turns ? 1 : model_.length))) return false;
         }
     }
     return true;

@@ -233,6 +233,31 @@ def test_both_members_of_a_corner_share_its_rotation():
     assert caution
 
 
+def test_hinges_that_open_in_one_result_alone_are_reported_together():
+    structure = load(EXAMPLE.parent / "06_two_bars.yaml").structure
+    (any_place, *_) = placed_hinges(structure)
+    names = [f"h{i}" for i in range(9)]
+    openings = [SimpleNamespace(name=name) for name in names]
+    comparison = SimpleNamespace(
+        candidate=SimpleNamespace(name="multibody", extra=()),
+        reference=SimpleNamespace(name="shell", extra=()),
+        opened={"multibody": openings[:8], "shell": openings[8:]},
+        hinges=[
+            SimpleNamespace(name=name, member="first", station=0.1, fold_extent=None, fold_station=None)
+            for name in names
+        ],
+    )
+    found = list(fold_sentences(comparison, structure, dict.fromkeys(names, any_place)))
+    assert found == [
+        (
+            "Hinges h0, h1, h2, h3, h4, h5 and 2 more open in the multibody result only; the shell result "
+            "has no fold there.",
+            True,
+        ),
+        ("Hinge h8 opens in the shell result only.", True),
+    ]
+
+
 def test_jamming_and_contact_are_reported(case, multibody):
     found = compare(multibody, folded_result(largest=1.6, contact=0.05), case.structure)
     said = " ".join(found.trust.cautions)

@@ -14,6 +14,8 @@ from crumple.structure import PlacedHinge, Structure
 
 CRUSHED = 0.1
 """Shortening of a fold beyond that of its bend, over its length, from which it is reported."""
+MOST_NAMED = 6
+"""Number of hinges that a sentence names; of further ones it gives the number."""
 BENT = math.radians(1.0)
 """Rotation of a corner [rad] from which it is reported."""
 
@@ -50,19 +52,10 @@ def fold_sentences(
         )
     yield from _shared(comparison)
     yield from _corners(comparison, structure, hinges)
-    opened = {source: {o.name for o in found} for source, found in comparison.opened.items()}
+    yield from _opened_in_one(comparison, hinges)
     for hinge in comparison.hinges:
         if hinge.name not in hinges:
             continue
-        here, there = hinge.name in opened[first], hinge.name in opened[second]
-        if here and not there:
-            yield (
-                f"Hinge {hinge.name} opens in the {first} result only; the {second} result has no fold "
-                "there.",
-                True,
-            )
-        elif there and not here:
-            yield f"Hinge {hinge.name} opens in the {second} result only.", True
         if hinge.fold_station is not None:
             away = hinge.fold_station - hinge.station
             text = (
@@ -70,6 +63,30 @@ def fold_sentences(
                 f"{hinge.member}, the hinge at {mm(hinge.station)}."
             )
             yield text, abs(away) > largest_side(structure, hinge.member)
+
+
+def listed(names: list[str]) -> str:
+    """Names with commas, the rest of many counted."""
+    more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
+    return ", ".join(names[:MOST_NAMED]) + more
+
+
+def _opened_in_one(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator[tuple[str, bool]]:
+    """Hinges that open in one result alone, together."""
+    first, second = comparison.candidate.name, comparison.reference.name
+    opened = {source: {o.name for o in found} for source, found in comparison.opened.items()}
+    for here, there, note in (
+        (first, second, f"; the {second} result has no fold there"),
+        (second, first, ""),
+    ):
+        names = [
+            hinge.name
+            for hinge in comparison.hinges
+            if hinge.name in hinges and hinge.name in opened[here] - opened[there]
+        ]
+        if names:
+            do = "Hinge {} opens" if len(names) == 1 else "Hinges {} open"
+            yield f"{do.format(listed(names))} in the {here} result only{note}.", True
 
 
 def _shortened(motion: HingeMotion) -> str:

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from crumple.comparison.cautions.fold_trust import across_joint, fold_sentences, largest_turn
+from crumple.comparison.cautions.fold_trust import across_joint, fold_sentences, largest_turn, listed
 from crumple.comparison.cautions.run_cautions import run_sentences
 from crumple.comparison.cautions.shortfall import shortfall
 from crumple.comparison.cautions.verdict import SMALL, agreement, verdict
@@ -25,8 +25,6 @@ VIBRATES = 0.05
 """Bending of a bar over the rotation of the hinge from which it is reported."""
 SWING = 0.1
 """Share of the largest bending below which a reversal is noise of planes fitted to few points."""
-MOST_NAMED = 6
-"""Number of hinges named in an order of opening."""
 HOURGLASS = 0.05
 """Hourglass energy over internal energy above which a shell run is not suitable as reference."""
 TOUCHED = 0.005
@@ -137,21 +135,16 @@ def _order(comparison: Comparison) -> Iterator[tuple[str, bool]]:
     if len(common[0]) < 2:
         return
     if common[0] == common[1]:
-        yield f"Hinges open in the same order in both: {_listed(common[0])}.", False
+        yield f"Hinges open in the same order in both: {listed(common[0])}.", False
         return
     # first difference of the two orders
     at = next(i for i, (x, y) in enumerate(zip(*common, strict=True)) if x != y)
     same = f"After the first {at}, which agree, the hinges" if at else "The hinges"
     yield (
-        f"{same} open in different orders: {_listed(common[0][at:])} in the {first} result, "
-        f"{_listed(common[1][at:])} in the {second} result.",
+        f"{same} open in different orders: {listed(common[0][at:])} in the {first} result, "
+        f"{listed(common[1][at:])} in the {second} result.",
         True,
     )
-
-
-def _listed(names: list[str]) -> str:
-    more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
-    return ", ".join(names[:MOST_NAMED]) + more
 
 
 def _elastic(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator[tuple[str, bool]]:

@@ -26,9 +26,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from crumple.hinge.bending.kecman_mechanism import COMPLEX_STEP, SMALLEST_ROTATION
+from crumple.hinge.bending.kecman_mechanism import SMALLEST_ROTATION
 from crumple.numeric.arrays import Floats
 
+# Far below the rounding of any rotation, so that a complex step has no truncation error.
+COMPLEX_STEP = 1e-30
 WALLS = 2
 
 

@@ -11,7 +11,7 @@ pairs of rolling lines.  With flange width a, depth b, half fold length h, s = s
     phi = asin(1 - (b/h) s)        angle of the flange plate to the vertical; tilt = pi/2 - phi
 
 Each line works length x turn x m_p, m_p = flow_stress t^2/4; each rolling line of radius r works 2 m_p/r on
-the area that it sweeps.  M = dW/dtheta is taken by a complex step (exact to rounding).
+the area that it sweeps.  M = dW/dtheta is the sum of the derivatives of these terms.
 Limits: theta -> 0: z_A -> sqrt(b h theta), so W ~ theta^(1/2) and M ~ theta^(-1/2), hence a law must cap it;
 flange halves touch (x_E = t/2) at theta_J = 2 asin((h - t/2)/b).
 """
@@ -28,8 +28,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from crumple.numeric.arrays import Floats
 
-# Far below the rounding of any rotation, so that a complex step has no truncation error.
-COMPLEX_STEP = 1e-30
 # Relative step of the central difference of M: truncation and rounding both stay near 1e-10.
 DIFFERENCE_STEP = 1e-5
 # Below this rotation [rad] the singular moment stays at its value there; every law is capped long before.

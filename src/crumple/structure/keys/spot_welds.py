@@ -42,7 +42,7 @@ class SpotWelds(Spec):
     points: Annotated[tuple[Position, ...], Field(max_length=MOST_SPOTS)] = ()
     """Of two members, in place of a line: the places of the spots."""
     diameter: NonNegativeLength = 0.0
-    """Of a spot: every node of both sheets within it is tied, at least one of each."""
+    """Of a spot: all nodes of both sheets within it are tied, and always those within 1.45 element sizes."""
     normal_strength: PositiveForce | None = None
     """Tensile force across the sheets at which a spot fails; without it none does it harm."""
     shear_strength: PositiveForce | None = None
