@@ -11,7 +11,7 @@
 namespace crumple {
 
 // How a run ended; crumple._core.outcome has the same values.
-enum class Outcome { complete, step_collapsed, not_finite, cancelled, refused, unheld, limit_load };
+enum class Outcome { complete, step_collapsed, not_finite, cancelled, refused, unheld, limit_load, stalled };
 
 // Energies of the whole model [J], (rows).  `slowed`: what quasi-static stages took out of the motion.
 template <class T> struct EnergyRecord {

@@ -18,8 +18,8 @@ constexpr double smallest_episode = 1e-2;
 constexpr double smallest_rigid_episode = 1e-5;
 
 // Capacity in one sense (0 positive, 1 negative) before it turns further.  `u` is the plastic rotation counted in
-// that sense.  A fold that is being straightened keeps the strength that it had lost: the larger of both peaks
-// counts until the hinge is straight again.
+// that sense.  A fold keeps the strength that it has lost, in whichever sense it is bent next: walls that have folded do not
+// become straight again.
 Real present_capacity(const Hinge& hinge, const HingeState& s, int sense, Real u, int& hint) {
     const Curve& curve = sense == 0 ? hinge.positive : hinge.negative;
     switch (hinge.softening) {
@@ -27,7 +27,7 @@ Real present_capacity(const Hinge& hinge, const HingeState& s, int sense, Real u
         case Softening::accumulated: return hinge.scale * curve.at(s.accumulated, hint);
         case Softening::peak: break;
     }
-    return hinge.scale * curve.at(u < 0 ? max(s.peak[0], s.peak[1]) : max(s.peak[sense], u), hint);
+    return hinge.scale * curve.at(max(max(s.peak[0], s.peak[1]), u), hint);
 }
 
 // Mean capacity while the hinge turns by `turn` > 0 in one sense from u.
@@ -41,10 +41,9 @@ Real mean_capacity(const Hinge& hinge, const HingeState& s, int sense, Real u, R
             return hinge.scale * (curve.integral(s.accumulated + turn, hint) - curve.integral(s.accumulated, hint)) / turn;
         case Softening::peak: break;
     }
-    const Real peak = s.peak[sense];
+    const Real peak = max(s.peak[0], s.peak[1]);
     Real work = 0;
-    if (u < 0) work += (min(end, 0.0) - u) * curve.at(max(s.peak[0], s.peak[1]), hint);
-    if (u < peak && end > 0) work += (min(end, peak) - max(u, 0.0)) * curve.at(peak, hint);
+    if (u < peak) work += (min(end, peak) - u) * curve.at(peak, hint);
     if (end > peak) work += curve.integral(end, hint) - curve.integral(max(u, peak), hint);
     return hinge.scale * work / turn;
 }

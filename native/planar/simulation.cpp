@@ -20,6 +20,9 @@ double step_tolerance(double accuracy) { return accuracy * std::min(1.0, std::sq
 // Turn [rad] by which a locked hinge may creep; the strongest hinge's work over it is no energy worth balancing.
 constexpr double negligible_turn = 1e-9;
 constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
+// Steps in a row, rejected ones too, that advance a run by less than a share of its time and end it.
+constexpr int most_attempts = 10'000;
+constexpr double advance_share = 1e-3;
 
 // length and error of a step that was made
 struct Attempt {
@@ -133,6 +136,17 @@ bool Simulation::step_twice(double h, bool again) {
     return stepper_.step(fine_, h / 2, coarse_.w.data(), 1);
 }
 
+bool Simulation::stalled(Record& record) {
+    if (state_.t >= mark_) {
+        mark_ = state_.t + advance_share * duration_;
+        attempts_ = 0;
+    }
+    if (++attempts_ <= most_attempts) return false;
+    record.outcome = Outcome::stalled;
+    record.reason = "10000 steps in a row advanced the run by less than 0.1 % of its time";
+    return true;
+}
+
 bool Simulation::advance(double target, Record& record, const std::function<bool(double)>& poll) {
     Attempt rejected;
     while (state_.t < target) {
@@ -144,6 +158,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
                 return false;
             }
         }
+        if (stalled(record)) return false;
         const double stop = std::min(target, next_break()), left = stop - state_.t;
         const double ahead = std::min(h_, longest_part());
         const double wanted = ahead >= left * (1 - 1e-9) ? left : (ahead > left / 2 ? left / 2 : ahead);
@@ -321,6 +336,8 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     Record record;
     const std::int64_t solves = stepper_.solves();
     const double duration = times.back() - state_.t;
+    duration_ = duration;
+    mark_ = state_.t;
     // the rotation that the strongest hinge would need for all energy: what counts as large before anything has turned
     double strongest = 0;
     for (const HingeState& h : state_.hinge) strongest = std::max(strongest, value(h.capacity));
@@ -338,8 +355,10 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     }
     show_first_moments();
     for (const double t : times) {
-        if (t > state_.t && !advance(t, record, poll)) break;
-        store(record);
+        const bool reached = t <= state_.t || advance(t, record, poll);
+        // a run that ends before its time tells where it came to
+        if (reached || record.time.empty() || record.time.back() < state_.t) store(record);
+        if (!reached) break;
     }
     if (unseen_ > 0) record.unseen = unseen_ / std::max(speed_, large_speed_);
     record.solves = stepper_.solves() - solves;

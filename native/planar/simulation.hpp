@@ -68,6 +68,7 @@ private:
     bool resting() const;
     double next_break() const;
     StepBound::Step resolved(double h);
+    bool stalled(Record& record);
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
     bool step_twice(double h, bool again);
     double error(const State& coarse, const State& fine) const;
@@ -91,6 +92,8 @@ private:
     double negligible_speed_ = 0;              // where loads or drives act: moves bodies by less than what counts as large in the run
     double step_tolerance_;  // of the error measure
     double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, work_max_ = 0, residual_max_ = 0, negligible_energy_ = 0;
+    double duration_ = 0, mark_ = 0;  // of the run [s]; time at which it has advanced again
+    int attempts_ = 0;                // steps, rejected ones too, since it last had
     std::int64_t poll_at_ = 0;  // work at which `poll` is asked next
 };
 

@@ -77,6 +77,7 @@ class Status(Enum):
     OVERLAPPING = "stopped: an obstacle appeared inside the structure"
     INVERTED = "stopped: an element turned inside out"
     UNHELD = "stopped: nothing holds the structure in a quasi-static stage"
+    STALLED = "stopped: the run hardly advanced any more"
     LIMIT_LOAD = "stopped: the loads of a quasi-static stage passed what the structure can carry"
     CANCELLED = "cancelled by the caller"
     REFUSED = "refused: the input cannot be solved"

@@ -268,6 +268,7 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
     d["reason"] = r.reason;
     d["ended_by"] = r.ended_by;
     d["lost_time"] = r.lost_time;
+    d["stuck_body"] = r.stuck_body;
     d["residual"] = r.residual;
     d["unseen"] = r.unseen;
     d["steps"] = r.steps;

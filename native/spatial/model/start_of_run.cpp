@@ -27,6 +27,7 @@ void Stepper::add_motion(State& s, const Twist* velocity, const Twist* impulse) 
         const Pose a = model_.pose(s.pose, model_.joints[index].body[0]);
         for (int i = 0; i < link.held; i++) x_[at(first + i)] -= target_rate(model_.joints[index], a, geometry_[index], driven, i);
     }
+    find_redundant(s.pose);
     hold_rows();
     system_.factor();
     system_.solve(x_.data(), 0);
@@ -42,6 +43,7 @@ double Stepper::effective_inertia(const State& s, size_t hinge, int component) {
     std::fill(direction_.begin(), direction_.end(), Twist{});
     if (l.body[0] >= 0) direction_[at(l.body[0])] = system_.mobility(at(l.body[0]), {-row.ma, -row.t});
     if (l.body[1] >= 0) direction_[at(l.body[1])] = system_.mobility(at(l.body[1]), {row.mb, row.t});
+    find_redundant(s.pose);
     hold_rows();
     system_.factor();
     system_.rates(direction_.data(), x_.data());

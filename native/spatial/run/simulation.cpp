@@ -198,7 +198,7 @@ bool Simulation::cancelled(Record& record, const std::function<bool(double)>& po
 
 bool Simulation::advance(double target, Record& record, const std::function<bool(double)>& poll) {
     while (state_.t < target) {
-        if (cancelled(record, poll)) return false;
+        if (cancelled(record, poll) || stalled(record)) return false;
         if (state_.contact.impact) {
             if (!strike(record)) return false;
             continue;
@@ -309,6 +309,8 @@ void Simulation::show_first_moments() {
 // what counts as large, and as rounding, in a run to the given time
 void Simulation::prepare(double end) {
     const double duration = end - state_.t;
+    duration_ = duration;
+    mark_ = state_.t;
     // the rotation that the strongest hinge would need for all energy: what counts as large before anything has turned
     double strongest = 0;
     for (size_t j = 0; j < model_.hinges.size(); j++) {
@@ -348,11 +350,13 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
     prepare(times.back());
     for (const double t : times) {
         const bool reached = t <= state_.t || advance(t, record, poll);
-        if (reached || record.ended_by >= 0 || !std::isnan(record.lost_time)) store(record);
+        // a run that ends before its time tells where it came to
+        if (reached || record.time.empty() || record.time.back() < state_.t) store(record);
         if (!reached) break;
     }
     if (unseen_ > 0) record.unseen = unseen_ / std::max(speed_, large_speed_);
     record.solves = stepper_.solves() - solves;
+    if (record.outcome == Outcome::step_collapsed || record.outcome == Outcome::stalled) record.stuck_body = stepper_.stuck_body();
     return record;
 }
 

@@ -42,6 +42,7 @@ struct Record {
     Outcome outcome = Outcome::complete;
     std::string reason;
     int ended_by = -1;
+    int stuck_body = -1;         // of a run that could not go on: where it was furthest from balance
     double lost_time = NAN;      // when the equilibrium ended that a quasi-static stage does not find again
     double residual = 0;         // largest |balance - start| over the energy that the structure was given
     // speed that loads and drives may have given or taken unseen, over the largest: where hinges rest, a step does not see a pulse
@@ -95,6 +96,7 @@ private:
     bool touched_soon(const Critical& stop) const;
     void set_critical_damping(const std::vector<bool>& which);
     bool cancelled(Record& record, const std::function<bool(double)>& poll);
+    bool stalled(Record& record);
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
     bool solve(double h);
     bool failed(double e, bool smallest, Record& record) const;
@@ -139,6 +141,8 @@ private:
     double largest_energy_ = 0;       // kinetic, of the structure
     double overshot_ = 0;             // by the condition that last shortened a step; NaN for none
     int strikes_ = 0;                 // impacts in a row
+    double duration_ = 0, mark_ = 0;  // of the run [s]; time at which it has advanced again
+    int attempts_ = 0;                // steps, rejected ones too, since it last had
     int lost_ = 0;                    // steps of a quasi-static stage out of equilibrium, since this state:
     State held_;
     std::vector<Vec3> stored_impulse_;  // on every obstacle when last stored, and when that was

@@ -89,7 +89,6 @@ void BlockCholesky::analyse(const std::vector<int>& size, const std::vector<std:
     eliminate(size, near);
     values_.assign(values_.size(), 0.0);
     inverse_.assign(at(start_.back()), 0.0);
-    redundant_.assign(at(start_.back()), 0);
 }
 
 // Minimum degree with the graph of the factor kept explicitly: `near` holds the neighbours that are not yet eliminated.
@@ -161,7 +160,7 @@ size_t BlockCholesky::block(int a, int b) const {
 void BlockCholesky::clear() { std::fill(values_.begin(), values_.end(), 0.0); }
 
 // Lower triangle in place.
-void BlockCholesky::factor_diagonal(int node, double threshold, const double* floor, const char* known) {
+void BlockCholesky::factor_diagonal(int node, const double* floor, const char* redundant) {
     const int n = size_[at(node)];
     double* a = &values_[diagonal_[at(node)]];
     double* reciprocal = &inverse_[at(start_[at(node)])];
@@ -169,17 +168,13 @@ void BlockCholesky::factor_diagonal(int node, double threshold, const double* fl
         double pivot = a[j * n + j];
         for (int k = 0; k < j; k++) pivot -= a[j * n + k] * a[j * n + k];
         // `reciprocal` held the diagonal before elimination
-        if (floor[j] > 0) {
-            if (!(pivot > floor[j])) pivot = floor[j];
-        } else if (known && !known[j]) {
-            pivot = std::max(pivot, rounding * reciprocal[j]);
-        } else if (known || !(pivot > threshold * reciprocal[j])) {
-            redundant_[at(start_[at(node)] + j)] = 1;
+        if (redundant[j]) {
             a[j * n + j] = 0;
             reciprocal[j] = 0;
             for (int i = j + 1; i < n; i++) a[i * n + j] = 0;
             continue;
         }
+        pivot = std::max(pivot, floor[j] > 0 ? floor[j] : rounding * reciprocal[j]);
         a[j * n + j] = std::sqrt(pivot);
         reciprocal[j] = 1 / a[j * n + j];
         for (int i = j + 1; i < n; i++) {
@@ -190,8 +185,7 @@ void BlockCholesky::factor_diagonal(int node, double threshold, const double* fl
     }
 }
 
-void BlockCholesky::factor(double threshold, const std::vector<double>& floor, const std::vector<char>* known) {
-    std::fill(redundant_.begin(), redundant_.end(), 0);
+void BlockCholesky::factor(const std::vector<double>& floor, const std::vector<char>& redundant) {
     for (size_t node = 0; node < size_.size(); node++) {
         const int n = size_[node];
         for (int i = 0; i < n; i++) inverse_[at(start_[node] + i)] = values_[diagonal_[node] + at(i * n + i)];
@@ -199,7 +193,7 @@ void BlockCholesky::factor(double threshold, const std::vector<double>& floor, c
     for (size_t k = 0; k < order_.size(); k++) {
         const int node = order_[k], n = size_[at(node)];
         const size_t first = at(start_[at(node)]);
-        factor_diagonal(node, threshold, &floor[first], known ? &(*known)[first] : nullptr);
+        factor_diagonal(node, &floor[first], &redundant[first]);
         const double *lower = &values_[diagonal_[at(node)]], *reciprocal = &inverse_[at(start_[at(node)])];
         for (size_t p = first_[k]; p < first_[k + 1]; p++) {
             double* b = &values_[below_[p].block];

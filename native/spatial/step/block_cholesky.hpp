@@ -23,11 +23,8 @@ public:
     int start(int node) const { return start_[static_cast<size_t>(node)]; }
     int rows() const { return start_.back(); }
     void clear();
-    // A row with a floor has pivots of at least that.  Of other rows those are redundant, and get no impulse, whose pivot is
-    // below `threshold` times the diagonal; or those told, where they are known, and other pivots are at least rounding.
-    void factor(double threshold, const std::vector<double>& floor, const std::vector<char>* known);
-    // per row, as of the last factor
-    const std::vector<char>& redundant() const { return redundant_; }
+    // Rows that are redundant get nothing.  A row with a floor has pivots of at least that, others of at least rounding.
+    void factor(const std::vector<double>& floor, const std::vector<char>& redundant);
     void solve(double* x) const;
 
 private:
@@ -40,14 +37,13 @@ private:
         int rows_a, rows_b;
     };
     void eliminate(const std::vector<int>& size, std::vector<std::vector<int>>& near);
-    void factor_diagonal(int node, double threshold, const double* floor, const char* known);
+    void factor_diagonal(int node, const double* floor, const char* redundant);
 
     std::vector<int> size_, start_, order_, place_;
     std::vector<size_t> diagonal_, first_, first_update_;  // per node; per place in the order
     std::vector<Entry> below_;
     std::vector<Update> update_;
     std::vector<double> values_, inverse_;  // blocks; reciprocals of the pivots
-    std::vector<char> redundant_;
 };
 
 }  // namespace crumple::spatial

@@ -55,7 +55,7 @@ Energies energies(const Model& model, const State& s) {
     return e;
 }
 
-// False where the held rows cannot be met.
+// False where the held rows cannot be met, or a number is none.
 bool Stepper::commit(State& s, double h) {
     for (size_t i = 0; i < end_.size(); i++) {
         s.travel[i] = (h / 2) * (s.velocity[i] + velocity_[i]);
@@ -75,7 +75,11 @@ bool Stepper::commit(State& s, double h) {
     s.pose = end_;
     s.t += h;
     see_contacts(s, h);
-    return true;
+    double sum = s.external_work + s.contact.dissipated + s.contact.friction;
+    for (size_t i = 0; i < s.pose.size(); i++) {
+        sum += norm(s.pose[i].x) + s.pose[i].q.w + norm(s.velocity[i].v) + norm(s.velocity[i].w);
+    }
+    return std::isfinite(sum);
 }
 
 // work of drives and dampers, from the impulses and mean rates of the step

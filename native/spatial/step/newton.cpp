@@ -185,7 +185,7 @@ void Stepper::linearise(size_t link) {
 
 // Newton steps, either full (no guarantee) or with exact line search on the potential (always downhill).
 bool Stepper::descend(int limit, bool full_steps) {
-    for (int iteration = 0; iteration < limit; iteration++) {
+    for (int iteration = 0; iteration < limit && solves_ < last_solve_; iteration++) {
         solve_once();
         double slope = 0;
         const bool done = balanced(slope);
@@ -264,7 +264,7 @@ void Stepper::solve_once() {
 bool Stepper::balanced(double& slope) {
     const std::vector<Link>& links = system_.links();
     bool all = true;
-    double moved = 0;
+    double moved = 0, furthest = 0;
     slope = 0;
     // friction on a point that is hardly pressed counts against the strongest contact
     double struck = 0;
@@ -281,6 +281,10 @@ bool Stepper::balanced(double& slope) {
             if (is(c, Kind::contact)) scale += struck;
             if (!(std::fabs(left) <= tolerance_ * scale)) all = false;
             const double step = left * (w_next_[at(first + k)] - w_[at(first + k)]);
+            if (std::fabs(step) > furthest) {
+                furthest = std::fabs(step);
+                stuck_body_ = links[c].body[links[c].body[1] >= 0 ? 1 : 0];
+            }
             slope += step;
             moved += std::fabs(step);
         }

@@ -10,6 +10,8 @@ namespace {
 // Passes over what a step freezes: the second takes it at the middle of the motion that the first found, which makes the
 // step second order.  More follow only until friction agrees with the contacts' normal impulses.
 constexpr int passes = 2, most_passes = 20;
+// Linear solves of a step, over the Newton steps that one width of the ramps may take: all widths of two passes, and some more.
+constexpr int most_solves = 20;
 
 // Rates over the speed that no impact reaches; more costs digits.
 constexpr double unreached = 1e3;
@@ -26,7 +28,7 @@ Mat3 world(const Quat& q, const Mat3& m) {
 
 }  // namespace
 
-Stepper::Stepper(const Model& model) : model_(model), contacts_(model.contact), hinge_link_(model.hinges.size()) {
+Stepper::Stepper(const Model& model) : model_(model), contacts_(model.contact), loops_(model), hinge_link_(model.hinges.size()) {
     for (size_t j = 0; j < model.joints.size(); j++) {
         const Joint& joint = model.joints[j];
         if (joint.rows() == 0) continue;
@@ -58,11 +60,7 @@ Stepper::Stepper(const Model& model) : model_(model), contacts_(model.contact), 
     inertia_.resize(bodies);
     const State s = start();
     locate_all(s, s.pose, 0, rows_, error_.data());
-    hold_rows();
-    // a matter of geometry: the same mass for all bodies
-    const double turns = 1 / (model.length * model.length);
-    for (size_t i = 0; i < bodies; i++) system_.set_body(i, 1, {{turns * axis(0), turns * axis(1), turns * axis(2)}});
-    system_.factor();
+    find_redundant(s.pose);
     redundant_ = system_.redundant();
     redundant_rows_.assign(model.joints.size(), 0);
     for (size_t c = 0; c < connections_.size(); c++) {
@@ -235,6 +233,16 @@ void Stepper::set_free(const State& s) {
     }
 }
 
+// which held rows are redundant at the places where they have just been located
+void Stepper::find_redundant(const std::vector<Pose>& poses) {
+    loops_.find(geometry_, poses);
+    for (size_t c = 0; c < connections_.size(); c++) {
+        for (int i = 0; i < system_.links()[c].held; i++) {
+            system_.set_redundant(start(c) + i, loops_.redundant(at(connections_[c].index), i));
+        }
+    }
+}
+
 // the system with held rows alone, laws free
 void Stepper::hold_rows() {
     for (size_t c = 0; c < connections_.size(); c++) {
@@ -331,6 +339,7 @@ void Stepper::freeze(const State& s, double h) {
 
 bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
     length_ = h;
+    last_solve_ = solves_ + most_solves * newton_steps();
     guess_ = guess ? *guess : s.velocity;
     speed_ = 0;
     for (size_t i = 0; i < s.velocity.size(); i++) {
@@ -344,6 +353,7 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
     // true rates at the start
     locate_all(s, s.pose, s.t, rows_, error_.data());
     rates(rows_, s.velocity.data(), rate0_.data());
+    find_redundant(s.pose);
     turned_back_.assign(frozen_.size(), false);
     if (!guess) {
         kept_mu_ = 0;

@@ -15,6 +15,7 @@
 #include "spatial/step/central_hinge.hpp"
 #include "spatial/run/step_record.hpp"
 #include "spatial/model/model.hpp"
+#include "spatial/step/loops.hpp"
 #include "spatial/step/system.hpp"
 
 namespace crumple::spatial {
@@ -57,6 +58,8 @@ public:
     // column of a hinge's first component
     int first_component(size_t hinge) const { return component_[hinge]; }
     const std::vector<Twist>& end_velocity() const { return velocity_; }
+    // body beside the link that was furthest from balance when Newton's method last went on; -1: the ground
+    int stuck_body() const { return stuck_body_; }
     // a stage begins with these obstacles
     void set_obstacles(const std::vector<bool>& present, const State& state) { contacts_.begin(present, state.pose); }
     // whether the state runs into something closed
@@ -103,6 +106,7 @@ private:
     Target target(const Joint& joint, const State& s, double t) const;
     void aim(const State& s, double h);
     void hold_rows();
+    void find_redundant(const std::vector<Pose>& poses);
     void project_middle(const State& s, double t);
     void rates(const std::vector<Row>& rows, const Twist* v, double* out) const;
     void freeze(const State& s, double h);
@@ -156,6 +160,7 @@ private:
     Stage stage_;
     Contacts contacts_;
     System system_;
+    Loops loops_;
     std::vector<Connection> connections_;    // contacts come last
     std::vector<size_t> hinge_link_;         // link of every hinge
     std::vector<int> component_;             // first component of every hinge in State::rotation
@@ -180,11 +185,12 @@ private:
     double length_ = 0;                      // of the step [s]
     double narrowest_ramp_ = 0;
     bool solved_ = false;                    // w_ holds the solution of the last pass
+    int stuck_body_ = -1;
     double tolerance_ = 0;                   // of impulses, as of the ramps' present width
     double unbounded_ = 0;                   // rate of approach that nothing reaches in an impact, 0 in other steps
     std::vector<double> allowed_;            // normal rate per contact, in this pass
     double energy_ = 0;                      // kinetic energy of the free motion [J]
-    std::int64_t solves_ = 0;
+    std::int64_t solves_ = 0, last_solve_ = 0;  // all, and where the present step is given up
     bool full_steps_ = true;                       // full Newton steps have not cycled in this step
     bool has_paths_ = false;                 // all hinges are rigid and have smooth surfaces
     std::vector<char> on_path_;              // per link: whether it is linearised on the central path

@@ -6,8 +6,6 @@ namespace crumple::spatial {
 
 namespace {
 
-// A held row whose pivot, laws free, is below this share of its diagonal is redundant: four digits above rounding.
-constexpr double redundancy = 1e-12;
 constexpr int refinements = 4;
 // Unknowns of laws are refined to this share of themselves.
 constexpr double law_tolerance = 1e-6, tiny = 1e-300;
@@ -62,16 +60,13 @@ void System::analyse(size_t bodies, const std::vector<Link>& links) {
     rows_.resize(n);
     sides_.resize(2 * links.size());
     redundant_.assign(n, 0);
-    known_ = false;
     for (auto* v : {&residual_, &correction_, &diagonal_, &rhs_, &floor_}) v->assign(n, 0.0);
     for (size_t c = 0; c < links.size(); c++) {
         for (int i = links[c].held; i < links[c].rows(); i++) floor_[at(start(c) + i)] = 1;
     }
 }
 
-// with `laws` false the laws give nothing
-void System::assemble(bool laws) {
-    const Row none;
+void System::assemble() {
     for (size_t c = 0; c < links_.size(); c++) {
         const Link& link = links_[c];
         const Row* row = &rows_[at(start(c))];
@@ -80,8 +75,7 @@ void System::assemble(bool laws) {
             const Mobility& body = bodies_[at(link.body[side])];
             Side& s = sides_[2 * c + at(side)];
             for (int i = 0; i < link.rows(); i++) {
-                const Row& used = laws || i < link.held ? row[i] : none;
-                const Vec3 t = used.t, m = side == 0 ? used.ma : used.mb;
+                const Vec3 t = row[i].t, m = side == 0 ? row[i].ma : row[i].mb;
                 const Vec3 u = body.inverse_mass * t, w = body.inverse_inertia * m;
                 const double own[6] = {t.x, t.y, t.z, m.x, m.y, m.z}, pushed[6] = {u.x, u.y, u.z, w.x, w.y, w.z};
                 for (int k = 0; k < 6; k++) {
@@ -114,15 +108,8 @@ void System::assemble(bool laws) {
 }
 
 void System::factor() {
-    assemble(true);
-    matrix_.factor(redundancy, floor_, known_ ? &redundant_ : nullptr);
-    if (known_ || matrix_.redundant() == redundant_) return;
-    assemble(false);
-    matrix_.factor(redundancy, floor_, nullptr);
-    redundant_ = matrix_.redundant();
-    known_ = true;
-    assemble(true);
-    matrix_.factor(redundancy, floor_, &redundant_);
+    assemble();
+    matrix_.factor(floor_, redundant_);
 }
 
 int System::redundant() const { return static_cast<int>(std::count(redundant_.begin(), redundant_.end(), 1)); }

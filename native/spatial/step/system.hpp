@@ -6,9 +6,8 @@
 // consistent.  Rows of a law come with the root of its tangent, J^ = L^T J with D = L L^T, and 1 on the diagonal:
 // well conditioned from a free (D = 0) to a locked hinge (D huge).  Refinement takes rounding out.
 //
-// Redundant is a matter of the held rows alone.  Hinges that lock a loop leave a held row a pivot of 1/D beside the mobility,
-// as small as a redundant one's but for the digits by which it tells the moments in the loop.  So where other rows look redundant
-// than when laws were last free, they are looked for anew without the laws, once per place.
+// Redundant is a matter of the loops' geometry alone, see loops.hpp.  Pivots do not tell: hinges that lock a loop leave a held row a
+// pivot of 1/D beside the mobility, as small as a redundant one's but for the digits by which it tells the moments in the loop.
 #pragma once
 
 #include <vector>
@@ -33,11 +32,12 @@ public:
     Row& row(int k) { return rows_[static_cast<size_t>(k)]; }
     void set_body(size_t i, double inverse_mass, const Mat3& inverse_inertia) {
         bodies_[i] = {inverse_mass, inverse_inertia};
-        known_ = false;
     }
+    // held row k gets no impulse
+    void set_redundant(int k, bool is) { redundant_[static_cast<size_t>(k)] = is; }
     // assembles and factors
     void factor();
-    // number of redundant held rows as of the last factor
+    // number of redundant held rows
     int redundant() const;
     int redundant(size_t link) const;
     // x: right-hand side in, impulses out, refined until the held rows are met within `tolerance`
@@ -68,7 +68,7 @@ private:
         size_t block;
         bool negative;
     };
-    void assemble(bool laws);
+    void assemble();
 
     std::vector<Link> links_;
     std::vector<Mobility> bodies_;
@@ -76,8 +76,7 @@ private:
     std::vector<Side> sides_;
     std::vector<Pair> pairs_;
     BlockCholesky matrix_;
-    std::vector<char> redundant_;  // per row, laws free
-    bool known_ = false;           // at the present place
+    std::vector<char> redundant_;  // per row
     std::vector<double> residual_, correction_, diagonal_, rhs_, floor_;
     std::vector<Twist> impulse_, impulse_sum_;
 };

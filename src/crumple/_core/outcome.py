@@ -15,3 +15,4 @@ class Outcome(IntEnum):
     REFUSED = 4
     UNHELD = 5
     LIMIT_LOAD = 6
+    STALLED = 7

@@ -26,7 +26,7 @@ class SofteningVariable(Enum):
     """Which rotation the collapse curve runs on, per sense of rotation."""
 
     PEAK = "peak"
-    """Largest plastic rotation reached so far in this sense: a hinge bent back does not regain strength."""
+    """Largest plastic rotation so far, of both senses: a hinge bent back does not regain strength."""
     ROTATION = "rotation"
     """Current plastic rotation in this sense (zero when bent the other way): reversible curve."""
     ACCUMULATED = "accumulated"

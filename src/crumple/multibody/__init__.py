@@ -4,6 +4,7 @@
 """
 
 from crumple.multibody.bodies.assembly import Piece
+from crumple.multibody.bodies.dead_centres import dead_centres
 from crumple.multibody.bodies.linkage import Connection, Linkage, link
 from crumple.multibody.bodies.mobility import notes
 from crumple.multibody.checks.infinitesimal import infinitesimal
@@ -27,6 +28,7 @@ __all__ = [
     "Run",
     "Sensitivities",
     "VariantTable",
+    "dead_centres",
     "infinitesimal",
     "least_seconds",
     "link",

@@ -12,6 +12,7 @@ import numpy as np
 
 from crumple.errors import InputError, Problem
 from crumple.multibody.bodies.assembly import assemble
+from crumple.multibody.bodies.dead_centres import dead_centres
 from crumple.multibody.bodies.linkage import GROUND, Linkage, link
 from crumple.multibody.bodies.mobility import mobility
 from crumple.multibody.planar.plane import PARALLEL, plane_of
@@ -85,6 +86,8 @@ def _reasons(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run) ->
     leaning = _leaning(structure, normal)
     if leaning is not None:
         yield f"{leaning} holds a direction that leans to the plane across the hinges"
+    if dead_centres(linkage):
+        yield "hinges or joints are at a dead centre"
     if not mobility(linkage, locked=True).motions:
         return
     across = across_plane(structure, normal)

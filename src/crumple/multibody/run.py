@@ -28,6 +28,7 @@ STATUS = {
     Outcome.REFUSED: Status.REFUSED,
     Outcome.UNHELD: Status.UNHELD,
     Outcome.LIMIT_LOAD: Status.LIMIT_LOAD,
+    Outcome.STALLED: Status.STALLED,
 }
 
 

@@ -22,10 +22,8 @@ from crumple.multibody.answer.histories import (
 )
 from crumple.multibody.answer.shapes import states_of
 from crumple.multibody.answer.solved import HingeHistory, Solved, Solver
-from crumple.multibody.bodies.linkage import link
 from crumple.multibody.checks import trust
 from crumple.multibody.checks.collapse import changed_capacities, collapse_log, not_unique
-from crumple.multibody.checks.infinitesimal import infinitesimal
 from crumple.multibody.checks.physics import physics_cautions
 from crumple.multibody.kernel_choice import why_spatial
 from crumple.multibody.planar.solver import TreeSolver
@@ -144,9 +142,6 @@ def _result(
 ) -> Result:
     bound = run.settings.energy_residual_bound
     status, reason = outcome_status(solved.outcome, solved.reason, solved.residual, bound)
-    if status is Status.RESIDUAL_EXCEEDED:
-        cause = infinitesimal(link(structure, solver.hinges))
-        reason = f"{reason}. {cause}" if cause else reason
     cautions = physics_cautions(structure, solved)
     if status.ok and any(caution.violation for caution in cautions):
         status = Status.IMPOSSIBLE
@@ -179,7 +174,7 @@ def _result(
         cautions=cautions,
         warnings=(
             *sentences(caution for caution in cautions if not caution.violation),
-            *trust.warnings(structure, hinges, solved),
+            *trust.warnings(structure, hinges, solved, solver.notes),
             *([doubt] if doubt else []),
             *missing_pictures(run.outputs.pictures, float(solved.time[-1])),
         ),
@@ -203,6 +198,7 @@ def _settings(run: Run, solver: Solver, solved: Solved) -> dict[str, float | int
         "energy_residual_bound": run.settings.energy_residual_bound,
         "steps": solved.steps,
         "rejected_steps": solved.rejected,
+        "newton_steps": solved.solves,
     }
 
 

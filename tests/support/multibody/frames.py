@@ -26,8 +26,7 @@ def structure(nodes=None, members=None, **parts):
     """Structure of tubes; without members one bar along x, clamped at a with a hinge."""
     return Structure(
         materials={"steel": STEEL},
-        sections={"tube": TUBE},
         nodes=nodes or X_LINE,
         members=members or {"bar": member("a", "b", ("h", "a"))},
-        **({"supports": CLAMP} | parts),
+        **({"sections": {"tube": TUBE}, "supports": CLAMP} | parts),
     )

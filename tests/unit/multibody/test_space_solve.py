@@ -193,19 +193,19 @@ def test_a_mechanism_that_a_small_change_moves_elsewhere_is_named():
 
 
 def test_equal_hinges_at_a_corner_make_a_mechanism_that_is_not_unique():
-    nodes = {"a": (0, 0, 0), "b": (0, 0, 1), "c": (1, 0, 1), "d": (1, 0, 0)}
-    members = {name: member(*name) | {"up": (0.0, 1.0, 0.0)} for name in ("ab", "bc", "cd")}
+    nodes = {"a": (0, 0, 0), "b": (0, 0, 1), "c": (1, 0, 1)}
+    members = {name: member(*name) | {"up": (0.0, 1.0, 0.0)} for name in ("ab", "bc")}
     table = {"type": "table", "rotation": (0.0, 0.5), "moment": (1000.0, 300.0)}
     frame = structure(
         nodes,
         members,
         hinges={"law": table},
-        supports=CLAMP | {"other": {"node": "d", "fix": "all"}},
-        impulses=[{"node": "b", "impulse": (60.0, 0.0, 0.0)}],
+        masses={"m": {"node": "c", "mass": 10.0}},
+        initial_velocity=[{"translation": (-3.0, 0.0, -6.0), "nodes": ("c",)}],
     )
     result = solve_multibody(frame, Run(0.05, 1e-3))
     assert any(text.startswith("The mechanism is not unique") for text in result.warnings)
-    assert {opening.hinge for opening in result.collapse} >= {"ab-a", "cd-d"}
+    assert "bc-b" in {opening.hinge for opening in result.collapse}
     quiet = solve_multibody(frame, Run(0.05, 1e-3, MultibodySettings(mechanism_check="off")))
     assert not any("not unique" in text for text in quiet.warnings)
 

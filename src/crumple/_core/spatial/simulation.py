@@ -119,6 +119,8 @@ class SpatialRecord(SpatialRows):
         Per component: largest absolute rotation, moment, (c, 2).
     ended_by
         Index of the condition that ended the run, -1 for none.
+    stuck_body
+        Of a run that could not go on: the body where it was furthest from balance; -1: none.
     lost_time
         When the equilibrium ended that a quasi-static stage then did not find again [s]; NaN: it held.
     """
@@ -135,6 +137,7 @@ class SpatialRecord(SpatialRows):
     reason: str
     ended_by: int
     lost_time: float
+    stuck_body: int
     residual: float
     unseen: float
     """Speed that loads and drives may have given or taken unseen within steps, over the largest speed."""

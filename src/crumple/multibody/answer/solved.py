@@ -59,7 +59,7 @@ class Solved:
 
     Attributes
     ----------
-    outcome, reason, residual, unseen, steps, rejected, forced
+    outcome, reason, residual, unseen, steps, rejected, forced, solves
         As the kernel tells them.
     time
         Output times [s], (n,).
@@ -90,6 +90,7 @@ class Solved:
     rejected: int
     forced: int
     time: Floats
+    solves: int
     given: float
     lost: float
     struck: bool
@@ -122,6 +123,10 @@ class Solver(Protocol):
     @property
     def hinges(self) -> tuple[PlacedHinge, ...]:
         """Hinges in the kernel's order."""
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Sentences about how the structure begins to move."""
 
     def with_hinges(self, hinges: tuple[PlacedHinge, ...]) -> Solver:
         """The same with other hinges at the same places."""

@@ -233,7 +233,7 @@ def check_inertia(linkage: Linkage) -> None:
         moments = np.linalg.eigvalsh(mass.inertia)
         if mass.mass > 0.0 and moments[0] > THIN * moments[-1]:
             continue
-        what, where = _described(linkage, i)
+        what, where = described(linkage, i)
         came = "mass 0 kg" if mass.mass == 0.0 else "a mass without rotary inertia"
         allowed, todo = "a body with mass and rotary inertia", "move the hinge, or give the node a mass"
         problems.append(Problem(f"{what} has no inertia", came, allowed, todo, where))
@@ -241,7 +241,7 @@ def check_inertia(linkage: Linkage) -> None:
         raise InputError(problems)
 
 
-def _described(linkage: Linkage, body: int) -> tuple[str, str]:
+def described(linkage: Linkage, body: int) -> tuple[str, str]:
     """What a body is, and a path in the input where it is made."""
     for name, pieces in linkage.pieces.items():
         for piece in pieces:

@@ -89,7 +89,7 @@ def mobility(linkage: Linkage, *, locked: bool = False) -> Mobility:
     system = np.concatenate([rows for rows, _ in blocks]) if blocks else np.zeros((0, width))
     # what lies on no loop moves by itself
     coupled = np.flatnonzero(np.any(system != 0.0, axis=0))
-    null, redundant = _null_space(system[:, coupled])
+    null, redundant = null_space(system[:, coupled])
     moves = np.ones(width, bool)
     moves[coupled] = np.any(np.abs(null) > NOTHING, axis=0)
     bodies = {
@@ -99,7 +99,7 @@ def mobility(linkage: Linkage, *, locked: bool = False) -> Mobility:
     }
     free = {i: [k for k, owner in enumerate(tree.owner) if owner == i] for i in set(tree.owner) - {GROUND}}
     stuck = tuple(i for i, own in sorted(free.items()) if not moves[own].any())
-    doubled = {i for rows, loop in blocks if redundant and _null_space(rows)[1] for i in loop}
+    doubled = {i for rows, loop in blocks if redundant and null_space(rows)[1] for i in loop}
     number = width - len(coupled) + len(null)
     return Mobility(number, tuple(sorted(bodies)), stuck, redundant, tuple(sorted(doubled)))
 
@@ -125,8 +125,8 @@ def free_twists(linkage: Linkage, points: Floats, *, locked: bool = False) -> Fl
         return np.zeros((0, 0, 6))
     tree = tree_of(linkage, locked)
     system = loop_system(linkage, tree)
-    rates = _null_space(system)[0] if len(system) else np.eye(len(tree.owner))
-    centre, length = _scale(linkage)
+    rates = null_space(system)[0] if len(system) else np.eye(len(tree.owner))
+    centre, length = scale_of(linkage)
     found = np.zeros((len(rates), len(linkage.bodies), 6))
     for body in range(len(linkage.bodies)):
         for _, own, sign in tree.path(body):
@@ -148,7 +148,7 @@ def notes(linkage: Linkage) -> tuple[str, ...]:
     if free.redundant:
         found.append(
             f"{free.redundant} of the constraints hold what others hold already (in the loops through "
-            f"{_listed([names[i] for i in free.loops])}): the motion is unique, the forces across it "
+            f"{listed([names[i] for i in free.loops])}): the motion is unique, the forces across it "
             "are not, and some of those possible are given."
         )
     return tuple(found)
@@ -183,7 +183,7 @@ def floating_members(linkage: Linkage) -> tuple[str, ...]:
 
 def tree_of(linkage: Linkage, locked: bool = False) -> Tree:
     """Breadth first from the ground; what it does not reach floats."""
-    centre, length = _scale(linkage)
+    centre, length = scale_of(linkage)
     tree = Tree()
     own: list[list[int]] = []
     edges: dict[int, list[int]] = defaultdict(list)
@@ -251,14 +251,14 @@ def _twist(connection: Connection, freedom: int, centre: Floats, length: float) 
     return np.concatenate([axis, np.cross(axis, centre - connection.position) / length])
 
 
-def _scale(linkage: Linkage) -> tuple[Floats, float]:
+def scale_of(linkage: Linkage) -> tuple[Floats, float]:
     """Common point and length of a linkage."""
     places = np.array([c.position for c in linkage.connections] + [b.centre for b in linkage.bodies])
     centre = places.mean(axis=0)
     return centre, float(np.linalg.norm(places - centre, axis=1).max()) or 1.0
 
 
-def _null_space(system: Floats) -> tuple[Floats, int]:
+def null_space(system: Floats) -> tuple[Floats, int]:
     """Orthonormal vectors that a system sends to zero, and how many of its rows depend on the others."""
     if not len(system):
         return np.zeros((0, system.shape[1])), 0
@@ -274,10 +274,11 @@ def named_members(names: tuple[str, ...]) -> str:
 
 
 def _named(one: str, several: str, names: list[str]) -> str:
-    return f"{one if len(names) == 1 else several} {_listed(names)}"
+    return f"{one if len(names) == 1 else several} {listed(names)}"
 
 
-def _listed(names: list[str]) -> str:
+def listed(names: list[str]) -> str:
+    """Names of a sentence; the first of many."""
     few = len(names) <= MOST_NAMES
     shown = names if few else [*names[: MOST_NAMES - 1], f"{len(names) - MOST_NAMES + 1} more"]
     return ", ".join(shown)

@@ -32,7 +32,7 @@ SLOW_SHARE = 0.05
 OFF_AXIS = 0.5
 """Angle [deg] between a hinge's axis and the plane's normal above which the bending across it counts."""
 SOFTENING = {
-    SofteningVariable.PEAK: "the largest plastic rotation in each sense (bent back, it stays weak)",
+    SofteningVariable.PEAK: "the largest plastic rotation of both senses (bent back, it stays weak)",
     SofteningVariable.ROTATION: "the present plastic rotation (bent back, it regains its strength)",
     SofteningVariable.ACCUMULATED: "the sum of all plastic rotation, both senses together",
 }
@@ -49,6 +49,7 @@ def assumptions(structure: Structure, solver: Solver) -> tuple[str, ...]:
         PLANAR if solver.kernel == "tree" else SPATIAL,
         _contact(structure),
         *free_parts(link(structure, solver.hinges)),
+        *solver.notes,
     ]
     for name, welds in structure.spot_welds.items():
         if len(welds.members) == 2:
@@ -110,8 +111,10 @@ def _contact(structure: Structure) -> str:
     )
 
 
-def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solved) -> tuple[str, ...]:
-    """Sentences that must be read before believing the result."""
+def warnings(
+    structure: Structure, hinges: dict[str, HingeSummary], solved: Solved, notes: tuple[str, ...] = ()
+) -> tuple[str, ...]:
+    """Sentences that must be read before believing the result; `notes` where motion is lost as it begins."""
     found: list[str] = []
     placed = [history.hinge for history in solved.hinges]
     largest = max((summary.rotation_max for summary in hinges.values()), default=0.0)
@@ -132,7 +135,10 @@ def warnings(structure: Structure, hinges: dict[str, HingeSummary], solved: Solv
     kinetic = float(solved.energy["kinetic"][0])
     # later stages add motion that is not there at the start
     vanished = solved.lost if len(solved.stages) > 1 else max(solved.given - kinetic, solved.lost)
-    if not solved.struck and vanished > LOST_SHARE * max(solved.given, kinetic):
+    lost = vanished > LOST_SHARE * max(solved.given, kinetic)
+    if lost or solved.struck:
+        found += notes
+    if lost and not solved.struck:
         found.append(
             f"{vanished:.4g} J of the given {max(solved.given, kinetic + solved.lost):.4g} J is lost "
             "at the start: the given motion does not fit the supports and hinges."

@@ -55,6 +55,11 @@ class TreeSolver:
         """See `Solver`."""
         return tuple(recorded.hinge for recorded in recorded_hinges(self.mechanism))
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """See `Solver`: the spatial kernel solves what stands at a dead centre."""
+        return ()
+
     def with_hinges(self, hinges: tuple[PlacedHinge, ...]) -> TreeSolver:
         """See `Solver`."""
         return TreeSolver(self._structure, self._run, hinges)
@@ -78,6 +83,7 @@ class TreeSolver:
             rejected=record.rejected,
             forced=record.forced,
             time=record.time,
+            solves=record.solves,
             given=self._start.given_energy,
             lost=lost,
             struck=bool(self._start.impulse.any()),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -13,11 +13,13 @@ from crumple._core.spatial.model import SpatialModel
 from crumple.errors import InputError, Problem
 from crumple.multibody.answer.hinge_histories import RecordedHinge
 from crumple.multibody.answer.poses import SpatialEndPoses
+from crumple.multibody.bodies.dead_centres import dead_centres
 from crumple.multibody.bodies.initial_motion import Placed, spatial_initial_motion
 from crumple.multibody.bodies.linkage import Linkage, check_inertia, link
 from crumple.multibody.bodies.obstacle_bodies import Touching, with_obstacles
 from crumple.multibody.run import Run
 from crumple.multibody.spatial.model import spatial_model, support_drives
+from crumple.multibody.spatial.off_dead_centres import off_dead_centres
 from crumple.multibody.spatial.stages import kernel_conditions, refuse_floating, stages_of
 from crumple.numeric.arrays import Floats
 from crumple.structure import Stage, Structure
@@ -175,6 +177,7 @@ def spatial_case(structure: Structure, run: Run) -> SpatialCase:
     longest = max(stage.duration for stage in stages)
     owners = tuple(name for name, _ in support_drives(structure, linkage, longest))
     touching = with_obstacles(structure, linkage, spatial_model(structure, linkage, longest), owners, longest)
+    touching = replace(touching, model=off_dead_centres(touching.model, linkage, dead_centres(linkage))[0])
     motions = [
         added_motion(structure, linkage, touching, stage, first=i == 0)[:2] for i, stage in enumerate(stages)
     ]

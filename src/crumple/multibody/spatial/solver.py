@@ -16,13 +16,16 @@ from crumple.multibody.answer.forces import check_sections, force_channels, sect
 from crumple.multibody.answer.hinge_histories import hinge_histories, ledger
 from crumple.multibody.answer.poses import SpatialHistory
 from crumple.multibody.answer.solved import Poll, Solved
+from crumple.multibody.bodies.dead_centres import dead_centres
 from crumple.multibody.bodies.initial_motion import Placed
-from crumple.multibody.bodies.linkage import check_inertia, link
+from crumple.multibody.bodies.linkage import check_inertia, described, link
 from crumple.multibody.bodies.mobility import free_parts
 from crumple.multibody.bodies.obstacle_bodies import with_obstacles
+from crumple.multibody.checks.infinitesimal import dead_centre_notes
 from crumple.multibody.run import Run, output_times, step_bounds
 from crumple.multibody.spatial.case import added_motion, kernel_stage, recorded_hinges
 from crumple.multibody.spatial.model import spatial_model, support_drives
+from crumple.multibody.spatial.off_dead_centres import off_dead_centres, with_held_moments
 from crumple.multibody.spatial.stages import (
     kernel_conditions,
     lost_equilibrium,
@@ -71,7 +74,10 @@ class SpatialSolver:
         longest = max(stage.duration for stage in self._stages)
         plain = spatial_model(structure, self.linkage, longest)
         owners = tuple(name for name, _ in support_drives(structure, self.linkage, longest))
-        self._touching = with_obstacles(structure, self.linkage, plain, owners, longest)
+        touching = with_obstacles(structure, self.linkage, plain, owners, longest)
+        self._dead_centres = dead_centres(self.linkage)
+        model, self._holding = off_dead_centres(touching.model, self.linkage, self._dead_centres)
+        self._touching = replace(touching, model=model)
 
     @property
     def moving(self) -> bool:
@@ -82,6 +88,11 @@ class SpatialSolver:
     def hinges(self) -> tuple[PlacedHinge, ...]:
         """See `Solver`."""
         return self.linkage.hinges
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """See `Solver`."""
+        return dead_centre_notes(self.linkage, self._dead_centres)
 
     def with_hinges(self, hinges: tuple[PlacedHinge, ...]) -> SpatialSolver:
         """See `Solver`."""
@@ -103,8 +114,8 @@ class SpatialSolver:
         given = lost = seconds = 0.0
         for stage in self._stages:
             begin = simulation.time
-            described, gone = self._begin(simulation, stage, records[-1] if records else None)
-            given, lost = given + described, lost + gone
+            begun, gone = self._begin(simulation, stage, records[-1] if records else None)
+            given, lost = given + begun, lost + gone
             times = _stage_times(grid, begin, begin + stage.duration)
             clock = time.perf_counter()
             records.append(simulation.run(times, poll))
@@ -114,7 +125,7 @@ class SpatialSolver:
             stages.append(StageSummary(stage.name, begin, float(records[-1].time[-1]), ended))
             if records[-1].outcome is not Outcome.COMPLETE:
                 break
-        record = _joined(records)
+        record = with_held_moments(_joined(records), self.linkage, model, self._holding)
         if self._stages[0].kind == "quasi-static":
             # nothing pushes yet; the kernel shows the jump of a drive that starts with a rate
             record.joint_force[0] = 0.0
@@ -123,6 +134,9 @@ class SpatialSolver:
             where = lost_equilibrium(self._structure, stage, begin, record.lost_time)
             parts = [f"{record.reason}.", where, *free_parts(self.linkage)]
             record = replace(record, reason=" ".join(parts))
+        elif 0 <= record.stuck_body < len(self.linkage.bodies):
+            what, _ = described(self.linkage, record.stuck_body)
+            record = replace(record, reason=f"{record.reason} (at {what})")
         return self._solved(record, stages, (given, lost, seconds))
 
     def _begin(
@@ -158,6 +172,7 @@ class SpatialSolver:
             rejected=record.rejected,
             forced=record.forced,
             time=record.time,
+            solves=record.solves,
             given=given,
             lost=lost,
             struck=any(stage.impulses for stage in self._stages),

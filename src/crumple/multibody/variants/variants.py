@@ -41,6 +41,7 @@ REASONS = {
     Outcome.STEP_COLLAPSED: "the equations of a step did not converge at the smallest step",
     Outcome.NOT_FINITE: "the place of a body is not a number",
     Outcome.UNHELD: "loads or gravity move it in a quasi-static stage, and nothing resists",
+    Outcome.STALLED: "the run hardly advanced any more",
     Outcome.LIMIT_LOAD: "loads or gravity pass what the structure can carry in a quasi-static stage",
 }
 

@@ -77,7 +77,7 @@ class LawKeys(Registered):
     regularisation: Regularisation = Regularisation()
     """Ramp of the regularised form."""
     softening: Literal["peak", "rotation", "accumulated"] = "peak"
-    """What the curve runs on: largest plastic rotation in each sense, the current one, or the sum of all."""
+    """What the curve runs on: largest plastic rotation of both senses, the current one, or the sum of all."""
     stops: Annotated[StopsOrWord, BeforeValidator(_no_stops)] = "law"
     """Stops of both senses; law: those that the law itself asks for."""
     rate: Annotated[Literal["on", "off"], BeforeValidator(_on_or_off)] = "on"

@@ -36,17 +36,17 @@ def test_what_moves_on_or_not_at_all_is_not_told(structure):
 
 
 def test_a_blow_on_such_bars_is_lost_and_says_why():
-    """The joints take the energy of the given motion: m v^2/2 of the first motion, all of it."""
+    """The joints take all of the motion as it begins: nothing moves, no energy is unaccounted for."""
     struck = two_bars(impulses=[{"node": "m", "impulse": (0.0, 0.0, -30.0)}])
     result = solve_multibody(struck, Run(0.01, 0.005))
-    # both bars turn about their pins: inertia mu L^3/3 each, 30 N s at 1 m
-    inertia = 2 * 2.8998685 / 3
-    assert result["energy.kinetic"][0] == pytest.approx(30.0**2 / (2 * inertia), rel=1e-3)
-    assert result["energy.kinetic"][-1] < 1e-6
-    assert result.status is Status.RESIDUAL_EXCEEDED
-    assert "begin to move but not go on" in result.reason
+    assert result.status is Status.COMPLETE
+    assert result["energy.kinetic"].max() < 1e-12
+    assert any("begin to move but not go on" in warning for warning in result.warnings)
     free = solve_multibody(
         two_bars(slide=True, impulses=[{"node": "m", "impulse": (0.0, 0.0, -30.0)}]), Run(0.01, 0.005)
     )
     assert free.status.ok
-    assert "not go on" not in free.reason
+    # both bars turn about their pins: inertia mu L^3/3 each, 30 N s at 1 m
+    inertia = 2 * 2.8998685 / 3
+    assert free["energy.kinetic"][0] == pytest.approx(30.0**2 / (2 * inertia), rel=1e-3)
+    assert not any("not go on" in warning for warning in free.warnings)

@@ -1,0 +1,161 @@
+#include "spatial/step/loops.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crumple::spatial {
+
+namespace {
+
+// Remaining length of a row of H below which it depends on others: what is left of independent ones is at least 1e-4 where hinges
+// have been moved off dead centres, and rounding some 1e-15.
+constexpr double dependent = 1e-9;
+// Turn [rad] of a body after which the choice of rows is made anew: within it the worst row kept loses 1 - cos of this.
+constexpr double fresh = 0.1;
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+}  // namespace
+
+Loops::Loops(const Model& model) : model_(model), branch_(model.bodies.size()) {
+    std::vector<std::vector<int>> around(model.bodies.size() + 1);
+    const auto node = [&](int body) { return body < 0 ? model.bodies.size() : at(body); };
+    for (size_t j = 0; j < model.joints.size(); j++) {
+        if (model.joints[j].held == 0) continue;
+        for (const int body : model.joints[j].body) around[node(body)].push_back(static_cast<int>(j));
+    }
+    std::vector<char> reached(model.bodies.size() + 1, 0), used(model.joints.size(), 0);
+    for (size_t start = model.bodies.size() + 1; start-- > 0;) {
+        if (reached[start]) continue;
+        reached[start] = 1;
+        std::vector<size_t> queue{start};
+        for (size_t q = 0; q < queue.size(); q++) {
+            for (const int j : around[queue[q]]) {
+                const Joint& joint = model.joints[at(j)];
+                const bool ahead = node(joint.body[0]) == queue[q];
+                const int outer = joint.body[ahead ? 1 : 0];
+                if (reached[node(outer)]) continue;
+                reached[node(outer)] = used[at(j)] = 1;
+                const int inner = joint.body[ahead ? 0 : 1];
+                branch_[at(outer)] = {inner, j, ahead ? 1.0 : -1.0, inner < 0 ? 1 : branch_[at(inner)].depth + 1};
+                queue.push_back(at(outer));
+            }
+        }
+    }
+    size_t rows = 0;
+    for (size_t j = 0; j < model.joints.size(); j++) {
+        first_.push_back(rows);
+        column_.push_back(columns_);
+        rows += at(model.joints[j].held);
+        if (used[j]) columns_ += at(6 - model.joints[j].held);
+        else if (model.joints[j].held > 0) closing_.push_back(j);
+    }
+    redundant_.assign(rows, 0);
+    part_.resize(columns_);
+}
+
+bool Loops::find(const std::vector<JointGeometry>& geometry, const std::vector<Pose>& pose) {
+    if (closing_.empty()) return false;
+    bool near = !found_at_.empty();
+    for (size_t i = 0; near && i < pose.size(); i++) near = angle_between(pose[i].q, found_at_[i].q) < fresh;
+    if (near) return false;
+    found_at_ = pose;
+    for (const Branch& b : branch_) {
+        if (b.joint >= 0) free_parts(at(b.joint), geometry[at(b.joint)]);
+    }
+    place_.clear();
+    for (const size_t j : closing_) {
+        for (int r = 0; r < model_.joints[j].held; r++) place_.push_back(first_[j] + at(r));
+    }
+    matrix_.assign(place_.size() * columns_, 0.0);
+    double* row = matrix_.data();
+    for (const size_t j : closing_) {
+        for (int r = 0; r < model_.joints[j].held; r++, row += columns_) equation(j, geometry[j], r, row);
+    }
+    choose(place_.size());
+    return true;
+}
+
+// Relative motion that a joint leaves: along and about the directions across its held ones.
+void Loops::free_parts(size_t j, const JointGeometry& g) {
+    const Joint& joint = model_.joints[j];
+    Vec3 held[2][3];
+    int count[2] = {0, 0};
+    for (int r = 0; r < joint.held; r++) {
+        const int turns = joint.freedom[r] < 3 ? 0 : 1;
+        held[turns][count[turns]++] = turns ? g.row[r].mb : g.row[r].t;
+    }
+    size_t k = column_[j];
+    for (int turns = 0; turns < 2; turns++) {
+        const Vec3* h = held[turns];
+        Vec3 free[3] = {g.axes[0], g.axes[1], g.axes[2]};
+        if (count[turns] == 1) {
+            tangents(h[0], free[0], free[1]);
+        } else if (count[turns] == 2) {
+            const Vec3 across = cross(h[0], h[1]);
+            free[0] = (1 / norm(across)) * across;
+        }
+        for (int i = 0; i < 3 - count[turns]; i++) part_[k++] = {turns ? Twist{free[i], {}} : Twist{{}, model_.length * free[i]}, g.point};
+    }
+}
+
+// Rate along a held row of the motions of the tree's joints on both ways to the root.
+void Loops::equation(size_t j, const JointGeometry& g, int r, double* out) const {
+    const Joint& joint = model_.joints[j];
+    const bool turns = joint.freedom[r] >= 3;
+    const Vec3 direction = turns ? g.row[r].mb : (1 / model_.length) * g.row[r].t;
+    int body[2] = {joint.body[0], joint.body[1]};
+    const auto depth = [&](int i) { return i < 0 ? 0 : branch_[at(i)].depth; };
+    const auto climb = [&](int& i, double sense) {
+        const Branch& b = branch_[at(i)];
+        const size_t first = column_[at(b.joint)];
+        for (size_t k = first; k < first + at(6 - model_.joints[at(b.joint)].held); k++) {
+            const Twist& t = part_[k].twist;
+            out[k] = sense * b.sign * dot(direction, turns ? t.w : t.v + cross(t.w, g.point - part_[k].point));
+        }
+        i = b.parent;
+    };
+    while (body[0] != body[1]) {
+        const int lower = depth(body[1]) >= depth(body[0]) ? 1 : 0;
+        climb(body[lower], lower ? 1 : -1);
+    }
+}
+
+// Gram and Schmidt, twice each, the largest remaining row first.
+void Loops::choose(size_t rows) {
+    const auto row = [&](size_t i) { return &matrix_[i * columns_]; };
+    const auto product = [&](const double* a, const double* b) {
+        double sum = 0;
+        for (size_t k = 0; k < columns_; k++) sum += a[k] * b[k];
+        return sum;
+    };
+    std::vector<size_t> left(rows);
+    for (size_t i = 0; i < rows; i++) left[i] = i;
+    for (const size_t place : place_) redundant_[place] = 1;
+    while (!left.empty()) {
+        size_t best = 0;
+        double largest = -1;
+        for (size_t i = 0; i < left.size(); i++) {
+            const double length = product(row(left[i]), row(left[i]));
+            // the first of equals, though rounding sets them apart
+            if (length > largest * (1 + dependent)) {
+                best = i;
+                largest = length;
+            }
+        }
+        if (!(largest > dependent * dependent)) return;
+        double* chosen = row(left[best]);
+        redundant_[place_[left[best]]] = 0;
+        left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
+        const double scale = 1 / std::sqrt(largest);
+        for (size_t k = 0; k < columns_; k++) chosen[k] *= scale;
+        for (const size_t i : left) {
+            for (int pass = 0; pass < 2; pass++) {
+                const double along = product(row(i), chosen);
+                for (size_t k = 0; k < columns_; k++) row(i)[k] -= along * chosen[k];
+            }
+        }
+    }
+}
+
+}  // namespace crumple::spatial
