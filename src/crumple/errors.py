@@ -1,4 +1,4 @@
-"""What can go wrong, said so that the reader knows what to do: exceptions and the status of a run."""
+"""Exceptions, and the status of a run; every message names the cause and what to do."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ class Problem:
     what
         The mistake in one sentence.
     came
-        What the input says, shortened; empty where nothing came.
+        Value in the input, shortened; empty if there is none.
     allowed
-        What would have been accepted.
+        Values that are accepted.
     todo
         What the engineer can do about it.
     where
@@ -42,7 +42,7 @@ class Problem:
     def __str__(self) -> str:
         place = ":".join(part for part in (self.file, str(self.line) if self.line else "") if part)
         head = ": ".join(part for part in (place, self.where, self.what) if part)
-        details = (("came", self.came), ("allowed", self.allowed), ("do", self.todo))
+        details = (("given", self.came), ("allowed", self.allowed), ("do", self.todo))
         return "\n".join([head, *(f"    {name + ':':<9}{text}" for name, text in details if text)])
 
 
@@ -52,7 +52,7 @@ class InputError(CrumpleError):
     Parameters
     ----------
     problems
-        One or more problems; a plain string is taken as a problem without a place.
+        One or more problems; a plain string is a problem without a location.
     """
 
     def __init__(self, problems: str | Problem | Sequence[Problem]) -> None:
@@ -66,23 +66,23 @@ class InputError(CrumpleError):
 
 
 class Status(Enum):
-    """How a run ended; the value is the message that people read."""
+    """How a run ended; the value is the message for the user."""
 
     COMPLETE = "complete"
-    RESIDUAL_EXCEEDED = "ended, but the energy residual passed its bound: do not trust this result"
-    IMPOSSIBLE = "ended, but the result breaks a law of mechanics: do not trust it"
+    RESIDUAL_EXCEEDED = "ended, but the energy residual exceeds its limit: do not trust this result"
+    IMPOSSIBLE = "ended, but the result violates a law of mechanics: do not trust it"
     STEP_COLLAPSED = "stopped: the time step fell below its minimum"
     NOT_CONVERGED = "stopped: the step's equations did not converge"
     NOT_FINITE = "stopped: a state became infinite or not a number"
     OVERLAPPING = "stopped: an obstacle appeared inside the structure"
-    INVERTED = "stopped: an element turned inside out"
-    UNHELD = "stopped: nothing holds the structure in a quasi-static stage"
+    INVERTED = "stopped: an element is inverted"
+    UNHELD = "stopped: the structure is not supported in a quasi-static stage"
     STALLED = "stopped: the run hardly advanced any more"
-    LIMIT_LOAD = "stopped: the loads of a quasi-static stage passed what the structure can carry"
+    LIMIT_LOAD = "stopped: the loads of a quasi-static stage exceed the limit load of the structure"
     CANCELLED = "cancelled by the caller"
     REFUSED = "refused: the input cannot be solved"
 
     @property
     def ok(self) -> bool:
-        """Whether the run reached its end and kept its bounds."""
+        """Whether the run reached its end within its limits."""
         return self is Status.COMPLETE

@@ -44,7 +44,7 @@ def available_cores() -> int:
 
 @contextmanager
 def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
-    """Give a function that says whether Ctrl-C or SIGTERM came; a second one ends the program."""
+    """Give a function that returns whether Ctrl-C or SIGTERM was received; a second one ends the program."""
     pressed = threading.Event()
     # the last is Ctrl-Break, which Windows alone has
     numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGBREAK") if hasattr(signal, name)]

@@ -1,7 +1,7 @@
-"""The only place that converts: "50 mm" in, SI inside, people's units out.
+"""The only place of unit conversion: "50 mm" in, SI inside, readable units out.
 
 The grammar is our own and strict: a decimal number, then a product of unit names with small integer
-powers.  There are no expressions, so a hostile text such as ``9**9**9 mm`` costs nothing to refuse.
+powers.  There are no expressions, so a text such as ``9**9**9 mm`` is refused at no cost.
 The units of mechanics are a table of exact ratios; any other single unit name is looked up in pint,
 which takes a quarter of a second to import and is loaded only then.
 
@@ -22,7 +22,7 @@ from typing import Any
 from crumple.errors import InputError, Problem
 
 MAX_TEXT = 80
-"""Characters in a quantity; longer text is an accident or an attack."""
+"""Largest number of characters of a quantity; a longer text is a mistake."""
 MAX_POWER = 6
 """Largest power of one unit: mm^4 is common, mm^6 is a warping constant."""
 MAX_FACTORS = 8
@@ -39,7 +39,7 @@ _SAME_CHARACTER = str.maketrans({"μ": "µ", "²": "^2", "³": "^3", "⁴": "^4"
 
 
 class QuantityError(InputError, ValueError):
-    """A quantity that cannot be accepted; says what came, what is allowed and what to do."""
+    """A quantity that cannot be accepted; the message gives the value, what is allowed and what to do."""
 
 
 @dataclass(frozen=True)
@@ -128,7 +128,7 @@ def _table() -> dict[str, Unit]:
 TABLE = _table()
 """Units known without pint."""
 
-# SI unit: what it measures, what people may write; the first entry of a dimension names what came
+# SI unit: what it measures, accepted units; the first entry of a dimension names the given quantity
 _KINDS: dict[str, tuple[str, str]] = {
     "m": ("a length", "m, mm, cm, in, ft"),
     "kg": ("a mass", "kg, g, t, lb"),
@@ -161,7 +161,7 @@ _KINDS: dict[str, tuple[str, str]] = {
     "1": ("a plain number", "a number without a unit, %"),
 }
 
-# SI unit: units that people read, largest first; the first in which the number is at least 1 is taken
+# SI unit: readable units, largest first; the first in which the number is at least 1 is used
 _READABLE: dict[str, tuple[str, ...]] = {
     "m": ("m", "mm", "µm"),
     "m^2": ("m^2", "mm^2"),
@@ -181,11 +181,11 @@ _READABLE: dict[str, tuple[str, ...]] = {
     "Hz": ("MHz", "kHz", "Hz"),
 }
 _LARGEST_ALONE = {"t": 1e4, "MN": 1e7, "MN m": 1e7, "MJ": 1e7}
-"""Value [SI] below which an uncommonly large unit is passed over: 6000 kg reads better than 6 t."""
+"""Value [SI] below which a large unit is not used: 6000 kg instead of 6 t."""
 
 
 _EXPONENT_FROM = 1e7
-"""Numbers below it are written out: 369400 reads better than 3.694e+05."""
+"""Numbers below it are written without an exponent: 369400 instead of 3.694e+05."""
 
 
 def parse_quantity(text: str, unit: str) -> float:
@@ -250,14 +250,14 @@ def unit_factor(unit_text: str, unit: str) -> float:
 
 
 def format_quantity(value: float, unit: str, digits: int = 4) -> str:
-    """A value as people read it: ``format_quantity(488e6, "Pa")`` is ``488 MPa``.
+    """A value in a readable unit: ``format_quantity(488e6, "Pa")`` is ``488 MPa``.
 
     Parameters
     ----------
     value
         In SI; need not be finite.
     unit
-        SI unit, for example ``"N*m"``; one without a readable ladder is written as it stands.
+        SI unit, for example ``"N*m"``; a unit without a list of readable units is written unchanged.
     digits
         Significant digits.
 
@@ -312,7 +312,9 @@ def _unit_of(unit_text: str, wanted: str, text: str) -> Unit:
         raise _refusal(error.problems[0].what, text, wanted) from None
     if unit.dimension != _parse_unit(wanted).dimension:
         kind = _kind_of(unit.dimension)
-        what = f"{unit_text} is the unit of {kind}" if kind else f"{unit_text} is a unit of another kind"
+        what = (
+            f"{unit_text} is the unit of {kind}" if kind else f"{unit_text} is the unit of another quantity"
+        )
         raise _refusal(f"{what}, but {_wanted(wanted)[0]} is needed", text, wanted)
     return unit
 

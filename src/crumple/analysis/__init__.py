@@ -1,6 +1,6 @@
-"""The input file and the one way from it to an answer.
+"""The input file, and the solution of an analysis.
 
-`load` reads an `Analysis` from a file, `solve` takes it to a `Result`, `canonical` and `input_hash` give its
+`load` reads an `Analysis` from a file, `solve` computes its `Result`, `canonical` and `input_hash` give its
 form and SHA-256.  An `Analysis` has ``structure``, ``duration`` [s], ``title``, ``multibody`` (settings) and
 ``outputs``.
 """

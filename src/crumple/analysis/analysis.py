@@ -1,4 +1,4 @@
-"""A structure and what is to be done with it."""
+"""A structure, and how it is analysed."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ from crumple.units import format_quantity
 
 LONGEST_TITLE = 200
 DEFAULT_INTERVALS = 200
-"""Intervals of the histories where the input gives none: enough for a smooth figure."""
+"""Number of intervals of the histories if the input gives none: enough for a smooth figure."""
 MOST_STAGES = 100
-"""Stages of one run; more is a slip of the pen."""
+"""Largest number of stages of one run; more is a mistake in the input."""
 MOST_SAMPLES = 1_000_000
-"""Samples of every channel: far more than any figure needs, little enough to store."""
+"""Samples of every channel: more than any figure needs, few enough to store."""
 
 
 class Settings(Spec):
@@ -50,12 +50,12 @@ class Settings(Spec):
         if self.duration is None and not self.stages:
             refuse("the duration is missing", key="duration", allowed="a time, for example 100 ms")
         if self.duration is not None and self.stages:
-            refuse("the stages have durations of their own", key="duration", todo="take it away")
+            refuse("the stages have their own durations", key="duration", todo="remove it")
         return self
 
     @property
     def total_duration(self) -> float:
-        """Longest time that all stages take [s]."""
+        """Sum of the durations of all stages [s]."""
         return self.duration or sum(stage.duration for stage in self.stages)
 
 
@@ -63,7 +63,7 @@ def _printable(title: str) -> str:
     """Refuse control characters: a title is printed on terminals."""
     if not title.isprintable():
         refuse(
-            "the title holds a character that cannot be printed",
+            "the title contains a character that cannot be printed",
             allowed="one line of printable text",
             todo="remove it",
         )
@@ -86,7 +86,7 @@ def run_problems(outputs: Outputs, duration: float) -> list[Problem]:
     problems = []
     samples = duration / (outputs.every or duration / DEFAULT_INTERVALS)
     if samples > MOST_SAMPLES * (1.0 + 1e-9):
-        # rounded up to two digits, so that what is suggested is accepted
+        # rounded up to two digits, so that the suggested value is accepted
         step = 10.0 ** (math.floor(math.log10(duration / MOST_SAMPLES)) - 1)
         shortest = math.ceil(duration / MOST_SAMPLES / step) * step
         what = f"this interval gives {samples:.3g} samples of every channel"
@@ -95,7 +95,7 @@ def run_problems(outputs: Outputs, duration: float) -> list[Problem]:
         problems.append(Problem(what, came, f"at most {MOST_SAMPLES} samples", todo, "outputs.every"))
     for i, time in enumerate(outputs.pictures):
         if time > duration * (1.0 + 1e-9):
-            what, todo = "this picture lies after the end of the run", "correct the time or the duration"
+            what, todo = "this picture time is after the end of the run", "correct the time or the duration"
             allowed = f"at most {duration:g} s, the duration"
             problems.append(Problem(what, f"{time:g} s", allowed, todo, f"outputs.pictures[{i}]"))
     return problems
@@ -104,14 +104,14 @@ def run_problems(outputs: Outputs, duration: float) -> list[Problem]:
 class Analysis(Spec):
     """One run: a structure, how long, with which settings, reporting what.
 
-    Frozen, picklable; everything a solver needs and nothing outside it (curves are embedded, not named).
+    Frozen, picklable; contains everything that a solver needs (curves are embedded, not file names).
 
     Attributes
     ----------
     structure
         What is simulated.
     duration
-        [s]; at most, where a stage may end earlier.
+        [s]; the maximum if a stage may end earlier.
     title
         One line for people.
     stages
@@ -138,10 +138,8 @@ class Analysis(Spec):
         problems += stage_problems(self.stages, self.structure)
         total = sum(stage.duration for stage in self.stages)
         if self.stages and not math.isclose(total, self.duration):
-            what, todo = "the duration is not that of the stages", "correct one of them"
-            problems.append(
-                Problem(what, f"{self.duration:g} s", f"{total:g} s, their sum", todo, "duration")
-            )
+            what, todo = "the duration differs from the sum of the stages", "correct one of them"
+            problems.append(Problem(what, f"{self.duration:g} s", f"{total:g} s, the sum", todo, "duration"))
         interval = self.output_interval
         raise_all(problems or filter_problems(self.structure, self.outputs, self.duration, interval))
         return self

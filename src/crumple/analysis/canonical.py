@@ -1,4 +1,4 @@
-"""One form of an analysis for everybody: what hashes, travels and tells two inputs apart."""
+"""Canonical form of an analysis, for hashing, storing and comparing inputs."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 from crumple.analysis.analysis import Analysis
 
 DIGITS = 12
-"""Significant digits that tell inputs apart: 50 mm and 1.968503937007874 in are one length."""
+"""Significant digits by which inputs differ: 50 mm and 1.968503937007874 in are the same length."""
 
 
 def canonical(analysis: Analysis) -> dict[str, Any]:
@@ -24,7 +24,7 @@ def canonical(analysis: Analysis) -> dict[str, Any]:
     Returns
     -------
     dict
-        Keys sorted, defaults spelled out, numbers to 12 significant digits; without what is absent or empty.
+        Keys sorted, defaults included, numbers to 12 significant digits; empty entries are left out.
     """
     plain = _plain(analysis.model_dump(mode="json"))
     assert isinstance(plain, dict)
@@ -49,6 +49,6 @@ def _plain(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [_plain(item) for item in value]
     if isinstance(value, float | int) and not isinstance(value, bool):
-        # one zero: -0.0 and 0 are the same input
+        # -0.0 and 0 are the same input
         return float(f"{float(value):.{DIGITS}g}") + 0.0
     return value

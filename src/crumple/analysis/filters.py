@@ -1,4 +1,4 @@
-"""Filtered channels that an analysis asks for: are they possible, and what are they."""
+"""Filtered channels of an analysis: check of the request, and computation."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def filter_problems(
     Parameters
     ----------
     structure
-        Sound, so that its hinges have names.
+        A valid structure, so that its hinges have names.
     outputs
         What is reported.
     duration, interval
@@ -57,7 +57,7 @@ def with_filters(result: Result, outputs: Outputs, interval: float) -> Result:
         Of the histories [s].
     """
     channels, warnings = dict(result.channels), list(result.warnings)
-    # pictures may have added times between: filter the regular samples alone
+    # picture times may lie between the samples: filter the regular samples alone
     regular = np.arange(math.floor(result.time[-1] / interval + 1e-9) + 1) * interval
     for name, wanted in outputs.filters.items():
         if regular.size < LEAST_SAMPLES or wanted.channel not in channels:

@@ -27,9 +27,9 @@ from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import Place, path_of, placed_problems, shown
 
 FORMAT = 1
-"""Version of the format; a file that needs another one says so."""
+"""Version of the format; a file with another version is refused."""
 MOST_PROBLEMS = 100
-"""Problems that one refusal lists; whoever has more mends these first."""
+"""Largest number of problems in one error message."""
 
 
 class InputFile(StructureParts):
@@ -46,7 +46,7 @@ class InputFile(StructureParts):
 
 
 _OF_THE_RUN = set(InputFile.model_fields) - set(StructureParts.model_fields)
-"""Keys whose mistakes leave the structure whole."""
+"""Keys whose mistakes do not affect the structure."""
 
 
 def load(path: str | Path) -> Analysis:
@@ -55,12 +55,12 @@ def load(path: str | Path) -> Analysis:
     Parameters
     ----------
     path
-        YAML file; curve files that it names are read relative to it.
+        YAML file; paths of curve files are relative to it.
 
     Returns
     -------
     Analysis
-        Complete: no file is needed any more.
+        Complete: no further file is needed.
 
     Raises
     ------
@@ -77,14 +77,14 @@ def loads(text: str, *, file: str = "", directory: str | Path = ".") -> Analysis
 
 
 def check(path: str | Path, fidelity: str = "multibody") -> list[Problem]:
-    """Every mistake of an input file; empty when a solver takes it.
+    """Every mistake of an input file; empty if the solver accepts it.
 
     Parameters
     ----------
     path
         YAML file.
     fidelity
-        The solver that is asked; it starts, but takes no step beyond the first.
+        Solver that checks the input; it starts, but stops after its first step.
     """
     try:
         analysis = load(path)
@@ -115,7 +115,7 @@ def with_lines(error: InputError, path: str | Path, structure: Structure) -> Inp
 
 
 def _where_written(problem: Problem, structure: Structure) -> Problem:
-    """Problem of a hinge, which a solver knows by its name, with the hinge's place in the input."""
+    """Problem of a hinge, which a solver knows by name, with the path of the hinge in the input."""
     kind, _, name = problem.where.partition(".")
     if kind != "hinges":
         return problem
@@ -126,7 +126,7 @@ def _where_written(problem: Problem, structure: Structure) -> Problem:
 def _analysis(document: Document, file: str, directory: Path) -> Analysis:
     data = document.data
     if not isinstance(data, dict):
-        what, allowed = "the file holds no keys", "lines such as 'title: A tube'"
+        what, allowed = "the file has no keys", "lines such as 'title: A tube'"
         raise InputError(
             Problem(what, shown(data), allowed, "start with the line 'crumple: 1'", file=file, line=1)
         )
@@ -167,7 +167,7 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
 
 
 def _check_format(document: Document, file: str) -> None:
-    """Refuse another format before its keys are held against this one."""
+    """Refuse another format version before its keys are checked."""
     version = document.data.get("crumple")
     if version != FORMAT or isinstance(version, bool):
         what = "the format version is missing" if version is None else "this format version is not known"
@@ -187,7 +187,7 @@ def _validated(
 
 
 def _sound_part(data: dict[str, Any], context: dict[str, Any]) -> StructureParts:
-    """Structure of the parts that are valid by themselves, so that the others do not hide mistakes."""
+    """Structure of the valid parts, so that mistakes between them are reported too."""
     parts = {key: data[key] for key in StructureParts.model_fields if key in data}
     while True:
         structure, problems = _validated(StructureParts, parts, context)
@@ -198,7 +198,7 @@ def _sound_part(data: dict[str, Any], context: dict[str, Any]) -> StructureParts
 
 
 def _remove(parts: dict[str, Any], place: Place) -> None:
-    """Drop the named part or the list entry that a problem lies in; the whole group where it has none."""
+    """Remove the named part or list entry of a problem; the whole group if the path names no part."""
     kind = parts.get(str(place[0])) if place else None
     if len(place) > 1 and isinstance(kind, dict) and place[1] in kind:
         parts[str(place[0])] = {name: part for name, part in kind.items() if name != place[1]}

@@ -1,8 +1,8 @@
 """From the text of an input file to plain data, with the line of every key.
 
-YAML 1.2 without what an input file has no use for: anchors, aliases, tags, directives and several documents
-are refused, the size and the depth are bounded, and a repeated key is a mistake.  Numbers are those of the
-JSON schema of YAML; every other plain text stays a text.
+YAML 1.2 without features that an input file does not need: anchors, aliases, tags, directives and several
+documents are refused, the size and the depth are bounded, and a repeated key is a mistake.  Numbers are those
+of the JSON schema of YAML; every other plain text stays a text.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from crumple.errors import InputError, Problem
 from crumple.structure.schema.problems import Place, shown, spelled
 
 LARGEST_FILE = 1_000_000
-"""Bytes of an input file; a frame of ten thousand members stays below."""
+"""Largest size of an input file [bytes]; a frame of ten thousand members is smaller."""
 MOST_REPEATED = 20
-"""Repeated keys that are listed; a file with more is not worth reading on."""
+"""Repeated keys that are listed; after that reading stops."""
 DEEPEST = 16
-"""Nested groups; the format itself needs eight."""
+"""Largest depth of nested groups; the format itself needs eight."""
 
-_NEAR = "look at this line and the one before; indent with spaces, quote texts that hold ': ' or '#'"
+_NEAR = "look at this line and the one before; indent with spaces, quote texts that contain ': ' or '#'"
 _CONTROL = re.compile(r"[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?")
 _NOT_FINITE = re.compile(r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)")
@@ -51,7 +51,7 @@ class Document:
     problems: list[Problem] = field(default_factory=list)
 
     def line_of(self, place: Place) -> int:
-        """Line of a place, or of the nearest thing around it that the file has."""
+        """Line of a path, or of the nearest enclosing path that is in the file."""
         while place and place not in self.lines:
             place = place[:-1]
         return self.lines.get(place, 1)
@@ -111,7 +111,7 @@ def read_text(text: str, file: str = "") -> Document:
 
 
 class _Reader:
-    """Builds data from the parser's events, so that nothing is made of an alias or a tag."""
+    """Builds data from the parser's events, so that aliases and tags have no effect."""
 
     def __init__(self, text: str, file: str) -> None:
         from ruamel.yaml import YAML  # noqa: PLC0415  (an analysis built in Python needs none)
@@ -136,7 +136,7 @@ class _Reader:
                     )
                 if event.version or event.tags:
                     raise self._refusal(
-                        event, "directives have no place here", todo="remove the line that starts with %"
+                        event, "directives are not allowed", todo="remove the line that starts with %"
                     )
             elif kind not in {"StreamStartEvent", "DocumentEndEvent"}:
                 self._document.data = self._value(event, ())
@@ -155,15 +155,15 @@ class _Reader:
             allowed = f"at most {DEEPEST} levels"
             raise _refusal("the groups are nested too deeply", self._file, "", allowed, line=1) from None
         except (YAMLError, ValueError, TypeError, AttributeError, IndexError) as error:
-            # the parser stumbles over some malformed texts instead of refusing them
+            # the parser fails with other exceptions on some malformed texts
             raise _refusal(f"this is not YAML: {_sentence(error)}", self._file, todo=_NEAR, line=1) from None
 
     def _value(self, event: Any, place: Place) -> Any:
         kind = type(event).__name__
         if kind == "AliasEvent":
-            raise self._refusal(event, "aliases are refused", f"*{event.anchor}", "", "write the content out")
+            raise self._refusal(event, "aliases are refused", f"*{event.anchor}", "", "write out the content")
         if event.anchor:
-            raise self._refusal(event, "anchors are refused", f"&{event.anchor}", "", "write the content out")
+            raise self._refusal(event, "anchors are refused", f"&{event.anchor}", "", "write out the content")
         if event.tag is not None and str(event.tag) not in {"None", "!"}:
             tag = shown(str(event.tag).replace("tag:yaml.org,2002:", "!!"))
             raise self._refusal(event, "tags are refused", tag, "", "remove the tag")
@@ -184,7 +184,7 @@ class _Reader:
             if key in mapping:
                 first = self._document.lines[(*place, key)]
                 what, todo = (
-                    f"the key '{shown(key)}' stands twice",
+                    f"the key '{shown(key)}' is given twice",
                     f"remove one; the first is in line {first}",
                 )
                 self._document.problems.append(
@@ -213,7 +213,7 @@ class _Reader:
             return _CONSTANTS[text]
         if _NOT_FINITE.fullmatch(text):
             return math.nan if "n" in text.lower()[:2] else math.inf
-        # a number longer than any of use stays a text: it is refused where a number is needed
+        # a number with too many digits stays a text: it is refused where a number is needed
         if len(text) <= 40 and _NUMBER.fullmatch(text):
             return int(text) if text.lstrip("+-").isdigit() else float(text)
         return text

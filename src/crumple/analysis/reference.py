@@ -1,8 +1,8 @@
-"""Tables of every key of the input file for docs/input.md, written from the models themselves.
+"""Tables of every key of the input file for docs/input.md, generated from the models.
 
     python -m crumple.analysis.reference docs/input.md
 
-puts the tables anew between the two marks of that file; a test holds the file against them.
+updates the tables between the two marks of that file; a test compares the file with them.
 """
 
 from __future__ import annotations
@@ -29,18 +29,18 @@ from crumple.structure.schema.spec import Name
 BEGIN = "<!-- written by `python -m crumple.analysis.reference docs/input.md`: begin -->"
 END = "<!-- end -->"
 COMMON: dict[type[BaseModel], str] = {LawKeys: "`hinge_laws.NAME`", Obstacle: "`obstacles.NAME`"}
-"""Models whose keys every type of a part has, and where such parts stand."""
+"""Models whose keys every type of a part has, and the paths of such parts."""
 Row = tuple[str, ...]
 HEAD: Row = ("Key", "Value", "Unit", "Default", "Meaning")
 
 
 def input_reference() -> str:
-    """Markdown: one table per part of the input file, in the order in which they are met."""
+    """Markdown: one table per part of the input file, in order of first use."""
     return "\n\n".join(_tables())
 
 
 def main(path: Path) -> None:
-    """Write the tables anew between the marks of a file."""
+    """Update the tables between the marks of a file."""
     before, _, rest = path.read_text(encoding="utf-8").partition(BEGIN)
     after = rest.partition(END)[2]
     path.write_text(f"{before}{BEGIN}\n\n{input_reference()}\n\n{END}{after}", encoding="utf-8")
@@ -49,7 +49,7 @@ def main(path: Path) -> None:
 def _tables(
     path: str = "The file", model: type[BaseModel] = InputFile, seen: set[type[BaseModel]] | None = None
 ) -> Iterator[str]:
-    """Table of a part, followed by those of the parts inside it, each where it is first met."""
+    """Table of a part, followed by those of the parts inside it, each at its first use."""
     seen = {model} if seen is None else seen
     common = _common(model)
     if common is not None and common not in seen:
@@ -64,7 +64,7 @@ def _tables(
 
 
 def _registered_tables(path: str, model: type[Registered], seen: set[type[BaseModel]]) -> Iterator[str]:
-    """Table of the keys that every type has, where there are any but the type, and of those of each type."""
+    """Table of the keys that every type has besides the type, and tables of the keys of each type."""
     path = COMMON.get(model, path)
     common = {name: field for name, field in model.model_fields.items() if name != model.tag}
     if common:
@@ -93,7 +93,7 @@ def _registered_tables(path: str, model: type[Registered], seen: set[type[BaseMo
 
 
 def _inner_tables(path: str, fields: Mapping[str, FieldInfo], seen: set[type[BaseModel]]) -> Iterator[str]:
-    """Tables of the parts inside some keys, each where it is first met."""
+    """Tables of the parts inside some keys, each at its first use."""
     for name, field in fields.items():
         inner = _path(path, field.alias or name, field)
         for found in dict.fromkeys(_models(field.annotation)):
@@ -145,7 +145,7 @@ def _path(path: str, key: str, field: FieldInfo) -> str:
 
 
 def _annotated(field: FieldInfo) -> Any:
-    """Annotation with the outermost metadata that pydantic keeps apart."""
+    """Annotation with the outermost metadata, which pydantic stores separately."""
     kind = field.annotation
     return Annotated[(kind, *field.metadata)] if field.metadata else kind
 
@@ -161,7 +161,7 @@ def _plain(kind: Any) -> Any:
 
 
 def _measure(kind: Any) -> Dimension | FunctionOf | None:
-    """What a value measures, looked for in the metadata and through None."""
+    """Physical quantity of a value, from the metadata, through None."""
     if get_origin(kind) is Annotated:
         inner, *metadata = get_args(kind)
         found = [item for item in metadata if isinstance(item, Dimension | FunctionOf)]
@@ -193,7 +193,7 @@ def _value(kind: Any) -> str:
 
 
 def _several(value: str) -> str:
-    """Plural of what `_value` says: "group" and "length at least 0" in their lists."""
+    """Plural of the result of `_value`: "group" and "length at least 0" in their lists."""
     noun, space, rest = value.partition(" ")
     plural = {"group": "groups", "name": "names", "length": "lengths", "time": "times", "angle": "angles"}
     if rest.startswith("lengths"):
@@ -214,7 +214,7 @@ def _value_without_unit(plain: Any) -> str:
 
 
 def _untagged(kind: Any) -> Any:
-    """Alternative without the label that tells it apart."""
+    """Alternative without its label."""
     if get_origin(kind) is Annotated:
         inner, *metadata = get_args(kind)
         rest = [item for item in metadata if not isinstance(item, Tag)]

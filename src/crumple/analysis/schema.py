@@ -1,4 +1,4 @@
-"""JSON Schema of the input file, for editors that complete and check while one writes."""
+"""JSON Schema of the input file, for editors that complete and check input."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def models_of(model: type[BaseModel]) -> list[type[BaseModel]]:
 
 @lru_cache(maxsize=256)
 def field_descriptions(model: type[BaseModel]) -> dict[str, str]:
-    """What the text below each field of a model says, inherited fields included, on one line each."""
+    """Docstring below each field of a model, inherited fields included, on one line each."""
     texts: dict[str, str] = {}
     for owner in reversed(model.__mro__):
         if not (isinstance(owner, type) and issubclass(owner, BaseModel)) or owner is BaseModel:
@@ -107,7 +107,7 @@ def _type_schema(parts: dict[str, Any], model: type[Registered], kind: str) -> d
 
 
 class _Generator(GenerateJsonSchema):
-    """Lets defaults that are parts themselves be left out: an absent part already says so."""
+    """Lets defaults that are parts themselves be left out: an absent part already means the default."""
 
     def encode_default(self, dft: Any) -> Any:
         return None if isinstance(dft, BaseModel | dict | tuple) else super().encode_default(dft)
@@ -127,14 +127,14 @@ def _text(statement: ast.stmt) -> str | None:
 
 
 def _describe(part: dict[str, Any], model: type[BaseModel]) -> None:
-    """Put what the source says about a part and its keys into its schema."""
+    """Put the docstrings of a part and its keys into its schema."""
     part["description"] = first_sentence(model)
     texts = field_descriptions(model)
     for name, field in model.model_fields.items():
         entry = part["properties"][field.alias or name]
         _describe_key(entry, texts.get(name, ""), entry.get("default", MISSING))
         if name == "type" and not field.is_required():
-            # the alternatives are told apart by it
+            # it selects the alternative
             part["required"] = ["type", *part.get("required", [])]
             entry.pop("default", None)
 

@@ -1,4 +1,4 @@
-"""The one way from an input to an answer."""
+"""Solution of an analysis by one of the solvers."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ UNSOLVED: dict[str, tuple[str, ...]] = {
     "multibody": (),
     "shell": ("joints", "outputs.section_forces"),
 }
-"""Parts of a description that a solver does not take."""
+"""Parts of an input that a solver does not support."""
 
 
 def solve(
@@ -36,27 +36,27 @@ def solve(
     *,
     long_run: LongRun | None = None,
 ) -> Result:
-    """Answer of one solver to an analysis.
+    """Result of one solver for an analysis.
 
     Parameters
     ----------
     analysis
-        What to solve; not changed.
+        Analysis to solve; not changed.
     fidelity
         Which solver: ``multibody`` or ``shell``.
     threads
-        Threads to use, at least 1; the answer's bits do not depend on it.
+        Threads to use, at least 1; the result is bitwise independent of it.
     progress
         Called with the simulated share of the duration, 0 to 1.
     cancel
-        Asked now and then; True ends the run with a status and what it has.
+        Called repeatedly; True ends the run with a status and the result so far.
     long_run
-        Restart files and a watcher of the shell solver; the other needs none.
+        Restart files and a callback of the shell solver; not used by the multibody solver.
 
     Returns
     -------
     Result
-        With its status; a run that fails is a result too.
+        Result with its status; a failed run is also returned.
 
     Raises
     ------
@@ -70,7 +70,9 @@ def solve(
         allowed = ", ".join(FIDELITIES)
         raise InputError(Problem("unknown fidelity", fidelity, allowed, "choose one of these", "fidelity"))
     if threads < 1:
-        raise InputError(Problem("no thread to run on", str(threads), "at least 1", "", "threads"))
+        raise InputError(
+            Problem("the number of threads is below 1", str(threads), "at least 1", "", "threads")
+        )
     _refuse_unsolved(analysis, fidelity)
     if fidelity == "shell":
         solved = _shell(analysis, threads, progress, cancel, long_run)
@@ -89,14 +91,13 @@ def solve(
     reason = result.reason
     if result.status is Status.CANCELLED and not reason:
         reached = format_quantity(float(result.time[-1]), "s", 3)
-        reason = (
-            f"asked to stop; the last output is at {reached} of {format_quantity(analysis.duration, 's', 3)}"
-        )
+        total = format_quantity(analysis.duration, "s", 3)
+        reason = f"stopped on request; the last output is at {reached} of {total}"
     return replace(result, provenance=provenance, reason=reason)
 
 
 def _refuse_unsolved(analysis: Analysis, fidelity: str) -> None:
-    """Refuse what can be described but this solver does not solve, rather than leave it out silently."""
+    """Refuse parts of an input that this solver does not support, instead of ignoring them."""
     structure = analysis.structure
     given = {
         "obstacles": structure.obstacles,
@@ -106,7 +107,7 @@ def _refuse_unsolved(analysis: Analysis, fidelity: str) -> None:
         "outputs.section_forces": analysis.outputs.section_forces,
     }
     problems = [
-        Problem(f"the {fidelity} solver does not take '{where}' so far", where=where, todo="take it away")
+        Problem(f"the {fidelity} solver does not support '{where}'", where=where, todo="remove it")
         for where, part in given.items()
         if part and where in UNSOLVED[fidelity]
     ]

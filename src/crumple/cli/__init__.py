@@ -1,1 +1,1 @@
-"""The command line: one file per verb, `main` only wires."""
+"""The command line: one file per command; `main` only connects them."""

@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 def check(
     file: Annotated[Path, typer.Argument(help="Input file (YAML).", show_default=False)],
     *,
-    fidelity: Annotated[Fidelity, typer.Option(help="Which solver is asked.")] = Fidelity.MULTIBODY,
+    fidelity: Annotated[Fidelity, typer.Option(help="Solver to check for.")] = Fidelity.MULTIBODY,
 ) -> None:
-    """Report every mistake in an input file, and what a solver says of the structure before it steps."""
+    """Report every mistake in an input file, and the notes of a solver before its first step."""
     from crumple.analysis import check as problems_of
     from crumple.analysis import load
     from crumple.errors import InputError
 
-    # what every solver refuses is told once
+    # a problem that every solver reports is listed once
     found = {str(p): p for solver in fidelity.solvers for p in problems_of(file, solver.value)}
     if found:
         raise InputError(list(found.values()))
@@ -37,7 +37,7 @@ def check(
 
 
 def _multibody_notes(analysis: Analysis) -> Iterator[str]:
-    """What of the structure is free or held twice."""
+    """Motions of the structure that are free, and constraints that are redundant."""
     from crumple.multibody import infinitesimal, link, notes, unheld_notes
 
     linkage = link(analysis.structure)

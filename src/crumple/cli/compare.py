@@ -1,4 +1,4 @@
-"""`crumple compare FILE`: solve an input file with both engines and put the answers side by side."""
+"""`crumple compare FILE`: solve an input file with both solvers and compare the results."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from crumple.report import ReportInput
 
 MOST_HINGES = 8
-"""Hinges that the table shows, those that absorbed most; the page holds more."""
+"""Number of hinges in the table, those with the largest absorbed energy; the page lists more."""
 
 
 def compare(
@@ -27,14 +27,15 @@ def compare(
     curve: Annotated[
         list[str] | None,
         typer.Option(
-            help="name=file.csv: measured histories, or another code's; any number.", show_default=False
+            help="name=file.csv: histories from a test or another code; repeat for several.",
+            show_default=False,
         ),
     ] = None,
     pair: Annotated[
         list[str] | None,
         typer.Option(
-            help="column=history: what a column of a curve file is called here; column=-history where "
-            "it counts the other way.",
+            help="column=history: pair a column of a curve file with a history; column=-history if "
+            "it has the opposite sign.",
             show_default=False,
         ),
     ] = None,
@@ -45,8 +46,8 @@ def compare(
     second_mesh: Annotated[
         float | None,
         typer.Option(
-            help="Solve the shells again with elements so many times as long (2, 0.5): how well the "
-            "reference is known.",
+            help="Solve the shell model again with the element size times this factor (2, 0.5): mesh "
+            "sensitivity of the reference.",
             show_default=False,
         ),
     ] = None,
@@ -56,11 +57,12 @@ def compare(
     restart: Annotated[
         Path | None,
         typer.Option(
-            help="Go on from the restart file of an interrupted comparison's shell run.", show_default=False
+            help="Continue from the restart file of the shell run of an interrupted comparison.",
+            show_default=False,
         ),
     ] = None,
 ) -> None:
-    """Solve with both engines and compare. Writes multibody/, shell/ and report.html to a folder."""
+    """Solve with both solvers and compare. Writes multibody/, shell/ and report.html to a folder."""
     from crumple.analysis import load, with_lines
     from crumple.cli.console.curves import curves_of
     from crumple.cli.console.folder import results_errors, results_folder
@@ -74,7 +76,7 @@ def compare(
     analysis = load(file)
     curves = curves_of(curve or [], pair or [])
     if second_mesh is not None:
-        # refused before the folder is made, and before the first mesh is solved
+        # refused before the folder is created and before the first mesh is solved
         _refuse_mesh(with_mesh(analysis, second_mesh), second_mesh)
     folder = results_folder(out, file)
     for name in ("multibody", "shell"):
@@ -98,13 +100,13 @@ def compare(
         write_comparison(found, source, folder, pictures=picture_times(analysis))
     _show(found, folder)
     if (folder / "shell" / RESTART).exists():
-        typer.echo(f"Go on with the same command and --restart {folder / 'shell' / RESTART}")
+        typer.echo(f"Continue with the same command and --restart {folder / 'shell' / RESTART}")
     if not all(s.result.status.ok for s in (found.candidate, found.reference)):
         raise typer.Exit(1)
 
 
 def _refuse_mesh(analysis: Analysis, factor: float) -> None:
-    """Refuse a second mesh that the shell solver would refuse."""
+    """Refuse a second mesh that the shell solver does not accept."""
     from dataclasses import replace
 
     from crumple.cli.console.shell_run import shell_notes
@@ -119,7 +121,7 @@ def _refuse_mesh(analysis: Analysis, factor: float) -> None:
 
 
 def write_both(found: Comparison, analysis: Analysis, file: Path, folder: Path) -> ReportInput:
-    """Write a folder for each of the two results; give what the pages say of the input."""
+    """Write a folder for each of the two results; return the input summary for the pages."""
     from dataclasses import replace
 
     from crumple.analysis import canonical
@@ -193,7 +195,7 @@ def _show(found: Comparison, folder: Path) -> None:
     for line in _crush_lines(found):
         console.print(line)
     if len(found.hinges) > MOST_HINGES:
-        console.print(f"{MOST_HINGES} of {len(found.hinges)} hinges, those that absorbed most")
+        console.print(f"{MOST_HINGES} of {len(found.hinges)} hinges, those with the largest absorbed energy")
     times = [
         f"{format_quantity(source.result.solve_seconds, 's', 3)} ({source.with_threads})"
         for source in (found.candidate, found.reference)
@@ -202,9 +204,9 @@ def _show(found: Comparison, folder: Path) -> None:
     console.print(f"Solved in {times[0]} and {times[1]}{ratio if found.speed_ratio else ''}")
     timing = found.timings.get(first)
     if timing is not None and found.speed_ratio:
-        said = f"{format_quantity(timing.again, 's', 3)}: {times_faster(found, timing.again)} times faster"
+        again = f"{format_quantity(timing.again, 's', 3)}: {times_faster(found, timing.again)} times faster"
         also = f"; stepping alone {times_faster(found, timing.stepping)} times" if timing.stepping else ""
-        console.print(f"Solved again, {first} took {said}{also}")
+        console.print(f"Solved again, {first} took {again}{also}")
     if waited := busy_note(found):
         console.print(waited)
     for curve, compared in curve_notes(found):

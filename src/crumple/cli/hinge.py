@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from crumple.section import Axis, Section
 
 ROTATIONS = (0, 1, 2, 5, 10, 15, 20, 25, 30, 40, 50, 60, 75, 90)
-"""Rotations of the table [deg]; those up to the largest asked for."""
+"""Rotations of the table [deg], up to the largest that is requested."""
 LARGEST_CURVE = 2_000_000
-"""Bytes of a measured curve."""
+"""Largest size of a measured curve [bytes]."""
 LARGEST = 3.1416
 """Largest rotation shown [rad]: half a turn, with room for rounding."""
 
@@ -34,7 +34,7 @@ def hinge(
     ] = "y",
     law: Annotated[
         list[str] | None,
-        typer.Option(help="Law to show; repeat for several. Without it every law that fits."),
+        typer.Option(help="Law to show; repeat for several. Without it every law that applies."),
     ] = None,
     curve: Annotated[
         list[Path] | None, typer.Option(help="CSV of a measured curve: rotation [deg], moment [N*m]; repeat.")
@@ -90,7 +90,7 @@ def _largest(text: str) -> float:
 def _laws(
     shape: Section, metal: Material, axis: Axis, wanted: list[str] | None
 ) -> tuple[dict[str, HingeLaw], list[str]]:
-    """Laws to show, and a sentence for each that does not fit; one asked for by name must fit."""
+    """Laws to show, and a sentence for each that does not apply; a law requested by name must apply."""
     from crumple.errors import InputError, Problem
     from crumple.hinge import build_law, fitting_laws, law_types, needs_curve
 

@@ -1,4 +1,4 @@
-"""`crumple layouts FILE FILE...`: solve several layouts of one structure and put them into one table."""
+"""`crumple layouts FILE FILE...`: solve several layouts of one structure and compare them in one table."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def layouts(
     out: Annotated[str, typer.Option(metavar="FOLDER", help="Folder for the results.")] = "out/layouts",
     title: Annotated[str, typer.Option(help="Title of the page.")] = "Layouts",
 ) -> None:
-    """Solve several layouts as multibody models and compare them. A layout that fails is a row."""
+    """Solve several layouts as multibody models and compare them. A layout that fails has a row."""
     from crumple.cli.console.folder import results_errors, results_folder
     from crumple.cli.console.progress import progress_bar
     from crumple.portable import stop_on_interrupt
@@ -41,7 +41,7 @@ def layouts(
 
 
 def _names(files: list[Path]) -> list[str]:
-    """A name for each file, its stem; numbered where two are the same."""
+    """A name for each file, its stem; numbered if two are the same."""
     stems = [file.stem for file in files]
     return [
         stem if stems.count(stem) == 1 else f"{stem}-{stems[: i + 1].count(stem)}"
@@ -50,7 +50,7 @@ def _names(files: list[Path]) -> list[str]:
 
 
 def _solved(name: str, file: Path, folder: Path, cancel: Callable[[], bool]) -> Layout:
-    """One layout: read, solved and written to its folder; a refusal is kept with its reason."""
+    """One layout: read, solved and written to its folder; if it is refused, the reason is kept."""
     from crumple.analysis import canonical, load, solve
     from crumple.cli.console.folder import results_errors
     from crumple.errors import InputError

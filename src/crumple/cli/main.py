@@ -1,6 +1,6 @@
-"""The command `crumple`: verbs by name, and what becomes of a refusal.
+"""The command `crumple`: commands by name, and error handling.
 
-Nothing heavy is imported here or at the head of a verb's file: `crumple --help` must answer at once.
+No large package is imported here or at the top of a command's file, so that `crumple --help` is fast.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ from crumple.version import __version__
 app = typer.Typer(
     name="crumple",
     help="Crash analysis at the concept stage for thin-walled structures.",
-    epilog="Exit codes: 0 done; 1 a run ended without a result to trust; 2 the input, or the "
-    "folder for the results, cannot be accepted; 130 ended by Ctrl-C, where no result was kept.",
+    epilog="Exit codes: 0 done; 1 a run ended without a reliable result; 2 the input, or the "
+    "folder for the results, cannot be accepted; 130 ended by Ctrl-C without a stored result.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
-    rich_markup_mode=None,  # rich takes 60 ms to import: a third of what help may take
+    rich_markup_mode=None,  # rich takes 60 ms to import: a third of the time allowed for --help
 )
 for verb in (run, compare, layouts, check, schema, hinge, section):
     app.command()(verb)

@@ -1,4 +1,4 @@
-"""`crumple run FILE`: solve an input file, store the result, say what came out."""
+"""`crumple run FILE`: solve an input file, store the result and print a summary."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from crumple.result import HingeSummary, Result
 
 MOST_HINGES = 20
-"""Hinges that the table shows; the files hold all."""
+"""Number of hinges in the table; the files contain all."""
 
 
 def run(
@@ -36,11 +36,9 @@ def run(
     ] = None,
     restart: Annotated[
         Path | None,
-        typer.Option(help="Go on from the restart file of an interrupted shell run.", show_default=False),
+        typer.Option(help="Continue from the restart file of an interrupted shell run.", show_default=False),
     ] = None,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print summary.json in place of the table.")
-    ] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print summary.json instead of the table.")] = False,
 ) -> None:
     """Solve an input file and report. Writes summary, histories, shapes, figures and a page to a folder."""
     from crumple.analysis import load
@@ -49,7 +47,7 @@ def run(
 
     analysis = load(file)
     if restart is not None and fidelity is not Fidelity.SHELL:
-        raise typer.BadParameter("only shell runs are long enough to be restarted", param_hint="--restart")
+        raise typer.BadParameter("only shell runs have restart files", param_hint="--restart")
     folder = results_folder(out, file)
     both = fidelity is Fidelity.BOTH
     summaries, good = {}, True
@@ -63,7 +61,7 @@ def run(
             _show(result, place)
             _show_restart(file, place)
         if result.status is Status.CANCELLED:
-            # whoever stops the first does not wish the second to begin
+            # a user who stops the first run does not want the second one
             break
     if as_json:
         import json
@@ -79,7 +77,7 @@ def run(
 def _solve(
     analysis: Analysis, file: Path, folder: Path, how: tuple[Fidelity, int | None, Path | None]
 ) -> Result:
-    """Solve with one engine and write its files; `how`: which, threads, restart file."""
+    """Solve with one solver and write its files; `how`: solver, threads, restart file."""
     from crumple.analysis import canonical, solve, with_lines
     from crumple.cli.console.folder import results_errors
     from crumple.cli.console.progress import progress_bar
@@ -124,17 +122,17 @@ def _summary(result: Result) -> dict[str, Any]:
 
 
 def _show_restart(file: Path, folder: Path) -> None:
-    """Say how to go on with a shell run that was interrupted."""
+    """Print the command that continues an interrupted shell run."""
     from crumple.cli.console.shell_run import RESTART
 
     if (folder / RESTART).exists():
         typer.echo(
-            f"Go on with: crumple run {file} --fidelity shell --out {folder} --restart {folder / RESTART}"
+            f"Continue with: crumple run {file} --fidelity shell --out {folder} --restart {folder / RESTART}"
         )
 
 
 def _show(result: Result, folder: Path) -> None:
-    """Print the table of hinges, the figures of the whole run, the warnings, and where the files are."""
+    """Print the table of hinges, the values of the whole run, the warnings, and the paths of the files."""
     from rich.console import Console
     from rich.text import Text
 
@@ -145,7 +143,7 @@ def _show(result: Result, folder: Path) -> None:
     console.print(Text(result.title, style="bold"))
     status = result.status.value + (f": {result.reason}" if result.reason else "")
     console.print(Text(f"Status: {status}", style="green" if result.status.ok else "bold red"))
-    # what breaks a law is the reason of the status
+    # a violated law is already in the reason of the status
     first = sentences(caution for caution in result.cautions if not caution.violation)
     for caution in first:
         console.print(Text(f"Caution: {caution}", style="bold yellow"))
@@ -156,9 +154,11 @@ def _show(result: Result, folder: Path) -> None:
     if crushing:
         console.print(_crush_table(crushing))
     if max(len(bending), len(crushing)) > MOST_HINGES:
-        console.print(f"At most {MOST_HINGES} of {len(result.hinges)} hinges, those that absorbed most")
+        console.print(
+            f"At most {MOST_HINGES} of {len(result.hinges)} hinges, those with the largest absorbed energy"
+        )
     console.print(
-        f"Energy residual {result.energy_residual:.2g} of the energy put in; "
+        f"Energy residual {result.energy_residual:.2g} of the energy input; "
         f"solved in {format_quantity(result.solve_seconds, 's', 3)}"
     )
     for warning in result.warnings:
@@ -169,7 +169,7 @@ def _show(result: Result, folder: Path) -> None:
 
 
 def _most_absorbing(hinges: Mapping[str, HingeSummary]) -> list[tuple[str, HingeSummary]]:
-    """Hinges in their order, or those that absorbed most where there are too many."""
+    """Hinges in their order; of many, those with the largest absorbed energy."""
     if len(hinges) <= MOST_HINGES:
         return list(hinges.items())
     return sorted(hinges.items(), key=lambda item: -item[1].energy)[:MOST_HINGES]

@@ -1,4 +1,4 @@
-"""`crumple section SECTION`: the properties of a cross-section, and what it carries in a metal."""
+"""`crumple section SECTION`: the properties of a cross-section, and its capacity in a material."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def section(
     ] = "0 N",
     figure: Annotated[Path | None, typer.Option(help="Write a drawing to this SVG file.")] = None,
 ) -> None:
-    """Print the properties of a cross-section. With a material also its mass and what it carries."""
+    """Print the properties of a cross-section. With a material also its mass and its capacity."""
     from rich.console import Console
     from rich.text import Text
 
@@ -52,7 +52,9 @@ def section(
     console.print(Text(shape.title, style="bold"))
     _show(console, _geometry(shape, walled, turned))
     if any(wall.material is not None for wall in walled.walls):
-        console.print("Properties are those of the geometry, whatever the metals of its walls.", style="dim")
+        console.print(
+            "Properties are those of the geometry, independent of the materials of its walls.", style="dim"
+        )
     if metal is not None:
         _show(console, _strength(shape, metal))
         _show_capacities(console, capacities, force)
@@ -103,7 +105,7 @@ def _geometry(shape: Section, walled: WalledSection, angle: float | None) -> lis
         ]
     high, low = found.principal_moments
     warping = walled.warping_constant
-    # what rounding leaves of a section that does not warp
+    # rounding error of a section that does not warp
     if warping < 1e-9 * found.area**3:
         warping = 0.0
     return [
@@ -118,7 +120,7 @@ def _geometry(shape: Section, walled: WalledSection, angle: float | None) -> lis
 
 
 def _strength(shape: Section, metal: Material) -> list[Row]:
-    """What the whole section weighs and carries, and how well the compact interaction stands for it."""
+    """Mass and capacity of the whole section, and the error of the fitted interaction."""
     from crumple.section import fitted_interaction, plastic_interaction
     from crumple.units import format_quantity
 
@@ -190,7 +192,7 @@ def _point(point: tuple[float, float], walled: WalledSection) -> str:
 
 
 def _rounded(value: float, size: float, unit: str) -> str:
-    """Value for people; zero where it is but rounding beside a size."""
+    """Readable value; zero if it is only rounding error compared with a reference size."""
     from crumple.units import format_quantity
 
     return format_quantity(0.0 if abs(value) < 1e-9 * size else value, unit, 5)

@@ -24,7 +24,7 @@ from crumple.function.time_function import Constant, Stop, Sum, Table, TimeFunct
 from crumple.units import parse_quantity, unit_factor
 
 MAX_DEPTH = 8
-"""Nesting of sums and motions; deeper input is an accident."""
+"""Largest nesting depth of sums and motions; deeper input is a mistake."""
 MAX_ROWS = 100_000
 """Rows of a table in an input file, and terms of a sum."""
 
@@ -139,7 +139,7 @@ class _Reader:
     }
 
     def stiffness(self, value: object, e: float, unit: str, where: str) -> float:
-        """Stiffness of a stop; a broken exponent has no unit in the grammar, so a plain SI number then."""
+        """Stiffness of a stop; for a fractional exponent, which the grammar lacks, a plain SI number."""
         if math.isnan(e) or e == 1.0:
             return self.number(value, unit, where)
         if e.is_integer():

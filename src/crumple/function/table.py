@@ -1,4 +1,4 @@
-"""A table of points joined by straight lines, held constant outside its range."""
+"""A table of points with linear interpolation, constant outside its range."""
 
 from __future__ import annotations
 

@@ -231,7 +231,7 @@ class Sum(TimeFunction):
         return np.asarray(sum(term.derivative(t) for term in self.terms))
 
     def sample_times(self, start: float, end: float, tolerance: float) -> Floats:
-        # the errors add; a finer grid than a term asked for never makes its error larger
+        # the errors add up; a finer grid than a term needs never makes its error larger
         share = tolerance / len(self.terms)
         return np.concatenate([term.sample_times(start, end, share) for term in self.terms])
 
@@ -261,7 +261,7 @@ class Stop(TimeFunction):
         return self._force(self.motion(t), self.motion.derivative(t))
 
     def derivative(self, t: ArrayLike) -> Floats:
-        # forward difference over a tenth of a microsecond: the motion has no second derivative to offer
+        # forward difference over a tenth of a microsecond: the second derivative is not available
         times, small = np.asarray(t, np.float64), 1e-7
         return np.asarray((self(times + small) - self(times)) / small)
 

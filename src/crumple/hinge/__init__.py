@@ -1,4 +1,4 @@
-"""Section and material to collapse law, with a source and a range, and to the record of the stepper."""
+"""Collapse laws of a section and a material, with source and range, and their records for the solver."""
 
 from crumple.hinge.axial.axial_collapse import AxialCollapse
 from crumple.hinge.axial.axial_law import AxialLaw, CrushDistance, CrushRate, CrushValidity, absorbed_by

@@ -1,7 +1,7 @@
-"""The band of a law travels to the solver as three laws: nominal, lower, upper.
+"""The scatter band of a law as three laws: nominal, lower, upper.
 
-A law whose validity states a relative half-width u stands between itself times 1 - u and 1 + u.  The solver
-needs to know nothing of bands: it runs three times.
+A law whose validity gives a relative half-width u has the bounds 1 - u and 1 + u times the law.  The solver
+does not use the band itself: it runs three times.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class Band:
 
 @dataclass(frozen=True)
 class ScaledLaw:
-    """A law whose capacity is multiplied by a constant; everything else is the law's own.
+    """A law whose capacity is multiplied by a constant; all other properties are those of the law.
 
     Attributes
     ----------
@@ -59,7 +59,7 @@ class ScaledLaw:
     factor
         > 0 [-].
     reason
-        Why, for the title.
+        Reason of the factor, for the title.
     """
 
     law: HingeLaw
@@ -68,7 +68,7 @@ class ScaledLaw:
 
     def __post_init__(self) -> None:
         if not (np.isfinite(self.factor) and self.factor > 0.0):
-            what, todo = "the factor on a law must be positive", "a band wider than 100 % has no lower law"
+            what, todo = "the factor on a law must be positive", "a band of 100 % or more has no lower law"
             raise InputError(Problem(what, f"{self.factor:g}", "> 0", todo, "factor"))
 
     @property
@@ -93,7 +93,7 @@ class ScaledLaw:
 
     @property
     def elastic_stiffness(self) -> float | None:
-        """Stiffness of the law inside [N m/rad]: scatter of strength is not one of stiffness."""
+        """Stiffness of the law inside [N m/rad]: the scatter of strength does not affect it."""
         return self.law.elastic_stiffness
 
     @property
@@ -142,7 +142,7 @@ def band_of(law: HingeLaw, uncertainty: float | None = None) -> Band:
     law
         Any law.
     uncertainty
-        Relative half-width [-], below 1; None: the one that the law states.
+        Relative half-width [-], below 1; None: the one given by the law.
 
     Returns
     -------
@@ -152,7 +152,7 @@ def band_of(law: HingeLaw, uncertainty: float | None = None) -> Band:
     Raises
     ------
     InputError
-        If the law states no band and none is given, or it reaches down to zero.
+        If the law gives no band and none is passed, or the lower bound is not positive.
 
     References
     ----------
@@ -160,10 +160,10 @@ def band_of(law: HingeLaw, uncertainty: float | None = None) -> Band:
     """
     width = law.validity.uncertainty if uncertainty is None else uncertainty
     if width is None:
-        what = "nothing is known of the scatter of this law"
-        todo = "leave the bound out, or in Python give the relative half-width as uncertainty"
-        raise InputError(Problem(what, law.title, "a law that states a band", todo, "uncertainty"))
+        what = "the scatter of this law is unknown"
+        todo = "omit the bound, or in Python give the relative half-width as uncertainty"
+        raise InputError(Problem(what, law.title, "a law with a band", todo, "uncertainty"))
     if not 0.0 <= width < 1.0:
-        what, todo = "the half-width of the band is out of range", "0.1 means 10 % to either side"
+        what, todo = "the half-width of the band is out of range", "0.1 means plus or minus 10 %"
         raise InputError(Problem(what, f"{width:g}", "0 to below 1", todo, "uncertainty"))
     return Band(law, ScaledLaw(law, 1.0 - width, "lower"), ScaledLaw(law, 1.0 + width, "upper"))

@@ -1,4 +1,4 @@
-"""Energy that a law absorbs on the way to a rotation."""
+"""Energy absorbed by a law up to a rotation."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def rotation_absorbing(law: HingeLaw, energy: float, sense: int = 1) -> float:
 
     Notes
     -----
-    What a single hinge on a rigid bar turns by, if all its kinetic energy goes into it.
+    Rotation of a single hinge on a rigid bar that absorbs all its kinetic energy.
     """
     low, high = 0.0, 1e-3
     while absorbed_energy(law, high, sense) < energy:

@@ -1,11 +1,11 @@
-"""What every hinge law offers: a pure function from rotation to capacity, with a source and a range.
+"""Interface of every hinge law: a pure function from rotation to capacity, with source and range of validity.
 
 A law is the envelope of the moment that a collapsing section can carry, against one named softening
-variable.  The moment itself is the solver's answer: a rigid-plastic hinge at rest carries any moment
+variable.  The moment itself is computed by the solver: a rigid-plastic hinge at rest carries any moment
 up to its capacity.
 
 Unloading is the same for every law: along the elastic line in the elastic-plastic form, at once in the
-rigid forms.  The capacity does not recover unless the softening variable says so.
+rigid forms.  The capacity recovers only if the softening variable allows it.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from crumple.numeric.arrays import Floats
 
 
 class SofteningVariable(Enum):
-    """Which rotation the collapse curve runs on, per sense of rotation."""
+    """Rotation that is the abscissa of the collapse curve, per sense of rotation."""
 
     PEAK = "peak"
     """Largest plastic rotation so far, of both senses: a hinge bent back does not regain strength."""
@@ -34,10 +34,10 @@ class SofteningVariable(Enum):
 
 
 class Trust(Enum):
-    """How far a formula can be trusted; every law says which."""
+    """How far a formula can be trusted; given by every law."""
 
     PUBLISHED = "read in the cited publication"
-    DERIVED = "derived here and checked numerically; the cited work gave the idea, not the formula"
+    DERIVED = "derived here and checked numerically; the concept, not the formula, is from the cited work"
     QUOTED = "widely quoted; the original text was not seen"
     MEASURED = "measured curve supplied by the user"
     ASSUMED = "chosen by the user"
@@ -45,7 +45,7 @@ class Trust(Enum):
 
 @dataclass(frozen=True)
 class Source:
-    """Where a law comes from: citation, how far it can be trusted, and a note in one sentence."""
+    """Source of a law: citation, how far it can be trusted, and a note in one sentence."""
 
     citation: str
     trust: Trust
@@ -54,19 +54,19 @@ class Source:
 
 @dataclass(frozen=True)
 class Validity:
-    """Range in which a law is backed by evidence.
+    """Range of validity of a law.
 
     Attributes
     ----------
     rotation_max
-        Largest rotation of the softening variable [rad] up to which the law is backed.
+        Largest rotation of the softening variable [rad] up to which the law is valid.
     basis
-        What backs it, in one sentence.
+        Evidence for it, in one sentence.
     warnings
-        One sentence for each condition on section or material that does not hold.
+        One sentence for each condition on section or material that is not met.
     uncertainty
-        Relative half-width of the band in which the moment is believed to lie inside the range
-        (for example 0.11), or None where nothing is known.
+        Relative half-width of the band in which the moment is expected inside the range
+        (for example 0.11), or None if unknown.
     """
 
     rotation_max: float
@@ -75,13 +75,11 @@ class Validity:
     uncertainty: float | None = None
 
     def warning_at(self, rotation: float) -> str | None:
-        """Say that a rotation [rad] of the softening variable is beyond the range, or None if it is not."""
+        """Warning for a rotation [rad] of the softening variable beyond the range, else None."""
         if rotation <= self.rotation_max:
             return None
-        reached, backed = np.degrees(rotation), np.degrees(self.rotation_max)
-        return (
-            f"the hinge turned by {reached:.1f} deg, its law is backed up to {backed:.1f} deg: {self.basis}"
-        )
+        reached, valid = np.degrees(rotation), np.degrees(self.rotation_max)
+        return f"the hinge turned by {reached:.1f} deg, its law is valid up to {valid:.1f} deg: {self.basis}"
 
 
 @runtime_checkable
@@ -95,14 +93,14 @@ class HingeLaw(Protocol):
     softening_variable
         What ``rotation`` means in `moment_capacity`.
     elastic_stiffness
-        Rotational stiffness of the hinge [N m/rad] when the law brings its own, else None: the
+        Rotational stiffness of the hinge [N m/rad] if the law gives its own, else None: the
         elastic form then uses the tributary length of the member.
     jamming_angle
         Rotation [rad] at which the walls touch, or None.
     rate
         Strain-rate law of the hinge, or None.
     stop
-        Stop that the law itself asks for (jammed walls), or None.
+        Stop that the law itself requires (jammed walls), or None.
     symmetric
         Whether both senses have one curve, so that it is sampled once.
     """

@@ -1,4 +1,4 @@
-"""Options of laws, checked at the door."""
+"""Options of laws, checked on input."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Strain-rate factor of a hinge from the rate law of its metal.
+"""Strain-rate factor of a hinge from the rate law of its material.
 
 A fold of width s that turns at rate w strains its wall at (t/2) w/s.  A bending hinge shares its rotation
 rate among about three folds, each about 2.5 wall thicknesses wide, so
@@ -6,7 +6,7 @@ rate among about three folds, each about 2.5 wall thicknesses wide, so
     strain_rate = (t/2) (rotation_rate/3) / (2.5 t) = rotation_rate/15
 
 and the Cowper-Symonds pair (D, q) becomes a pair for the hinge: reference 15 D [rad/s], exponent q.
-An order of magnitude, not a fit: q of 4 to 5 makes the factor insensitive to the 15.
+An estimate of the order of magnitude, not a fit: with q = 4 to 5 the factor is insensitive to the value 15.
 """
 
 from __future__ import annotations
@@ -77,7 +77,10 @@ def rate_factor(rate: HingeRate | None, rotation_rate: ArrayLike) -> NDArray[np.
 
 
 def rate_warnings(material: Material) -> tuple[str, ...]:
-    """What to say of a material whose rate law holds at yield alone, where folds do not work."""
+    """Warning for a material whose rate law is at yield only, while folds work at large strain."""
     if material.yield_rate is None or material.flow_rate is not None:
         return ()
-    return ("a rate law at yield alone overstates the effect in a fold and is not used: give one at flow",)
+    return (
+        "the material has a rate law at yield only, which overestimates the effect in a fold and is not "
+        "used: give flow_rate",
+    )

@@ -1,4 +1,4 @@
-"""Every law by its name, one line each; input file, reference, command line and gallery follow from it.
+"""Every law by its name, one line each; input file, reference, command line and gallery use it.
 
 A law is a class with ``of(section, material, ...)``; its options, the keyword parameters of ``of``, are its
 keys in the input file.
@@ -51,10 +51,10 @@ class TorsionLawType(Protocol):
 
 @runtime_checkable
 class FromFiles(Protocol):
-    """A law whose description may name files: their content takes the place of their names."""
+    """A law whose input may name files: their content replaces their names."""
 
     file_keys: tuple[Key, ...]
-    """Keys that name files, or say how to read what is given."""
+    """Keys that name files, or the format of given values."""
 
     def embedded(self, given: dict[str, Any], folder: Path | None) -> dict[str, Any]:
         """Keys of a description with the content of files in place of their names."""
@@ -75,7 +75,7 @@ BENDING: Registry[LawType] = Registry(
     },
 )
 DEFAULT_BENDING = {"rectangular_tube": "kecman"}
-"""Law of a hinge that names none, by the kind of its section."""
+"""Default law of a hinge, by the kind of its section."""
 AXIAL: Registry[AxialLawType] = Registry(
     "axial law",
     {
@@ -93,7 +93,7 @@ TORSION: Registry[TorsionLawType] = Registry(
     },
 )
 DEFAULT_TORSION = "plastic"
-"""Law of a hinge that twists and names none."""
+"""Default law of a hinge in torsion."""
 _Law = TypeVar("_Law")
 
 
@@ -103,14 +103,14 @@ def options_of(law: LawType | AxialLawType | TorsionLawType) -> tuple[Key, ...]:
 
 
 def needs_curve(name: str) -> bool:
-    """Whether a law cannot be had of a section and a material alone."""
+    """Whether a law needs more than a section and a material."""
     return any(option.default is MISSING for option in options_of(BENDING[name]))
 
 
 def fitting_laws(
     section: Section, material: Material, axis: Axis = "y"
 ) -> tuple[dict[str, HingeLaw], dict[str, InputError]]:
-    """Laws that section and material alone give, by name, and why others of that kind do not fit."""
+    """Laws that follow from section and material alone, by name, and why others of that kind do not apply."""
     laws, refused = {}, {}
     for name, law in law_types().items():
         if needs_curve(name):
@@ -127,7 +127,7 @@ def _built(
 ) -> _Law:
     """Build a law; refuses unknown and missing options with `InputError`."""
     allowed = [key.name for key in keys]
-    todo = f"give the law {name} only options that it knows"
+    todo = f"give only options of the law {name}"
     problems = [
         Problem("unknown option", option, ", ".join(allowed) or "none", todo, option)
         for option in options
@@ -175,7 +175,7 @@ def build_law(name: str, section: Section, material: Material, axis: Axis = "y",
     name
         As in the input file: one of `law_types`.
     section, material, axis
-        What folds, and about which axis.
+        Section and material of the hinge, and its axis.
     options
         Keyword options of the law, see `law_options`.
 
@@ -187,7 +187,7 @@ def build_law(name: str, section: Section, material: Material, axis: Axis = "y",
     Raises
     ------
     InputError
-        If the name or an option is unknown or missing, or the law does not fit the section.
+        If the name or an option is unknown or missing, or the law does not apply to the section.
     """
     law = BENDING[name]
     return _built(name, law.of, options_of(law), section, material, axis, **options)

@@ -15,13 +15,13 @@ class Stop:
     Attributes
     ----------
     rotation
-        Rotation [rad] at which it is touched, > 0, measured in its own sense.
+        Rotation [rad] at which it comes into contact, > 0, measured in its own sense.
     stiffness
         k [N m/rad**exponent].
     exponent
         e of IMPACT, >= 1.
     damping
-        Damper at full penetration [N m s/rad]; NaN asks the solver for the critical value at first touch.
+        Damper at full penetration [N m s/rad]; NaN: the solver uses the critical value at first contact.
     full_damping_penetration
         Penetration d of IMPACT [rad] at which the damper acts fully; 0: at once (linear stop).
     """

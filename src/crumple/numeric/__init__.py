@@ -1,1 +1,1 @@
-"""Plain mathematics that several rooms use."""
+"""Mathematics that several packages use."""

@@ -1,4 +1,4 @@
-"""Types of arrays; shapes stand in the docstrings of those who take or give them."""
+"""Types of arrays; shapes are given in the docstrings of the functions."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -28,7 +28,7 @@ def rising_root(f: Callable[[float], float], low: float, high: float, small: flo
     smallest = 4e-16 * (abs(low) + abs(high))
     kept = 0
     for step in range(_MOST_STEPS):
-        # every third step halves, so that a kink or a jump does not hold the search up
+        # every third step halves, so that a kink or a jump does not slow the search
         middle = low - f_low * (high - low) / (f_high - f_low) if step % 3 < 2 else (low + high) / 2.0
         value = f(middle)
         if abs(value) <= small or high - low <= smallest:

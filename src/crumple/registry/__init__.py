@@ -1,1 +1,1 @@
-"""What can be added by one file and one line: names and where they are defined, and the keys that follow."""
+"""Registries of types that are added by one file and one line, and the input keys that follow from them."""

@@ -1,7 +1,7 @@
 """Keys of a description that follow from a class or a function: its parameters.
 
 What a parameter is called, its unit and range (in the annotation), its default and its meaning (in the
-docstring) stand once, where the class or function is defined.
+docstring) are defined once, with the class or function.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Word:
 
 @dataclass(frozen=True)
 class As:
-    """How a description gives a parameter that takes more kinds of values in Python."""
+    """Type of a parameter in an input, if Python code may give further types."""
 
     annotation: Any
 
@@ -60,7 +60,7 @@ class Key:
 
     @property
     def words(self) -> tuple[str, ...]:
-        """Words for it on the command line; none for a size, which is known by its place."""
+        """Words for it on the command line; none for a size, which is known by its position."""
         found = [text for item in self._metadata if isinstance(item, Word) for text in item.texts]
         if found or self.default is MISSING:
             return tuple(found)
@@ -68,7 +68,7 @@ class Key:
 
     @property
     def measure(self) -> Dimension | Whole | None:
-        """Unit and range of a number; None for what is no number."""
+        """Unit and range of a number; None for other values."""
         return next((item for item in self._metadata if isinstance(item, Dimension | Whole)), None)
 
     @property
@@ -82,9 +82,9 @@ def keys_of(make: Callable[..., Any], *, options: bool = False) -> tuple[Key, ..
     Parameters
     ----------
     make
-        Class or function with annotations, and a docstring that says what each parameter means.
+        Class or function with annotations, and a docstring with the meaning of each parameter.
     options
-        Whether only those that are passed by keyword alone are keys.
+        Whether only keyword-only parameters are keys.
     """
     return _keys_of(make, options)
 
@@ -106,7 +106,7 @@ def _keys_of(make: Callable[..., Any], options: bool) -> tuple[Key, ...]:
 
 
 def _texts(docstring: str) -> dict[str, str]:
-    """What is said of each parameter, on one line and without units."""
+    """Description of each parameter, on one line and without units."""
     texts: dict[str, list[str]] = {}
     current: list[list[str]] = []
     for line in (line for section in _SECTION.findall(docstring) for line in section[1].splitlines()):

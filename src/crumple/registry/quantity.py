@@ -1,4 +1,4 @@
-"""Quantities of a description: plain SI floats inside, texts with units at the door.
+"""Quantities of an input: texts with units in the input, plain SI floats inside.
 
 ``Length``, ``Stress`` and the others are annotated floats.  In Python a plain float is taken as SI and a
 text is converted; in an input file a bare number is refused unless it is 0, because 50 may mean 50 mm.
@@ -19,18 +19,18 @@ if TYPE_CHECKING:
     from pydantic_core import CoreSchema
 
 LARGEST = 1e18
-"""Largest magnitude in SI; beyond it products overflow and no structure is that stiff, big or heavy."""
+"""Largest magnitude in SI; beyond it products overflow and no structure is that stiff, large or heavy."""
 SMALLEST = 1e-18
 """Smallest magnitude in SI that is not zero; below it products underflow to a singular model."""
 
 
 class Converted(float):
-    """A number that a reader of curves has already turned into SI: it needs no unit even in a file."""
+    """A number that a curve reader has already converted to SI: it needs no unit even in a file."""
 
 
 @dataclass(frozen=True)
 class Dimension:
-    """What a number measures and which values make sense.
+    """Quantity and permitted range of a number.
 
     Attributes
     ----------
@@ -77,7 +77,7 @@ class Dimension:
         )
 
     def value_of(self, given: object, info: ValidationInfo) -> float | str:
-        """SI value of what was given, or one of the words; refuses what is not this quantity."""
+        """SI value, or one of the permitted words; refuses anything else."""
         if isinstance(given, str) and given in self.words:
             return given
         in_file = bool(info.context and info.context.get("file"))
@@ -85,7 +85,11 @@ class Dimension:
         if not math.isfinite(value):
             refuse("the number is not finite", allowed=self.allowed(), todo="write a finite number")
         if value != 0.0 and not SMALLEST <= abs(value) <= LARGEST:
-            refuse("the number is beyond any structure", allowed=self.allowed(), todo="check its unit")
+            refuse(
+                "the number is too large or too small for any structure",
+                allowed=self.allowed(),
+                todo="check its unit",
+            )
         if not self._in_bounds(value):
             what, todo = f"the number is out of range: it must be {self.bounds()}", "correct the number"
             refuse(what, allowed=self.allowed(), todo=todo)
@@ -193,7 +197,7 @@ TIME = Dimension("a time", "s", "100 ms")
 ANGLE = Dimension("an angle", "rad", "90 deg")
 STRESS = Dimension("a stress", "Pa", "488 MPa")
 DENSITY = Dimension("a density", "kg/m^3", "7850 kg/m^3")
-# beyond every crash: waves run through steel at 5 km/s, and long before that neither solver means anything
+# above any crash speed: elastic waves in steel travel at 5 km/s, and neither solver is valid near that
 VELOCITY = Dimension("a velocity", "m/s", "10 m/s", at_least=-1000.0, at_most=1000.0)
 ACCELERATION = Dimension("an acceleration", "m/s^2", "-9.81 m/s^2")
 ANGULAR_VELOCITY = Dimension("an angular velocity", "rad/s", "15 rad/s")
@@ -259,7 +263,7 @@ Accuracy = Annotated[float, replace(NUMBER, example="1e-3", at_least=1e-12, at_m
 Fraction = Annotated[float, replace(NUMBER, example="0.01", above=0.0, at_most=1.0)]
 
 Count = Annotated[int, COUNT]
-"""Of a few things in a row, such as the cells of a section."""
+"""Number of repeated parts, such as the cells of a section."""
 
 Position = tuple[Length, Length, Length]
 Direction = tuple[Number, Number, Number]

@@ -1,4 +1,4 @@
-"""Refusals from inside a validator; pydantic is imported only where it runs anyway."""
+"""Errors from inside a validator; pydantic is imported only where it is in use."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ def refuse(
     allowed, todo
         As in `crumple.errors.Problem`.
     key
-        Name of the part's key that is to blame, where the validator sees the whole part.
+        Name of the wrong key, if the validator checks the whole part.
     problems
         Ready problems that replace this one, such as the bad rows of a curve file.
     """
-    from pydantic_core import PydanticCustomError  # noqa: PLC0415  (rooms below the description need none)
+    from pydantic_core import PydanticCustomError  # noqa: PLC0415  (packages below the input need none)
 
     context = {"what": what, "allowed": allowed, "todo": todo, "key": key, "problems": list(problems)}
     raise PydanticCustomError("refused", "{what}", context)

@@ -1,4 +1,4 @@
-"""Explicit tables of what a name stands for; nothing is imported before it is asked for."""
+"""Explicit tables of named entries; an entry is imported when it is first used."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class Registry(Generic[Entry]):
     Parameters
     ----------
     noun
-        What messages call an entry.
+        Noun for an entry in messages.
     lines
         Where the entry of each name is defined, as ``package.module:NAME``.
     """

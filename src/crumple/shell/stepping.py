@@ -29,7 +29,7 @@ Progress = Callable[[float], None]
 Cancel = Callable[[], bool]
 
 RUNAWAY = 0.5
-"""Energy residual over the energy put in at which a run is stopped: nothing after it means anything."""
+"""Energy residual over the energy input at which a run is stopped, since later results are meaningless."""
 SAVE_EVERY = 300.0
 """Wall time between two restart files [s]."""
 WATCH_EVERY = 0.5

@@ -1,7 +1,7 @@
 """Plain YAML with the line of every entry: mappings, lists and texts, nothing else.
 
-For files that programs write, people read.  Anchors, aliases, tags, directives, further documents, repeated
-keys and control characters are refused; every scalar stays a text, so nothing is guessed.
+For files that programs write and people read.  Anchors, aliases, tags, directives, further documents,
+repeated keys and control characters are refused; every scalar stays a text, without type conversion.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Any
 from crumple.errors import InputError, Problem
 
 LARGEST_TEXT = 2_000_000
-"""Characters of one file; a curve of 20 000 points stays below."""
+"""Largest number of characters of a file; a curve of 20 000 points is shorter."""
 DEEPEST = 8
 """Nested groups."""
 _CONTROL = re.compile(r"[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -22,7 +22,7 @@ _CONTROL = re.compile(r"[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-
 
 @dataclass(frozen=True)
 class Entry:
-    """One value with its place.
+    """One value with its line.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ def read_plain_yaml(text: str, file: str = "") -> dict[str, Entry]:
     Raises
     ------
     InputError
-        With the line, if it is not YAML or holds what is refused.
+        With the line, if it is not YAML or contains something that is refused.
     """
     if len(text) > LARGEST_TEXT:
         raise _refusal("the file is too large", file, 0, f"at most {LARGEST_TEXT / 1e6:g} MB")
@@ -63,7 +63,7 @@ def read_plain_yaml(text: str, file: str = "") -> dict[str, Entry]:
 
 
 class _Reader:
-    """Builds entries from the parser's events, so that nothing is made of an alias or a tag."""
+    """Builds entries from the parser's events, so that aliases and tags have no effect."""
 
     def __init__(self, text: str, file: str) -> None:
         from ruamel.yaml import YAML  # noqa: PLC0415  (laws built from formulas need none)
@@ -78,7 +78,7 @@ class _Reader:
             if kind == "DocumentStartEvent":
                 starts += 1
                 if starts > 1 or event.version or event.tags:
-                    raise self._refused(event, "directives and further documents have no place here")
+                    raise self._refused(event, "directives and further documents are not allowed")
             elif kind not in {"StreamStartEvent", "DocumentEndEvent"}:
                 found = self._entry(event, 0)
         return found
@@ -117,8 +117,8 @@ class _Reader:
                 raise self._refused(inner, "a group or a list cannot be a key")
             value = self._entry(self._next(), depth + 1)
             if key.value in mapping:
-                raise self._refused(inner, f"the key '{key.value[:40]}' stands twice")
-            # a value may begin a line below its key: people look for the key
+                raise self._refused(inner, f"the key '{key.value[:40]}' is given twice")
+            # a value may begin a line below its key: report the line of the key
             mapping[key.value] = Entry(value.value, key.line)
         return Entry(mapping, line)
 

@@ -246,9 +246,9 @@ def test_mistakes_of_stages_and_obstacles_come_with_their_lines(text, right, wro
 
 def test_a_run_has_one_duration(text):
     twice = refused(staged(text).replace("  stages:", "  duration: 1 s\n  stages:"))
-    assert "durations of their own" in str(twice[0])
+    assert "have their own durations" in str(twice[0])
     none = refused(text.replace("  duration: 100 ms\n", ""))
     assert "the duration is missing" in str(none[0])
     analysis = loads(staged(text))
-    with pytest.raises(InputError, match="not that of the stages"):
+    with pytest.raises(InputError, match="differs from the sum of the stages"):
         analysis.model_copy(update={"duration": 2.0})

@@ -53,7 +53,7 @@ def test_unknown_solvers_and_no_threads_are_refused():
         solve(analysis, fidelity="shells")
     with pytest.raises(InputError, match="an analysis is needed"):
         solve(3)
-    with pytest.raises(InputError, match="no thread"):
+    with pytest.raises(InputError, match="number of threads is below 1"):
         solve(analysis, threads=0)
 
 
@@ -65,7 +65,7 @@ def test_progress_is_told_and_a_cancelled_run_keeps_what_it_has():
     assert 0.0 <= told[0] <= told[-1] <= 1.0
     cancelled = solve(loads(TEXT), cancel=lambda: True)
     assert cancelled.status is Status.CANCELLED
-    assert cancelled.reason == "asked to stop; the last output is at 0 s of 100 ms"
+    assert cancelled.reason == "stopped on request; the last output is at 0 s of 100 ms"
 
 
 def test_a_filtered_channel_is_that_of_the_equally_spaced_samples():

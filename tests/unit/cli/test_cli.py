@@ -271,7 +271,7 @@ def test_a_results_folder_that_cannot_be_used_is_refused_by_its_own_name(run_com
     for place in (file, file / "deeper"):
         code, out, err = run_command("run", EXAMPLE, "--out", place)
         assert (code, out) == (2, "")
-        assert f"cannot be written to {place}: a file of this name, or above it, is in the way" in err
+        assert f"cannot be written to {place}: a file has this name, or the name of a folder above it" in err
     assert file.read_text() == "mine"
     for nothing in ("", "  "):
         code, _, err = run_command("run", EXAMPLE, "--out", nothing)
@@ -292,7 +292,7 @@ def test_what_is_in_the_way_of_a_result_is_found_before_the_run(
         (tmp_path / name).mkdir()
     code, _, err = run_command("run", EXAMPLE, "--out", tmp_path)
     assert code == 2
-    assert f"{tmp_path / name} is in the way" in err
+    assert f"{tmp_path / name} is a folder, but a result file has this name" in err
     assert [path.name for path in tmp_path.iterdir()] == [name]
 
 

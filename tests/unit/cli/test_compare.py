@@ -123,7 +123,7 @@ def test_what_is_in_the_way_is_told_before_anything_is_solved(tmp_path: Path, na
     (out / name).write_text("in the way")
     run = crumple("compare", coarse(tmp_path, 12), "--out", out, "--threads", 1)
     assert run.returncode == 2
-    assert "a file of this name, or above it, is in the way" in run.stderr
+    assert "a file has this name, or the name of a folder above it" in run.stderr
     assert not (out / "shell" / "summary.json").exists()
     assert f"{out / name}: a file" in " ".join(run.stderr.split())
 
@@ -137,8 +137,8 @@ def test_an_interrupted_comparison_goes_on(tmp_path: Path, monkeypatch, capsys) 
         return ""
 
     with monkeypatch.context() as patch:
-        patch.setattr("crumple.cli.console.shell_run.news", end)
-        patch.setattr("crumple.cli.console.shell_run.NEWS_EVERY", -1.0)
+        patch.setattr("crumple.cli.console.shell_run.status_line", end)
+        patch.setattr("crumple.cli.console.shell_run.STATUS_INTERVAL", -1.0)
         patch.setattr("crumple.shell.stepping.WATCH_EVERY", 0.0)
         words = ["crumple", "compare", file, "--out", parts, "--threads", 1, "--no-variants"]
         patch.setattr(sys, "argv", [str(word) for word in words])
@@ -147,7 +147,7 @@ def test_an_interrupted_comparison_goes_on(tmp_path: Path, monkeypatch, capsys) 
     assert ended.value.code == 1
     said = " ".join(capsys.readouterr().out.split())
     saved = parts / "shell" / "restart.npz"
-    assert f"Go on with the same command and --restart {saved}" in said
+    assert f"Continue with the same command and --restart {saved}" in said
     assert "ms, which both contain, are compared" in said
     assert (parts / "report.html").is_file()
     words = ["compare", file, "--threads", 1, "--no-variants", "--out"]
@@ -167,6 +167,6 @@ def test_the_table_shows_the_hinges_that_absorbed_most(monkeypatch, capsys) -> N
     monkeypatch.setattr("crumple.cli.compare.MOST_HINGES", 1)
     _show(found, Path("out"))
     said = capsys.readouterr().out
-    table = said[: said.index("1 of 2 hinges, those that absorbed most")]
+    table = said[: said.index("1 of 2 hinges, those with the largest absorbed energy")]
     assert "tube at" in table
     assert "root" not in table.partition("Hinge")[2]

@@ -1,4 +1,4 @@
-"""Shell runs from the command line: results and report, news, being told to end, going on."""
+"""Shell runs from the command line: results and report, status lines, interruption, restart."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from crumple.cli.console.progress import Bar
-from crumple.cli.console.shell_run import duration, long_run_of, news
+from crumple.cli.console.shell_run import duration, long_run_of, status_line
 from crumple.cli.main import main
 from crumple.shell import Moment
 
@@ -72,8 +72,8 @@ def test_run_told_to_end_can_be_read_and_goes_on_with_the_same_bits(
             os.kill(os.getpid(), signal.SIGTERM)
         return ""
 
-    monkeypatch.setattr("crumple.cli.console.shell_run.news", end)
-    monkeypatch.setattr("crumple.cli.console.shell_run.NEWS_EVERY", -1.0)
+    monkeypatch.setattr("crumple.cli.console.shell_run.status_line", end)
+    monkeypatch.setattr("crumple.cli.console.shell_run.STATUS_INTERVAL", -1.0)
     monkeypatch.setattr("crumple.shell.stepping.WATCH_EVERY", 0.0)
     words = ["crumple", "run", file, "--fidelity", "shell", "--out", parts, "--threads", 1]
     monkeypatch.setattr(sys, "argv", [str(word) for word in words])
@@ -97,7 +97,7 @@ def test_restart_is_for_shells(tmp_path: Path) -> None:
 
 
 def test_news_tell_time_step_energies_and_end() -> None:
-    text = news(MOMENT)
+    text = status_line(MOMENT)
     for part in ("20 of 100 ms", "step 0.75 us", "kinetic 12.3 J", "about 75 s left"):
         assert part in text
 
@@ -107,7 +107,7 @@ def test_wall_times_for_people() -> None:
 
 
 def test_news_go_to_standard_error_where_there_is_no_terminal(monkeypatch, capsys, tmp_path) -> None:
-    monkeypatch.setattr("crumple.cli.console.shell_run.NEWS_EVERY", -1.0)
+    monkeypatch.setattr("crumple.cli.console.shell_run.STATUS_INTERVAL", -1.0)
     watch = long_run_of(tmp_path, None, Bar("solving")).watch
     assert watch is not None
     watch(MOMENT)

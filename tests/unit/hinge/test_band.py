@@ -55,7 +55,7 @@ def test_scaled_law_is_a_law():
 
 
 def test_refusals():
-    with pytest.raises(InputError, match="nothing is known"):
+    with pytest.raises(InputError, match="scatter of this law is unknown"):
         band_of(ConstantLaw(100.0))
     with pytest.raises(InputError, match="out of range"):
         band_of(LAW, 1.0)

@@ -261,8 +261,8 @@ def test_law_says_where_it_comes_from_and_how_far_it_goes(case, section, shares,
     assert law.validity.basis
     assert law.validity.warning_at(0.99 * min(law.validity.rotation_max, 10.0)) is None
     if math.isfinite(law.validity.rotation_max):
-        assert "backed" in law.validity.warning_at(law.validity.rotation_max + 0.01)
-    # beyond jamming nothing is backed
+        assert "valid up to" in law.validity.warning_at(law.validity.rotation_max + 0.01)
+    # beyond jamming no law is valid
     assert law.jamming_angle is None or law.validity.rotation_max <= law.jamming_angle
     # a law that is constant for good says that it is
     if law.moment_capacity(math.pi, sense) == law.moment_capacity(3.0, sense):

@@ -1,1 +1,1 @@
-"""What the verbs print with: charts, tables, progress, refusals."""
+"""Console output of the commands: charts, tables, progress, error messages."""

@@ -1,4 +1,4 @@
-"""Curves on a terminal: a small chart of characters, one mark per curve."""
+"""Curves on a terminal: a small character plot, one mark per curve."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def chart(x: Floats, curves: Sequence[Floats], x_text: tuple[str, str], y_text: 
     x
         Abscissa from 0, increasing, shape (n,).
     curves
-        Ordinates >= 0, each of shape (n,); at most eight are told apart.
+        Ordinates >= 0, each of shape (n,); at most eight have different marks.
     x_text
         Label of the left and of the right end.
     y_text

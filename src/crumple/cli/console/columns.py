@@ -11,12 +11,12 @@ from crumple.units import format_quantity, unit_factor
 def in_one_unit(
     values: Sequence[float | None], unit: str, digits: int = 4, absent: str = ""
 ) -> tuple[str, list[str]]:
-    """Name of the unit in which people read these values, and the values in it.
+    """Name of the readable unit of these values, and the values in it.
 
     Parameters
     ----------
     values
-        In SI; None where there is none.
+        In SI; None for a missing value.
     unit
         SI unit.
     digits

@@ -44,6 +44,6 @@ def curves_of(given: Sequence[str], pairs: Sequence[str]) -> list[CurveFile]:
     for column in renamed:
         if column not in columns:
             there = ", ".join(f"'{one}'" for one in columns) or "none, as there is no --curve"
-            told = f"no curve file has a column '{column}' with a unit; there are {there}"
-            raise typer.BadParameter(told, param_hint="--pair")
+            message = f"no curve file has a column '{column}' with a unit; the columns are: {there}"
+            raise typer.BadParameter(message, param_hint="--pair")
     return list(found.values())

@@ -14,5 +14,5 @@ class Fidelity(StrEnum):
 
     @property
     def solvers(self) -> tuple[Fidelity, ...]:
-        """It alone, or both."""
+        """The single solver, or both."""
         return (Fidelity.MULTIBODY, Fidelity.SHELL) if self is Fidelity.BOTH else (self,)

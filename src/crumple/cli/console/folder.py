@@ -1,4 +1,4 @@
-"""The folder of a run's results: tried before the run, and its errors in the words of the user's path."""
+"""The folder of a run's results: checked before the run; error messages name the user's path."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from crumple.errors import InputError, Problem
 from crumple.portable import reader_left
 
 FILES = ("result.vtkhdf", "histories.csv", "summary.json", "report.html")
-"""Files of a run; a folder of such a name is in the way."""
+"""Files of a run; a folder with one of these names is an error."""
 FIGURES = "figures"
 
 
 def results_folder(given: str | Path | None, file: Path) -> Path:
-    """The folder, made and tried; by default out/ and the input file's name.
+    """The folder, created and checked for write access; by default out/ and the input file's name.
 
     Raises
     ------
     InputError
-        If it cannot be made or written to, or something in it is in the way.
+        If it cannot be created or written to, or a folder in it has the name of a result file.
     """
     if given is not None and not str(given).strip():
-        todo = "name a folder; . is the present one"
+        todo = "give a folder; . is the current one"
         raise InputError(Problem("the name of the results' folder is empty", todo=todo, where="--out"))
     folder = Path(given) if given is not None else Path("out") / file.stem
     with results_errors(folder):
@@ -36,9 +36,14 @@ def results_folder(given: str | Path | None, file: Path) -> Path:
     if (folder / FIGURES).exists() and not (folder / FIGURES).is_dir():
         blocked.append(FIGURES)
     if blocked:
-        todo = "move it away, or choose another folder with --out"
+        todo = "move it, or choose another folder with --out"
         problems = [
-            Problem(f"{folder / name} is in the way", "a file" if name == FIGURES else "a folder", "", todo)
+            Problem(
+                f"{folder / name} is a folder, but a result file has this name",
+                "a file" if name == FIGURES else "a folder",
+                "",
+                todo,
+            )
             for name in blocked
         ]
         raise InputError(problems)
@@ -47,15 +52,15 @@ def results_folder(given: str | Path | None, file: Path) -> Path:
 
 @contextmanager
 def results_errors(folder: Path) -> Iterator[None]:
-    """Tell what the system refuses inside the block, by the folder that the user named."""
+    """Report what the system refuses inside the block, with the folder that the user named."""
     try:
         yield
     except OSError as error:
         if reader_left(error):
             raise
-        # libraries put their own words, with private names, where the system has a reason
-        reason = os.strerror(error.errno) if error.errno else "the system refused"
+        # libraries give their own text, with temporary names, in place of the system's reason
+        reason = os.strerror(error.errno) if error.errno else "the operating system refused"
         if isinstance(error, FileExistsError | NotADirectoryError):
-            reason = "a file of this name, or above it, is in the way"
+            reason = "a file has this name, or the name of a folder above it"
         what = f"the results cannot be written to {folder}: {reason}"
         raise InputError(Problem(what, todo="choose another folder with --out")) from error

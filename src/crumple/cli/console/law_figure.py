@@ -1,4 +1,4 @@
-"""Collapse laws in one figure: moment against rotation, faint beyond the range that backs each law."""
+"""Collapse laws in one figure: moment against rotation, pale beyond the range of validity of each law."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def law_figure(laws: dict[str, HingeLaw], rotation: Floats, title: str) -> str:
     laws
         By the name that the figure shows.
     rotation
-        Where they are drawn [rad], increasing from 0, shape (n,).
+        Rotations at which they are drawn [rad], increasing from 0, shape (n,).
     title
         Section and axis.
     """
@@ -45,7 +45,7 @@ def law_figure(laws: dict[str, HingeLaw], rotation: Floats, title: str) -> str:
         lines = []
         for index, (name, law) in enumerate(laws.items()):
             moment = curves[name] / factor
-            backed = np.where(rotation <= law.validity.rotation_max, moment, np.nan)
-            lines += [Line(name, angles, moment, faint=True), Line(name, angles, backed, index)]
+            valid = np.where(rotation <= law.validity.rotation_max, moment, np.nan)
+            lines += [Line(name, angles, moment, faint=True), Line(name, angles, valid, index)]
         draw_lines(axes, lines)
         return to_svg(figure, "hinge-laws", f"Moment capacity against rotation of {', '.join(laws)}.") + "\n"

@@ -1,8 +1,8 @@
-"""Sections and materials as they are written on the command line.
+"""Sections and materials as written on the command line.
 
 rectangular_tube 50x25x2.65 mm, corner radius 5 mm   a shape: see crumple.section.shapes.written
 yield 488 MPa, E 210 GPa, nu 0.3                     a material
-S355, yield 400 MPa                                  a named grade, with a value of its own
+S355, yield 400 MPa                                  a named grade with one value changed
 model.yaml:tube                                      the section or material of this name in an input file
 """
 
@@ -37,7 +37,7 @@ _NAMED = re.compile(r"(?P<path>.+\.(?:ya?ml|json)):(?P<name>.+)", re.IGNORECASE)
 
 
 class _Key(NamedTuple):
-    """A property of a material: its field, SI unit, and the steel's value that stands where none is given."""
+    """A property of a material: its field, its SI unit, and the value of steel as the default."""
 
     field: str
     unit: str
@@ -104,7 +104,7 @@ def material_of(text: str) -> tuple[Material, list[str]]:
         if key.default is not None and key.field not in values
     }
     assumed = [
-        f"{word} {format_quantity(key.default, key.unit)}, steel's, as none was given"
+        f"{word} {format_quantity(key.default, key.unit)} as for steel, since none was given"
         for word, key in _MATERIAL_KEYS.items()
         if key.default is not None and key.field in defaults
     ]

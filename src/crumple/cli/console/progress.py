@@ -1,4 +1,4 @@
-"""A progress bar that appears where work is long.
+"""A progress bar for long runs.
 
 The bar is drawn on standard error and only after `PATIENCE`; most runs end before.
 """
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from rich.progress import Progress
 
 PATIENCE = 0.4
-"""Seconds of silence before the bar: shorter work would only flicker."""
+"""Time before the bar appears [s]: for shorter runs it would only flicker."""
 
 
 class Bar:
@@ -39,16 +39,16 @@ class Bar:
 
     @property
     def drawn(self) -> bool:
-        """Whether there is a bar on the terminal."""
+        """Whether the bar is shown on the terminal."""
         return self._bar is not None
 
-    def say(self, text: str) -> None:
-        """Write what is going on beside the bar, once there is one."""
+    def describe(self, text: str) -> None:
+        """Show a status text beside the bar, if the bar is shown."""
         if self._bar is not None:
             self._bar.update(self._bar.task_ids[0], description=text)
 
     def stop(self) -> None:
-        """Take the bar away."""
+        """Remove the bar."""
         if self._bar is not None:
             self._bar.stop()
 

@@ -1,4 +1,4 @@
-"""How a refusal looks on the terminal: every problem, on standard error."""
+"""Error messages on the terminal: every problem, on standard error."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `crumple run --fidelity shell` needs beside: threads, restart files, news, and notes before it."""
+"""What `crumple run --fidelity shell` adds: threads, restart files, status lines, notes before the run."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ if TYPE_CHECKING:
 
 RESTART = "restart.npz"
 """Name of the restart file in the folder of the results."""
-NEWS_EVERY = 10.0
-"""Wall time between two lines of news where there is no terminal to draw a bar on [s]."""
+STATUS_INTERVAL = 10.0
+"""Wall time between two status lines if there is no terminal for a progress bar [s]."""
 PUT_IN = ("kinetic", "elastic", "plastic", "hourglass", "contact")
-"""Energies that the news tell."""
+"""Energies in the status line."""
 
 
 def shell_notes(analysis: Analysis) -> tuple[str, ...]:
-    """What the shell solver says of an analysis before its first step: mesh and warnings.
+    """Notes of the shell solver about an analysis before its first step: mesh and warnings.
 
     Raises
     ------
@@ -41,25 +41,25 @@ def shell_notes(analysis: Analysis) -> tuple[str, ...]:
 
 
 def long_run_of(folder: Path, restart: Path | None, bar: Bar) -> LongRun:
-    """Restart files and a watcher that tells on standard error where the run is."""
+    """Restart files and a callback that reports the state of the run on standard error."""
     from crumple.shell import LongRun
 
-    told = time.monotonic()
+    last = time.monotonic()
 
     def watch(moment: Moment) -> None:
-        nonlocal told
-        text = news(moment)
+        nonlocal last
+        text = status_line(moment)
         if bar.drawn:
-            bar.say(text)
-        elif not sys.stderr.isatty() and time.monotonic() - told > NEWS_EVERY:
-            told = time.monotonic()
+            bar.describe(text)
+        elif not sys.stderr.isatty() and time.monotonic() - last > STATUS_INTERVAL:
+            last = time.monotonic()
             print(text, file=sys.stderr, flush=True)
 
     return LongRun(restart_from=restart, restart_to=folder / RESTART, watch=watch)
 
 
-def news(moment: Moment) -> str:
-    """One line: where the run is, its step, its energies, and how long it will take."""
+def status_line(moment: Moment) -> str:
+    """One line: simulated time, time step, energies, and estimated wall time left."""
     energies = ", ".join(f"{name} {moment.energies[name]:.4g} J" for name in PUT_IN)
     return (
         f"{1e3 * moment.time:.4g} of {1e3 * moment.duration:.4g} ms, step {1e6 * moment.time_step:.3g} us, "
@@ -68,7 +68,7 @@ def news(moment: Moment) -> str:
 
 
 def duration(seconds: float) -> str:
-    """Wall time for people."""
+    """Wall time in readable units."""
     if seconds < 100.0:
         return f"{seconds:.0f} s"
     return f"{seconds / 60.0:.0f} min" if seconds < 6000.0 else f"{seconds / 3600.0:.1f} h"

@@ -9,7 +9,7 @@ fold's half length H:
 
 so that the energy over the stroke is that of the mean force, P_m S, whatever the peak; P_1 >= P_m/2.  Folds
 make the force swing about P_1; that is left out.  In tension the walls yield.  Limits: P_0 = P_m is a
-constant force.  Derived here; a column shorter than its fold, or one that bends aside, is another matter.
+constant force.  Derived here; not valid for a column shorter than its fold, or one that buckles sideways.
 """
 
 from __future__ import annotations
@@ -44,11 +44,11 @@ class AxialCollapse:
     stroke
         S [m]; inf: never closed, the mean is held.
     tension
-        Force in the other sense [N].
+        Force in tension [N].
     fall
         u_1 [m].
     stop
-        Closed folds, in shortening alone; None without a stroke.
+        Stop of the closed folds, in shortening only; None without a stroke.
 
     References
     ----------
@@ -67,7 +67,7 @@ class AxialCollapse:
     stop: Stop | None = None
     rate: HingeRate | None = None
     source: Source = CHOSEN
-    validity: Validity = Validity(math.inf, "axial folding was not compared with tests here")  # noqa: RUF009
+    validity: Validity = Validity(math.inf, "axial folding is not validated by tests")  # noqa: RUF009
     softening_variable: SofteningVariable = SofteningVariable.PEAK
     elastic_stiffness: float | None = None
     jamming_angle: float | None = None
@@ -83,7 +83,7 @@ class AxialCollapse:
         fall: float | None = None,
         closed_stiffness: float = 0.0,
     ) -> AxialCollapse:
-        """Collapse of given forces.
+        """Collapse with given forces.
 
         Parameters
         ----------
@@ -130,8 +130,8 @@ class AxialCollapse:
 
         Notes
         -----
-        The law's rate factor is one of the impact speed; here it is taken at the present speed of shortening.
-        A mean force above the peak (stout walls) is taken as the peak.
+        The rate factor of the law is defined for the impact speed; the current speed of shortening is used.
+        If the mean force is above the peak (thick walls), the peak is set to it.
         """
         mean = min(law.mean_crushing_force, law.peak_force)
         made = cls.given(
@@ -156,7 +156,7 @@ class AxialCollapse:
         return (self.mean * self.stroke - self.peak * self.fall / 2.0) / (self.stroke - self.fall / 2.0)
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
-        """Where the peak has fallen."""
+        """Shortening at which the force has fallen to its second level."""
         return (self.fall,) if sense < 0 and 0.0 < self.fall < math.pi else ()
 
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:

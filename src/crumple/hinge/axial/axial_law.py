@@ -1,4 +1,4 @@
-"""What every law of axial crushing offers: peak force, mean force, stroke, rate, with a source and a range.
+"""Interface of every law of axial crushing: peak force, mean force, stroke, rate, with a source and a range.
 
 A column that crushes folds progressively: the force rises once to a peak and then swings about a mean.  The
 mean times the effective stroke is the energy that the column absorbs.
@@ -21,16 +21,16 @@ from crumple.numeric.arrays import Floats
 
 @dataclass(frozen=True)
 class CrushValidity:
-    """Range in which an axial law is backed by evidence.
+    """Range of validity of an axial law.
 
     Attributes
     ----------
     basis
-        What backs it, in one sentence.
+        Evidence for it, in one sentence.
     warnings
         One sentence for each condition that does not hold.
     uncertainty
-        Relative half-width of the band of the mean force, or None where nothing is known.
+        Relative half-width of the band of the mean force, or None if unknown.
     """
 
     basis: str
@@ -45,9 +45,9 @@ class CrushRate:
     Attributes
     ----------
     shape
-        [1/m]: strain rate of the folds over the impact speed; the mean speed V/2 is in it.
+        [1/m]: strain rate of the folds over the impact speed; includes the mean speed V/2.
     metal
-        Pair of the metal at large strain.
+        Cowper-Symonds pair of the material at large strain.
     """
 
     shape: float
@@ -73,7 +73,7 @@ class AxialLaw(Protocol):
     effective_stroke
         Shortening over length [-] at which the folds are closed.
     half_fold_length
-        H [m], or None where the law does not know it.
+        H [m], or None if the law does not give it.
     rate
         Rate law of the mean force, or None.
     """
@@ -99,7 +99,7 @@ class AxialLaw(Protocol):
 
 
 def absorbed_by(law: AxialLaw, length: float) -> float:
-    """Energy [J] of a column of a length [m] crushed to its effective stroke, slowly."""
+    """Energy [J] of a column of a length [m] crushed quasi-statically to its effective stroke."""
     return law.mean_crushing_force * law.effective_stroke * length
 
 
@@ -111,27 +111,20 @@ def rate_factor_of(law: AxialLaw, impact_speed: ArrayLike) -> Floats:
 
 
 class CrushDistance(Enum):
-    """Over which shortening the mean force is taken; the energy of a column is the same."""
+    """Shortening over which the mean force is averaged; the energy of a column is the same."""
 
     EFFECTIVE = "effective"
-    """Until the folds are closed: what a test shows as its mean force."""
+    """Until the folds are closed: the mean force of a test."""
     FULL = "full"
-    """The whole length: what a folding calculation gives before its correction."""
+    """The whole length: the result of a folding calculation before its correction."""
 
 
 def crush_rate(shape: float, material: Material) -> CrushRate | None:
-    """Rate law of a mean force: strain rate over impact speed [1/m] and the flow pair of the metal."""
+    """Rate law of a mean force: strain rate over impact speed [1/m] and the flow pair of the material."""
     pair = material.flow_rate
     if pair is not None and not isinstance(pair, CowperSymonds):
         pair = pair.as_cowper_symonds()
     return None if pair is None else CrushRate(shape, pair)
-
-
-def rate_warnings(material: Material) -> tuple[str, ...]:
-    """Warn of a rate law that a mean force does not use."""
-    if material.yield_rate is None or material.flow_rate is not None:
-        return ()
-    return ("a rate law at yield alone overstates the effect in a fold and is not used: give one at flow",)
 
 
 def flat_wall_moment(flow_stress: float, thickness: float) -> float:
@@ -140,5 +133,5 @@ def flat_wall_moment(flow_stress: float, thickness: float) -> float:
 
 
 def curved_wall_moment(flow_stress: float, thickness: float) -> float:
-    """M_0 = 2/sqrt(3) s_0 h^2/4, plastic moment per width of a wall held from widening (plane strain) [N]."""
+    """M_0 = 2/sqrt(3) s_0 h^2/4, plastic moment per width of a wall in plane strain [N]."""
     return 2.0 / math.sqrt(3.0) * flow_stress * thickness**2 / 4.0

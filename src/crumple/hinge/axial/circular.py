@@ -26,10 +26,10 @@ from crumple.hinge.axial.axial_law import (
     CrushValidity,
     crush_rate,
     curved_wall_moment,
-    rate_warnings,
 )
 from crumple.hinge.law import Source, Trust
 from crumple.hinge.options import choice
+from crumple.hinge.rate import rate_warnings
 from crumple.material import Material
 from crumple.section import CircularTube, Section
 
@@ -90,20 +90,20 @@ class CircularCrushing:
         material
             Flow stress for the mean force, yield stress for the peak, flow rate for the rate factor.
         mode, crush_distance
-            Choices, by enum or by text; the diamond mode knows the effective distance alone.
+            Options, by enum or by text; the diamond mode has the effective distance only.
 
         Raises
         ------
         InputError
-            If the section is no circular tube, or a choice is unknown or does not exist.
+            If the section is not a circular tube, or an option is unknown.
         """
         lobes = choice("mode", mode, Lobes)
         distance = choice("crush_distance", crush_distance, CrushDistance)
         if not isinstance(section, CircularTube):
-            what, todo = "this law is one of circular tubes", "use square, superfolding or top_hat"
+            what, todo = "this law is for circular tubes", "use square, superfolding or top_hat"
             raise InputError(Problem(what, section.title, "circular_tube", todo, "section"))
         if lobes is Lobes.DIAMOND and distance is CrushDistance.FULL:
-            what, todo = "the diamond mode has no mean over the full length", "leave crush_distance out"
+            what, todo = "the diamond mode has no mean over the full length", "omit crush_distance"
             raise InputError(Problem(what, "full", "effective", todo, "crush_distance"))
         wall = section.thickness
         radius = (section.diameter - wall) / 2.0
@@ -142,6 +142,6 @@ def effective_distance(ratio: float) -> float:
 def _validity(mode: Lobes, material: Material) -> CrushValidity:
     warnings = list(rate_warnings(material))
     if mode is Lobes.DIAMOND:
-        warnings.append("the stroke of the diamond mode was not found: that of the concertina is taken")
-    warnings.append("the peak is the squash load: no formula of shell buckling is applied, so it is high")
-    return CrushValidity("no test was compared here", tuple(warnings))
+        warnings.append("the stroke of the diamond mode is not known: that of the concertina mode is used")
+    warnings.append("the peak force is the squash load without shell buckling, so it is too high")
+    return CrushValidity("not validated by tests", tuple(warnings))

@@ -5,8 +5,8 @@ Unknown: the static mean force P of a tube of side c and wall h, over M_0 = s_0 
     symmetric      P/M_0 = 52.22 x^(1/3)                              = 38.12/0.73 x^(1/3)
     asymmetric_a   P/M_0 = 42.92 x^(1/3) + 3.17 x^(2/3) + 2.04
     asymmetric_b   P/M_0 = 45.90 x^(1/3) + 1.75 x^(2/3) + 1.02
-    extensional    P/M_0 = 32.64 x^(1/2) + 8.16                       stout tubes, x below about 7.5
-    lowest         the least of the four: each is an upper bound of its own mechanism
+    extensional    P/M_0 = 32.64 x^(1/2) + 8.16                       thick tubes, x below about 7.5
+    lowest         the minimum of the four: each is an upper bound of its own mechanism
 
 c is the outer side.  The effective crush distance is 0.73 of the length (0.77 in the extensional mode).  At
 an impact speed V the factor is 1 + (0.33 V/(c D))^(1/q).  Limits: x -> large: symmetric ~ s_0 c^(1/3)
@@ -25,11 +25,11 @@ from crumple.hinge.axial.axial_law import (
     CrushValidity,
     crush_rate,
     flat_wall_moment,
-    rate_warnings,
 )
 from crumple.hinge.axial.squash import HELD, squash_force
 from crumple.hinge.law import Source, Trust
 from crumple.hinge.options import choice
+from crumple.hinge.rate import rate_warnings
 from crumple.material import Material
 from crumple.section import RectangularTube, Section
 
@@ -41,9 +41,9 @@ SOURCE = Source(
 SAME_SIDE = 1e-3
 """Relative difference of the sides up to which a tube counts as square."""
 EXTENSIONAL_BELOW = 7.5
-"""c/h below which the extensional mode is said to govern."""
+"""c/h below which the extensional mode governs, as quoted."""
 TESTED = (30.25, 32.18)
-"""c/h of the 84 dynamic tests on square steel tubes that the formulas were held against by their authors."""
+"""c/h of the 84 dynamic tests on square steel tubes with which the authors compared the formulas."""
 RATE_SHAPE = 0.33
 
 
@@ -107,7 +107,7 @@ class SquareCrushing:
         ):
             todo = "use the law superfolding for a rectangle"
             raise InputError(
-                Problem("this law is one of square tubes", section.title, "equal sides", todo, "section")
+                Problem("this law is for square tubes", section.title, "equal sides", todo, "section")
             )
         side, wall = section.width, section.thickness
         forces = mode_forces(side / wall)
@@ -142,13 +142,13 @@ def mode_forces(slenderness: float) -> dict[Mode, float]:
 def _validity(slenderness: float, mode: Mode, material: Material) -> CrushValidity:
     warnings = list(rate_warnings(material))
     if mode is not Mode.EXTENSIONAL and slenderness < EXTENSIONAL_BELOW:
-        warnings.append(f"c/h = {slenderness:.1f}: a tube this stout folds in the extensional mode")
+        warnings.append(f"c/h = {slenderness:.1f}: a tube this thick folds in the extensional mode")
     if mode is Mode.EXTENSIONAL and slenderness > EXTENSIONAL_BELOW:
-        warnings.append(f"c/h = {slenderness:.1f}: the extensional mode belongs to tubes below c/h = 7.5")
+        warnings.append(f"c/h = {slenderness:.1f}: the extensional mode applies to tubes below c/h = 7.5")
     if mode in {Mode.ASYMMETRIC_A, Mode.ASYMMETRIC_B}:
-        warnings.append("asymmetric folds lean the column and can start overall bending")
+        warnings.append("asymmetric folds tilt the column and can start overall bending")
     basis = (
-        f"its authors held it against 84 dynamic tests of steel tubes with c/h from {TESTED[0]:g} to "
-        f"{TESTED[1]:g}; nothing was compared here"
+        f"its authors compared it with 84 dynamic tests of steel tubes with c/h from {TESTED[0]:g} to "
+        f"{TESTED[1]:g}; not validated by own tests"
     )
     return CrushValidity(basis, tuple(warnings))

@@ -1,11 +1,11 @@
-"""Peak force of a column of flat walls: squash load, or less where walls buckle first.
+"""Peak force of a column of flat walls: squash load, or less if walls buckle first.
 
-Unknown: P, the sum of what the walls carry at yield, each reduced to its effective width b_e:
+Unknown: P, the sum of the wall forces at yield, each reduced to its effective width b_e:
 
     P = s_y t sum(b_e),    b_e = b min(1, (1 - 0.22/lambda)/lambda),    lambda = sqrt(s_y/s_cr)
     s_cr = k pi^2 E/(12 (1 - nu^2)) (t/b)^2,   k = 4 between two corners, 0.43 with one edge free
 
-b runs along the mid-line from corner to corner.  Limits: stout walls squash (lambda <= 0.673); a slender wall
+b runs along the mid-line from corner to corner.  Limits: thick walls squash (lambda <= 0.673); a slender wall
 carries t^2 sqrt(k pi^2 E s_y/(12 (1 - nu^2))) whatever its width.  No column buckling.
 """
 

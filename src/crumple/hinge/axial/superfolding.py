@@ -6,7 +6,7 @@ in the toroidal corners (~ r), in straight hinge lines and in inclined ones (~ 1
     P/M_0 = A1 r/h + A2 c/H + A3 H/r,      M_0 = s_0 h^2/4
 
 The straight lines turn by pi/2, pi and pi/2 in a fold 2H over the whole perimeter 4c, so A2 = 4 pi, whatever
-the shape: a rectangle has c = (a + b)/2.  P is least where the three terms are equal, hence
+the shape: a rectangle has c = (a + b)/2.  P is minimal if the three terms are equal:
 
     P = 3 (A1 A2 A3 c/h)^(1/3) M_0 = 38.27 (c/h)^(1/3) M_0
     H = 0.983 h^(1/3) c^(2/3),  r = 0.720 h^(2/3) c^(1/3)
@@ -27,11 +27,11 @@ from crumple.hinge.axial.axial_law import (
     CrushValidity,
     crush_rate,
     flat_wall_moment,
-    rate_warnings,
 )
 from crumple.hinge.axial.squash import HELD, squash_force
 from crumple.hinge.law import Source, Trust
 from crumple.hinge.options import choice
+from crumple.hinge.rate import rate_warnings
 from crumple.material import Material
 from crumple.section import RectangularTube, Section
 
@@ -45,7 +45,7 @@ COEFFICIENT, HALF_FOLD, ROLLING_RADIUS = 38.27, 0.983, 0.720
 EFFECTIVE_STROKE = 0.73
 """[-]; the value quoted for symmetric folding of square tubes."""
 LONGEST_RECTANGLE = 1.5
-"""Ratio of the sides beyond which one fold length for all four walls is doubtful."""
+"""Ratio of the sides above which one fold length for all four walls is doubtful."""
 RATE_SHAPE = 0.33
 
 
@@ -94,16 +94,16 @@ class SuperfoldingCrushing:
         material
             Flow stress for the mean force, yield stress for the peak, flow rate for the rate factor.
         crush_distance
-            Choice, by enum or by its text.
+            Option, by enum or by its text.
 
         Raises
         ------
         InputError
-            If the section is no rectangular tube or the choice is unknown.
+            If the section is not a rectangular tube or the option is unknown.
         """
         distance = choice("crush_distance", crush_distance, CrushDistance)
         if not isinstance(section, RectangularTube):
-            what, todo = "this law is one of rectangular tubes", "use circular or top_hat where they fit"
+            what, todo = "this law is for rectangular tubes", "use circular or top_hat for such sections"
             raise InputError(Problem(what, section.title, "rectangular_tube", todo, "section"))
         wall, side = section.thickness, (section.width + section.depth) / 2.0
         stroke = 1.0 if distance is CrushDistance.FULL else EFFECTIVE_STROKE
@@ -130,11 +130,9 @@ def _validity(section: RectangularTube, material: Material) -> CrushValidity:
     warnings = list(rate_warnings(material))
     ratio = max(section.width, section.depth) / min(section.width, section.depth)
     if ratio > LONGEST_RECTANGLE:
-        warnings.append(
-            f"sides of ratio {ratio:.2f}: one fold length for all four walls was checked by nothing"
-        )
+        warnings.append(f"sides of ratio {ratio:.2f}: one fold length for all four walls is not validated")
     if section.corner_radius > 0.0:
-        warnings.append("rounded corners are folded as sharp ones")
+        warnings.append("rounded corners are treated as sharp")
     return CrushValidity(
-        "beside the square law it agrees within 1 %; no test was compared here", tuple(warnings)
+        "agrees with the law for square tubes within 1 %; not validated by tests", tuple(warnings)
     )

@@ -6,10 +6,10 @@ hat), with L the length of mid-line of the whole section:
     top hat      P/M_0 = 32.89 (L/h)^(1/3)
     double hat   P/M_0 = 52.20 (L/h)^(1/3)            M_0 = s_0 h^2/4
 
-Both follow from the square tube, 52.22 (c/h)^(1/3): a top hat has four folding corners and c = L/4, hence
+Both follow from the square tube, 52.22 (c/h)^(1/3): a top hat has four folding corners and c = L/4:
 52.22/4^(1/3) = 32.90; a double hat is two of them with L/2 each, 2 x 32.90/2^(1/3) = 52.22.  So the effective
 crush distance of 0.73 is in the coefficients, and the rate factor is that of a square tube of side L/4 (L/8
-for the double hat): an assumption by the same token.  The peak is the squash load of all walls, not reduced
+for the double hat): an assumption on the same basis.  The peak is the squash load of all walls, not reduced
 for buckling between the spot welds.
 """
 
@@ -24,9 +24,9 @@ from crumple.hinge.axial.axial_law import (
     CrushValidity,
     crush_rate,
     flat_wall_moment,
-    rate_warnings,
 )
 from crumple.hinge.law import Source, Trust
+from crumple.hinge.rate import rate_warnings
 from crumple.material import Material
 from crumple.section import Section
 
@@ -48,7 +48,7 @@ class HatCrushing:
     Attributes
     ----------
     double
-        Whether it consists of two hats.
+        Whether the section consists of two hats.
 
     References
     ----------
@@ -77,15 +77,15 @@ class HatCrushing:
         material
             Flow stress for the mean force, yield stress for the peak, flow rate for the rate factor.
         double
-            Take the section as two hats on each other, not a hat on a plate.
+            Whether the section is two hats welded together instead of a hat on a plate.
 
         Raises
         ------
         InputError
-            If the section is no closed hat.
+            If the section is not a closed hat.
         """
         if section.kind not in CLOSED:
-            what, todo = "this law is one of closed hats", "use square, superfolding or circular"
+            what, todo = "this law is for closed hats", "use square, superfolding or circular"
             raise InputError(Problem(what, section.title, ", ".join(sorted(CLOSED)), todo, "section"))
         return cls.from_perimeter(section.area / section.thickness, section.thickness, material, double)
 
@@ -97,8 +97,8 @@ class HatCrushing:
         moment = flat_wall_moment(material.flow_stress, thickness)
         mean = (DOUBLE_HAT if double else TOP_HAT) * (perimeter / thickness) ** (1.0 / 3.0) * moment
         warnings = (
-            "spot welds are taken to hold: where they tear the mean force falls",
-            "the peak is the squash load, without buckling between the welds",
+            "the spot welds do not fail in this law: if they do, the mean force is lower",
+            "the peak force is the squash load, without buckling between the welds",
             *rate_warnings(material),
         )
         shape = RATE_SHAPE / (perimeter / (8.0 if double else 4.0))

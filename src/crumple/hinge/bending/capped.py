@@ -1,7 +1,7 @@
 """A folding mechanism under a largest moment: M = min(Mmax, M_mech), the start of every folding law.
 
-Mechanisms are singular at zero rotation (M ~ theta^(-1/2)), so the cap always governs first; theta_T is where
-the mechanism takes over.
+Mechanisms are singular at zero rotation (M ~ theta^(-1/2)), so the cap always governs first; theta_T is the
+rotation from which the mechanism governs.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class CappedMechanism:
     peak
         Mmax [N m].
     mechanism
-        What folds.
+        Folding mechanism.
     """
 
     peak: float

@@ -1,4 +1,4 @@
-"""Circular tube in bending: plastic moment or elastic ovalisation, then a kink.
+"""Circular tube in bending: plastic moment or elastic ovalisation, followed by a kink.
 
 Unknown: M(theta) of a tube of mean radius R and wall t.
 
@@ -9,7 +9,7 @@ Unknown: M(theta) of a tube of mean radius R and wall t.
         Z = 4 t R^2 (cos psi - (pi/2 - 1) sin psi), unstably, down to 0.3035 of Z_pl when flat (psi = 45 deg)
     after that       min(largest moment, mechanism of the square tube with the same length of mid-line)
 
-The last line scales a known mechanism to another shape: an estimate, not a derivation; it is kept above the
+The last line scales a known mechanism to another shape: an estimate, not a derivation; its lower limit is the
 flattened tube's 0.3035 M_p.  The length 2 H_b over which the tube ovalises is that of a square tube's fold.
 Limits: thick walls never buckle elastically; thin ones: M -> Brazier ~ R t^2.
 """
@@ -29,7 +29,7 @@ from crumple.hinge.bending.jamming import AfterJamming
 from crumple.hinge.bending.kecman_mechanism import FoldMechanism
 from crumple.hinge.law import Source, Trust, Validity
 from crumple.hinge.options import choice
-from crumple.hinge.rate import hinge_rate
+from crumple.hinge.rate import hinge_rate, rate_warnings
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
@@ -98,7 +98,7 @@ class CircularLaw(FoldingLaw):
         material
             Yield stress, elastic constants; flow stress for the kink; flow rate for the rate factor.
         axis
-            Any: the tube looks the same about all.
+            Any: the tube has the same properties about all axes.
         rolling_weight
             Weight of the second rolling line of each web of the square tube.
         after_jamming
@@ -107,10 +107,10 @@ class CircularLaw(FoldingLaw):
         Raises
         ------
         InputError
-            If the section is no circular tube or a choice is unknown.
+            If the section is not a circular tube or an option is unknown.
         """
         if not isinstance(section, CircularTube):
-            what, todo = "this law is one of circular tubes", "use kecman for a rectangular one"
+            what, todo = "this law is for circular tubes", "use kecman for a rectangular one"
             raise InputError(Problem(what, section.title, "circular_tube", todo, "section"))
         after = choice("after_jamming", after_jamming, AfterJamming)
         t = section.thickness
@@ -168,22 +168,19 @@ def ovalisation_curvature(radius: float, thickness: float) -> float:
     return thickness / ((math.pi - 2.0) * radius**2)
 
 
-def _validity(backed: float, plastic: float, limit: float, material: Material) -> Validity:
+def _validity(rotation_max: float, plastic: float, limit: float, material: Material) -> Validity:
     warnings = [
-        "the kinked branch is the mechanism of a square tube with the same length of mid-line: compared with "
+        "the kinked branch is the mechanism of a square tube with the same length of mid-line: validated by "
         "nothing"
     ]
     if limit < plastic:
         warnings.append(
             f"thin wall: it ovalises elastically at {limit / plastic:.2f} of the plastic moment, and local "
-            "buckling, which no formula here looks at, may come first"
+            "buckling, which is not modelled, may occur first"
         )
-    if material.yield_rate is not None and material.flow_rate is None:
-        warnings.append(
-            "a rate law at yield alone overstates the effect in a fold and is not used: give one at flow"
-        )
+    warnings += rate_warnings(material)
     basis = (
-        "up to there the section carries its largest moment; plastic ovalisation and the kink were compared "
-        "with no test and no finite elements"
+        "up to there the section carries its largest moment; plastic ovalisation and the kink are validated "
+        "neither by tests nor by finite elements"
     )
-    return Validity(backed, basis, tuple(warnings))
+    return Validity(rotation_max, basis, tuple(warnings))

@@ -24,11 +24,11 @@ from crumple.numeric.arrays import Floats
 from crumple.registry.quantity import PositiveMoment
 from crumple.section import Axis, Section
 
-CHOSEN = Source("none", Trust.ASSUMED, "the moment is the user's choice")
+CHOSEN = Source("none", Trust.ASSUMED, "the moment is given by the user")
 PLASTIC_MOMENT = Source(
     "plastic moment, yield stress times plastic section modulus",
     Trust.DERIVED,
-    "an upper bound of the peak; thin walls fold and carry less",
+    "an upper bound of the peak moment; thin walls fold and carry less",
 )
 
 
@@ -51,7 +51,7 @@ class ConstantLaw:
 
     moment: float
     source: Source = CHOSEN
-    validity: Validity = Validity(math.inf, "the moment is the user's choice")  # noqa: RUF009  (frozen)
+    validity: Validity = Validity(math.inf, "the moment is given by the user")  # noqa: RUF009  (frozen)
     rate: HingeRate | None = None
     softening_variable: SofteningVariable = SofteningVariable.PEAK
     elastic_stiffness: float | None = None
@@ -60,7 +60,7 @@ class ConstantLaw:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.moment) and self.moment > 0.0):
-            todo = "give the moment at which the hinge turns"
+            todo = "give the moment at which the hinge yields"
             raise InputError(
                 Problem("the moment must be positive", f"{self.moment:g} N m", "> 0 N m", todo, "moment")
             )
@@ -74,7 +74,7 @@ class ConstantLaw:
         Parameters
         ----------
         section, material, axis
-            For the plastic moment, and the rate of the flow stress.
+            For the plastic moment, and for the strain-rate factor at flow.
         moment
             Moment [N m]; without it the plastic moment of the section.
         """
@@ -86,7 +86,7 @@ class ConstantLaw:
             math.inf,
             "plastic moment of the section, held at every rotation",
             (
-                "walls that fold lose moment: a constant capacity then overstates the energy absorbed",
+                "the moment falls if walls fold: a constant capacity then overestimates the absorbed energy",
                 *warnings,
             ),
         )
@@ -111,7 +111,7 @@ class ConstantLaw:
 
 
 def _plastic_moment(section: Section, material: Material, axis: Axis) -> float:
-    """Plastic moment [N m]; walls of metals of their own count with their own yield stress."""
+    """Plastic moment [N m]; walls with their own material use its yield stress."""
     if any(wall.material is not None for wall in getattr(section, "walls", ())):
         from crumple.section import moment_capacity  # noqa: PLC0415  (tubes need none of it)
 

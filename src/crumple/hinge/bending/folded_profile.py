@@ -1,7 +1,7 @@
 """Channels and hats in bending, either side in compression, by mechanisms scaled from the tube's.
 
 Unknown: M(theta) for both senses about the axis that runs along the face (z for a channel, y for a hat).
-Per sense min(Mmax, M_mech), with Mmax the section's own moment capacity and the mechanism by what is
+Per sense min(Mmax, M_mech), with Mmax the section's own moment capacity and the mechanism by the side that is
 compressed:
 
     a closed face (web of a channel,          the tube's mechanism with the faces that exist
@@ -30,7 +30,7 @@ from crumple.hinge.bending.jamming import AfterJamming, continued, continued_kin
 from crumple.hinge.bending.profile_mechanism import ProfileMechanism
 from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
 from crumple.hinge.options import choice, number_between
-from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
+from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor, rate_warnings
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
@@ -49,14 +49,14 @@ SOURCE = Source(
 )
 UNCERTAINTY = 0.35
 """Half-width of the band [-]: 0.20, the largest difference between the tube's mechanism and finite elements,
-and 0.155, what plane strain in the folds would add (2/sqrt(3)).  Not a statistic: no profile was compared."""
+and 0.155, what plane strain in the folds would add (2/sqrt(3)).  Not a statistic: no profile was tested."""
 
 
 @dataclass(frozen=True)
 class FoldedProfileLaw:
     """Channel about z, hat or closed hat about y: folding mechanisms of each side, scaled from the tube's.
 
-    Different in its two senses.
+    Not the same in both senses.
 
     Attributes
     ----------
@@ -99,8 +99,8 @@ class FoldedProfileLaw:
         section
             Channel (about z), hat or closed hat (about y).
         material
-            Of the walls that name none: yield stress and elastic constants for the largest moment, flow
-            stress for the mechanisms, flow rate for the rate factor.
+            Of walls without their own material: yield stress and elastic constants for the largest moment,
+            flow stress for the mechanisms, flow rate for the rate factor.
         axis
             Along the face that is compressed or stretched.
         rolling_weight
@@ -111,7 +111,7 @@ class FoldedProfileLaw:
         Raises
         ------
         InputError
-            If the section is no such profile, the axis is the other one, or a choice is unknown.
+            If the section is not such a profile, the axis is the other one, or an option is unknown.
         """
         after = choice("after_jamming", after_jamming, AfterJamming)
         weight = number_between("rolling_weight", rolling_weight, 0.0, 1.0)
@@ -171,7 +171,7 @@ class FoldedProfileLaw:
 def _mechanisms(
     section: Section, material: Material, axis: Axis, weight: float
 ) -> tuple[list[Mechanism], list[Mechanism]]:
-    """Mechanisms that are possible in the positive and in the negative sense."""
+    """Possible mechanisms in the positive and in the negative sense."""
     if isinstance(section, Channel) and axis == "z":
         return _open_profile(section.depth, section.width, section.lip, section.thickness, material, weight)
     if isinstance(section, Hat) and axis == "y":
@@ -182,7 +182,7 @@ def _mechanisms(
         return _closed_hat(section, material, weight)
     allowed = "a channel about z, a hat or a closed hat about y"
     what, todo = (
-        "no folding mechanism is known here for this section and axis",
+        "no folding mechanism is available for this section and axis",
         "use a table or a constant law",
     )
     raise InputError(Problem(what, f"{section.title} about {axis}", allowed, todo, "section"))
@@ -223,15 +223,15 @@ def _governing(mechanisms: list[Mechanism]) -> Mechanism:
 
 def _validity(section: Section, material: Material, peaks: list[MomentCapacity], jamming: float) -> Validity:
     warnings = dict.fromkeys(sentence for peak in peaks for sentence in peak.warnings)
-    sentences = ["mechanisms scaled from the tube's: compared with no test and no finite elements", *warnings]
+    sentences = [
+        "mechanisms scaled from that of a tube: validated neither by tests nor by finite elements",
+        *warnings,
+    ]
     if isinstance(section, ClosedHat):
-        sentences.append("spot welds are taken to hold")
-    if material.yield_rate is not None and material.flow_rate is None:
-        sentences.append(
-            "a rate law at yield alone overstates the effect in a fold and is not used: give one at flow"
-        )
+        sentences.append("the spot welds do not fail in this law")
+    sentences += rate_warnings(material)
     basis = (
-        "the band is the sum of the largest difference seen on a tube (0.20) and of plane strain in folds "
+        "the band is the sum of the largest difference found on a tube (0.20) and of plane strain in folds "
         f"(0.155); one side jams at {np.degrees(jamming):.1f} deg"
     )
     return Validity(jamming, basis, tuple(sentences), UNCERTAINTY)

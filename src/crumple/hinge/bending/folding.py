@@ -1,4 +1,4 @@
-"""What the laws of folding sections share: one fold up to jamming, and what follows it."""
+"""Common part of the laws of folding sections: one fold up to jamming, and the behaviour beyond it."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from crumple.numeric.arrays import Floats
 
 @dataclass(frozen=True, kw_only=True)
 class FoldingLaw(ABC):
-    """Base of laws whose sections fold, the same in both senses; each gives the curve of one fold.
+    """Base of laws whose sections fold, the same in both senses; a subclass gives the curve of one fold.
 
     Attributes
     ----------
     validity
         Range and warnings.
     after_jamming
-        What follows the fold.
+        Behaviour beyond the fold.
     rate
         Strain-rate law of the hinge, or None.
     stop
-        Stop at the jamming angle, where ``after_jamming`` asks for it.
+        Stop at the jamming angle, if ``after_jamming`` selects it.
     """
 
     name: ClassVar[str]

@@ -1,7 +1,7 @@
-"""What follows when the walls of a fold touch: an explicit choice, never a silent constant.
+"""Behaviour after the walls of a fold touch: an explicit option, never an unstated default.
 
-A jammed fold is stiff; the moment rises until the member folds again beside it.  No published formula of
-that rise was obtained, so the choices are models: `SECOND_FOLD` restarts the curve as a hinge in series.
+A jammed fold is stiff; the moment rises until the member folds again next to it.  No published formula of
+that rise was found, so the options are models: `SECOND_FOLD` restarts the curve as a hinge in series.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ RAMP_FRACTION = 0.02
 
 
 class AfterJamming(Enum):
-    """What the capacity does beyond the jamming angle."""
+    """Capacity beyond the jamming angle."""
 
     SECOND_FOLD = "second_fold"
-    """The curve restarts as a further hinge in series, reached over a short ramp; and so on."""
+    """The curve starts again as a further hinge in series, after a short ramp; repeated at each jamming."""
     STOP = "stop"
-    """The capacity keeps its last value and an elastic stop takes the load: nothing folds further."""
+    """The capacity keeps its last value and an elastic stop carries the load: there is no further fold."""
     HOLD = "hold"
-    """The capacity keeps its last value, chosen on purpose."""
+    """The capacity keeps its last value."""
 
 
 def continued(
@@ -45,7 +45,7 @@ def continued(
     jamming_angle
         [rad].
     after
-        What follows.
+        Option for the behaviour beyond jamming.
 
     Returns
     -------
@@ -57,7 +57,7 @@ def continued(
         return single_fold(np.minimum(rotation, jamming_angle))
     folds = np.floor(rotation / jamming_angle)
     within = np.clip(rotation - folds * jamming_angle, 0.0, jamming_angle)
-    # one call: a law costs more by the call than by the rotation
+    # one call: the cost of a law depends on the number of calls more than on the number of rotations
     values = single_fold(np.append(within, jamming_angle))
     fresh, jammed = values[:-1].reshape(within.shape), float(values[-1])
     share = np.where(folds > 0.0, np.minimum(within / (RAMP_FRACTION * jamming_angle), 1.0), 1.0)

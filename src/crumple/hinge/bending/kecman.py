@@ -9,7 +9,7 @@ Unknown: the capacity M(theta).  Three branches:
 
 The parabola's theta_T solves Mmax - M_mech + theta M_mech'/2 = 0, and c = (Mmax - M_mech)/theta_T^2.
 Limits: rolling_weight 0 leaves one rolling line per ear; M_mech ~ t^2 but Mmax ~ t, so thick walls leave the
-plateau later, and may jam before they leave it.
+plateau later, and may jam before.
 """
 
 from __future__ import annotations
@@ -40,13 +40,13 @@ from crumple.section import Axis, RectangularTube, Section
 SOURCE = Source(
     "Kecman-type mechanism, after D. Kecman, Int. J. Mech. Sci. 25 (1983) 623-636",
     Trust.DERIVED,
-    "mechanism energy re-derived here and complete in itself; capacity rule, rolling radius and the weight "
+    "mechanism energy derived independently; capacity rule, rolling radius and the weight "
     "of the second rolling line as quoted by others, original tables not seen",
 )
 
 
 class Start(Enum):
-    """How the curve starts, before the mechanism governs."""
+    """Start of the curve, before the mechanism governs."""
 
     CAP = "cap"
     """Largest moment until the mechanism falls below it."""
@@ -63,9 +63,9 @@ class KecmanLaw(FoldingLaw):
     Attributes
     ----------
     mechanism, peak
-        What the two branches come from.
+        Origin of the two branches.
     start
-        Choice before the mechanism.
+        Option for the curve before the mechanism governs.
     validity, after_jamming, rate, stop
         See `FoldingLaw`.
 
@@ -123,7 +123,7 @@ class KecmanLaw(FoldingLaw):
         if not isinstance(section, RectangularTube):
             allowed, todo = "rectangular_tube", "use a table or a constant law for this section"
             raise InputError(
-                Problem("the Kecman-type mechanism is one of rectangular tubes", section.kind, allowed, todo)
+                Problem("the Kecman-type mechanism is for rectangular tubes", section.kind, allowed, todo)
             )
         mechanism = FoldMechanism(
             section.flange_width(axis),
@@ -144,7 +144,7 @@ class KecmanLaw(FoldingLaw):
             stop=_jamming_stop(mechanism, section, material, axis) if after is AfterJamming.STOP else None,
         )
         if law.start is Start.PARABOLA and law.mechanism_from > mechanism.jamming_angle:
-            what = "no parabola from the largest moment touches the mechanism before the walls do"
+            what = "no parabola from the largest moment is tangent to the mechanism before the walls touch"
             raise InputError(Problem(what, "parabola", "cap", "use start: cap for this section", "start"))
         return law
 

@@ -12,7 +12,7 @@ pairs of rolling lines.  With flange width a, depth b, half fold length h, s = s
 
 Each line works length x turn x m_p, m_p = flow_stress t^2/4; each rolling line of radius r works 2 m_p/r on
 the area that it sweeps.  M = dW/dtheta is the sum of the derivatives of these terms.
-Limits: theta -> 0: z_A -> sqrt(b h theta), so W ~ theta^(1/2) and M ~ theta^(-1/2), hence a law must cap it;
+Limits: theta -> 0: z_A -> sqrt(b h theta), so W ~ theta^(1/2) and M ~ theta^(-1/2): a law must cap it;
 flange halves touch (x_E = t/2) at theta_J = 2 asin((h - t/2)/b).
 """
 
@@ -30,7 +30,7 @@ from crumple.numeric.arrays import Floats
 
 # Relative step of the central difference of M: truncation and rounding both stay near 1e-10.
 DIFFERENCE_STEP = 1e-5
-# Below this rotation [rad] the singular moment stays at its value there; every law is capped long before.
+# Below this rotation [rad] the singular moment keeps its value there; every law is capped well before.
 SMALLEST_ROTATION = 1e-12
 
 
@@ -49,7 +49,7 @@ class FoldMechanism:
 
     References
     ----------
-    Idea, h = min(a, b)/2, r(theta) and the line terms after D. Kecman, Int. J. Mech. Sci. 25 (1983) 623-636;
+    Concept, h = min(a, b)/2, r(theta), line terms after D. Kecman, Int. J. Mech. Sci. 25 (1983) 623-636;
     the geometry and its energies are derived here.  docs/theory/kecman.md.
     Verified in tests/verification/hinge/test_kecman_mechanism.py.
     """

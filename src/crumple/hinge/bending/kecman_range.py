@@ -1,4 +1,4 @@
-"""How far the Kecman-type law of a tube is backed by evidence.
+"""Range of validity of the Kecman-type law of a tube.
 
 One comparison exists: solid finite elements of the 50x25x2.65 mm tube bent about its weak axis (flange 50
 mm, yield 488 MPa, perfectly plastic, sharp corners), to 42 deg.  With full rolling weight the law's moment
@@ -22,11 +22,11 @@ CHECKED_WIDTH_TO_THICKNESS = 50.0 / 2.65
 CHECKED_WIDTH_TO_DEPTH = 2.0
 # Largest moment difference seen on the checked tube, at 42 deg.
 CHECKED_DIFFERENCE = 0.20
-# Proportions within a tenth of the checked tube's count as the checked tube.
+# Proportions within 10 % of the checked tube count as those of the checked tube.
 SAME_PROPORTIONS = 0.10
-# Flanges stockier than this stayed on their plateau longer than the law in finite elements.
+# In finite elements, flanges thicker than this stayed on their plateau longer than in the law.
 STOCKY_WIDTH_TO_THICKNESS = 12.0
-# Range of the tests that the mechanism was first held against.
+# Range of the tests with which the mechanism was first compared.
 TESTED_WIDTH_TO_THICKNESS = (9.14, 128.0)
 TESTED_WIDTH_TO_DEPTH = (0.33, 3.0)
 
@@ -34,7 +34,7 @@ TESTED_WIDTH_TO_DEPTH = (0.33, 3.0)
 def kecman_validity(
     section: RectangularTube, material: Material, axis: Axis, peak: PeakMoment, mechanism: FoldMechanism
 ) -> Validity:
-    """Range of the law of a tube, with one warning for each condition that does not hold."""
+    """Range of the law of a tube, with one warning for each condition that is not met."""
     a, b, t = section.flange_width(axis), section.bending_depth(axis), section.thickness
     same = (
         abs(a / t / CHECKED_WIDTH_TO_THICKNESS - 1.0) <= SAME_PROPORTIONS
@@ -43,9 +43,9 @@ def kecman_validity(
     )
     subject = "a tube of these proportions" if same else "one tube of other proportions (a/t 18.9, a/b 2)"
     basis = (
-        f"compared with finite elements of {subject} up to 42 deg"
+        f"validated by finite elements of {subject} up to 42 deg"
         f"; its walls touch at {np.degrees(mechanism.jamming_angle):.1f} deg, "
-        "and what follows that is a model without a source"
+        "and the behaviour beyond is a model without a source"
     )
     warnings = (*_proportion_warnings(a, b, t), *_other_warnings(section, material, peak))
     return Validity(
@@ -57,7 +57,7 @@ def _proportion_warnings(a: float, b: float, t: float) -> list[str]:
     warnings = []
     if a / t < STOCKY_WIDTH_TO_THICKNESS:
         warnings.append(
-            f"stocky flange (a/t = {a / t:.1f} < 12): finite elements of such tubes stayed near their "
+            f"thick flange (a/t = {a / t:.1f} < 12): finite elements of such tubes stayed near their "
             "largest moment longer than the law"
         )
     low, high = TESTED_WIDTH_TO_THICKNESS
@@ -74,13 +74,15 @@ def _other_warnings(section: RectangularTube, material: Material, peak: PeakMome
     if peak.regime is not Regime.FULLY_PLASTIC:
         warnings.append(
             f"the flange buckles at {peak.buckling_ratio:.2f} times the yield stress: the reduced largest "
-            "moment was not compared with finite elements"
+            "moment is not validated by finite elements"
         )
     if peak.web_buckling_ratio < 2.0:
         warnings.append(
-            f"slender webs (buckling at {peak.web_buckling_ratio:.2f} times yield): the largest moment looks "
-            "at the flange alone and is too high"
+            f"slender webs (buckling at {peak.web_buckling_ratio:.2f} times yield): the largest moment "
+            "considers the flange only and is too high"
         )
     if section.corner_radius > 0.0:
-        warnings.append("rounded corners enter the plastic moment alone: the mechanism folds sharp corners")
+        warnings.append(
+            "rounded corners are included in the plastic moment only: the mechanism has sharp corners"
+        )
     return [*warnings, *rate_warnings(material)]

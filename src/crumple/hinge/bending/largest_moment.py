@@ -11,8 +11,8 @@ Unknown: Mmax.  The compression flange (width a, held by the webs of depth b) bu
 
 with Mel = sigma_y t b (a + b/3).  The bracket is exact for linear stress in thin walls; a_e = a makes it Mel,
 so the regimes join.  One convention: a and b are outer dimensions in all of it, Z_pl is the exact one, and
-Mel and the first regime are cut at Mp (thick walls would pass it, since their corners count twice).
-Limit: a_e never exceeds a, so first yield is always on the compressed side.
+Mel and the first regime are limited to Mp (thick walls would exceed it, since their corners count twice).
+Limit: a_e never exceeds a, so first yield is always on the compression side.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from crumple.section import Axis, RectangularTube
 
 
 class Regime(Enum):
-    """How the compression flange reaches its largest moment."""
+    """Regime in which the compression flange reaches its largest moment."""
 
     BUCKLES_ELASTICALLY = "the flange buckles before it yields: effective width"
     BUCKLES_PLASTICALLY = "the flange buckles near yield: between first yield and full plasticity"
@@ -35,7 +35,7 @@ class Regime(Enum):
 
 @dataclass(frozen=True)
 class PeakMoment:
-    """Largest moment of a tube and how it came about.
+    """Largest moment of a tube, with its regime.
 
     Attributes
     ----------
@@ -79,11 +79,11 @@ def peak_moment(section: RectangularTube, material: Material, axis: Axis = "y") 
     Returns
     -------
     PeakMoment
-        Moment with the values that led to it.
+        Moment with its intermediate values.
 
     Notes
     -----
-    Looks at the flange alone: deep slender webs buckle too, and then it over-predicts.
+    Considers the flange only: it is too high if deep slender webs buckle.
 
     References
     ----------

@@ -1,8 +1,8 @@
 """Rectangular tube bent about any axis of its section: two Kecman-type folds at once.
 
-Unknown: the moment M(theta) about an axis at an angle alpha from a side of the tube, the rotation held to
+Unknown: the moment M(theta) about an axis at an angle alpha from a side of the tube, the rotation kept about
 that axis.  With c = cos alpha, s = sin alpha the tube folds about both sides, by theta c and theta s.  If the
-two folds do not help each other, their work adds, W = W_a(theta c) + W_b(theta s), and
+two folds do not interact, their work adds, W = W_a(theta c) + W_b(theta s), and
 
     M = min( M_alpha,  c M_a(theta c) + s M_b(theta s) )
 
@@ -43,10 +43,10 @@ SOURCE = Source(
     "two Kecman-type mechanisms at once, after D. Kecman, Int. J. Mech. Sci. 25 (1983) 623-636",
     Trust.DERIVED,
     "sum of the works of both folds, derived here; tests of biaxial collapse exist (Brown & Tidbury 1983) "
-    "but were not obtained",
+    "but were not available",
 )
 SAME_KINK = 1e-9
-"""Kinks closer than this share of the jamming angle are one: a slope between them means nothing."""
+"""Kinks closer than this share of the jamming angle are one: a slope between them is only rounding."""
 
 
 @dataclass(frozen=True)
@@ -99,9 +99,9 @@ class ObliqueLaw(FoldingLaw):
         material
             As in the Kecman-type law.
         axis
-            Side that the angle is measured from.
+            Side from which the angle is measured.
         angle
-            Of the bending axis from the hinge's own axis [rad], 0 deg to 90 deg; the tube has both mirrors.
+            Of the bending axis from the hinge's own axis [rad], 0 deg to 90 deg (the tube is symmetric).
         rolling_weight
             Weight of the second rolling line of each web.
         after_jamming
@@ -110,10 +110,10 @@ class ObliqueLaw(FoldingLaw):
         Raises
         ------
         InputError
-            If the section is no rectangular tube or a value is out of range.
+            If the section is not a rectangular tube or a value is out of range.
         """
         if not isinstance(section, RectangularTube):
-            what, todo = "this law is one of rectangular tubes", "use the law circular or folded_profile"
+            what, todo = "this law is for rectangular tubes", "use the law circular or folded_profile"
             raise InputError(Problem(what, section.title, "rectangular_tube", todo, "section"))
         angle = number_between("angle", angle, 0.0, math.pi / 2.0)
         after = choice("after_jamming", after_jamming, AfterJamming)
@@ -157,7 +157,7 @@ class ObliqueLaw(FoldingLaw):
         ends = [(self.first.mechanism_from, c), (self.second.mechanism_from, s), (self._peak_to, 1.0)]
         within: list[float] = []
         for kink in sorted(end / share for end, share in ends if share * self.jamming_angle > end):
-            # both folds of a square tube at 45 deg begin at once but for rounding
+            # both folds of a square tube at 45 deg begin at the same rotation except for rounding
             if not within or kink - within[-1] > SAME_KINK * self.jamming_angle:
                 within.append(kink)
         return tuple(within)
@@ -211,7 +211,7 @@ def _reduction(law: KecmanLaw) -> float:
 
 def _jamming(first: KecmanLaw, second: KecmanLaw, angle: float) -> float:
     c, s = math.cos(angle), math.sin(angle)
-    # below the rounding of a right angle the other fold does not turn at all
+    # below the rounding of a right angle the other fold does not rotate
     ends = [law.jamming_angle / share for law, share in ((first, c), (second, s)) if share > 1e-12]
     return min(*ends, math.pi)
 
@@ -219,7 +219,7 @@ def _jamming(first: KecmanLaw, second: KecmanLaw, angle: float) -> float:
 def _validity(first: KecmanLaw, second: KecmanLaw, jamming: float) -> Validity:
     warnings = dict.fromkeys((*first.validity.warnings, *second.validity.warnings))
     basis = (
-        "the laws of both sides are Kecman-type; their sum about an oblique axis was compared with nothing; "
-        f"the walls touch at {math.degrees(jamming):.1f} deg; what follows that is a model without a source"
+        "the laws of both sides are Kecman-type; their sum about an oblique axis is not validated; "
+        f"the walls touch at {math.degrees(jamming):.1f} deg; behaviour beyond is a model without a source"
     )
     return Validity(jamming, basis, tuple(warnings))

@@ -4,9 +4,9 @@ Unknown: the capacity M(theta) of a square tube with mid-line side b, wall t and
 
     M = min(Mmax, C (0.576 + 1/(2 sqrt(theta)))),        C = 4.65 s_0 b^(4/3) t^(5/3)
 
-Mmax is the largest moment of crumple.hinge.bending.largest_moment.  Limits: theta -> 0 is singular, hence the
-cap, which ends at theta_T = (2 (Mmax/C - 0.576))^-2; for large theta M tends to 0.576 C, but the walls touch
-before that.
+Mmax is the largest moment of crumple.hinge.bending.largest_moment.  Limits: theta -> 0 is singular, so the
+curve is capped up to theta_T = (2 (Mmax/C - 0.576))^-2; for large theta M tends to 0.576 C, but the walls
+touch before that.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from crumple.hinge.bending.jamming import AfterJamming
 from crumple.hinge.bending.largest_moment import peak_moment
 from crumple.hinge.law import Source, Trust, Validity
 from crumple.hinge.options import choice
-from crumple.hinge.rate import hinge_rate
+from crumple.hinge.rate import hinge_rate, rate_warnings
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
@@ -34,12 +34,12 @@ SOURCE = Source(
     "after Wierzbicki, Recke, Abramowicz, Gholami & Huang, part II (bending), "
     "Computers & Structures 51 (1994) 625-641",
     Trust.QUOTED,
-    "the bracket is widely quoted; its coefficient 4.65 was not found in any text that could be read",
+    "the bracket is widely quoted; its coefficient 4.65 was not found in any available text",
 )
 COEFFICIENT = 4.65
-"""[-]; quoted from memory of others' use, see `SOURCE`; the whole curve scales with it."""
+"""[-]; quoted without a text that confirms it, see `SOURCE`; the whole curve scales with it."""
 STEADY = 0.576
-"""[-]; what the bracket tends to at large rotation."""
+"""[-]; limit of the bracket at large rotation."""
 SAME_SIDE = 1e-3
 """Relative difference of the sides up to which a tube counts as square."""
 
@@ -94,7 +94,7 @@ class WierzbickiLaw(FoldingLaw):
         axis
             Axis of bending.
         equivalent_side
-            Mid-line side [m] of the square tube that stands for a rectangular one.
+            Mid-line side [m] of the square tube equivalent to a rectangular one.
         after_jamming
             What follows when the walls touch: a further fold in series, an elastic stop, or the moment held.
 
@@ -106,14 +106,14 @@ class WierzbickiLaw(FoldingLaw):
         Raises
         ------
         InputError
-            If the section is no rectangular tube, or not square and without ``equivalent_side``.
+            If the section is not a rectangular tube, or is not square and has no ``equivalent_side``.
         """
         if not isinstance(section, RectangularTube):
             allowed, todo = (
                 "rectangular_tube with equal sides",
                 "use a table or a constant law for this section",
             )
-            raise InputError(Problem("this law is one of square tubes", section.kind, allowed, todo))
+            raise InputError(Problem("this law is for square tubes", section.kind, allowed, todo))
         after = choice("after_jamming", after_jamming, AfterJamming)
         side = _side(section, equivalent_side)
         t, depth = section.thickness, section.bending_depth(axis)
@@ -169,10 +169,8 @@ def _side(section: RectangularTube, equivalent_side: PositiveLength | None) -> f
             )
         return equivalent_side
     if abs(section.width - section.depth) > SAME_SIDE * section.width:
-        what = (
-            "this law is one of square tubes, and no source says what replaces the side of a rectangular one"
-        )
-        todo = "use the law kecman, or choose equivalent_side yourself"
+        what = "this law is for square tubes, and no source gives the equivalent side of a rectangular one"
+        todo = "use the law kecman, or give equivalent_side"
         raise InputError(Problem(what, section.title, "equal sides", todo, "equivalent_side"))
     return section.width - section.thickness
 
@@ -180,13 +178,10 @@ def _side(section: RectangularTube, equivalent_side: PositiveLength | None) -> f
 def _validity(jamming_angle: float, material: Material, equivalent_side: PositiveLength | None) -> Validity:
     warnings = ["the coefficient of the curve is quoted without a text that confirms it"]
     if equivalent_side is not None:
-        warnings.append("the side of the equivalent square tube is the user's choice")
-    if material.yield_rate is not None and material.flow_rate is None:
-        warnings.append(
-            "a rate law at yield alone overstates the effect in a fold and is not used: give one at flow"
-        )
+        warnings.append("the side of the equivalent square tube is given by the user")
+    warnings += rate_warnings(material)
     basis = (
-        "not compared with tests or finite elements here; the walls touch at "
-        f"{math.degrees(jamming_angle):.1f} deg, and what follows that is a model without a source"
+        "validated neither by tests nor by finite elements; the walls touch at "
+        f"{math.degrees(jamming_angle):.1f} deg, and the behaviour beyond is a model without a source"
     )
     return Validity(jamming_angle, basis, tuple(warnings))

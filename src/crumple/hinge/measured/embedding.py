@@ -1,4 +1,4 @@
-"""Curves that a description takes from a CSV file; read at once, so that a loaded structure travels alone."""
+"""Curves of an input from a CSV file; read on loading, so that a loaded structure needs no files."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from crumple.registry.refusal import refuse
 from crumple.units import QuantityError, unit_factor
 
 LARGEST_FILE = 2_000_000
-"""Bytes of one curve file; far more than any test needs, little enough to read at once."""
+"""Largest size of a curve file [bytes]; more than any test needs, small enough to read at once."""
 MOST_POINTS = 20_000
-"""Points of one curve."""
+"""Largest number of points of one curve."""
 SHOWN_PROBLEMS = 10
-"""Bad rows of one file that are reported; the first ones tell what is wrong."""
+"""Number of invalid rows of one file that are reported."""
 FileName = Annotated[str, Longest(400)]
 SI_UNIT = {"rotation": "rad", "moment": "N*m"}
 
@@ -31,7 +31,7 @@ def with_curve_read(given: dict[str, Any], directory: Path | None, prefix: str =
     Parameters
     ----------
     given
-        Table as the input says it; ``<prefix>file`` names the file.
+        Table as given in the input; ``<prefix>file`` names the file.
     directory
         Folder of the input file, in which the file must lie; None: built in Python, any file.
     prefix
@@ -52,7 +52,7 @@ def with_curve_read(given: dict[str, Any], directory: Path | None, prefix: str =
 
 
 def with_units(given: dict[str, Any]) -> dict[str, Any]:
-    """Give the plain numbers of a table's lists the units that its key ``units`` names."""
+    """Apply the units of the key ``units`` to the plain numbers of a table's lists."""
     units = given.get("units")
     if not isinstance(units, Mapping):
         return given
@@ -77,7 +77,7 @@ def _is_number(value: object) -> bool:
 
 
 def _digits(value: Any) -> str:
-    """Every digit of a number; NumPy's scalars write their type too."""
+    """All digits of a number; scalars of NumPy would include their type."""
     return str(value) if isinstance(value, Integral) else repr(float(value))
 
 
@@ -87,7 +87,7 @@ def with_law_read(given: dict[str, Any], directory: Path | None) -> dict[str, An
     Parameters
     ----------
     given
-        Law as the input says it; ``file`` names the file, ``text`` is its content.
+        Law as given in the input; ``file`` names the file, ``text`` is its content.
     directory
         Folder of the input file, in which the file must lie; None: built in Python, any file.
     """
@@ -108,9 +108,9 @@ def with_law_read(given: dict[str, Any], directory: Path | None) -> dict[str, An
 
 
 def _content(name: str, directory: Path | None, key: str, kind: str) -> str:
-    """Text of a file, or a refusal that says what is wrong with it."""
+    """Text of a file, or an error with the reason."""
     if "\0" in name:
-        refuse("this is no file name", key=key)
+        refuse("this is not a file name", key=key)
     path = (directory or Path()) / name
     _check_inside(path, directory, key)
     try:
@@ -131,12 +131,12 @@ def _content(name: str, directory: Path | None, key: str, kind: str) -> str:
 
 
 def _check_inside(path: Path, directory: Path | None, key: str) -> None:
-    """Refuse a file outside the folder of the input file: a description from elsewhere must not read it."""
+    """Refuse a file outside the folder of the input file: an input from another source must not read it."""
     if directory is None:
         return
     try:
         inside = path.resolve().is_relative_to(directory.resolve())
-    except (OSError, RuntimeError, ValueError):  # a loop of links, a name that is too long
+    except (OSError, RuntimeError, ValueError):  # a loop of symbolic links, or a name that is too long
         inside = True
     if not inside:
         refuse(
@@ -156,7 +156,7 @@ def _read(name: str, directory: Path | None, key: str) -> tuple[list[float], lis
         more = [Problem(f"{len(rest)} more lines are wrong", file=name)] if rest else []
         refuse("the curve cannot be read", problems=[*shown, *more])
     except (ValueError, csv.Error) as error:
-        refuse(f"the file is no table: {error}", key=key, allowed="a CSV file")
+        refuse(f"the file is not a table: {error}", key=key, allowed="a CSV file")
     if len(rotation) > MOST_POINTS:
         refuse("the curve has too many points", key=key, allowed=f"at most {MOST_POINTS}")
     return [Converted(value) for value in rotation], [Converted(value) for value in moment]

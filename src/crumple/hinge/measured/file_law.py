@@ -38,14 +38,14 @@ class FileLaw:
         Parameters
         ----------
         section, material, axis
-            Not used: the curve is already that of a section.
+            Not used: the curve is already for a section.
         text
-            Content of a law file, in place of its name.
+            Content of a law file instead of its name.
 
         Raises
         ------
         InputError
-            With lines, if the text is no law file.
+            With lines, if the text is not a law file.
         """
         return read_law(text)
 

@@ -1,7 +1,7 @@
-"""The law file, format 1: one hinge law as YAML that people read and programs round-trip exactly.
+"""The law file, format 1: one hinge law as readable YAML that is read back exactly.
 
 Every number carries its unit and is written with the digits that give the same float back; texts stand in
-double quotes.  Keys are documented in docs/law_file.md; unknown ones are refused: none gets lost.
+double quotes.  Keys are documented in docs/law_file.md; unknown ones are refused.
 """
 
 from __future__ import annotations
@@ -41,8 +41,8 @@ def stored_law(
     law
         Any law of bending or torsion.
     origin
-        Where it comes from: ``method`` (formula, measured or shell) at least; section, axis, material,
-        made_by and whatever helps to make it again.
+        Origin: ``method`` (formula, measured or shell) at least; section, axis, material,
+        made_by and any information needed to reproduce it.
     error
         Bound of the relative sampling error.
     band
@@ -133,8 +133,8 @@ def read_law(text: str, file: str = "") -> StoredLaw:
     top = Group(read_plain_yaml(text, file), file, 1, "")
     version = top.take("crumple_law")
     if version.value != str(FORMAT):
-        todo = "write it anew with `crumple hinge --save`"
-        top.refuse(version, "this is no law file of a known format", f"crumple_law: {FORMAT}", todo)
+        todo = "create it again with `crumple hinge --save`"
+        top.refuse(version, "this is not a law file of a known format", f"crumple_law: {FORMAT}", todo)
     top.only(_KEYS)
     origin, source, limits = top.group("origin"), top.group("source"), top.group("range")
     origin.take("method")
@@ -176,7 +176,7 @@ def _sampled(law: HingeLaw, error: float) -> StoredCurve:
 
 
 def _quoted(text: str) -> str:
-    """Text in double quotes; what does not print is escaped, since YAML takes some of it for line ends."""
+    """Text in double quotes; unprintable characters are escaped, since YAML reads some as line ends."""
     return '"' + "".join(_escaped(one) for one in text) + '"'
 
 

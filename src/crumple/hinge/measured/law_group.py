@@ -13,11 +13,11 @@ from crumple.units import QuantityError, parse_quantity
 
 Value = TypeVar("Value")
 MOST_POINTS = 20_000
-"""Points of one curve."""
+"""Largest number of points of one curve."""
 
 
 class Group:
-    """A mapping with its place in the file.
+    """A mapping with its line in the file.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ class Group:
     file
         Name for messages.
     line
-        Where the group begins.
+        Line at which the group begins.
     path
         Its keys from the top, for example ``range``.
     """
@@ -81,11 +81,11 @@ class Group:
         return Group(entry.value, self._file, entry.line, self._where(key))
 
     def says_none(self, key: str) -> bool:
-        """Whether a key says none."""
+        """Whether the value of a key is none."""
         return self.take(key).value == "none"
 
     def number(self, key: str, unit: str, *, none: bool = False) -> float | None:
-        """SI value of a number with a unit; None where it says none and may; infinite where unlimited."""
+        """SI value of a number with a unit; None for "none" if permitted; infinite for "unlimited"."""
         text, entry = self.text(key), self.take(key)
         if none and text == "none":
             return None
@@ -113,7 +113,7 @@ class Group:
         return tuple(pair[0] for pair in pairs), tuple(pair[1] for pair in pairs)
 
     def built(self, build: Callable[[], Value]) -> Value:
-        """What a constructor makes; its refusals get this group's place."""
+        """Object made by a constructor; its errors get the location of this group."""
         try:
             return build()
         except InputError as error:

@@ -30,11 +30,11 @@ from crumple.hinge.rate import HingeRate
 from crumple.numeric.arrays import Floats
 
 GRID = 200
-"""Points of the common grid; finer than any curve that a hinge needs."""
+"""Points of the common grid; more than any hinge curve needs."""
 COVERAGE = 2.0
 """Standard deviations in the half-width of the band; 2 holds about 95 % of normally scattered curves."""
 SMALLEST_SHARE = 0.05
-"""Lower law over the mean at least: a capacity must stay positive."""
+"""Smallest ratio of the lower law to the mean: a capacity must stay positive."""
 
 
 @dataclass(frozen=True)
@@ -82,14 +82,14 @@ class MeasuredBand:
 
 
 def smoothed(abscissa: Curve, ordinate: Curve, window: float) -> tuple[Floats, Floats]:
-    """Curve without what is shorter than a window.
+    """Curve smoothed over a window.
 
     Parameters
     ----------
     abscissa
-        Increasing; points that fall back are left out.
+        Increasing; points at which it decreases are left out.
     ordinate
-        As many.
+        Ordinates, same number.
     window
         Length of the moving parabola, in the unit of the abscissa.
 
@@ -110,7 +110,7 @@ def smoothed(abscissa: Curve, ordinate: Curve, window: float) -> tuple[Floats, F
     x, y = _forward(abscissa, ordinate)
     length = float(x[-1] - x[0])
     if not 0.0 < window <= length:
-        allowed, todo = f"above 0, at most {length:g}", "a tenth of the curve is a good start"
+        allowed, todo = f"above 0, at most {length:g}", "start with a tenth of the curve"
         what = "the window is out of range"
         raise InputError(Problem(what, f"{window:g}", allowed, todo, "window"))
     half = 5
@@ -190,7 +190,7 @@ def bending_band(band: MeasuredBand, *, rate: HingeRate | None = None) -> Band:
     Parameters
     ----------
     band
-        Of moment against rotation; of one specimen it has no width, see `crumple.hinge.band.band_of` then.
+        Of moment against rotation; of one specimen it has no width: use `crumple.hinge.band.band_of` then.
     rate
         Strain-rate law of slow tests; not together with a dynamic factor.
 
@@ -247,7 +247,7 @@ def crushing_of(band: MeasuredBand, length: float) -> MeasuredCrushing:
 
     Notes
     -----
-    The mean force is taken over the whole measured shortening: end the curves where the folds are closed.
+    The mean force is taken over the whole measured shortening: end the curves at the closure of the folds.
     """
     stroke = float(band.abscissa[-1])
     if not stroke < length:
@@ -263,7 +263,7 @@ def crushing_of(band: MeasuredBand, length: float) -> MeasuredCrushing:
 
 
 def read_specimens(texts: dict[str, str], *, crush: bool = False) -> list[tuple[Floats, Floats]]:
-    """Curves of CSV texts by file name; every mistake in every file at once, as `read_table` says them."""
+    """Curves of CSV texts by file name; every mistake in every file at once, as reported by `read_table`."""
     curves, problems = [], []
     for name, text in texts.items():
         try:
@@ -285,7 +285,7 @@ def _plastic(
             abscissa, ordinate = smoothed(abscissa, ordinate, window)
         plastic, capacity, slope = plastic_part(abscissa, ordinate, stiffness)
         if len(plastic) < 2 or np.any(capacity <= 0.0):
-            what, todo = "nothing of the curve is plastic and positive", "check its units and its sign"
+            what, todo = "the curve has no plastic part with positive values", "check its units and its sign"
             raise InputError(Problem(what, todo=todo))
     except InputError as error:
         named = [
@@ -296,7 +296,7 @@ def _plastic(
 
 
 def _forward(abscissa: Curve, ordinate: Curve) -> tuple[Floats, Floats]:
-    """Points at which the abscissa is further than ever before."""
+    """Points at which the abscissa exceeds all values before."""
     x, y = np.asarray(abscissa, np.float64), np.asarray(ordinate, np.float64)
     if x.size != y.size or x.size < 3 or not (np.all(np.isfinite(x)) and np.all(np.isfinite(y))):
         raise InputError(Problem("the curve needs three finite points at least", f"{x.size} points"))

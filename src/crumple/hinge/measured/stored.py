@@ -1,7 +1,7 @@
-"""A law read from a law file: curves of both senses with everything that was known where they were made.
+"""A law read from a law file: curves of both senses, with the information about their origin.
 
-Straight lines between points, the last capacity held.  What it is of (formula, test, shell model) stays
-with it: source, range, band, rate, stop.  See crumple.hinge.measured.law_file for the format.
+Straight lines between points, the last capacity held.  Its origin (formula, test, shell model) is kept
+with source, range, band, rate and stop.  See crumple.hinge.measured.law_file for the format.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class StoredLaw:
     title
         One line for people.
     law
-        Name of the law that it was made from, for example ``kecman``.
+        Name of the law from which it was made, for example ``kecman``.
     origin
         Pairs of key and text: method (formula, measured, shell), section, axis, material, made_by, ...
     curve
@@ -110,7 +110,7 @@ class StoredLaw:
 
     @property
     def band(self) -> Band:
-        """Nominal, lower and upper law; `InputError` if nothing is known of the scatter."""
+        """Nominal, lower and upper law; `InputError` if the scatter is unknown."""
         return Band(self, self.at(Bound.LOWER), self.at(Bound.UPPER))
 
     @property
@@ -133,12 +133,12 @@ class StoredLaw:
 
 
 def bounded(law: HingeLaw, bound: Bound | str) -> HingeLaw:
-    """Law of a bound: of a stored law its own edge, of any other the law times 1 -+ its uncertainty.
+    """Law of a bound: of a stored law its own bound, of any other the law times 1 -+ its uncertainty.
 
     Raises
     ------
     InputError
-        If an edge is asked for and nothing is known of the scatter.
+        If a bound is requested and the scatter is unknown.
     """
     which = choice("bound", bound, Bound)
     if which is Bound.NOMINAL:

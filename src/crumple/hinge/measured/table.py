@@ -1,4 +1,4 @@
-"""Measured curves: reading them, and taking their elastic part away."""
+"""Measured curves: reading, and removal of the elastic part."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ BENDING = (
 CRUSHING = (Column(("shortening", "displacement", "stroke"), "m"), Column(("force", "load"), "N"))
 """Columns of a crush test."""
 _HEAD = re.compile(r"(?P<name>[^\[\(]+?)\s*[\[\(](?P<unit>[^\]\)]+)[\]\)]")
-# The elastic line is fitted between these shares of the peak: above the slack of a test, below first yield.
+# The elastic line is fitted between these fractions of the peak: above the play of a test, below first yield.
 ELASTIC_SHARES = (0.2, 0.6)
 # Points within this share of the peak's elastic rotation count as lying on the elastic line.
 ON_THE_LINE = 1e-3
@@ -113,7 +113,7 @@ def plastic_part(
     ------
     InputError
         If the rise has fewer than two points between 20 and 60 % of the peak and no stiffness is given, or
-        nothing of the curve is plastic.
+        the curve has no plastic part.
 
     Notes
     -----
@@ -129,7 +129,7 @@ def plastic_part(
     on_line = np.flatnonzero(plastic[: peak + 1] <= ON_THE_LINE * moment[peak] / elastic_stiffness)
     first = int(on_line[-1]) if on_line.size else 0
     if not moment[first] > 0.0:
-        todo = "give the slope of the elastic rise, or none to have it found"
+        todo = "give the slope of the elastic rise, or omit it to have it computed"
         came = f"{elastic_stiffness:g} N m/rad"
         raise InputError(Problem("no point lies on the elastic line", came, "", todo, "elastic_stiffness"))
     kept = [first]
@@ -158,8 +158,8 @@ def _column(head: Sequence[str], column: Column, file: str, line: int) -> tuple[
         match = _HEAD.fullmatch(cell.strip())
         if match is None:
             continue
-        said = match["name"].lower().replace("_", " ").split()
-        if "rate" not in said and any(word in said for word in words):
+        words_given = match["name"].lower().replace("_", " ").split()
+        if "rate" not in words_given and any(word in words_given for word in words):
             try:
                 return index, unit_factor(match["unit"], unit)
             except QuantityError as error:
@@ -174,7 +174,7 @@ def _column(head: Sequence[str], column: Column, file: str, line: int) -> tuple[
 
 
 def _number(text: str) -> float:
-    """Plain number, NaN where it is none."""
+    """Plain number, NaN for other text."""
     try:
         return float(text)
     except ValueError:

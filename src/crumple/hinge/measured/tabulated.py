@@ -1,8 +1,8 @@
 """Capacity from a table: a bending test, another code, or a drawing.
 
-Straight lines between the points; the last capacity is held beyond the last point, where the law warns.
-The table runs on plastic rotation: a test that starts with an elastic rise has that part removed first
-(crumple.hinge.measured.table.plastic_part), since the elasticity belongs to the member or to the elastic
+Linear between the points; beyond the last point the last capacity is kept, with a warning.
+The abscissa is the plastic rotation: a test that starts with an elastic rise has that part removed first
+(crumple.hinge.measured.table.plastic_part), since the elasticity is modelled by the member or by the elastic
 form.
 """
 
@@ -52,8 +52,8 @@ FILE_KEYS = (
         "Units of plain numbers in the lists, as {rotation: deg, moment: kN*m}; rad and N*m without it.",
     ),
 )
-"""Keys of a description that name files and units; what they say is in the curves when the law is built."""
-MEASURED = Source("table", Trust.MEASURED, "as good as the curve that was supplied")
+"""Keys of an input that name files and units; their content is in the curves when the law is built."""
+MEASURED = Source("table", Trust.MEASURED, "accuracy as of the supplied curve")
 
 
 @dataclass(frozen=True)
@@ -69,9 +69,9 @@ class TabulatedLaw:
     negative_rotation, negative_moment
         The same for the negative sense, as positive numbers; left out: as in the positive sense.
     elastic_stiffness
-        Of the elastic rise [N m/rad], where known.
+        Of the elastic rise [N m/rad], if known.
     scatter
-        Relative half-width of the band of several specimens [-], where known.
+        Relative half-width of the band of several specimens [-], if known.
     warnings
         Sentences on the material, for ``validity``.
 
@@ -98,7 +98,7 @@ class TabulatedLaw:
     validity: Validity = field(init=False)
 
     def __post_init__(self) -> None:
-        # tuples: a law must not change when the caller's list does, and must hash
+        # tuples: a law must be hashable, and must not change with the caller's list
         for key in ("rotation", "moment", "negative_rotation", "negative_moment"):
             values = getattr(self, key)
             if values is not None:
@@ -114,7 +114,7 @@ class TabulatedLaw:
         if problems:
             raise InputError(problems)
         last = min(self._curve(1)[0][-1], self._curve(-1)[0][-1])
-        basis = "the table ends there, and its last capacity is held beyond"
+        basis = "the table ends there, and its last capacity is kept beyond"
         object.__setattr__(self, "validity", Validity(float(last), basis, self.warnings, self.scatter))
 
     @classmethod
@@ -137,7 +137,7 @@ class TabulatedLaw:
         Parameters
         ----------
         section, axis
-            Not used: the curve is already that of the section.
+            Not used: the curve is already for the section.
         material
             Its flow rate gives the rate factor of a static curve.
         rotation
@@ -153,7 +153,7 @@ class TabulatedLaw:
         elastic_stiffness
             Of the rise [N m/rad]; None: found from the curve where it is removed.
         static
-            Whether the test was slow; a dynamic one already holds its rate effect.
+            Whether the test was slow; a dynamic one already contains the rate effect.
 
         Returns
         -------
@@ -240,11 +240,11 @@ def _curve_problems(rotation: Curve, moment: Curve, prefix: str) -> list[Problem
     if not np.all(np.isfinite(rotation)) or rotation[0] != 0.0 or np.any(np.diff(rotation) <= 0.0):
         what = "rotations must increase strictly from 0"
         came = ", ".join(f"{value:g}" for value in rotation[:4])
-        todo = "begin at plastic rotation 0 and leave out repeated points"
+        todo = "begin at plastic rotation 0 and omit repeated points"
         problems.append(Problem(what, f"{came}, ... rad", "0 < 1st < 2nd < ...", todo, where_rotation))
     if not np.all(np.isfinite(moment)) or min(moment) <= 0.0:
         what = "capacities must be positive"
-        todo = "remove the elastic rise: the hinge turns plastically only"
+        todo = "remove the elastic rise: the hinge rotation is plastic only"
         if moment[0] > 0.0:
             todo = "keep a small residual capacity, or let the hinge break: fracture"
         problems.append(Problem(what, f"{min(moment):g} N m", "> 0 N m", todo, where_moment))

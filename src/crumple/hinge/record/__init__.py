@@ -1,1 +1,1 @@
-"""A law as the stepper takes it."""
+"""Hinge laws as records for the solver."""

@@ -1,6 +1,6 @@
-"""A law as the stepper knows it: sampled envelopes, stiffness, stops, form.
+"""A law as a record for the solver: sampled envelopes, stiffness, stops, form.
 
-The core has one hinge kernel, not one per author: every law becomes one `HingeRecord`, so adding a law
+The core has one hinge kernel for all laws: every law becomes one `HingeRecord`, so adding a law
 is adding a file.
 """
 
@@ -17,7 +17,7 @@ __all__ = ["Envelope", "Form", "HingeRecord", "Stop"]
 
 
 class Form(Enum):
-    """How the envelope becomes a moment."""
+    """Relation between envelope and moment."""
 
     SET_VALUED = "set-valued"
     """Rigid until the capacity is reached; at rest any moment up to the capacity."""
@@ -45,20 +45,20 @@ class Envelope:
 
 @dataclass(frozen=True)
 class HingeRecord:
-    """Everything the stepper needs of one hinge.
+    """All data of one hinge for the solver.
 
     Attributes
     ----------
     form
         Set-valued, elastic-plastic or regularised.
     softening_variable
-        What the envelopes run on.
+        Abscissa of the envelopes.
     positive, negative
         Envelope for each sense of rotation.
     elastic_stiffness
         [N m/rad]; inf for a rigid hinge.
     regularisation_rate
-        Half-width of the HAVSIN ramp [rad/s]; used by the regularised form alone.
+        Half-width of the HAVSIN ramp [rad/s]; used by the regularised form only.
     rate_reference, rate_exponent
         Capacity is multiplied by 1 + (abs(rate)/rate_reference)**(1/rate_exponent); reference inf: no effect.
     viscous_damping

@@ -1,4 +1,4 @@
-"""From a law to the record that the stepper takes."""
+"""From a law to its record for the solver."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def record_of(
     viscous_damping: float = 0.0,
     error: float = 1e-4,
 ) -> HingeRecord:
-    """Sample a law and settle its form.
+    """Sample a law in one of the hinge forms.
 
     Parameters
     ----------
@@ -38,13 +38,13 @@ def record_of(
         Set-valued, elastic-plastic or regularised.
     elastic_stiffness
         [N m/rad] for the elastic-plastic form.  If None: the law's own, else that of the part of the member
-        which the hinge stands for, see `tributary_stiffness`.
+        that the hinge represents, see `tributary_stiffness`.
     flexural_rigidity, tributary_length
         E I [N m^2] and length [m] of that part.
     softening
-        Variable of the collapse curve; None keeps the law's choice.
+        Variable of the collapse curve; None: that of the law.
     stops
-        "law": the stop that the law asks for, in both senses; one stop for both senses; a pair (positive,
+        "law": the stop of the law, in both senses; one stop for both senses; a pair (positive,
         negative); None: no stops.
     regularisation_rate
         Half-width of the HAVSIN ramp [rad/s].
@@ -58,7 +58,7 @@ def record_of(
     Returns
     -------
     HingeRecord
-        Ready for the stepper.
+        Record for the solver.
 
     Raises
     ------
@@ -96,12 +96,12 @@ def record_of(
 
 
 def tributary_stiffness(flexural_rigidity: float, tributary_length: float) -> float:
-    """Rotational stiffness E I/l [N m/rad] of the part of a member that a hinge stands for.
+    """Rotational stiffness E I/l [N m/rad] of the part of a member that a hinge represents.
 
     Notes
     -----
     Under a uniform moment the part turns by M l/(E I).  A single hinge at the clamp of a cantilever loaded at
-    its tip stands for a third of the length (3 E I/L); many hinges stand for their share each and converge to
+    its tip represents a third of the length (3 E I/L); many hinges represent their share each and converge to
     the beam.
     """
     return flexural_rigidity / tributary_length
@@ -117,7 +117,7 @@ def _stiffness(
     if stiffness is None or not stiffness > 0.0:
         came = "" if stiffness is None else f"{stiffness:g} N m/rad"
         what = "the elastic-plastic form needs a positive elastic stiffness"
-        todo = "give elastic_stiffness, or flexural rigidity and length of the part that the hinge stands for"
+        todo = "give elastic_stiffness, or flexural rigidity and length of the part that the hinge represents"
         raise InputError(Problem(what, came, "> 0 N m/rad", todo, "elastic_stiffness"))
     return stiffness
 
@@ -129,5 +129,5 @@ def _both_senses(
         return stops
     if stops is None or isinstance(stops, Stop):
         return stops, stops
-    what = "stops are neither given nor left to the law"
+    what = "unknown value for the stops"
     raise InputError(Problem(what, repr(stops), '"law", a stop, a pair, or None', "", "stops"))

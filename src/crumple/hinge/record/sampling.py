@@ -1,8 +1,8 @@
-"""A capacity curve as few straight pieces whose error is bounded.
+"""A capacity curve as a minimal number of linear pieces with bounded error.
 
 A chord of length l over a curve of curvature M'' errs by l^2 |M''|/8, so pieces of equal relative error have
 lengths ~ sqrt(8 error M/|M''|): points are spread by the integral of its inverse, between kinks.  All
-stretches between kinks are sampled together, so that a law is asked a few times for many rotations.
+stretches between kinks are sampled together, so that a law is called a few times for many rotations.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from crumple.numeric.arrays import Floats
 DENSE = np.linspace(0.0, 1.0, 65)
 """Points per smooth piece on which the error is measured, beside the middle of every chord."""
 SPARE = 1.1
-"""Chords over the number that the spread asks for, so that the first try mostly holds."""
+"""Factor on the estimated number of chords, so that the first try is mostly sufficient."""
 MOST_PIECES = 4096
 """More than this for one smooth piece means that the curve is not smooth; kinks are missing."""
 
@@ -61,7 +61,7 @@ def sampled_envelope(
     counts = np.maximum(1, np.floor(SPARE * grown[:, -1])).astype(np.int64)
     share = grown / grown[:, -1:]
     while counts.max() <= MOST_PIECES:
-        # chords are numbered on and on; every piece begins where the one before it ended
+        # chords are numbered consecutively; every piece begins at the end of the one before
         first = np.concatenate([[0], np.cumsum(counts)])
         number = first[:-1, None] + counts[:, None] * share
         points: Floats = np.interp(np.arange(first[-1] + 1), number.ravel(), dense.ravel())
@@ -81,7 +81,7 @@ def sampled_envelope(
         counts = np.where(too_far, np.maximum(counts + 1, np.ceil(1.05 * counts)), counts).astype(np.int64)
     low, high = ends[np.argmax(counts) :][:2]
     raise CrumpleError(
-        f"the capacity is not smooth between {low:.6g} and {high:.6g} rad: its law hides a kink"
+        f"the capacity is not smooth between {low:.6g} and {high:.6g} rad: its law does not report a kink"
     )
 
 
@@ -99,7 +99,7 @@ def _refuse_without_capacity(law: HingeLaw, rotation: Floats, capacity: Floats) 
 
 
 def _spread(exact: Floats, error: float) -> Floats:
-    """Number of chords from the start of each piece, (pieces, points); a pure choice of places."""
+    """Number of chords from the start of each piece, (pieces, points); determines sampling points only."""
     bend = np.abs(exact[:, 2:] - 2.0 * exact[:, 1:-1] + exact[:, :-2]) / exact[:, 1:-1]
     # chords over one interval; at the ends of a piece as beside them
     chords = (

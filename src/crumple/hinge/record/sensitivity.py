@@ -1,7 +1,7 @@
-"""How a capacity changes with a property of section or material: central differences of the law.
+"""Sensitivity of a capacity to a property of section or material: central differences of the law.
 
-A law is a pure function of its section and material, but some of them look for roots and kinks on the way, so
-they are differenced and not differentiated.  Two steps, one twice the other, cancel the error of second order
+A law is a pure function of its section and material, but some of them search for roots and kinks, so
+finite differences are used.  Two steps, one twice the other, cancel the error of second order
 (Richardson); what is left is of fourth order and rounding.
 """
 
@@ -34,7 +34,7 @@ def capacity_sensitivity(
     law_of
         Builds the law at a value of the property, for example of a wall thickness [m] or a yield stress [Pa].
     value
-        Where, not zero.
+        Value of the property, not zero.
     rotation
         Softening variable [rad], any shape.
     sense

@@ -1,4 +1,4 @@
-"""A hinge of several components as the spatial stepper knows it: one record per component and a surface."""
+"""Record of a hinge of several components for the spatial solver: one record per component and a surface."""
 
 from __future__ import annotations
 
@@ -32,16 +32,16 @@ class Freedom(IntEnum):
 
 
 class Coupling(Enum):
-    """How the components of a hinge share its capacity."""
+    """Interaction of the components of a hinge."""
 
     NONE = "none"
-    """Each for itself: a box."""
+    """No interaction: a box."""
     ELLIPSOID = "ellipsoid"
-    """Squares of the shares of the capacities add up to 1."""
+    """The squares of the ratios to the capacities add up to 1."""
     BALL = "ball"
     """The same with one capacity, which falls with the angle of the relative rotation."""
     SECTION = "section"
-    """Plastic interaction of the section's own walls."""
+    """Plastic interaction of the walls of the section."""
     TENSION_FLANGE = "tension-flange"
     """The fold turns about its tension flange: compression lowers the moment, bending shortens the hinge."""
 
@@ -53,7 +53,7 @@ class HingeComponent:
     Attributes
     ----------
     freedom
-        Which freedom.
+        Degree of freedom.
     record
         As of a planar hinge; for the axial freedom lengths [m] stand for rotations and forces [N] for
         moments, and the negative sense is shortening.
@@ -111,16 +111,16 @@ class HingeSurface:
 
 @dataclass(frozen=True)
 class SpatialHingeRecord:
-    """Everything the spatial stepper needs of one hinge; made by `spatial_record`.
+    """All data of one hinge for the spatial solver; made by `spatial_record`.
 
     Attributes
     ----------
     components
         One to four, in the order axial, twist, bending about y, about z.
     surface
-        How they share the capacity.
+        Their interaction.
     fracture
-        Plastic rotation (length of the vector) [rad] at which the hinge opens for good; inf: never.
+        Plastic rotation (length of the vector) [rad] at which the hinge breaks; inf: never.
     """
 
     components: tuple[HingeComponent, ...]

@@ -1,7 +1,7 @@
 """From records of single axes and the section's interaction to the record of a hinge of several components.
 
-The fit of the section's surface gives linear forms in the shares of N, M_y and M_z.  The hinge takes the
-columns of the components that it has: what it holds rigidly takes no part.  Each column is scaled so that a
+The fit of the section's surface gives linear forms in the shares of N, M_y and M_z.  The hinge uses the
+columns of its components: rigid degrees of freedom do not interact.  Each column is scaled so that a
 load about its axis alone reaches exactly that axis' capacity.
 
 A component whose two senses differ (shortening folds, lengthening yields) has its force divided by the
@@ -52,23 +52,23 @@ def spatial_record(
     components
         Each freedom at most once; all of one form and one softening variable.
     coupling
-        How they share the capacity; without effect for one component.
+        Their interaction; without effect for one component.
     interaction
         Fit of the section's surface, needed by the coupling of the section.
     arm
         Distance from the centroid to the tension flange [m], needed by the coupling about it.
     fracture
-        Plastic rotation [rad] at which the hinge opens.
+        Plastic rotation [rad] at which the hinge breaks.
 
     Returns
     -------
     SpatialHingeRecord
-        Ready for the stepper.
+        Record for the solver.
 
     Raises
     ------
     InputError
-        If the components do not fit together or the coupling.
+        If the components do not match each other or the coupling.
 
     References
     ----------
@@ -116,7 +116,7 @@ def section_surface(components: Sequence[HingeComponent], interaction: Interacti
 
 
 def senses_agree(record: HingeRecord) -> bool:
-    """Whether both senses have the very same curve."""
+    """Whether both senses have the same curve."""
     one, other = record.positive, record.negative
     return np.array_equal(one.rotation, other.rotation) and np.array_equal(one.moment, other.moment)
 
@@ -145,7 +145,7 @@ def _component_problems(components: tuple[HingeComponent, ...]) -> list[Problem]
     if not 1 <= len(set(freedoms)) == len(freedoms):
         return [
             Problem(
-                "the components of a hinge are not one to four different ones",
+                "a hinge needs one to four different components",
                 ", ".join(freedoms) or "none",
                 "axial, x, y, z, each at most once",
                 "",
@@ -170,7 +170,11 @@ def _coupling_problems(
         return []
     if coupling is Coupling.SECTION and interaction is None:
         return [
-            Problem("the section's interaction is not known", todo="couple as an ellipsoid", where="coupling")
+            Problem(
+                "the interaction of the section is not known",
+                todo="use the coupling ellipsoid",
+                where="coupling",
+            )
         ]
     if coupling is Coupling.TENSION_FLANGE:
         return _flange_problems(components, arm)
@@ -184,7 +188,7 @@ def _flange_problems(components: tuple[HingeComponent, ...], arm: float) -> list
         what = "a fold about its tension flange has one bending axis and the axial slip"
         problems.append(Problem(what, _names(components), "axial and y, or axial and z", "", "coupling"))
     if components[0].record.form is Form.REGULARISED:
-        what, todo = "a fold about its tension flange is not regularised", "choose another form"
+        what, todo = "a fold about its tension flange has no regularised form", "choose another form"
         problems.append(Problem(what, "regularised", "set-valued, elastic-plastic", todo, "coupling"))
     if not arm > 0.0:
         what = "the arm of the tension flange must be positive"
@@ -203,8 +207,8 @@ def _ball_problems(components: tuple[HingeComponent, ...]) -> list[Problem]:
     )
     if same and components[0].freedom is not Freedom.AXIAL:
         return []
-    what = "a ball hinge has rotations only, with one curve for all axes and senses"
-    return [Problem(what, _names(components), "", "couple as an ellipsoid", "coupling")]
+    what = "a ball hinge has only rotations, with one curve for all axes and senses"
+    return [Problem(what, _names(components), "", "use the coupling ellipsoid", "coupling")]
 
 
 def _names(components: tuple[HingeComponent, ...]) -> str:

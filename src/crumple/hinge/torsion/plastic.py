@@ -1,4 +1,4 @@
-"""Plastic torque held: the walls shear at yield and do not fold.
+"""Constant plastic torque: the walls shear at yield and do not fold.
 
     T = T_p
 
@@ -53,10 +53,10 @@ class PlasticTorsion:
     elastic_stiffness: float | None = None
     validity: Validity = Validity(  # noqa: RUF009  (frozen)
         math.inf,
-        "plastic torque, held at every twist",
+        "plastic torque, constant over the twist",
         (
-            "walls that fold in shear lose torque: the energy of twisting is overstated",
-            "no strain-rate factor: the strain rate of twisting folds was not derived",
+            "the torque falls if walls fold in shear: the energy of torsion is overestimated",
+            "no strain-rate factor: the strain rate of folds in torsion is not known",
         ),
     )
     rate: HingeRate | None = None

@@ -3,13 +3,13 @@
 Unknown: the torque T of a tube of mid-line side b, wall t and twisted length L against its twist:
 
     T_i = min(3.72 s_y t^1.25 b^1.75, T_p)      walls begin to fold;  T_p = 2 b^2 t s_y/sqrt(3)  (Bredt)
-    T_s = min(5.58 s_0 t^1.4 b^2.2 L^-0.6, T_i)  they go on folding
+    T_s = min(5.58 s_0 t^1.4 b^2.2 L^-0.6, T_i)  they continue to fold
     T   = T_s + (T_i - T_s) exp(-twist/decay)
 
 3.72 s_y t^1.25 b^1.75 passes the plastic torque T_p wherever b/t < (3.72 sqrt(3)/2)^4 = 107.7, that is for
-nearly every tube: the cap is ours.  The source has an exponential decay from T_i to T_s, whose constant could
-not be read, so ``decay`` must be given; without it the law holds T_s from the start (the safe side for what
-the member carries).  Limits: decay -> 0 is T_s, decay -> large is T_i.
+nearly every tube: the cap was added here.  The source has an exponential decay from T_i to T_s, whose
+constant is not known, so ``decay`` must be given; without it the law is T_s from the start (conservative for
+the load capacity of the member).  Limits: decay -> 0 is T_s, decay -> large is T_i.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from crumple.section import RectangularTube, Section
 SOURCE = Source(
     "Chen & Wierzbicki, Thin-Walled Struct. 36 (2000) 181-196, as quoted in a public paper on bus rollover",
     Trust.QUOTED,
-    "both torques read in the quoting paper, the decay between them was not legible; the cap is derived",
+    "both torques read in the quoting paper, the decay between them is not known; the cap is derived",
 )
 SAME_SIDE = 1e-3
 """Relative difference of the sides up to which a tube counts as square."""
@@ -90,13 +90,13 @@ class SquareTubeTorsion:
         Raises
         ------
         InputError
-            If the section is no square tube, or a number is not positive.
+            If the section is not a square tube, or a number is not positive.
         """
         if (
             not isinstance(section, RectangularTube)
             or abs(section.width - section.depth) > SAME_SIDE * section.width
         ):
-            what, todo = "this law is one of square tubes", "no law of other shapes was found"
+            what, todo = "this law is for square tubes", "use the law plastic for other shapes"
             raise InputError(Problem(what, section.title, "equal sides", todo, "section"))
         for name, value in (("length", length), ("decay", 1.0 if decay is None else decay)):
             if not (math.isfinite(value) and value > 0.0):
@@ -129,17 +129,17 @@ class SquareTubeTorsion:
         return np.asarray(self.steady_torque + fall, np.float64)
 
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
-        """Ones: the strain rate of twisting folds was not derived."""
+        """Ones: the strain rate of folds in torsion is not known."""
         return rate_factor(self.rate, rotation_rate)
 
 
 def _validity(decay: float | None, initial: float, plastic: float) -> Validity:
-    warnings = ["no strain-rate factor: the strain rate of twisting folds was not derived"]
+    warnings = ["no strain-rate factor: the strain rate of folds in torsion is not known"]
     if initial >= plastic:
-        warnings.append("the quoted initial torque passes the plastic torque, which is taken instead")
+        warnings.append("the quoted initial torque exceeds the plastic torque, which is used instead")
     if decay is None:
-        warnings.append("no decay given: the steady torque is held from the start, which is low at first")
+        warnings.append("no decay given: the steady torque is used from the start, which is too low at first")
     else:
-        warnings.append("the decay is the user's choice")
-    basis = "no test or finite elements were compared here"
+        warnings.append("the decay is given by the user")
+    basis = "validated neither by tests nor by finite elements"
     return Validity(0.0, basis, tuple(warnings))

@@ -1,6 +1,6 @@
-"""What every torsion law of a member offers: torque against twist, with a source and a range.
+"""Interface of every torsion law of a member: torque against twist, with source and range of validity.
 
-It is a hinge law whose rotation is the twist between the ends of the twisted length, so the stepper takes it
+It is a hinge law whose rotation is the twist between the ends of the twisted length, so the solver uses it
 like any other.
 """
 
@@ -20,7 +20,7 @@ class TorsionLaw(HingeLaw, Protocol):
     initial_torque
         Torque at which the walls begin to fold [N m].
     steady_torque
-        Torque at which they go on folding [N m].
+        Torque at which they continue to fold [N m].
     """
 
     @property

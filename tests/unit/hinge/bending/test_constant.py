@@ -14,7 +14,7 @@ def test_plastic_moment_unless_given():
         law = ConstantLaw.of(section, STEEL, "z")
         assert law.moment == pytest.approx(300e6 * section.plastic_section_modulus_z)
         assert law.source.trust is Trust.DERIVED
-        assert "overstates" in law.validity.warnings[0]
+        assert "overestimates" in law.validity.warnings[0]
     given = ConstantLaw.of(tube, STEEL, moment=1234.0)
     assert given.moment == 1234.0
     assert given.source.trust is Trust.ASSUMED

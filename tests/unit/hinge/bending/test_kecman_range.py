@@ -36,7 +36,7 @@ def test_range_ends_at_jamming_where_that_comes_first():
 @pytest.mark.parametrize(
     ("dimensions", "said"),
     [
-        ((0.025, 0.050, 0.00265), "stocky flange"),
+        ((0.025, 0.050, 0.00265), "thick flange"),
         ((0.025, 0.050, 0.00290), "outside the range of Kecman's tests, 9.14"),
         ((0.100, 0.030, 0.002), "outside the range of Kecman's tests, 0.33"),
         ((0.100, 0.100, 0.002), "flange buckles"),

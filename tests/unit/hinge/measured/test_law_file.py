@@ -142,7 +142,7 @@ def test_stated_band_scales_the_curve_and_reaches_the_stepper():
     assert float(bounded(LAWS[0], "lower").moment_capacity(0.0)) == pytest.approx(0.8 * peaks[1])
     assert bounded(LAWS[0], "nominal") is LAWS[0]
     assert band_of(LAWS[0]).upper.factor == pytest.approx(1.2)
-    with pytest.raises(InputError, match="nothing is known"):
+    with pytest.raises(InputError, match="scatter of this law is unknown"):
         bounded(read_law(write_law(stored_law(LAWS[-1], ORIGIN))), "upper")
 
 
@@ -156,7 +156,7 @@ def line_of(words):
 @pytest.mark.parametrize(
     ("old", "new", "what"),
     [
-        ("crumple_law: 1", "crumple_law: 2", "no law file of a known format"),
+        ("crumple_law: 1", "crumple_law: 2", "not a law file of a known format"),
         ("softening: peak", "softening: sideways", "unknown choice"),
         ("softening: peak", "softning: peak", "unknown key"),
         ("jamming_angle: none", "jamming_angle: 3 mm", "an angle"),
@@ -171,7 +171,7 @@ def line_of(words):
         ("rate: none", "rate: &a none", "anchors"),
         ("rate: none", "rate: !!str none", "tags"),
         ("rate: none", "rate: }", "not YAML"),
-        ("rate: none", "rate: none\nrate: none", "stands twice"),
+        ("rate: none", "rate: none\nrate: none", "is given twice"),
     ],
 )
 def test_mistakes_are_told_with_their_line(old, new, what):

@@ -124,7 +124,7 @@ def test_gauges_of_the_other_couplings():
     [
         (lambda: [], {}, "one to four"),
         (lambda: [bending(Freedom.Y), bending(Freedom.Y)], {}, "one to four"),
-        (lambda: [bending(Freedom.Y), bending(Freedom.Z)], {}, "interaction is not known"),
+        (lambda: [bending(Freedom.Y), bending(Freedom.Z)], {}, "interaction of the section is not known"),
         (lambda: [bending(Freedom.Y), bending(Freedom.Z, Form.ELASTIC_PLASTIC)], {}, "differ in form"),
         (
             lambda: [bending(Freedom.Y), bending(Freedom.Z, softening=SofteningVariable.ROTATION)],

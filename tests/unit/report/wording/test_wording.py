@@ -75,7 +75,7 @@ def test_verdict_cautions_outside_the_range_once():
         "Hinge h0 turned 28.65° (0.5000 rad), beyond the range of validity of its law, 11.46° (0.2000 rad).",
         "Hinge h1 turned 24.35° (0.4250 rad), beyond the range of validity of its law, 20.05° (0.3500 rad).",
     )
-    told = frame_result(warnings=("Hinge h0 turned by 28.6 deg; its law is backed up to 11.5 deg only.",))
+    told = frame_result(warnings=("Hinge h0 turned by 28.6 deg; its law is valid up to 11.5 deg only.",))
     assert len(verdict(told, 1e-3, None).warnings) == 2
 
 
@@ -83,7 +83,7 @@ def test_verdict_bad_gives_status_and_reason():
     result = tube_result(status=Status.RESIDUAL_EXCEEDED, reason="it grew from 3 ms on", energy_residual=2e-3)
     said = verdict(result, 1e-3, None)
     assert said.level == "bad"
-    assert said.headline == "Ended, but the energy residual passed its bound: do not trust this result."
+    assert said.headline == "Ended, but the energy residual exceeds its limit: do not trust this result."
     assert said.reasons[:2] == (
         "It grew from 3 ms on.",
         "Energy balance: residual 0.2 % of the energy input, beyond its bound of 0.1 %.",
