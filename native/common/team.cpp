@@ -21,15 +21,15 @@ struct Team::Crew {
         try {
             for (int i = 1; i <= others; i++) threads.emplace_back([this, i] { serve(i); });
         } catch (const std::system_error&) {
-            // the machine gives no more: those that came do the work
+            // the system provides no more threads: those that started do the work
         }
     }
     ~Crew() {
-        tell(nullptr);
+        assign(nullptr);
         for (std::thread& thread : threads) thread.join();
     }
-    // Null: go home.
-    void tell(const std::function<void(int)>* next) {
+    // Null: end the threads.
+    void assign(const std::function<void(int)>* next) {
         {
             const std::lock_guard<std::mutex> lock(mutex);
             task = next;
@@ -98,7 +98,7 @@ int Team::gather(int members) {
 
 void Team::call(const std::function<void(int)>& task) {
     if (members_ == 1) return task(0);
-    crew_->tell(&task);
+    crew_->assign(&task);
     task(0);
     crew_->await_end();
 }

@@ -103,15 +103,15 @@ private:
     std::vector<Rest> rest_;                     // [member]
 };
 
-// Members that stay for the next call: a run that is looked at every few steps calls every few hundred microseconds, and a thread started
-// anew is late by as much.  Between calls they spin for a while, then they sleep.
+// Members that stay for the next call: a run that is looked at every few steps calls every few hundred microseconds, and a newly started
+// thread is late by as much.  Between calls they spin for a while, then they sleep.
 class Team {
 public:
     Team();
     ~Team();
-    // Calls so many members together, the caller the first; gives how many came: fewer where the machine has no more threads.
+    // Calls so many members together, the caller the first; returns how many started: fewer if the system has no more threads.
     int gather(int members);
-    // Runs work(member) on those that came.
+    // Runs work(member) on those that started.
     template <class Work> void run(Work work) {
         Barrier barrier(members_);
         call([&](int index) { work(Member{index, members_, &barrier}); });

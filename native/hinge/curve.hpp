@@ -20,7 +20,7 @@ public:
     std::vector<Real>& values() { return y_; }
     const std::vector<Real>& places() const { return x_; }
     const std::vector<Real>& values() const { return y_; }
-    // the areas anew, after a change of places or values
+    // the areas again, after a change of places or values
     void integrate();
     Real at(Real v, int& hint) const;
     // integral from the first point to v; negative before it

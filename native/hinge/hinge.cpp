@@ -100,8 +100,8 @@ Real mean_ramp_integral(Real x0, Real x) {
 // While it speeds up it takes the mean over the rates passed: a step may leap over the whole ramp.
 Real ramp_start(const FrozenHinge& f, Real w) { return fabs(w * f.w0 < 0 ? w : f.w0) / f.width; }
 
-// Rate in the sense of a stop at which its spring and damper, taken without letting go, push with no force; below it the
-// stop has let go.  Needs a damper: the force then grows with the rate.
+// Rate in the sense of a stop at which its spring and damper, without separation, give zero force; below it the
+// stop has separated.  Needs a damper: the force then grows with the rate.
 Real release_rate(const Stop& stop, const FrozenHinge& f, int k) {
     const Real start = max(f.gap[k], 0.0), sign = k == 0 ? 1 : -1;
     auto force = [&](Real v) {
@@ -337,7 +337,7 @@ Real commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0, 
 void commit_beside(const Hinge& hinge, const FrozenHinge& f, HingeState& s, Real q0, Real turn, Real w1) {
     const Real mean_rate = (f.w0 + w1) / 2, stop = stop_response(hinge, f, w1).impulse;
     s.damped += f.h * hinge.damping * damper_rate(f, w1) * mean_rate;
-    // also where the stop has let go and its spring relaxes into its damper
+    // also if the stop has separated and its spring relaxes into its damper
     s.stop_dissipated += stop * mean_rate - (stop_energy(hinge, q0 + turn) - stop_energy(hinge, q0));
     s.total_moment = s.moment + hinge.damping * damper_rate(f, w1) + stop / f.h;
     s.rotation_max = max(s.rotation_max, fabs(q0 + turn));

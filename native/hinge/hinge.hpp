@@ -112,7 +112,7 @@ Real beside_potential(const Hinge& hinge, const FrozenHinge& f, Real w);
 // rates at which the slope of the response changes; returns how many (at most 10)
 int kinks(const Hinge& hinge, const FrozenHinge& f, Real* rates);
 // Advances the memory; returns the rotation over the step.  `halt`: when within the step it came to rest, should it have
-// done so by the end; less than the step where that is known; null where its own moment alone tells.
+// done so by the end; less than the step where that is known; null if its own moment determines it.
 Real commit(const Hinge& hinge, const FrozenHinge& f, HingeState& state, double t0, Real q0, Real w1, const Real* halt);
 // its part for damper and stops, the law's moment being known
 void commit_beside(const Hinge& hinge, const FrozenHinge& f, HingeState& state, Real q0, Real turn, Real w1);

@@ -14,7 +14,7 @@ namespace {
 // come loose one after another, so a long one gets one more for every so many hinges.
 constexpr int full_step_limit = 16, hinges_per_full_step = 8;
 // Newton steps per width of the ramps before the step is given up and shortened: a fixed number, and some per
-// hinge, since in the worst case (an impulse on the end of a long chain) hinges lock and let go one at a time.
+// hinge, since in the worst case (an impulse on the end of a long chain) hinges lock and release one at a time.
 constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
 // Widening: from the largest rate down by this factor a time.
 constexpr double narrowing = 1e-1;

@@ -29,8 +29,8 @@ struct Attempt {
     double h = 0, e = 0;
 };
 
-// Power of the step with which its error goes: three, but down to one where velocities jump, which two lengths from
-// the same state tell.
+// Power of the step with which its error goes: three, but down to one where velocities jump, which follows from two
+// step lengths from the same state.
 double error_order(const Attempt& rejected, const Attempt& present) {
     if (rejected.h == 0 || !(present.e > 1)) return 3;
     return std::clamp(std::log(rejected.e / present.e) / std::log(rejected.h / present.h), 1.0, 3.0);

@@ -190,9 +190,9 @@ void Stepper::predict(const State& s, double h) {
     aim_rows(s, h);
 }
 
-// Rates that the constrained directions must have, told for the middle's positions.  They must be the drive's own
+// Rates that the constrained directions must have, evaluated at the positions of the midpoint.  They must be the drive's own
 // (a hold's and a weld's are zero) at the positions of the end, which the last pass predicts.  Drift is corrected while something
-// turns to the end, so that nothing stirs at rest, nor where a step comes to it.
+// turns to the end, so that a structure at rest, or coming to rest within the step, does not move.
 void Stepper::aim_rows(const State& s, double h) {
     if (rows_.empty()) return;
     Real turning = 0;

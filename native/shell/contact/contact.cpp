@@ -17,7 +17,7 @@ constexpr double close_share = 0.1;
 // Items that are handed out at once: a few microseconds of work.
 constexpr std::size_t items_at_once = 16;
 // Share of half its wall's thickness that a node around a spot weld keeps.  The weld holds the mean of these nodes apart; did
-// contact hold each of them too, it would push against the weld, whose force would be told too large by as much.
+// contact hold each of them too, it would push against the weld, whose reported force would be too large by as much.
 constexpr double welded_share = 0.5;
 
 }  // namespace

@@ -31,7 +31,7 @@ public:
     void commit(double last_dt);
     // Nodes have moved so far that others may touch: `search` is to be called.
     bool search_due() const { return due_; }
-    // Lists anew what may touch; `alive` tells which elements still exist.
+    // Lists the candidates for contact again; `alive` is 1 for elements that still exist.
     void search(const Motions& m, const std::vector<std::uint8_t>& alive, const Member& member);
 
     ObstacleContact& obstacles() { return obstacles_; }

@@ -91,7 +91,7 @@ void WallContact::list_neighbours() {
         sheets_.corners(x0, 3, e, x);
         grid.each_in(box_around<4>(x0, 3, &model.quads[4 * e], far), [&](Index n) {
             const double distance = closest_on_quad(read3(x0 + 3 * n), x).distance;
-            // the third number tells here whether they overlap
+            // the third number is 1 if they overlap
             if (distance < neighbourhood * gap(n, e)) found[0].push_back({n, e, std::int8_t(distance < (1.0 - 1e-6) * gap(n, e))});
         });
     }

@@ -96,7 +96,7 @@ CRUMPLE_INLINE Real second_half(const Corners& corners, const CornerForces& c) {
     return (0.5 * corners.dt) * power;
 }
 
-// A strain increment beyond a third in one step is not a motion of metal but a run that has gone astray.
+// A strain increment beyond a third in one step is not physical: the solution has diverged.
 constexpr double torn_strain = 0.33;
 
 // Shape, motion and strain of a step; what a shape does not use costs nothing.

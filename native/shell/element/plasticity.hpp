@@ -61,8 +61,8 @@ CRUMPLE_INLINE Real rate_factor(const Part& part, Real& rate, Real strain, doubl
 }
 
 // Work of the step's plastic strain on the mean stress of the step, as the total work is taken: so their difference is the change of
-// what the stress stores, and never falls below zero.  With the stress of the end alone, that of a strain that turns about in a few
-// steps would be booked as dissipated beyond what was put in.
+// what the stress stores, and never falls below zero.  With the stress of the end alone, rapidly reversing
+// strains would be counted as dissipation beyond the energy input.
 CRUMPLE_INLINE Real plastic_work(const Part& part, const Stress& old, const Stress& trial, const Stress& now) {
     const double nu = part.poissons_ratio;
     const Real dx = trial.x - now.x, dy = trial.y - now.y;

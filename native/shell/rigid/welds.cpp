@@ -79,7 +79,7 @@ SpotWelds::SpotWelds(const Model& model, const Masses& masses) : model_(model), 
             mean[k < w.first ? 0 : 1] = mean[k < w.first ? 0 : 1] + w.weight[k] * read3(&model.position[3 * w.nodes[k]]);
         }
         tie.distance = norm(mean[1] - mean[0]);
-        if (!(tie.distance > least_distance)) refuse(i, "its sheets lie within each other");
+        if (!(tie.distance > least_distance)) refuse(i, "its two sheets coincide");
         ties_.push_back(std::move(tie));
     }
 }

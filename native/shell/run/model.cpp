@@ -39,7 +39,7 @@ static void check_shape(const Model& m, std::size_t e) {
     if (!(norm(normal) > 1e-6 * longest * longest)) refuse("element", e, "it has no area");
     for (int c = 0; c < corners; c++)
         if (!(norm(corner(m, e, (c + 1) % corners) - corner(m, e, c)) > 1e-6 * longest))
-            refuse("element", e, "corners " + std::to_string(c + 1) + " and " + std::to_string((c + 1) % corners + 1) + " lie on each other");
+            refuse("element", e, "corners " + std::to_string(c + 1) + " and " + std::to_string((c + 1) % corners + 1) + " coincide");
     for (int c = 0; c < corners; c++) {
         const Vec3 next = corner(m, e, (c + 1) % corners) - corner(m, e, c);
         const Vec3 last = corner(m, e, (c + corners - 1) % corners) - corner(m, e, c);

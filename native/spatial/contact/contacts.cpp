@@ -288,7 +288,7 @@ void Contacts::commit(double h, bool from_rest, const Row* rows, const double* i
         push(i, h, rows + 3 * i, p, state);
         if (c.gap <= closed_gap_) continue;
         if (from_rest) {
-            // what is driven does not tell the motion without the impulse: halve
+            // the motion without the impulse does not follow from the drives: halve
             state.closing = h / 2;
             continue;
         }

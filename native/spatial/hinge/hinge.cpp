@@ -198,7 +198,7 @@ void freeze_separate(const SpatialHinge& hinge, const SpatialHingeState& s, cons
     set_reference(hinge, f);
 }
 
-// Of a hinge without coupling: what its components tell of their flow.
+// Of a hinge without coupling: the flow of its components.
 void gather_separate(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHingeState& s, double t0, const double* before,
                      double arrest) {
     s.sliding = false;

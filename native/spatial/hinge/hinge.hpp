@@ -54,7 +54,7 @@ struct SpatialHingeState {
     double opening_time = -1, rest_time = 0;  // first plastic flow (-1: none yet), last end of it [s]
     double fracture_time = -1;  // -1: whole
     double fracture_moment = 0;  // last carried about all its axes together [N m]
-    double fracture_energy = 0;  // elastic energy that its opening let go [J]; part of what is dissipated
+    double fracture_energy = 0;  // elastic energy released at fracture [J]; part of what is dissipated
     bool sliding = false;
 };
 

@@ -20,7 +20,7 @@ constexpr double close_to_end = 2, nearly_whole = 0.7;
 // mu falls by the first factor where all points went half their way, by the second where they went a tenth of it.
 constexpr double fast = 0.03, fast_together = 0.1, slow = 0.3;
 constexpr double half_way = 0.5, some_way = 0.1;
-// Newton steps before a path is lost, each way; and growth of the mean s (1 - g^2) that tells the same.
+// Newton steps before a path is lost, each way; and growth of the mean s (1 - g^2) that indicates the same.
 constexpr int path_limit = 16, path_limit_together = 60;
 constexpr double lost = 10;
 // full steps on the laws, from the path's end

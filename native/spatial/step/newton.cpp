@@ -12,7 +12,7 @@ namespace {
 // Full Newton steps before the guaranteed way is taken, and before the central path is tried; they fail only by cycling.
 constexpr int full_step_limit = 32, full_step_limit_before_path = 12;
 // Newton steps per width of the ramps before the step is given up and shortened: a fixed number, and some per hinge,
-// since in the worst case (an impulse on the end of a long chain) hinges lock and let go one at a time.
+// since in the worst case (an impulse on the end of a long chain) hinges lock and release one at a time.
 constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
 // Widening: from the largest rate down by this factor a time.
 constexpr double narrowing = 1e-1;
@@ -76,8 +76,8 @@ bool Stepper::newton() {
     }
     const std::vector<Twist> velocity = velocity_;
     const std::vector<double> w = w_;
-    // what cycled may have strayed far
-    auto start_anew = [&] {
+    // iterations that cycled may have moved far away
+    auto restart = [&] {
         velocity_ = velocity;
         w_ = w;
     };
@@ -91,11 +91,11 @@ bool Stepper::newton() {
         if (full_steps_ && descend(full_step_limit_before_path, true)) return true;
         full_steps_ = false;
         for (const bool together : {false, true}) {
-            start_anew();
+            restart();
             if (follow_path(together)) return true;
         }
     }
-    start_anew();
+    restart();
     return narrow_ramps();
 }
 

@@ -218,7 +218,7 @@ void Stepper::predict(const State& s, double h, const std::vector<Twist>& end) {
     }
 }
 
-// V*: change of momentum between the true ends of the step, (I_1 w_1) - (I_0 w_0), told for the middle's inertia.  Drag has no
+// V*: change of momentum between the true ends of the step, (I_1 w_1) - (I_0 w_0), for the inertia of the midpoint.  Drag has no
 // momentum: a quasi-static step gives V* the impulses alone.
 void Stepper::set_free(const State& s) {
     for (size_t i = 0; i < free_.size(); i++) {

@@ -6,8 +6,8 @@
 // consistent.  Rows of a law come with the root of its tangent, J^ = L^T J with D = L L^T, and 1 on the diagonal:
 // well conditioned from a free (D = 0) to a locked hinge (D huge).  Refinement takes rounding out.
 //
-// Redundant is a matter of the loops' geometry alone, see loops.hpp.  Pivots do not tell: hinges that lock a loop leave a held row a
-// pivot of 1/D beside the mobility, as small as a redundant one's but for the digits by which it tells the moments in the loop.
+// Redundant is a matter of the loops' geometry alone, see loops.hpp.  Pivots do not show it: hinges that lock a loop leave a held row a
+// pivot of 1/D beside the mobility, as small as a redundant one's except for the digits that determine the moments in the loop.
 #pragma once
 
 #include <vector>

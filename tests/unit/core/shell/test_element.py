@@ -180,7 +180,7 @@ def bad(change):
         (lambda x, q, a: (moved(x, 4, 0.002), q), "element 0: it is crossed or not convex at corner 3"),
         (lambda x, q, a: (x * [1, 0, 1], q), "element 0: it has no area"),
         (lambda x, q, a: (x, np.where(q == 4, 0, q)), "element 0: node 0 appears twice"),
-        (lambda x, q, a: (moved(x, 4, x[1, :2]), q), "element 0: corners 3 and 4 lie on each other"),
+        (lambda x, q, a: (moved(x, 4, x[1, :2]), q), "element 0: corners 3 and 4 coincide"),
         (lambda x, q, a: (x, q + 1), "does not exist"),
         (lambda x, q, a: a.update(thickness=0.0) or (x, q), "element 0: its thickness"),
         (lambda x, q, a: a.update(material=type(ELASTIC)(0.0, E, NU)) or (x, q), "material 0: its density"),

@@ -82,7 +82,7 @@ def test_failing_welds_keep_momentum_and_energy(speed):
     assert failed == 2
     normal, shear, use = state.spot_welds[:, 2], state.spot_welds[:, 3], state.spot_welds[:, 4]
     assert (use >= 1.0).all()
-    # the forces told are those that met the criterion
+    # the reported forces are those that met the criterion
     assert use == pytest.approx((np.maximum(normal, 0.0) / 1000.0) ** 2 + (shear / 1500.0) ** 2, rel=1e-12)
 
 
@@ -178,5 +178,5 @@ def test_welds_that_cannot_be_are_refused(change, why):
 def test_sheets_that_lie_within_each_other_cannot_be_tied():
     given = pair(**STRONG)
     flat = dataclasses.replace(given, position=given.position * [1.0, 1.0, 0.0])
-    with pytest.raises(InputError, match="lie within each other"):
+    with pytest.raises(InputError, match="two sheets coincide"):
         ShellState(flat)

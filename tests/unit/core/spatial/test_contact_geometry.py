@@ -63,7 +63,7 @@ def outside(name, x):
 POINT = st.tuples(*[st.floats(-1.0, 1.0)] * 3)
 
 
-# most segments pass through the solid and are drawn anew
+# most segments pass through the solid and are drawn again
 @pytest.mark.parametrize("name", SOLIDS)
 @settings(suppress_health_check=[HealthCheck.filter_too_much])
 @given(first=POINT, second=POINT)

@@ -192,7 +192,7 @@ BODY = bar((0, 0, 0), X)
 
 
 @pytest.mark.parametrize(
-    ("model", "says"),
+    ("model", "expected"),
     [
         (SpatialModel((SpatialBody(0.0, np.eye(3), np.zeros(3)),)), "mass"),
         (SpatialModel((SpatialBody(1.0, np.zeros((3, 3)), np.zeros(3)),)), "inertia"),
@@ -212,8 +212,8 @@ BODY = bar((0, 0, 0), X)
         ),
     ],
 )
-def test_bad_models_are_refused(model, says):
-    with pytest.raises(ValueError, match=says):
+def test_bad_models_are_refused(model, expected):
+    with pytest.raises(ValueError, match=expected):
         SpatialSimulation(model)
 
 
@@ -261,7 +261,7 @@ def frame(seed, kinds, loop, gravity, speed):
     st.sampled_from([0.0, 5.0, 30.0]),
 )
 @settings(max_examples=60)
-def test_random_frames_run_or_say_why(seed, kinds, loop, gravity, speed):
+def test_random_frames_run_or_report_why_not(seed, kinds, loop, gravity, speed):
     model, velocity = frame(seed, kinds, loop, gravity, speed)
     record = started(model, velocity, 1e-3).run(np.linspace(0, 0.05, 6)[1:])
     assert record.outcome is Outcome.COMPLETE or record.reason
