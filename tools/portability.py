@@ -28,9 +28,9 @@ ROOT = Path(__file__).resolve().parent.parent
 NATIVE = ROOT / "native"
 PROGRAM = ROOT / "tests" / "portability" / "kernels.cpp"
 BUILD = ROOT / "build" / "portability"
-# What the program ends with where the processor lacks the instruction set that it is told to use.
+# Exit code of the program if the processor lacks the instruction set that is selected.
 LACKS_INSTRUCTIONS = 3
-# Processors of QEMU, and what the program says of its choice there.
+# Processors of QEMU, and the message of the program about its choice there.
 OLDER = {"core2duo": "lacks the x86-64-v2 instructions", "Nehalem": "x86-64-v2", "Haswell": "x86-64-v3"}
 WARNINGS = ("-Wall", "-Wextra", "-Werror")
 X86 = ("v2", "v3", "v4")
@@ -38,7 +38,7 @@ ON_X86 = platform.machine() in ("x86_64", "AMD64")
 # The C libraries differ in the last bit of their functions, and 200 yielding steps carry that along; a wrong
 # lane or rounding shows at once.  Residuals are differences of nearly equal energies.
 RELATIVE, ABSOLUTE = 1e-9, 1e-12
-# The headers are written for GCC, so Clang must not say that it is MSVC; layout, names and calls stay its.
+# The headers are written for GCC, so Clang must not pass as MSVC; layout, names and calls stay its.
 LIKE_GCC = (
     *("-fno-ms-compatibility", "-fdeclspec", "-fmsc-version=0", "-U_MSC_VER", "-U_MSC_FULL_VER"),
     *("-D__MINGW32__", "-D__MINGW64__", "-D__declspec=__declspec"),

@@ -4,7 +4,7 @@
 
 The figures come from `pytest --figures FILE`: for every module under tests/verification its docstring, the
 outcome of each test, and what the tests recorded with `record_figure`.  The docstring of a module ends with a
-line that says what kinds of check it makes, and where each of them takes its expected values from:
+line with the kinds of check it makes, and where each of them takes its expected values from:
 
     Kind: closed form; published.  Source: derived here; quoted.
 
@@ -37,7 +37,7 @@ SOURCES = {
     "textbook": ("textbook", "a standard result, not taken from one text"),
     "quoted": ("no", "quoted by others or known from memory; the original was not seen"),
 }
-"""What the page says of a source, and what that means."""
+"""Text of the page for a source, and its meaning."""
 LINE = re.compile(r"^Kind: (?P<kinds>[^.]+)\.\s+Source: (?P<sources>[^.]+)\.$", re.MULTILINE)
 
 HEAD = """# Verification
@@ -50,7 +50,7 @@ written by `make verify` from the tests themselves; a change by hand is lost.
 "Worst error" is the largest difference between a computed and an expected value, divided by the tolerance
 of the test: below 1 the test passes. A value near 1 means that the tolerance is fully used, as with a
 published figure that has few digits. A dash means that the tests of this file compare without recording
-figures. What compares Crumple with its own past is in `tests/regression`, and here only where the page says
+figures. What compares Crumple with its own past is in `tests/regression`, and here only where the page states
 so.
 """
 APPENDIX = """# Verification: all figures

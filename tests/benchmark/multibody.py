@@ -4,7 +4,7 @@ Accuracy 1e-3, native solve alone (lowering and histories aside), one thread. Be
 solves in this process; the true error of the sum of rotations is printed beside each time. Bounds: M1
 20 us, M2(10) 0.3 ms, M2(100) 3 ms, a frame of 300 bodies with 100 loops 0.5 s. Exudyn solves the
 regularised law with the fastest of a few solvers whose true error is below 1e-3; where it cannot be
-installed, a line says so and there is no ratio.
+installed, a line reports it and there is no ratio.
 """
 
 from __future__ import annotations
@@ -129,7 +129,7 @@ def main() -> int:
         figure = M4_FIGURE if name == "M4" else CASES[f"{name} regularised"][1]
         foreign = best_time(exu, name, figure, ACCURACY)
         if foreign is None:
-            print(f"Exudyn {name}: no solver came within {ACCURACY:g}")
+            print(f"Exudyn {name}: no solver reached {ACCURACY:g}")
             continue
         taken, how, error = foreign
         print(f"Exudyn {exu.__version__} {name:6}  best {taken * 1e6:9.1f} us   error {error:+.1e}   ({how})")

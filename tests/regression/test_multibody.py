@@ -1,6 +1,6 @@
 """Our own past figures of the multibody answer: example 01's tube in every form, and a struck chain.
 
-Nothing outside says that these are right; tests/verification does that. A change of the method may move
+No external source confirms these values; tests/verification does that. A change of the method may move
 them by its accuracy, which is the tolerance; more than that wants a reason.
 """
 

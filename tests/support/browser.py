@@ -40,7 +40,7 @@ def find_browser():
 
 
 class Browser:
-    """One page.  `events` holds what the browser told on its own, newest last."""
+    """One page.  `events` contains the messages that the browser sent by itself, newest last."""
 
     def __init__(self, path, flags=()):
         self.events = []
@@ -117,7 +117,7 @@ class Browser:
         ready, _, _ = select.select([self._read], [], [], max(end - time.monotonic(), 0.0))
         chunk = os.read(self._read, 1 << 16) if ready else b""
         if not chunk:
-            raise TimeoutError(f"the browser said nothing (its exit status: {self._process.poll()})")
+            raise TimeoutError(f"the browser did not answer (its exit status: {self._process.poll()})")
         *whole, self._unread = (self._unread + chunk).split(b"\0")
         for text in whole:
             message = json.loads(text)

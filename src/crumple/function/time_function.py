@@ -27,7 +27,7 @@ from crumple.function.transition import PASSAGES
 from crumple.numeric.arrays import Floats
 
 MAX_SAMPLES = 1_000_000
-"""Points of a sampled function; a tolerance that needs more is a mistake."""
+"""Points of a sampled function; a tolerance that needs more is refused."""
 MAX_BREAKS = 100
 """Breaks of one function.  Each costs a time stepper a step or two; a run takes some hundred steps anyhow."""
 BREAK_SHARE = 0.01

@@ -2,7 +2,7 @@
 
 A standard gives limits that every delivery keeps, so real metal is mostly stronger: a structure is then
 stronger than the model, and its crushing forces are higher.  Where only an upper limit of yield exists (deep
-drawing steel) that is taken, and the note says so.  Every entry says where its numbers were read; `QUOTED`
+drawing steel) that is used, with a note.  Every entry gives the source of its numbers; `QUOTED`
 marks those whose text was not seen.
 """
 

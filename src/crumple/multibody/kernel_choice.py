@@ -57,7 +57,7 @@ def refuse_spatial(structure: Structure, run: Run) -> None:
     """
     reason = why_spatial(structure, placed_hinges(structure), run)
     if reason is not None:
-        what, todo = "this is computed in a plane alone", "ask for the spatial kernel in the settings"
+        what, todo = "this is available for planar motion only", "select the spatial kernel in the settings"
         raise InputError(Problem(what, reason, "a structure that moves in a plane", todo))
 
 

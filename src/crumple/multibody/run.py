@@ -1,4 +1,4 @@
-"""What a run is told, and what both kernels' runs have in common: output times, progress, status."""
+"""Settings of a run, and what both kernels' runs have in common: output times, progress, status."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ STATUS = {
 
 @dataclass(frozen=True)
 class Run:
-    """What the solver is told beside the structure: duration and output interval [s], settings, outputs."""
+    """Settings of a run: duration and output interval [s], settings, outputs."""
 
     duration: float
     every: float

@@ -1,4 +1,4 @@
-"""The multibody answer: lower, step, and say how far to believe it."""
+"""Multibody solution of a structure: model, time stepping, and checks of the result."""
 
 from __future__ import annotations
 
@@ -208,7 +208,7 @@ def _nothing_moves() -> InputError:
             "nothing can move: every part is held and no member has a hinge",
             "",
             "at least one hinge, or a part that is not clamped",
-            "add hinges to the members that shall fold",
+            "add hinges to the members that are to fold",
             "members",
         )
     )

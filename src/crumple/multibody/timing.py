@@ -16,7 +16,7 @@ LONG = 1.0
 
 
 def least_seconds(once: Callable[[], float]) -> float:
-    """Least of several wall times [s]; ``once`` does the work and says how long it took."""
+    """Least of several wall times [s]; ``once`` does the work and returns its wall time."""
     found: list[float] = []
     while not found or (len(found) < REPEATS and sum(found) < LONG):
         found.append(once())

@@ -1,4 +1,4 @@
-"""The shell answer: mesh, step, note, and say how far to believe it."""
+"""Shell solution of a structure: mesh, time stepping, notes, and checks of the result."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def solve_shell(
 
 
 def start_notes(structure: Structure, run: ShellRun) -> tuple[str, ...]:
-    """What a shell run would say before its first step: its mesh, then its warnings.
+    """Notes of a shell run before its first step: its mesh, then its warnings.
 
     Parameters
     ----------

@@ -34,7 +34,7 @@ SAVE_EVERY = 300.0
 """Wall time between two restart files [s]."""
 WATCH_EVERY = 0.5
 """Wall time between two looks at the energies [s]; a look costs about as much as ten steps."""
-TELL_EVERY = 0.1
+REPORT_INTERVAL = 0.1
 """Wall time between two calls of what watches a run that is looked at more often [s]."""
 SAME_TIME = 1e-9
 """Share of the duration below which two times are one."""
@@ -42,7 +42,7 @@ SAME_TIME = 1e-9
 
 @dataclass(frozen=True)
 class ShellRun:
-    """What the solver is told beside the structure: longest duration and output interval [s], settings."""
+    """Settings of a run: longest duration and output interval [s], settings."""
 
     duration: float
     every: float
@@ -108,7 +108,7 @@ def picture_times(run: ShellRun) -> Floats:
 
 @dataclass(frozen=True)
 class Hooks:
-    """Clock at the begin [s], and whom to tell and ask on the way."""
+    """Clock at the begin [s], and the callbacks during the run."""
 
     begin: float
     progress: Progress | None
@@ -130,7 +130,7 @@ class Stepping:
         self.ended: tuple[StageSummary, ...] = ()
         self.watch: Watch | None = None
         self.spent_before = self.first_time = 0.0
-        self.saved = self.watched = self.told = self.begin
+        self.saved = self.watched = self.reported = self.begin
         self.resumed: Saved | None = None
         if self.long_run.restart_from is not None:
             self._resume(self.long_run.restart_from)
@@ -223,14 +223,14 @@ class Stepping:
                 at, threads=self.run.threads, progress=self._look, cancel=self.cancel
             ), ""
         while self.state.time < at:
-            told = time.perf_counter() - self.told < TELL_EVERY
+            recent = time.perf_counter() - self.reported < REPORT_INTERVAL
             status = self.state.advance(
                 at,
                 threads=self.run.threads,
                 # looks lie at multiples, so that an interrupted run makes the same ones
                 steps=LOOK_STEPS - self.state.steps % LOOK_STEPS,
-                progress=None if told else self._look,
-                cancel=None if told else self.cancel,
+                progress=None if recent else self._look,
+                cancel=None if recent else self.cancel,
             )
             if not status.ok:
                 return status, ""
@@ -249,7 +249,7 @@ class Stepping:
 
     def _look(self, state: ShellState) -> None:
         """Tell the caller where the run is, and save it now and then."""
-        now = self.told = time.perf_counter()
+        now = self.reported = time.perf_counter()
         if self.progress is not None:
             self.progress(min(state.time / self.run.duration, 1.0))
         if self.long_run.watch is not None and now - self.watched > WATCH_EVERY:

@@ -10,7 +10,7 @@ For a solver:
 - ``placed_hinges(structure)`` -> `PlacedHinge` per hinge: member, station, position, direction, law, record;
   elastic joints, which have no plastic law, are among them: ``plastic_hinges(structure)`` leaves them out;
 - ``support.held`` -> freedoms held at zero, ``support.driven`` -> functions of time by driven freedom;
-- `MultibodySettings`, `ShellSettings` and `Outputs` -> what the solver is told beside the structure.
+- `MultibodySettings`, `ShellSettings` and `Outputs` -> settings of a run.
 """
 
 from crumple.structure.bending import across_plane, planar

@@ -1,7 +1,7 @@
-"""Which way a structure bends: the direction that hinges turn about where the input does not say.
+"""Plane in which a structure bends: the default hinge axis if the input does not give one.
 
 A frame whose nodes span a plane bends in it.  A straight structure bends in the plane of its members and
-of what moves or loads it: initial velocities, impulses, loads, driven supports, gravity, in this order.
+of its motion and loads: initial velocities, impulses, loads, driven supports, gravity, in this order.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from crumple.structure.parts import StructureParts
 
 
 def bending_axis(structure: StructureParts, member: str) -> Literal["y", "z"]:
-    """Section axis of a member nearest to the normal of the bending plane; "y" where nothing bends it.
+    """Section axis of a member nearest to the normal of the bending plane; "y" if nothing bends it.
 
     Parameters
     ----------
@@ -34,13 +34,13 @@ def bending_axis(structure: StructureParts, member: str) -> Literal["y", "z"]:
 
 
 def planar(structure: StructureParts) -> bool:
-    """Whether a structure lies in a plane, and nothing moves or loads it across that plane."""
+    """Whether a structure lies in a plane and has no motion or load normal to it."""
     normal = structure.bending_normal
     return normal is not None and across_plane(structure, np.asarray(normal)) is None
 
 
 def across_plane(structure: StructureParts, normal: Floats) -> str | None:
-    """Path of the first input that moves or loads a structure across a plane; None where all lies in it.
+    """Path of the first input with motion or load normal to a plane; None if all is in the plane.
 
     Parameters
     ----------

@@ -23,7 +23,7 @@ def changed(structure: Structure, values: Mapping[str, Any]) -> Structure:
     Raises
     ------
     InputError
-        If a path leads nowhere, or the changed structure is refused.
+        If a path does not exist, or the changed structure is refused.
     """
     found: Structure = _changed(
         structure, {tuple(path.split(".")): value for path, value in values.items()}, ""
@@ -37,7 +37,7 @@ def value_at(structure: Structure, path: str) -> float:
     Raises
     ------
     InputError
-        If the path leads nowhere or to something that is not a number.
+        If the path does not exist or is not that of a number.
     """
     part: Any = structure
     for head in path.split("."):
@@ -80,12 +80,10 @@ def _inside(part: Any, head: str, path: str) -> Any:
     else:
         raise InputError(_not_a_number(path, part))
     raise InputError(
-        Problem("this path leads nowhere", head, ", ".join(names), "write the path as in the input", path)
+        Problem("this path does not exist", head, ", ".join(names), "write the path as in the input", path)
     )
 
 
 def _not_a_number(path: str, part: Any) -> Problem:
     allowed = "the path of a number of the input, such as materials.steel.yield_stress"
-    return Problem(
-        "this path does not lead to a number", f"{part!r:.60}", allowed, "lengthen or shorten it", path
-    )
+    return Problem("this is not the path of a number", f"{part!r:.60}", allowed, "correct the path", path)

@@ -88,7 +88,7 @@ def frame_of(
     return _frame(tuple(map(float, first)), tuple(map(float, second)), direction, float(roll))
 
 
-# every solver asks for the same few frames again and again
+# every solver uses the same few frames repeatedly
 @remembered(4096)
 def _frame(first: Triple, second: Triple, up: Triple | None, roll: float) -> Frame:
     origin = np.asarray(first, float)
@@ -108,7 +108,7 @@ def _frame(first: Triple, second: Triple, up: Triple | None, roll: float) -> Fra
     y = cross(z, x)
     cosine, sine = np.cos(roll), np.sin(roll)
     axes = np.array([x, cosine * y + sine * z, cosine * z - sine * y])
-    # shared by all who ask
+    # shared by all callers
     origin.flags.writeable = axes.flags.writeable = False
     return Frame(origin, axes, length)
 
@@ -119,14 +119,14 @@ def cross(a: Sequence[float] | Floats, b: Sequence[float] | Floats) -> Floats:
 
 
 def plane_normal(points: Floats, reasons: Iterable[tuple[Floats, Floats]]) -> Floats | None:
-    """Normal of the plane in which a structure bends, (3,); None where nothing says so.
+    """Normal of the plane in which a structure bends, (3,); None if it is not determined.
 
     Parameters
     ----------
     points
         Ends of its members [m], (n, 3).
     reasons
-        Axis (3,) and direction (3,) of what turns and pushes it, the strongest reason first; they
+        Axis (3,) and direction (3,) of rotations and loads, the largest first; they
         decide where the points lie in line.
     """
     if len(points) < 2:

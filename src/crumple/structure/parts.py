@@ -111,7 +111,7 @@ class StructureParts(Spec):
 
     @cached_property
     def bending_normal(self) -> tuple[float, float, float] | None:
-        """Normal of the plane in which it bends; None where nothing says so."""
+        """Normal of the plane in which it bends; None if it is not determined."""
         ends = dict.fromkeys(node for member in self.members.values() for node in member.nodes)
         points = np.array([self.nodes[node] for node in ends if node in self.nodes], float)
         normal = plane_normal(points, self._turning_and_pushing())

@@ -1,4 +1,4 @@
-"""What is made of a description once and kept: sections, materials, laws and their records."""
+"""Cache of objects derived from an input: sections, materials, laws and their records."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ def remembered(size: int) -> Callable[[Callable[P, T]], Callable[P, T]]:
     def keep(function: Callable[P, T]) -> Callable[P, T]:
         kept = lru_cache(maxsize=size)(function)
         _forgetting.append(kept.cache_clear)
-        # the type of what lru_cache gives says nothing of the arguments
+        # the return type of lru_cache does not contain the arguments
         return cast(Callable[P, T], kept)
 
     return keep
 
 
 def forget() -> None:
-    """Begin anew, as a process that has solved nothing yet: a solve that is timed finds nothing made."""
+    """Clear all caches, so that a timed solution starts without cached objects."""
     for clear in _forgetting:
         clear()

@@ -10,7 +10,7 @@ from crumple.structure.schema.spec import raise_all
 
 
 class Structure(StructureParts):
-    """Parts that fit together: every name exists, every member has a length, nothing hangs in the air."""
+    """Consistent parts: every name exists, every member has a length, everything is connected."""
 
     @model_validator(mode="after")
     def _sound(self) -> Structure:

@@ -1,4 +1,4 @@
-"""A tube of example 01 that folds about -y at a known place by a known angle, as a shell run would tell it.
+"""A tube of example 01 that folds about -y at a known place by a known angle, as a shell run would give it.
 
 Rings every 10 mm.  Within the fold the sections turn linearly from 0 to the angle; beyond it they are
 carried rigidly.  Plastic strain lies in the fold alone and grows with the angle; the work is a constant

@@ -58,10 +58,10 @@ def test_every_mistake_comes_with_its_line_in_the_order_of_the_file(text):
     lines = text.splitlines()
     problems = refused(text)
     assert len(problems) == len(changes)
-    said = [new.splitlines()[-1].strip() for new in changes.values()]
+    message = [new.splitlines()[-1].strip() for new in changes.values()]
     assert all(problem.file == "a.yaml" for problem in problems)
     assert [problem.line for problem in problems] == sorted(problem.line for problem in problems)
-    for part in said:
+    for part in message:
         assert any(part in lines[problem.line - 1] for problem in problems), part
 
 
@@ -122,7 +122,7 @@ def test_filters_need_a_channel_and_enough_samples(text):
         ("{channel: node.tip.accel.z, cfc: 60}", "no channel"),
         ("{channel: node.root.acceleration.z, cfc: 60}", "no channel"),
         ("{channel: node.tip.acceleration.z, cfc: 1000}", "too coarse"),
-        ("{channel: node.tip.acceleration.z, cfc: 61}", "known choices"),
+        ("{channel: node.tip.acceleration.z, cfc: 61}", "permitted values"),
     ):
         (problem,) = refused(f"{text}  filters: {{f: {line}}}\n")
         assert what in problem.what

@@ -38,7 +38,7 @@ def test_every_example_runs_and_keeps_its_energy(path):
     assert result.energy_residual < 1e-3
 
 
-def test_the_result_says_where_it_comes_from():
+def test_the_result_has_its_provenance():
     analysis = loads(TEXT)
     result = solve(analysis)
     assert result.provenance.input_hash == input_hash(analysis)
@@ -57,12 +57,12 @@ def test_unknown_solvers_and_no_threads_are_refused():
         solve(analysis, threads=0)
 
 
-def test_progress_is_told_and_a_cancelled_run_keeps_what_it_has():
-    told = []
-    result = solve(loads(TEXT), progress=told.append)
+def test_progress_is_reported_and_a_cancelled_run_keeps_its_results():
+    reported = []
+    result = solve(loads(TEXT), progress=reported.append)
     assert result.status is Status.COMPLETE
-    assert told == sorted(told)
-    assert 0.0 <= told[0] <= told[-1] <= 1.0
+    assert reported == sorted(reported)
+    assert 0.0 <= reported[0] <= reported[-1] <= 1.0
     cancelled = solve(loads(TEXT), cancel=lambda: True)
     assert cancelled.status is Status.CANCELLED
     assert cancelled.reason == "stopped on request; the last output is at 0 s of 100 ms"
@@ -81,7 +81,7 @@ def test_a_filtered_channel_is_that_of_the_equally_spaced_samples():
     assert np.max(np.abs(result["smooth"] - raw)) > 1e-3 * np.max(np.abs(raw))
 
 
-def test_a_run_that_ended_early_says_which_filters_it_lacks():
+def test_a_run_that_ended_early_reports_missing_filters():
     analysis = loads(TEXT + "  filters: {smooth: {channel: node.tip.velocity.z, cfc: 60}}\n")
     whole = solve(analysis)
     channels = {name: replace(channel, values=channel.values[:3]) for name, channel in whole.channels.items()}

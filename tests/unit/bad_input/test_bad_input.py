@@ -1,4 +1,4 @@
-"""Bad input files: each is refused with one clear message that names the place and says what is allowed."""
+"""Bad input files: each is refused with one clear message that gives the path and what is allowed."""
 
 import os
 from pathlib import Path
@@ -319,7 +319,7 @@ def test_a_curve_outside_the_folder_of_the_input_file_is_refused(tmp_path, kind)
     assert check(file) == []
 
 
-def test_what_is_no_regular_file_is_told_so(tmp_path):
+def test_a_path_that_is_not_a_regular_file_is_reported(tmp_path):
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
     for path in (pipe, Path("/dev/null")):

@@ -296,7 +296,7 @@ def test_what_is_in_the_way_of_a_result_is_found_before_the_run(
     assert [path.name for path in tmp_path.iterdir()] == [name]
 
 
-def test_a_full_disk_is_told_without_private_names(run_command, tmp_path: Path, monkeypatch) -> None:
+def test_a_full_disk_is_reported_without_temporary_names(run_command, tmp_path: Path, monkeypatch) -> None:
     import crumple.result
 
     def full(result, folder):
@@ -309,13 +309,15 @@ def test_a_full_disk_is_told_without_private_names(run_command, tmp_path: Path, 
     assert "private" not in err
 
 
-def test_a_place_where_no_folder_can_be_made_is_told(run_command) -> None:
+def test_a_path_where_no_folder_can_be_created_is_reported(run_command) -> None:
     code, _, err = run_command("run", EXAMPLE, "--out", "/proc/results")
     assert code == 2
     assert "cannot be written to /proc/results: No such file or directory" in err
 
 
-def test_help_tells_every_exit_code(run_command) -> None:
+def test_help_lists_every_exit_code(run_command) -> None:
     _, out, _ = run_command("--help")
-    told = " ".join(out.split())
-    assert all(text in told for text in ("0 done", "1 a run", "2 the input, or the folder", "130 ended by"))
+    reported = " ".join(out.split())
+    assert all(
+        text in reported for text in ("0 done", "1 a run", "2 the input, or the folder", "130 ended by")
+    )

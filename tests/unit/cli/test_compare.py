@@ -38,9 +38,9 @@ def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
     assert "times faster" in run.stdout
     assert "Solved again, multibody took" in run.stdout
     assert "Caution" in run.stdout
-    said = " ".join(run.stdout.split())
-    assert "Curve bench (test.csv): member.tube.chord_rotation rated 0." in said
-    assert "hinge.root.moment is in m, but in N*m in the results" in said
+    message = " ".join(run.stdout.split())
+    assert "Curve bench (test.csv): member.tube.chord_rotation rated 0." in message
+    assert "hinge.root.moment is in m, but in N*m in the results" in message
     for name in ("multibody", "shell"):
         summary = json.loads((tmp_path / "out" / name / "summary.json").read_text())
         assert summary["fidelity"] == name
@@ -95,7 +95,7 @@ def test_a_stopped_first_run_keeps_the_second_away(tmp_path: Path, monkeypatch, 
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "wanted"),
     [
         (("--curve", "nothing"), "is not name=file.csv"),
         (("--curve", "a=missing.csv"), "there is no such file"),
@@ -108,16 +108,16 @@ def test_a_stopped_first_run_keeps_the_second_away(tmp_path: Path, monkeypatch, 
         (("--second-mesh", "9"), "of member tube, with --second-mesh 9"),
     ],
 )
-def test_bad_requests_are_refused_before_anything_is_solved(tmp_path: Path, arguments, says) -> None:
+def test_bad_requests_are_refused_before_anything_is_solved(tmp_path: Path, arguments, wanted) -> None:
     run = crumple("compare", coarse(tmp_path, 12), "--out", tmp_path / "out", *arguments)
     assert run.returncode == 2
-    assert says in run.stderr
+    assert wanted in run.stderr
     assert "Traceback" not in run.stderr
     assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize("name", ["multibody", "shell"])
-def test_what_is_in_the_way_is_told_before_anything_is_solved(tmp_path: Path, name: str) -> None:
+def test_an_unusable_output_path_is_reported_before_solving(tmp_path: Path, name: str) -> None:
     out = tmp_path / "out"
     out.mkdir()
     (out / name).write_text("in the way")
@@ -145,10 +145,10 @@ def test_an_interrupted_comparison_goes_on(tmp_path: Path, monkeypatch, capsys) 
         with pytest.raises(SystemExit) as ended:
             main()
     assert ended.value.code == 1
-    said = " ".join(capsys.readouterr().out.split())
+    message = " ".join(capsys.readouterr().out.split())
     saved = parts / "shell" / "restart.npz"
-    assert f"Continue with the same command and --restart {saved}" in said
-    assert "ms, which both contain, are compared" in said
+    assert f"Continue with the same command and --restart {saved}" in message
+    assert "ms, which both contain, are compared" in message
     assert (parts / "report.html").is_file()
     words = ["compare", file, "--threads", 1, "--no-variants", "--out"]
     assert crumple(*words, whole, "--restart", tmp_path / "none.npz").returncode == 2
@@ -166,7 +166,7 @@ def test_the_table_shows_the_hinges_that_absorbed_most(monkeypatch, capsys) -> N
     found = compare(shell, shell, case.structure)
     monkeypatch.setattr("crumple.cli.compare.MOST_HINGES", 1)
     _show(found, Path("out"))
-    said = capsys.readouterr().out
-    table = said[: said.index("1 of 2 hinges, those with the largest absorbed energy")]
+    message = capsys.readouterr().out
+    table = message[: message.index("1 of 2 hinges, those with the largest absorbed energy")]
     assert "tube at" in table
     assert "root" not in table.partition("Hinge")[2]

@@ -61,9 +61,7 @@ def test_run_writes_results_and_pictures(tmp_path: Path) -> None:
     assert not (out / "restart.npz").exists()
 
 
-def test_run_told_to_end_can_be_read_and_goes_on_with_the_same_bits(
-    tmp_path: Path, monkeypatch, capsys
-) -> None:
+def test_an_interrupted_run_can_be_read_and_continues_bitwise(tmp_path: Path, monkeypatch, capsys) -> None:
     file, whole, parts = coarse(tmp_path, 60), tmp_path / "whole", tmp_path / "parts"
     assert crumple("run", file, "--fidelity", "shell", "--out", whole, "--threads", 1).returncode == 0
 
@@ -96,7 +94,7 @@ def test_restart_is_for_shells(tmp_path: Path) -> None:
     assert "only shell runs" in run.stderr
 
 
-def test_news_tell_time_step_energies_and_end() -> None:
+def test_status_line_contains_time_step_energies_and_end() -> None:
     text = status_line(MOMENT)
     for part in ("20 of 100 ms", "step 0.75 us", "kinetic 12.3 J", "about 75 s left"):
         assert part in text

@@ -112,9 +112,9 @@ def test_waiting_of_the_reference_is_reported(case, multibody, share, seconds, r
     found = replace(
         compare(multibody, folded_result(solve_seconds=seconds), case.structure), busy_share=share
     )
-    said = "The threads of the shell run were busy for 50 % of its solve time"
-    assert busy_note(found).startswith(said) is reported
-    assert (said in speed_table(found).caption) is reported
+    message = "The threads of the shell run were busy for 50 % of its solve time"
+    assert busy_note(found).startswith(message) is reported
+    assert (message in speed_table(found).caption) is reported
 
 
 def test_curves_are_paired_by_name_and_the_rest_is_named(case, multibody):
@@ -163,8 +163,8 @@ def test_a_second_mesh_shows_how_accurate_the_reference_is(case, multibody):
     near, far = (folded_result(largest=largest) for largest in (0.605, 0.7))
     for other, doubtful in ((near, False), (far, True)):
         trust = compare(multibody, shell, case.structure, variants={"shell, 10 mm": other}).trust
-        said = trust.cautions if doubtful else trust.facts
-        assert any("On another mesh (shell, 10 mm" in text for text in said)
+        message = trust.cautions if doubtful else trust.facts
+        assert any("On another mesh (shell, 10 mm" in text for text in message)
         assert not any("one mesh" in text for text in (*trust.facts, *trust.cautions))
 
 
@@ -260,9 +260,9 @@ def test_hinges_that_open_in_one_result_alone_are_reported_together():
 
 def test_jamming_and_contact_are_reported(case, multibody):
     found = compare(multibody, folded_result(largest=1.6, contact=0.05), case.structure)
-    said = " ".join(found.trust.cautions)
-    assert "beyond the jamming angle of its law" in said
-    assert "Walls touch" in said
+    message = " ".join(found.trust.cautions)
+    assert "beyond the jamming angle of its law" in message
+    assert "Walls touch" in message
     assert found.trust.level == "bad"
 
 

@@ -65,7 +65,7 @@ def test_monotonic_and_between_the_levels(kind, h0: float, h1: float) -> None:
 
 @pytest.mark.parametrize("name", list(PASSAGES))
 def test_continuity_at_both_ends(name: str) -> None:
-    """Value, slope, and for STEP5 the second derivative, approach zero change as fast as their order says."""
+    """Value, slope, and for STEP5 the second derivative, approach zero change at the rate of their order."""
     f, slope, _ = PASSAGES[name]
     order = {"step": 2, "step5": 3, "havsin": 2}[name]
     for small in (1e-2, 1e-3):

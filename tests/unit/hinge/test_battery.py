@@ -6,7 +6,7 @@ Every case is solved on every section that is drawn, so a law that refuses one f
 - Sections beyond a law's range: `SECTIONS` brings those drawn into it.  The refusals have a test at the end.
 - A turned section has the law of the other axis: not for profiles, whose axis is their own, nor for circular
   tubes, which have no other axis.
-- Both senses alike: not for the cases in `ASYMMETRIC`, which must say that they are not symmetric.
+- Both senses alike: not for the cases in `ASYMMETRIC`, which must have `symmetric` false.
 - Laws of crushing and of torsion: tests/verification/hinge/test_axial_crushing.py, test_torsion_collapse.py.
 - Unloading on the elastic line, dissipation and history belong to the kernels:
   tests/unit/core/spatial/test_hinge_element.py.
@@ -250,7 +250,7 @@ def test_energy_grows_and_its_slope_is_the_capacity(case, section, shares, sense
 
 
 @every_case
-def test_law_says_where_it_comes_from_and_how_far_it_goes(case, section, shares, sense):
+def test_law_has_a_source_and_a_range_of_validity(case, section, shares, sense):
     law = law_of(case, section)
     assert isinstance(law, HingeLaw)
     assert law.name == case[0]
@@ -264,7 +264,7 @@ def test_law_says_where_it_comes_from_and_how_far_it_goes(case, section, shares,
         assert "valid up to" in law.validity.warning_at(law.validity.rotation_max + 0.01)
     # beyond jamming no law is valid
     assert law.jamming_angle is None or law.validity.rotation_max <= law.jamming_angle
-    # a law that is constant for good says that it is
+    # a law that stays constant has a finite range or a warning
     if law.moment_capacity(math.pi, sense) == law.moment_capacity(3.0, sense):
         assert math.isfinite(law.validity.rotation_max) or law.validity.warnings
 

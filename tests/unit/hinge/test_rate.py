@@ -28,7 +28,7 @@ def test_no_rate_law_is_no_effect():
     np.testing.assert_array_equal(rate_factor(None, [0.0, 1.0, -5.0]), 1.0)
 
 
-def test_a_fold_takes_the_flow_pair_and_says_so_when_it_is_missing():
+def test_a_fold_uses_the_flow_pair_and_warns_if_it_is_missing():
     yielding, flowing = CowperSymonds(40.4, 5.0), CowperSymonds(6844.0, 3.91)
     assert KecmanLaw.of(TUBE, steel(yield_rate=yielding, flow_rate=flowing)).rate == hinge_rate(flowing)
     without = KecmanLaw.of(TUBE, steel(yield_rate=yielding))

@@ -35,7 +35,7 @@ def test_options_are_listed():
 
 
 @pytest.mark.parametrize(
-    ("name", "section", "options", "said"),
+    ("name", "section", "options", "message"),
     [
         ("kecmann", TUBE, {}, "unknown hinge law"),
         ("kecman", TUBE, {"weight": 1.0}, "unknown option"),
@@ -53,8 +53,8 @@ def test_options_are_listed():
         ("file", TUBE, {}, "text: the law file needs more"),
     ],
 )
-def test_what_cannot_be_is_refused(name, section, options, said):
-    with pytest.raises(InputError, match=said):
+def test_what_cannot_be_is_refused(name, section, options, message):
+    with pytest.raises(InputError, match=message):
         build_law(name, section, STEEL, **options)
 
 

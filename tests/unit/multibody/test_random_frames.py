@@ -107,7 +107,7 @@ def hinged(draw, name, pair, nodes):
 
 
 def solved(parts):
-    """Result of a frame, None where it is refused for a reason that is told."""
+    """Result of a frame, None if it is refused with a reason."""
     try:
         whole = structure(**parts)
         if not link(whole).bodies:

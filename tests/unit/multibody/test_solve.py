@@ -97,7 +97,7 @@ def test_nothing_moves_is_refused():
         solve_multibody(structure(members=members, supports=CLAMP), RUN)
 
 
-def test_motion_that_does_not_fit_is_told():
+def test_incompatible_initial_motion_is_reported():
     """A translation of a clamped bar with one hinge loses what the hinge cannot follow."""
     velocity = [{"translation": (3.0, 0.0, 3.0)}]
     result = solve_multibody(structure(initial_velocity=velocity, masses=PAYLOAD), RUN)

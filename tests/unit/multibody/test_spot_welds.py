@@ -44,7 +44,7 @@ def test_bars_without_the_weld_are_two():
 
 
 def test_a_hinge_between_two_spots_cannot_turn():
-    with pytest.raises(InputError, match="joined rigidly elsewhere"):
+    with pytest.raises(InputError, match="rigidly connected elsewhere"):
         solve_multibody(lapped(("own", "c", {"offset": 0.1})), Run(1e-3, 1e-3))
 
 

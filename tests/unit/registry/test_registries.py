@@ -89,7 +89,7 @@ def test_names_alone_import_neither_shapes_nor_laws():
     assert done.stdout.split() == ["rectangular_tube", "[]"]
 
 
-def test_keys_say_what_a_function_says_once():
+def test_keys_have_the_text_of_the_function():
     def made(first: float, *, colour: str = "red", second: int = 2) -> None:
         """Thing of two numbers.
 

@@ -168,7 +168,7 @@ def test_a_run_that_ended_at_once_has_a_page(tmp_path, shapes):
         assert f"only the first {1e3 * end:.4g} ms, which both contain, are compared" in page
 
 
-def test_the_page_says_what_was_found(page, found):
+def test_the_page_contains_the_comparison(page, found):
     text = page.read_text(encoding="utf-8")
     assert len(text) < LARGEST_PAGE
     for expected in (

@@ -51,7 +51,7 @@ def _page(tmp_path):
     return write_report(tube_result(), source, tmp_path).read_text(encoding="utf-8")
 
 
-def test_the_page_says_what_came_out(page):
+def test_the_page_contains_the_results(page):
     text = Elements(page).text
     for expected in (
         "Steel tube thrown at 15 rad/s, bending about its weak axis",

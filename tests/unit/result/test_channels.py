@@ -67,7 +67,7 @@ def test_names_of_one_hinge_leave_its_components_out():
 @pytest.mark.parametrize(
     ("example", "given_by"), [("01_tube_bending", {"", "M"}), ("11_front_rails", {"", "M", "MS", "MS, S"})]
 )
-def test_the_last_column_says_who_gives_a_channel(example, given_by):
+def test_the_last_column_names_the_solvers_of_a_channel(example, given_by):
     analysis = crumple.load(Path(f"examples/{example}.yaml"))
     result = crumple.solve(analysis)
     asked = {*analysis.outputs.section_rotations, *analysis.outputs.distances, *analysis.outputs.filters}

@@ -1,4 +1,4 @@
-"""A result answers by channel name, sums up its outputs, filters, compares and says what it lacks."""
+"""A result gives channels by name, summarises its outputs, filters, compares and reports missing channels."""
 
 import json
 import math

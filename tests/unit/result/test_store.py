@@ -57,7 +57,7 @@ def test_a_result_of_format_1_without_axial_channels_has_no_note(tube, tmp_path)
     assert read(tmp_path).equals(tube)
 
 
-def test_the_summary_says_its_format(tube, tmp_path):
+def test_the_summary_contains_its_format(tube, tmp_path):
     write(tube, tmp_path)
     summary = json.loads((tmp_path / "summary.json").read_text())
     with h5py.File(tmp_path / "result.vtkhdf") as file:

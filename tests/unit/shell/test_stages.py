@@ -142,7 +142,7 @@ def test_interrupted_sequence_goes_on_with_the_same_bits(tmp_path, monkeypatch):
          "until": [{"energy": 1e6}]},
     ]  # fmt: skip
     given = given.model_copy(update={"masses": cantilever(masses={"m": {"node": "tip", "mass": 1.0}}).masses})
-    monkeypatch.setattr("crumple.shell.stepping.TELL_EVERY", 0.0)
+    monkeypatch.setattr("crumple.shell.stepping.REPORT_INTERVAL", 0.0)
     looks = count()
     whole = solve_shell(given, run(stages), cancel=lambda: next(looks) < 0)
     assert 0 < whole.stages[0].end < 3e-3

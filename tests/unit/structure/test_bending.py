@@ -1,4 +1,4 @@
-"""Hinges turn about the section axis across the plane of bending unless told otherwise."""
+"""Hinges rotate about the section axis normal to the plane of bending, unless another axis is given."""
 
 from __future__ import annotations
 

@@ -15,6 +15,6 @@ def test_gallery(tmp_path):
         assert len(svg.encode()) <= LARGEST_SVG
         assert f"(gallery/{exhibit.key}.svg)" in text
     assert "typical, not design values" in text
-    # every law says its trust, every capacity is a number
+    # every law has a trust level, every capacity is a number
     assert len(re.findall(r"\((derived|quoted|measured|assumed|published)\)", text)) >= 2 * len(EXHIBITS)
     assert "nan" not in text.lower().split()

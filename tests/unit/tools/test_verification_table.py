@@ -1,4 +1,4 @@
-"""The pages of the verification: what their tool makes of a test run, and that every module says its kind."""
+"""The pages of the verification: output of their tool for a test run, and every module names its kind."""
 
 import ast
 import json
@@ -22,7 +22,7 @@ DOC = (
 
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: path.stem)
-def test_every_module_says_its_kind_and_source(path):
+def test_every_module_names_its_kind_and_source(path):
     doc = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8")))
     assert checks_of(str(path), doc)
     # the table has a line of its own for each
@@ -30,7 +30,7 @@ def test_every_module_says_its_kind_and_source(path):
 
 
 @pytest.mark.parametrize(
-    ("line", "said"),
+    ("line", "message"),
     [
         ("", "lacks a line"),
         ("Kind: guess.  Source: read.", "guess: allowed are closed form"),
@@ -38,8 +38,8 @@ def test_every_module_says_its_kind_and_source(path):
         ("Kind: published; invariant.  Source: read.", "2 kinds of check, 1 sources"),
     ],
 )
-def test_refuses_modules_that_do_not(line, said):
-    with pytest.raises(SystemExit, match=said):
+def test_refuses_modules_that_do_not(line, message):
+    with pytest.raises(SystemExit, match=message):
         checks_of("test_x.py", f"Title.\n\n{line}\n")
 
 

@@ -81,7 +81,7 @@ def test_superfolding_constants_belong_to_one_minimum(record_figure):
 
 
 @every_law
-def test_law_says_where_it_comes_from(name, section):
+def test_law_has_a_source(name, section):
     law = build_axial_law(name, section, STEEL)
     assert isinstance(law, AxialLaw)
     assert law.name == name

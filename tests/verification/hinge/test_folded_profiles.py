@@ -123,7 +123,7 @@ def test_short_lips_lead_to_the_plain_channel(share):
     )
 
 
-def test_senses_compress_the_sides_that_they_say():
+def test_each_sense_compresses_the_documented_side():
     # crown up: positive rotation about y compresses the open side, whose face are the two flanges
     hat = build_law("folded_profile", Hat(0.05, 0.04, 0.001, 0.02), STEEL, "y")
     assert hat.positive.mechanism.compressed_face == pytest.approx(0.04)

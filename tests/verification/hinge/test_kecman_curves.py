@@ -117,7 +117,7 @@ def test_energy_beside_finite_elements(record_figure):
         values = [absorbed_energy(law("flat", weight), np.radians(degrees)) for weight in (0.0, 1.0)]
         for value, expected, weight in zip(values, (light, full), (0, 1), strict=True):
             record_figure(f"flat, weight {weight}: energy to {degrees} deg", value, expected, 0.51, "J")
-        # what crumple.hinge.bending.kecman_range says: -9 to +3 % with weight 0, +6 to +11 % with weight 1
+        # as stated in crumple.hinge.bending.kecman_range: -9 to +3 % with weight 0, +6 to +11 % with weight 1
         assert -0.095 < values[0] / elements - 1 < 0.035
         assert 0.05 < values[1] / elements - 1 < 0.115
 

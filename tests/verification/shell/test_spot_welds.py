@@ -80,9 +80,9 @@ def test_a_plate_peels_off_a_hat_from_the_loaded_end(record_figure):
     record_figure("energy residual", result.energy_residual, 0.0, 1e-2)
     work = result["energy.external_work"][-1]
     record_figure("hourglass over work", result["energy.hourglass"].max() / work, 0.0, 0.02)
-    told = [text for text in result.warnings if "failed" in text]
-    assert len(told) == 2
-    for text in told:
+    reported = [text for text in result.warnings if "failed" in text]
+    assert len(reported) == 2
+    for text in reported:
         places = [float(part.split(",")[0]) for part in text.split("the one at (")[1:]]
         assert places == sorted(places, reverse=True)
     # both flanges alike

@@ -47,8 +47,8 @@ def test_tip_led_aside(record_figure):
     record_figure("hinge", result.hinges["root"].rotation_final, rotation, 1e-4, "rad", relative=True)
     record_figure("work", result["energy.external_work"][-1], MOMENT * rotation, 2e-4, "J", relative=True)
     t = result.time
-    told = -0.3 * (1 - np.cos(np.pi * np.minimum(t / 0.1, 1.0))) / 2
-    worst = float(np.abs(result["node.tip.displacement.z"] - told).max())
+    reported = -0.3 * (1 - np.cos(np.pi * np.minimum(t / 0.1, 1.0))) / 2
+    worst = float(np.abs(result["node.tip.displacement.z"] - reported).max())
     record_figure("largest distance from the prescribed path", worst, 0.0, 1e-4, "m")
 
 
@@ -91,6 +91,6 @@ def test_kinked_motion(record_figure):
     """A table of displacements has a rate that jumps; every corner is met all the same."""
     table = {"table": {"time": [0.0, 0.02, 0.05, 0.08, 0.2], "value": [0.0, -0.1, -0.1, 0.05, 0.05]}}
     result = driven({"z": table})
-    told = np.interp(result.time, table["table"]["time"], table["table"]["value"])
-    worst = float(np.abs(result["node.tip.displacement.z"] - told).max())
+    reported = np.interp(result.time, table["table"]["time"], table["table"]["value"])
+    worst = float(np.abs(result["node.tip.displacement.z"] - reported).max())
     record_figure("largest distance from a kinked path", worst, 0.0, 2e-4, "m")

@@ -94,12 +94,12 @@ def test_a_pushed_corner_ends_at_the_limit_load(form, curve, record_figure):
     stage = Stage(name="push", kind="quasi-static", duration=1.0)
     result = solve_multibody(cube(form, curve, ABOVE * limit), Run(1.0, 0.05, stages=(stage,)))
     assert result.status is Status.LIMIT_LOAD, result.reason
-    told = re.search(r"([\d.]+) of the largest", result.reason)
-    found = ABOVE * float(told[1])
+    reported = re.search(r"([\d.]+) of the largest", result.reason)
+    found = ABOVE * float(reported[1])
     record_figure(
         f"limit load of a frame of 27 nodes over that of the static theorem, {form}", found, 1.0, 0.01
     )
     assert found == pytest.approx(1.0, abs=0.01)
-    # it goes as far as tells a collapse from a snap, and its ledger closes there
+    # it continues until a collapse and a snap-through can be distinguished, with a closed energy balance
     assert max(hinge.rotation_max for hinge in result.hinges.values()) < 1.0
     assert result.energy_residual < 1e-3

@@ -52,7 +52,7 @@ def solved(structure: Structure) -> Result:
     return solve_multibody(structure, Run(duration=0.02, every=1e-3))
 
 
-def test_what_a_roller_forbids_altogether_is_lost_and_said() -> None:
+def test_motion_blocked_by_a_roller_is_lost_and_reported() -> None:
     result = solved(propped([{"name": "root", "at": "root", "offset": 0.0}]))
     np.testing.assert_allclose(result["energy.kinetic"], 0.0, atol=1e-9)
     np.testing.assert_allclose(result["energy.external_work"], 0.0, atol=1e-12)

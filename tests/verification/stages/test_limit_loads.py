@@ -96,10 +96,10 @@ def test_loss_of_equilibrium_names_the_limit_load(structure, form, record_figure
     whole, _ = structure({**SOFT, "form": form})
     result = pushed(whole)
     assert result.status is Status.LIMIT_LOAD
-    told = re.search(r"ended ([\d.]+) ms into stage push .* ([\d.]+) of the largest", result.reason)
-    assert told, result.reason
-    found = ABOVE * float(told[2])
-    assert found == pytest.approx(ABOVE * float(told[1]) / 1e3, rel=1e-3)
+    reported = re.search(r"ended ([\d.]+) ms into stage push .* ([\d.]+) of the largest", result.reason)
+    assert reported, result.reason
+    found = ABOVE * float(reported[2])
+    assert found == pytest.approx(ABOVE * float(reported[1]) / 1e3, rel=1e-3)
     record_figure(f"limit load that a run names, {structure.__name__}, {form}", found, 1.0, 0.01)
     assert found == pytest.approx(1.0, abs=0.01)
     assert "loss of equilibrium" in result.stages[0].ended_by

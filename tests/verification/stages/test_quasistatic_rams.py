@@ -135,7 +135,7 @@ def test_rates_are_those_of_the_rotations():
 
 
 def test_push_then_impact_keeps_one_ledger(record_figure):
-    """What a later stage adds to the motion is work at that instant; what a push takes from it is told."""
+    """Motion added by a later stage is work at that instant; motion that a push removes is reported."""
     thrown = {"initial_velocity": ({"translation": (3.0, 0.0, 0.0)},)}
     hit = Stage(name="hit", duration=0.02, drive=(), obstacles=(), **thrown)
     again = Stage(name="again", kind="quasi-static", duration=0.05)
@@ -151,7 +151,7 @@ def test_push_then_impact_keeps_one_ledger(record_figure):
 
 @pytest.mark.parametrize("mass", [50.0, 5e6])
 def test_residual_counts_what_the_structure_got(mass, record_figure):
-    """A ram so heavy that its energy dwarfs everything: the residual is told on what it gives away."""
+    """A ram with a dominating energy: the residual is relative to the energy that it transfers."""
     keys = {"velocity": (4.0, 0.0, 0.0), "mass": mass, "guide": (1.0, 0.0, 0.0)}
     result = solve_multibody(portal(**keys), Run(0.03, 1e-3))
     assert result.status.ok, result.reason

@@ -50,7 +50,7 @@ _SLOTS: Mapping[str, int] = kernel.slots
 _LOOK_EVERY = 0.1
 # Point quantities by their place in the state, see native/shell/simd/layout.hpp.
 _POINT_SLOTS = {"stress_x": 0, "stress_y": 1, "stress_xy": 2, "plastic_strain": 3}
-# How the core says that a run ended, see End in native/shell/run/simulation.hpp.
+# How the core reports the end of a run, see End in native/shell/run/simulation.hpp.
 _REACHED, _NOT_FINITE, _COLLAPSED, _TORN, _INVERTED = 1, 2, 3, 4, 5
 _ENDS = {
     _NOT_FINITE: Status.NOT_FINITE,
@@ -135,7 +135,7 @@ class ShellState:
             return f"element {element} is inverted: a corner has crossed it at {self.time:.6g} s"
         if self._core.end == _TORN:
             what = f"element {element} strained by more than a third in one step"
-            return f"the run has gone astray: {what} at {self.time:.6g} s"
+            return f"the solution has diverged: {what} at {self.time:.6g} s"
         return ""
 
     @property

@@ -1,4 +1,4 @@
-"""What a kernel's run comes to, before it is told: the same for both kernels."""
+"""Result of a run of a kernel before it is reported: the same for both kernels."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class Solved:
     Attributes
     ----------
     outcome, reason, residual, unseen, steps, rejected, forced, solves
-        As the kernel tells them.
+        As reported by the kernel.
     time
         Output times [s], (n,).
     given, lost

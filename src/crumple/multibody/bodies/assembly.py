@@ -36,7 +36,7 @@ class Cut:
 
 @dataclass
 class Assembly:
-    """Pieces and nodes while they are joined: each has a number, and `root` tells its rigid part."""
+    """Pieces and nodes while they are joined: each has a number, and `root` gives its rigid part."""
 
     structure: Structure
     parent: list[int] = field(default_factory=list)
@@ -151,12 +151,12 @@ def idle(structure: Structure, hinge: PlacedHinge | None, joint: str | None) -> 
     """What is wrong with a hinge or joint both sides of which move as one, or not at all."""
     if hinge is not None:
         came = f"hinge {hinge.name} of member {hinge.member}"
-        what = "this hinge are held or joined rigidly elsewhere, so it cannot turn"
+        what = "this hinge are fixed or rigidly connected elsewhere, so it cannot rotate"
         where = f"members.{hinge.member}.hinges"
     else:
         came = f"joint {joint} of member {structure.joints[str(joint)].member}"
         what, where = (
-            "this joint are held or joined rigidly elsewhere, so it cannot move",
+            "this joint are fixed or rigidly connected elsewhere, so it cannot move",
             f"joints.{joint}",
         )
     return InputError(
@@ -164,7 +164,7 @@ def idle(structure: Structure, hinge: PlacedHinge | None, joint: str | None) -> 
             f"both sides of {what}",
             came,
             "hinges and joints between parts that can move against each other",
-            "take it away, or put hinges on the way around it",
+            "remove it, or put hinges into the parallel load path",
             where,
         )
     )

@@ -127,8 +127,8 @@ def refuse_speeding(velocity: Floats, impulse: Floats, mass: Floats) -> None:
     speed = np.linalg.norm(velocity + impulse / mass[:, None], axis=1)
     if speed.size and float(speed.max()) > FASTEST:
         part = float(mass[speed.argmax()])
-        what = f"the impulses throw a part of {part:.3g} kg at {float(speed.max()):.3g} m/s"
-        todo = "take smaller impulses, or more mass where they act"
+        what = f"the impulses accelerate a part of {part:.3g} kg to {float(speed.max()):.3g} m/s"
+        todo = "use smaller impulses, or more mass at their nodes"
         raise InputError(Problem(what, "", f"at most {FASTEST:g} m/s", todo, "impulses"))
 
 

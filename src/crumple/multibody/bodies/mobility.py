@@ -144,12 +144,12 @@ def notes(linkage: Linkage) -> tuple[str, ...]:
     names = [connection.name for connection in linkage.connections]
     if free.stuck:
         text = _named("Hinge or joint", "Hinges and joints", [names[i] for i in free.stuck])
-        found.append(f"{text} cannot move at the start: the loops around are too stiff.")
+        found.append(f"{text} cannot move at the start: the closed loops around prevent it.")
     if free.redundant:
         found.append(
-            f"{free.redundant} of the constraints hold what others hold already (in the loops through "
+            f"{free.redundant} of the constraints are redundant (in the loops through "
             f"{listed([names[i] for i in free.loops])}): the motion is unique, the forces across it "
-            "are not, and some of those possible are given."
+            "are not, and one possible set is given."
         )
     return tuple(found)
 
@@ -161,12 +161,12 @@ def free_parts(linkage: Linkage) -> tuple[str, ...]:
         return ()
     grounded = any(GROUND in (connection.first, connection.second) for connection in linkage.connections)
     if not grounded and rigid.motions == 6:
-        return ("Nothing holds the structure: it moves freely in space.",)
+        return ("The structure has no supports: it moves freely in space.",)
     ways = f"{rigid.motions} independent ways" if rigid.motions > 1 else "one way"
     moving = set(rigid.moving)
     names = [name for name, pieces in linkage.pieces.items() if any(p.body in moving for p in pieces)]
     return (
-        f"The supports and joints leave {ways} to move without any hinge turning "
+        f"The supports and joints leave {ways} to move without rotation of any hinge "
         f"({named_members(tuple(names))}).",
     )
 

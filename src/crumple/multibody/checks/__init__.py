@@ -1,1 +1,1 @@
-"""What an engineer must know before believing a multibody result."""
+"""Checks and warnings of multibody results."""

@@ -1,4 +1,4 @@
-"""Hinges that broke: when, under which moment, and what is left of them."""
+"""Hinges that broke: time, moment, and remaining resistance."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from crumple.multibody.answer.solved import HingeHistory
 from crumple.units import format_quantity
 
 SHOWN = 6
-"""Hinges told one by one, the first that broke."""
+"""Number of broken hinges that are reported individually, the first ones."""
 
 
 def broken_warnings(hinges: Iterable[HingeHistory]) -> list[str]:
@@ -23,23 +23,23 @@ def broken_warnings(hinges: Iterable[HingeHistory]) -> list[str]:
     """
     broke = [(*history.fracture, history) for history in hinges if history.fracture]
     broke.sort(key=lambda item: item[0])
-    found = [_told(when, moment, history) for when, moment, history in broke[:SHOWN]]
+    found = [_sentence(when, moment, history) for when, moment, history in broke[:SHOWN]]
     if len(broke) > SHOWN:
         found.append(f"{len(broke) - SHOWN} further hinges broke; their times are in the collapse log.")
     if broke:
         found.append(
-            "What follows a break is a guess: the cracked walls are not modelled, and parts that come apart, "
-            "with what they then hit, need another model."
+            "Results after a fracture are uncertain: cracked walls are not modelled, and separating parts, "
+            "with their further impacts, need another model."
         )
     return found
 
 
-def _told(when: float, moment: float, history: HingeHistory) -> str:
+def _sentence(when: float, moment: float, history: HingeHistory) -> str:
     spatial = history.hinge.spatial
     assert spatial is not None, "only these break"
     angle = math.degrees(spatial.fracture)
     axes = [freedom.label for freedom in spatial.freedoms if freedom is not Freedom.AXIAL]
-    free = f"turns freely about {_joined(axes)}"
+    free = f"rotates freely about {_joined(axes)}"
     if Freedom.AXIAL in spatial.freedoms:
         free += " and slips freely along the member"
     records = [component.record for component in spatial.components]
@@ -47,7 +47,7 @@ def _told(when: float, moment: float, history: HingeHistory) -> str:
     return (
         f"Hinge {history.hinge.name} broke at {format_quantity(when, 's')}, where its plastic rotation "
         f"reached {angle:.4g} deg under {format_quantity(moment, 'N*m')}. Since then it {free}"
-        f"{', up to its stops' if stops else ''}, and does not come apart."
+        f"{', up to its stops' if stops else ''}, and does not separate."
     )
 
 

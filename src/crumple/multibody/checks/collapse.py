@@ -90,14 +90,14 @@ def not_unique(runs: Sequence[Sequence[HingeHistory]]) -> str | None:
         gained = [name for name, value in run.items() if value > part and base[name] < part / 2.0]
         lost = [name for name, value in run.items() if value < part / 2.0 and base[name] > part]
         if gained and lost:
-            variants.append(f"{_listed(gained)} open{_s(gained)} in place of {_listed(lost)}")
+            variants.append(f"{_listed(gained)} open{_s(gained)} instead of {_listed(lost)}")
         elif gained or lost:
             names, verb = (gained, "open") if gained else (lost, "stay")
             variants.append(f"{_listed(names)} {verb}{_s(names)}{'' if gained else ' closed'}")
     if not variants:
         return None
-    told = "; or ".join(dict.fromkeys(variants))
-    return f"The mechanism is not unique. With capacities changed by 1 %: {told}."
+    changes = "; or ".join(dict.fromkeys(variants))
+    return f"The mechanism is not unique. With capacities changed by 1 %: {changes}."
 
 
 def _s(names: list[str]) -> str:

@@ -1,4 +1,4 @@
-"""Moving obstacles that pass through held parts of members: told, since held parts touch nothing.
+"""Warnings for moving obstacles that pass through held parts of members, which have no contact.
 
 A held part is the ground, and a driven obstacle is given: no force between them could change anything.  What
 hangs on the held part may then be pressed where it cannot give way, at the axis of its hinge.  Looked at is
@@ -55,8 +55,8 @@ def held_part_warnings(structure: Structure, solved: Solved) -> list[str]:
             how = f"meets {parts} at {since}" if last else f"passes through {parts} from {since} on"
             found.append(
                 f"Obstacle {name} {how}: "
-                "held parts touch nothing, so it presses what moves alone, perhaps where that "
-                "cannot give way. Use a sphere or cylinder that reaches the moving parts only, or end before."
+                "held parts have no contact, so it loads only the moving parts, perhaps where these "
+                "cannot move. Use a sphere or cylinder that reaches the moving parts only, or a shorter run."
             )
     return found
 

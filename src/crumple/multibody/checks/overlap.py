@@ -1,4 +1,4 @@
-"""Members that overlap at the start and may touch: told, since the kernel takes overlap as it stands."""
+"""Warnings for members that overlap at the start and have contact: the solver does not separate them."""
 
 from __future__ import annotations
 
@@ -35,13 +35,14 @@ def overlap_warnings(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> t
     if crossing:
         found.append(
             f"{_pairs(sorted(crossing))} cross at the start although they share no node: "
-            "they never touch each other."
+            "they have no contact with each other."
         )
-    told = {names: depth for names, depth in deepest.items() if names not in crossing}
-    if told:
+    overlapping = {names: depth for names, depth in deepest.items() if names not in crossing}
+    if overlapping:
         found.append(
-            f"{_pairs(sorted(told))} overlap at the start by up to {1e3 * max(told.values()):.3g} mm: "
-            "contact takes that as no gap; move them apart, or join them at a node."
+            f"{_pairs(sorted(overlapping))} overlap at the start by up to "
+            f"{1e3 * max(overlapping.values()):.3g} mm: "
+            "contact treats this as zero gap; move them apart, or connect them at a node."
         )
     return tuple(found)
 

@@ -1,6 +1,6 @@
-"""Results that cannot be: laws of mechanics that a run broke, and states that its members cannot carry.
+"""Impossible results: violated laws of mechanics, and states beyond the capacity of the members.
 
-A violation (dissipation that falls, a rebound that nothing pays for) ends a run with a status.  A caution is
+A violation (falling dissipation, a rebound without an energy source) ends a run with a status.  A caution is
 read before the result: forces that no wall carries, speeds that the energy does not explain, energy that
 vanished where bodies are rigid, folds that are closed.  Formulas and limits: docs/theory/result_checks.md.
 """
@@ -28,16 +28,16 @@ from crumple.structure import Structure
 from crumple.units import format_quantity
 
 FALL = 1e-3
-"""Fall of a dissipated energy over the energy put in that counts: the bound of the energy residual, so that
+"""Fall of a dissipated energy over the energy input that counts: the bound of the energy residual, so that
 what the ledger may leave open is no violation."""
 REBOUND = 0.1
-"""Energy of an obstacle's rebound over its energy at the start that nothing has to pay for: the elastic
+"""Energy of an obstacle's rebound over its energy at the start that needs no energy source: the elastic
 rebound of metal structures, which rigid bars lack, takes less."""
 FAST = 4.0
 """Speed of a node over the reference speed.  A light part struck by a heavy one at most doubles its speed, a
 lever doubles that again."""
 IMPACT = 0.1
-"""Energy lost in rigid impacts over the energy put in, from which it is told."""
+"""Energy lost in rigid impacts over the energy input, from which a warning is given."""
 STRUCK = 0.5
 """The same share from which the blow itself, a mean between outputs, is held against what folds a member."""
 
@@ -119,9 +119,9 @@ def rebounds(structure: Structure, solved: Solved) -> Iterator[Caution]:
                 "J",
                 f"obstacle {name}",
                 f"Obstacle {name} rebounds at {format_quantity(back, 'm/s', 3)} with restitution 0: the "
-                f"structure has at most {format_quantity(limit, 'J', 3)} to give back, and the rebound has "
-                f"{format_quantity(returned, 'J', 3)}. Rigid members have passed the energy "
-                "on; solve with shells.",
+                f"structure can return at most {format_quantity(limit, 'J', 3)}, and the rebound has "
+                f"{format_quantity(returned, 'J', 3)}. Rigid members have transmitted the energy "
+                "instead; solve with shells.",
                 violation=True,
             )
 
@@ -161,7 +161,7 @@ def axial_tensions(structure: Structure, solved: Solved) -> Iterator[tuple[str, 
 
 
 def fast_nodes(structure: Structure, solved: Solved, total: float) -> Iterator[Caution]:
-    """Nodes that move faster than anything that was put in explains."""
+    """Nodes that move faster than the energy input explains."""
     speeds = node_speeds(structure, solved)
     channels = {channel.name: channel.values for channel in solved.further}
     masses = [obstacle.mass for obstacle in structure.obstacles.values() if obstacle.mass is not None]
@@ -184,7 +184,7 @@ def fast_nodes(structure: Structure, solved: Solved, total: float) -> Iterator[C
         f"{named('Node', list(found))} reach{'es' if len(found) == 1 else ''} up to "
         f"{format_quantity(fastest, 'm/s', 3)}, {fastest / reference:.2g} times the "
         f"{format_quantity(reference, 'm/s', 3)} of what moves at the start or of all masses together under "
-        "the energy put in: rigid members whip through a dead centre."
+        "the energy input: rigid members accelerate strongly near a dead centre."
     )
     for node, speed in found.items():
         yield Caution("node_speed", speed, FAST * reference, "m/s", f"node {node}", text)
@@ -223,9 +223,9 @@ def impact_losses(solved: Solved, total: float) -> Iterator[Caution]:
             IMPACT * total,
             "J",
             "",
-            f"{lost:.4g} J of the {total:.4g} J put in ({lost / total:.0%}) vanish in impacts between rigid "
-            "bodies, which keep no elastic energy and do not fold where they are hit; shells show where it "
-            "goes.",
+            f"{lost:.4g} J of {total:.4g} J energy input ({lost / total:.0%}) are lost in impacts between "
+            "rigid bodies, which store no elastic energy and do not fold at the impact; a shell run shows "
+            "where it goes.",
         )
 
 
@@ -245,7 +245,7 @@ def jammed_folds(solved: Solved) -> Iterator[Caution]:
         names = named("Hinge", [history.hinge.name for history in histories])
         text = (
             f"{names} turned by {turned_by} deg; the walls jam at {math.degrees(jams):.1f} deg, and what "
-            "follows is a guess."
+            "follows is an estimate."
         )
         for history in histories:
             yield Caution(

@@ -1,4 +1,4 @@
-"""What an engineer must know before believing a multibody result: assumptions and warnings."""
+"""Assumptions and warnings of a multibody result."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ ELASTIC_SHARE = 0.05
 ERROR_SHARE = 0.01
 """Estimated error of a rotation over the largest rotation above which an engineer must know."""
 SMALL_ERROR = 1e-5
-"""Estimated error [rad] that matters to nobody, however small the rotations are."""
+"""Estimated error [rad] that is negligible, however small the rotations are."""
 SLOW_SHARE = 0.05
 """Energy taken out of the motion over that in the structure above which a stage is not quasi-static."""
 OFF_AXIS = 0.5
@@ -43,7 +43,7 @@ SPATIAL = "The motion is spatial: hinges carry rigidly what is not about their o
 
 
 def assumptions(structure: Structure, solver: Solver) -> tuple[str, ...]:
-    """Sentences stating what the model takes for granted."""
+    """Sentences with the assumptions of the model."""
     found = [
         "Members are rigid between their hinges; masses are rigid lumps.",
         PLANAR if solver.kernel == "tree" else SPATIAL,
@@ -158,8 +158,8 @@ def warnings(
 
 
 def _share(part: float) -> str:
-    """A share of the energy put in, in words where it is more than all of it."""
-    return f"{part:.0%} of the energy" if part <= 1.0 else "more than all that was put in"
+    """A fraction of the energy input, in words if it is larger than the whole."""
+    return f"{part:.0%} of the energy input" if part <= 1.0 else "more than the energy input"
 
 
 def _slowed(solved: Solved) -> list[str]:
@@ -169,8 +169,9 @@ def _slowed(solved: Solved) -> list[str]:
     if taken <= SLOW_SHARE * stored:
         return []
     return [
-        f"Quasi-static stages took {taken:.3g} J out of the motion, beside {stored:.3g} J in the structure: "
-        "it moved when they began, or snapped on the way; dynamics may carry it elsewhere."
+        f"Quasi-static stages removed {taken:.3g} J from the motion, compared with {stored:.3g} J in the "
+        "structure: "
+        "it moved when they began, or snapped through; with inertia it may move elsewhere."
     ]
 
 
@@ -187,9 +188,9 @@ def _of_hinge(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -
     jammed = law.jamming_angle is not None and summary.rotation_max > law.jamming_angle
     # a closed fold is a caution of its own
     if not jammed and summary.rotation_max > law.validity.rotation_max:
-        backed = math.degrees(law.validity.rotation_max)
+        valid = math.degrees(law.validity.rotation_max)
         basis = law.validity.basis.replace("{", "{{").replace("}", "}}")
-        found.append(f"{turned}; the law is backed up to {backed:.1f} deg only ({basis})")
+        found.append(f"{turned}; the law is valid up to {valid:.1f} deg only ({basis})")
     normal = structure.bending_normal
     if normal is not None and not _bends_both_ways(hinge):
         off = math.degrees(math.acos(min(1.0, abs(float(hinge.direction @ np.asarray(normal))))))

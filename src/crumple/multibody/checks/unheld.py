@@ -1,4 +1,4 @@
-"""Quasi-static stages whose loads move what nothing holds, seen before solving.
+"""Quasi-static stages with loads on unsupported motions, found before solving.
 
 With all hinges locked the supports and joints leave motions, see `mobility`.  Where a load or gravity has
 power in one of them there is no equilibrium at the start, whatever the hinges can carry.
@@ -40,8 +40,8 @@ def unheld_notes(structure: Structure, linkage: Linkage, stages: tuple[Stage, ..
         moving = list(dict.fromkeys(_moving(structure, linkage, stage)))
         if moving:
             found.append(
-                f"Stage {stage.name} is quasi-static, and nothing resists {' and '.join(moving)} there: "
-                f"unless a place of rest lies near by, the run ends with the status '{Status.UNHELD.value}'."
+                f"Stage {stage.name} is quasi-static, and nothing resists {' and '.join(moving)}: "
+                f"unless an equilibrium is near, the run ends with the status '{Status.UNHELD.value}'."
             )
     return tuple(found)
 

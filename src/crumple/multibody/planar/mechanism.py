@@ -244,5 +244,5 @@ def _check_inertia(bodies: tuple[RigidMass, ...], links: list[Link], plane: Plan
 
 
 def _needs_space() -> InputError:
-    what, todo = "the tree kernel does not take joints", "write kernel: auto"
+    what, todo = "the tree kernel does not support joints", "write kernel: auto"
     return InputError(Problem(what, "", "hinges and supports alone", todo, "analysis.multibody.kernel"))

@@ -120,8 +120,8 @@ def _in_plane(mechanism: Mechanism, body: int, vector: Floats, where: str) -> No
         return
     if abs(vector @ mechanism.plane.normal) > ACROSS * float(np.linalg.norm(vector)):
         normal = ", ".join(f"{value:.3g}" for value in mechanism.plane.normal)
-        what = "a floating part moves out of the plane; the multibody engine solves planar motion so far"
-        todo = "take the part across the plane away, or turn the hinges' axes"
+        what = "a floating part moves out of the plane; the multibody engine solves planar motion only"
+        todo = "remove the part normal to the plane, or change the hinges' axes"
         raise InputError(Problem(what, f"{vector}", f"motion across [{normal}]", todo, where))
 
 
@@ -144,7 +144,7 @@ def _drives(structure: Structure, mechanism: Mechanism, duration: float) -> Iter
                     "the driven direction lies across the plane of motion",
                     f"{driven.freedom} of node {driven.node}",
                     "a direction in the plane, or the rotation about its normal",
-                    "drive another freedom, or turn the hinges' axes",
+                    "drive another degree of freedom, or change the hinges' axes",
                     f"supports.{driven.support}.motion",
                 )
             )

@@ -106,8 +106,8 @@ def plane_of(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Plane:
     """
     several = next((hinge for hinge in hinges if hinge.spatial is not None), None)
     if several is not None:
-        what = f"the hinge '{several.name}' turns about several axes, slips or breaks"
-        todo, where = "leave the choice of the kernel to Crumple", f"members.{several.member}.hinges"
+        what = f"the hinge '{several.name}' has several axes, slips or breaks"
+        todo, where = "write kernel: auto", f"members.{several.member}.hinges"
         raise InputError(Problem(what, "", "hinges that bend about one axis in the plane", todo, where))
     if hinges:
         normal = hinges[0].direction
@@ -115,7 +115,7 @@ def plane_of(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Plane:
             if np.linalg.norm(cross(normal, hinge.direction)) > PARALLEL:
                 raise InputError(
                     Problem(
-                        "hinges turn about different axes; the multibody engine solves planar motion so far",
+                        "hinges turn about different axes; the multibody engine solves planar motion only",
                         f"{hinges[0].name}: {_text(normal)}, {hinge.name}: {_text(hinge.direction)}",
                         "hinges whose axes are all parallel",
                         "set axis, up or roll of the members so that their hinges' axes are parallel",

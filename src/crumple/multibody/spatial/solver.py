@@ -27,11 +27,11 @@ from crumple.multibody.spatial.case import added_motion, kernel_stage, recorded_
 from crumple.multibody.spatial.model import spatial_model, support_drives
 from crumple.multibody.spatial.off_dead_centres import off_dead_centres, with_held_moments
 from crumple.multibody.spatial.stages import (
+    end_reason,
     kernel_conditions,
     lost_equilibrium,
     refuse_floating,
     stages_of,
-    told,
 )
 from crumple.numeric.arrays import Floats
 from crumple.result import Channel, StageSummary
@@ -121,7 +121,7 @@ class SpatialSolver:
             records.append(simulation.run(times, poll))
             seconds += time.perf_counter() - clock
             conditions = kernel_conditions(self._structure, self.linkage, self._touching, stage)
-            ended = told(stage, conditions, records[-1])
+            ended = end_reason(stage, conditions, records[-1])
             stages.append(StageSummary(stage.name, begin, float(records[-1].time[-1]), ended))
             if records[-1].outcome is not Outcome.COMPLETE:
                 break

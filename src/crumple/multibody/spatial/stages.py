@@ -24,7 +24,7 @@ Conditions = list[tuple[Until, SpatialUntil]]
 SAMPLES = 1001
 """Times in a stage at which its loads are looked at."""
 MOST_LOADS = 3
-"""Loads that a sentence tells."""
+"""Number of loads in a sentence."""
 
 
 def stages_of(structure: Structure, run: Run) -> tuple[Stage, ...]:
@@ -54,8 +54,8 @@ def refuse_floating(structure: Structure, linkage: Linkage, stages: tuple[Stage,
     for i, stage in enumerate(stages):
         there = structure.obstacles if stage.obstacles is None else stage.obstacles
         if stage.kind == "quasi-static" and len(there) + pressing < 2:
-            what = f"nothing holds {named_members(floating)} in a quasi-static stage"
-            todo = "hold a node, let it rest against an obstacle, or make the stage dynamic"
+            what = f"nothing supports {named_members(floating)} in a quasi-static stage"
+            todo = "support a node, let it rest against an obstacle, or make the stage dynamic"
             problems.append(
                 Problem(what, stage.name, "parts that are held", todo, f"analysis.stages[{i}].kind")
             )
@@ -72,7 +72,7 @@ def kernel_conditions(structure: Structure, linkage: Linkage, touching: Touching
     ]
 
 
-def told(stage: Stage, conditions: Conditions, record: SpatialRecord) -> str:
+def end_reason(stage: Stage, conditions: Conditions, record: SpatialRecord) -> str:
     """What ended a stage, in words."""
     if math.isfinite(record.lost_time):
         return f"loss of equilibrium at {format_quantity(record.lost_time, 's', 4)}"
@@ -96,7 +96,7 @@ def lost_equilibrium(structure: Structure, stage: Stage, begin: float, lost: flo
         When the stage began, and when its equilibrium ended [s].
     """
     grid, since = np.linspace(0.0, stage.duration, SAMPLES), lost - begin
-    told = []
+    loads = []
     for load in structure.loads:
         for what, unit, parts in (("force", "N", load.force), ("moment", "N*m", load.moment)):
             for axis in "xyz":
@@ -106,12 +106,12 @@ def lost_equilibrium(structure: Structure, stage: Stage, begin: float, lost: flo
                 value, largest = float(function(np.array([since]))[0]), float(np.abs(function(grid)).max())
                 if largest > 0.0:
                     factor = f"{abs(value) / largest:.4g} of the largest in the stage"
-                    told.append(f"{what} {axis} on {load.node} {format_quantity(value, unit, 4)}, {factor}")
-    shown = [*told[:MOST_LOADS], *([f"{len(told) - MOST_LOADS} more loads"] if told[MOST_LOADS:] else [])]
+                    loads.append(f"{what} {axis} on {load.node} {format_quantity(value, unit, 4)}, {factor}")
+    shown = [*loads[:MOST_LOADS], *([f"{len(loads) - MOST_LOADS} more loads"] if loads[MOST_LOADS:] else [])]
     under = "; ".join(shown) or "gravity alone"
     return (
-        f"Equilibrium ended {format_quantity(since, 's', 4)} into stage {stage.name} ({under}). What follows "
-        "shows where it goes; motion there needs a dynamic stage, or a drive instead of the load."
+        f"Equilibrium ended {format_quantity(since, 's', 4)} into stage {stage.name} ({under}). Later "
+        "results only show the direction; to follow the motion use a dynamic stage, or a drive for the load."
     )
 
 

@@ -57,7 +57,7 @@ def step_of(base: Case, name: str, step: float | None, share: float) -> float:
     if step is None:
         step = share * (base.model.length if name.startswith("nodes.") else abs(value))
     if not step > 0.0:
-        what, todo = "no step follows from a parameter that is zero", "give its step: {path: step}"
+        what, todo = "the step of a parameter that is zero is not defined", "give its step: {path: step}"
         raise InputError(Problem(what, f"{name} = {value:g}", "a step > 0", todo, name))
     return step
 
@@ -73,5 +73,7 @@ def cases_beside(batch: Batch, base: Case, name: str, step: float) -> tuple[Case
     value = value_at(base.structure, name)
     above, below = (batch.case(changed(base.structure, {name: end})) for end in (value + step, value - step))
     if above.topology != base.topology or below.topology != base.topology:
-        raise InputError(Problem("moving this parameter joins other parts", name, "", "leave it out", name))
+        raise InputError(
+            Problem("a change of this parameter connects other parts", name, "", "omit it", name)
+        )
     return above, below

@@ -5,8 +5,8 @@ A parameter is a path in the input (``materials.steel.yield_stress``, ``sections
 ``loads``, ``gravity`` and ``hinges.NAME.capacity``, which multiply what the structure has.
 
 Factors and masses only scale arrays of the kernel, so they cost nothing.  Every other distinct
-combination of values is lowered once, its laws sampled anew.  The kernel then solves all variants without
-Python in between.
+combination of values is lowered once, with its laws sampled again.  The kernel then solves all variants
+without Python in between.
 """
 
 from __future__ import annotations
@@ -39,10 +39,10 @@ from crumple.structure import Structure, changed, placed_hinges
 REASONS = {
     Outcome.REFUSED: "masses, inertias and capacities must be positive, and every value finite",
     Outcome.STEP_COLLAPSED: "the equations of a step did not converge at the smallest step",
-    Outcome.NOT_FINITE: "the place of a body is not a number",
-    Outcome.UNHELD: "loads or gravity move it in a quasi-static stage, and nothing resists",
+    Outcome.NOT_FINITE: "the position of a body is not a number",
+    Outcome.UNHELD: "loads or gravity move it in a quasi-static stage without resistance",
     Outcome.STALLED: "the run hardly advanced any more",
-    Outcome.LIMIT_LOAD: "loads or gravity pass what the structure can carry in a quasi-static stage",
+    Outcome.LIMIT_LOAD: "loads or gravity exceed the limit load of the structure in a quasi-static stage",
 }
 
 
@@ -165,7 +165,7 @@ def _columns(
             allowed = f"one value, or {count} as the longest has"
             problems.append(Problem("parameters differ in length", f"{column.shape}", allowed, "", name))
     if count == 0:
-        what, todo = "no parameter is varied", "name at least one"
+        what, todo = "no parameter is varied", "give at least one"
         problems.append(Problem(what, "", "a path of the input, or a factor", todo, "parameters"))
     if problems:
         raise InputError(problems)
@@ -198,7 +198,7 @@ def _cases(
             new = changed(structure, dict(zip(slow, map(float, combined), strict=True)))
             case = batch.case(new, moved=moved)
             if case.topology != base.topology:
-                raise InputError("these values join other parts than the structure's own")
+                raise InputError("these values connect other parts than in the structure")
         except InputError as error:
             failed[i] = str(error)
             continue

@@ -134,7 +134,7 @@ def graph_problems(skeleton: Skeleton, walls: Sequence[Wall]) -> list[Problem]:
     """Problems of walls among each other: crossings, overlaps, gaps, folds, stubs, loose parts."""
     flats = [edge for edge, piece in enumerate(skeleton.pieces) if not piece.radius and piece.thickness > 0.0]
     problems = _crossings(skeleton, walls, flats) if flats else []
-    # a crossing is an overlap too: say it once
+    # a crossing is also an overlap: report it once
     problems = problems or (_overlaps(skeleton, walls, flats) if flats else [])
     problems += _gaps(skeleton, walls, flats)
     problems += _folds(skeleton, walls)

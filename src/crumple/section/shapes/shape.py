@@ -1,4 +1,4 @@
-"""What a section shape says of itself beside its geometry."""
+"""Description of a section shape besides its geometry."""
 
 from __future__ import annotations
 

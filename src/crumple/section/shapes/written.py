@@ -34,7 +34,7 @@ def written_section(text: str, allowed: str = "") -> Section:
     text
         The line.
     allowed
-        What a message says is possible where the shape itself is not known.
+        Permitted text in a message if the shape is not known.
 
     Raises
     ------

@@ -16,7 +16,7 @@ from crumple.section.walled import WalledSection
 from crumple.shell.mesh.profile import SHORTEST_BEND, Contour, number_of_sides
 
 LARGEST_BEND = math.radians(150.0)
-"""Turn up to which arcs are drawn together [rad]: below 180 degrees a chord tells the angle."""
+"""Angle up to which arcs are drawn together [rad]: below 180 degrees the chord determines the angle."""
 
 
 def walled_contour(section: WalledSection, size: float) -> Contour:

@@ -67,7 +67,7 @@ def velocity_of(function: TimeFunction, duration: float, begin: float = 0.0) -> 
     left, right = function.derivative(at[:-1]), function.derivative(at[1:] - BEFORE * step)
     shift = np.diff(value) / step - (left + right) / 2
     at = begin + at
-    # a jump takes the least time that a number can tell
+    # a jump takes the smallest time difference of a floating-point number
     ends = np.append(np.nextafter(at[1:-1], 0.0), at[-1:])
     times = np.column_stack([at[:-1], ends]).reshape(-1)
     return times, np.column_stack([left + shift, right + shift]).reshape(-1)

@@ -104,7 +104,7 @@ def rebound_damping(restitution: float) -> float:
 
     References
     ----------
-    Schwager and Poeschel, Granular Matter 9 (2007) 465; derived anew in docs/theory/contact.md.  Verified in
+    Schwager and Poeschel, Granular Matter 9 (2007) 465; derivation in docs/theory/contact.md.  Verified in
     tests/unit/shell/model/test_heavy_lumps.py.
     """
     wanted = max(restitution, LEAST_REBOUND)

@@ -100,7 +100,7 @@ class SupportCut:
     elements, nodes
         The cut: elements, and the nodes on which they act.
     about
-        Of a rigid part: the node [m], (3,), about which moments are told; None: about the cut's middle.
+        Of a rigid part: the node [m], (3,), for the moments; None: about the cut's middle.
     stays
         Whether that place is held.
     """

@@ -1,1 +1,1 @@
-"""Mistakes that no part shows alone."""
+"""Checks between several parts."""

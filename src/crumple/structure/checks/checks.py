@@ -1,6 +1,6 @@
-"""Mistakes that no part shows alone: names that do not exist, members without length, masses in the air.
+"""Checks between several parts: names that do not exist, members without length, unconnected masses.
 
-A check looks at a structure whose parts are valid one by one and gives every problem it finds.  Names may be
+A check takes a structure whose parts are valid one by one and returns every problem.  Names may be
 passed that exist in the input but whose parts were refused, so that one mistake is not reported twice.
 """
 
@@ -56,7 +56,7 @@ def problems_in(
         Names per kind (``nodes``, ``members``, ...) that exist even if their parts are missing here; None:
         those of the structure.
     complete
-        False where parts were refused: what is missing then proves nothing.
+        False if parts were refused: a missing part is then not a mistake.
     """
     given = defined or {}
     known = {kind: {*getattr(structure, kind), *given.get(kind, ())} for kind in KINDS}
@@ -121,7 +121,7 @@ def _shape_problems(corners: Floats, where: str) -> Iterator[Problem]:
 def shell_problems(
     settings: ShellSettings, structure: StructureParts, defined: Names | None = None
 ) -> list[Problem]:
-    """Fine places of members that do not exist, or outside them; what does nothing in this structure."""
+    """Fine-mesh positions outside members or on unknown members; settings without effect."""
     members = {*structure.members, *(defined or {}).get("members", ())}
     problems: list[Problem] = []
     for i, place in enumerate(settings.fine_at):
@@ -134,7 +134,7 @@ def shell_problems(
     if settings.weld_pitch is not None:
         problems += pitch_problems(structure)
     if settings.contact_friction and settings.self_contact == "off" and structure.member_contact is None:
-        what, todo = "'contact_friction' would do nothing: walls do not touch", "add 'self_contact: on'"
+        what, todo = "'contact_friction' would have no effect: self-contact is off", "add 'self_contact: on'"
         where = "analysis.shell.contact_friction"
         problems.append(Problem(what, f"{settings.contact_friction:g}", "0 without contact", todo, where))
     return problems
@@ -157,8 +157,8 @@ def _names(structure: StructureParts, known: Known) -> Iterator[Problem]:
         for i, hinge in enumerate(member.given_hinges):
             yield from _unknown_laws(hinge, laws, f"{where}.hinges[{i}]")
             if isinstance(hinge.at, str) and hinge.at not in member.nodes:
-                what, allowed = f"'{shown(hinge.at)}' is no node of this member", one_of(member.nodes)
-                todo = suggestion(hinge.at, member.nodes) or "name one of its nodes, or a distance: '300 mm'"
+                what, allowed = f"'{shown(hinge.at)}' is not a node of this member", one_of(member.nodes)
+                todo = suggestion(hinge.at, member.nodes) or "give one of its nodes, or a distance: '300 mm'"
                 yield Problem(
                     what, shown(hinge.at), f"{allowed}, or a distance", todo, f"{where}.hinges[{i}].at"
                 )
@@ -207,7 +207,7 @@ def _coincident(structure: StructureParts, known: Known) -> Iterator[Problem]:
         around = ((int(x // COINCIDENT), int(x // COINCIDENT) + 1) for x in position)
         for cell in product(*around):
             cells[cell].append(name)
-    # a member without length is its own message
+    # a member without length has its own message
     joined = {frozenset(member.nodes) for member in structure.members.values()}
     pairs = {pair for names in cells.values() for pair in combinations(names[:8], 2)}
     pairs = {pair for pair in pairs if frozenset(pair) not in joined}
@@ -220,10 +220,10 @@ def _coincident(structure: StructureParts, known: Known) -> Iterator[Problem]:
 
 
 def _connections(structure: StructureParts, known: Known) -> Iterator[Problem]:
-    """Masses, supports, loads and nodes that no member joins to the structure."""
+    """Masses, supports, loads and nodes that no member connects to the structure."""
     joined = {node for member in structure.members.values() for node in member.nodes}
     if not joined <= known["nodes"]:
-        return  # a misspelt name may be what joins a node
+        return  # a misspelt name may be the connection of a node
     carriers = list(_carriers(structure))
     for where, node, noun in carriers:
         if node in structure.nodes and node not in joined:
@@ -233,12 +233,12 @@ def _connections(structure: StructureParts, known: Known) -> Iterator[Problem]:
     for name in structure.nodes:
         if name not in joined and name not in carried:
             yield Problem(
-                f"no member ends at node '{name}'", where=f"nodes.{name}", todo="remove it or join it"
+                f"no member ends at node '{name}'", where=f"nodes.{name}", todo="remove it or connect it"
             )
 
 
 def _supports(structure: StructureParts, known: Known) -> Iterator[Problem]:
-    """Motions that start with a jump, and freedoms that two supports claim."""
+    """Motions that start with a jump, and degrees of freedom with two supports."""
     claimed: dict[tuple[str, str], str] = {}
     for name, support in structure.supports.items():
         for freedom in (*support.held, *support.driven):

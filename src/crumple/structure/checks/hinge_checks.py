@@ -1,4 +1,4 @@
-"""Mistakes of hinges: places outside the member or taken, names taken, laws that do not fit, free ends."""
+"""Checks of hinges: positions outside the member, equal positions or names, unsuitable laws, free ends."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import outside
 
 APART = 1e-6
-"""Distance of two hinges, as a share of the member, below which the bar between has next to no inertia."""
+"""Distance of two hinges, as a share of the member, below which the bar between has negligible inertia."""
 
 
 def place_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
     """Places, names and laws of hinges."""
     where: dict[str, list[str]] = defaultdict(list)
-    told: list[Problem] = []
+    reported: list[Problem] = []
     for name in sound_members(structure):
         places, length = member_hinge_places(structure, name), structure.frame_of(name).length
         for place in places:
@@ -31,15 +31,13 @@ def place_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> 
                 yield outside(f"{place.where}.at", place.station, length)
         # one message for the many hinges between equal bars, and for those of a wish for many members
         for place in {(place.where, place.axis): place for place in places}.values():
-            found = [problem for problem in _law_problems(structure, place) if problem not in told]
-            told += found
+            found = [problem for problem in _law_problems(structure, place) if problem not in reported]
+            reported += found
             yield from found
         for first, second in pairwise(places):
             if second.station - first.station < APART * length:
-                what = (
-                    f"the hinges '{first.name}' and '{second.name}' lie at one place: no inertia lies between"
-                )
-                yield Problem(what, where=second.where, todo="move one of them")
+                what = f"the hinges '{first.name}' and '{second.name}' are at the same position"
+                yield Problem(what, where=second.where, todo="move one of them: no inertia lies between")
     for name, named in where.items():
         if len(named) > 1:
             what, todo = f"{len(named)} hinges have the name '{name}'", "rename all but one"
@@ -47,7 +45,7 @@ def place_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> 
 
 
 def inertia_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
-    """Hinges at a free end, beyond which there is nothing to turn."""
+    """Hinges at a free end, with nothing to rotate beyond them."""
     joined = Counter(node for member in structure.members.values() for node in member.nodes)
     turning = {m.node for m in structure.masses.values() if any(m.rotary_inertia) or any(m.offset)}
     for name in sound_members(structure):
@@ -80,7 +78,7 @@ def sound_members(structure: StructureParts) -> Iterator[str]:
 
 
 def _law_problems(structure: StructureParts, place: HingePlace) -> Iterator[Problem]:
-    """Why laws and axes do not fit the section of their hinge; an unknown name is another check's."""
+    """Reasons why laws and axes do not fit the section of their hinge; unknown names have another check."""
     keys = place.keys
     places = [replace(place, axis=axis, law=keys.law_about(axis)) for axis in keys.bending] or [place]
     known = {*structure.hinge_laws, *BENDING}

@@ -1,4 +1,4 @@
-"""Mistakes of joints: members and nodes that do not meet, ends joined twice, nodes that nothing carries."""
+"""Checks of joints: members and nodes that do not meet, ends with two joints, nodes without inertia."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def joint_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> 
         nodes = structure.members[joint.member].nodes
         if joint.node not in nodes:
             what = f"member '{joint.member}' does not end at node '{shown(joint.node)}'"
-            todo = suggestion(joint.node, nodes) or "name one of its nodes"
+            todo = suggestion(joint.node, nodes) or "give one of its nodes"
             yield Problem(what, shown(joint.node), one_of(nodes), todo, f"{where}.node")
         other = ends.setdefault((joint.node, joint.member), name)
         if other != name:
@@ -46,6 +46,6 @@ def bare_node_problems(structure: StructureParts, known: Mapping[str, set[str]])
     for node, members in ends.items():
         if node in carried | clamped or not all((node, member) in jointed for member in members):
             continue
-        what = f"every member at node '{node}' hangs on a joint, so the node itself has no inertia"
-        todo = "join one of the members rigidly, clamp the node, or give it a mass with rotary inertia"
+        what = f"every member at node '{node}' is connected by a joint, so the node itself has no inertia"
+        todo = "connect one of the members rigidly, clamp the node, or give it a mass with rotary inertia"
         yield Problem(what, ", ".join(members), "", todo, f"joints.{jointed[node, members[-1]]}")

@@ -136,8 +136,8 @@ def _thrown(stage: Stage, structure: StructureParts, where: str) -> Iterator[Pro
     for name in structure.obstacles if stage.obstacles is None else stage.obstacles:
         obstacle = structure.obstacles.get(name)
         if stage.kind == "quasi-static" and obstacle is not None and obstacle.mass and any(obstacle.velocity):
-            what = f"the obstacle '{name}' has a velocity that a quasi-static stage cannot carry"
-            todo = "make the stage dynamic, or drive the obstacle: take its mass away"
+            what = f"the obstacle '{name}' has a velocity, which a quasi-static stage does not support"
+            todo = "make the stage dynamic, or remove the mass so that the obstacle is driven"
             yield Problem(what, name, "a driven obstacle, or a mass at rest", todo, f"{where}.kind")
 
 
@@ -148,9 +148,9 @@ def _driven(name: str, structure: StructureParts, where: str) -> Iterator[Proble
     if part is None or part.driven:
         return
     if obstacle is not None and obstacle.mass is not None:
-        what, todo = f"the obstacle '{name}' has a mass and is not driven", "take its mass away, or this name"
+        what, todo = f"the obstacle '{name}' has a mass and is not driven", "remove its mass, or this name"
     else:
-        what, todo = f"the {kind} '{name}' is not driven", "add 'motion' to it, or take this name away"
+        what, todo = f"the {kind} '{name}' is not driven", "add 'motion' to it, or remove this name"
     yield Problem(what, name, "an obstacle or a support with a prescribed motion", todo, where)
 
 
@@ -163,7 +163,7 @@ def _pushing(stage: Stage, structure: StructureParts, where: str) -> Iterator[Pr
         key = "kind" if stage.drive is None else "drive"
         came = stage.kind if stage.drive is None else f"[{', '.join(stage.drive)}]"
         what, todo = (
-            "nothing pushes in this quasi-static stage",
+            "this quasi-static stage has no drive and no load",
             "drive an obstacle or a support, or add a load",
         )
         yield Problem(what, came, "a prescribed motion, a load or gravity", todo, f"{where}.{key}")
@@ -177,7 +177,7 @@ def _until_problems(until: Until, stage: Stage, structure: StructureParts, where
         what, todo = f"the obstacle '{until.of}' never moves", "add 'motion', 'velocity' or 'mass' to it"
         yield Problem(what, str(until.of), "an obstacle that moves", todo, f"{where}.of")
     if obstacle is not None and until.of not in there:
-        what, todo = f"the obstacle '{until.of}' is not there in this stage", "add it to 'obstacles'"
+        what, todo = f"the obstacle '{until.of}' is not present in this stage", "add it to 'obstacles'"
         yield Problem(what, str(until.of), ", ".join(stage.obstacles or ()), todo, f"{where}.of")
     support = structure.supports.get(until.of or "")
     if support is not None and not support.driven:

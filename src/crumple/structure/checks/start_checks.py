@@ -1,4 +1,4 @@
-"""Motion that is given to what cannot move: impulses and velocities along freedoms that a support holds."""
+"""Initial motion against supports: impulses and velocities along fixed degrees of freedom."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ROUNDING = 1e-9
 
 
 def start_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
-    """Impulses and velocities at the start that a support swallows."""
+    """Impulses and velocities at the start that a support absorbs."""
     yield from swallowed(structure, structure.impulses, structure.initial_velocity)
 
 
@@ -90,10 +90,10 @@ def _holder(structure: StructureParts, node: str, freedom: str) -> str:
 
 def _nothing_moves(what: str, node: str, freedom: str, support: str, came: str, where: str) -> Problem:
     return Problem(
-        f"{what} is lost: the support '{support}' takes {freedom} of node '{node}'",
+        f"{what} is lost: the support '{support}' fixes {freedom} of node '{node}'",
         came,
         "0 along what is held or driven",
-        "take it away, name another node, or free this one",
+        "remove it, give another node, or free this one",
         where,
     )
 

@@ -30,7 +30,7 @@ def spot_weld_problems(structure: StructureParts, known: Mapping[str, set[str]])
             yield outside(f"{where}.from", welds.start, length)
         if welds.pitch is not None and (welds.end or length) - welds.start > MOST_SPOTS * welds.pitch:
             came, todo = f"{1e3 * welds.pitch:g} mm", "give a larger pitch"
-            what, allowed = "the line has too many spots", f"at most {MOST_SPOTS}"
+            what, allowed = "the line has too many spot welds", f"at most {MOST_SPOTS}"
             yield Problem(what, came, allowed, todo, f"{where}.pitch")
         else:
             yield from _crowded(structure, name)
@@ -39,7 +39,7 @@ def spot_weld_problems(structure: StructureParts, known: Mapping[str, set[str]])
         if len(welds.members) == 1 and has_weld_lines(structure, first) is False:
             what = f"the section of member '{first}' has no lines of spot welds"
             welded = [other for other in structure.members if has_weld_lines(structure, other)]
-            todo = "name the member that it is welded to as well, or give its section 'welds'"
+            todo = "give the other member too, or give its section 'welds'"
             yield Problem(what, structure.members[first].section, one_of(welded), todo, f"{where}.members")
     yield from _twice_welded(structure)
 
@@ -59,10 +59,12 @@ def _crowded(structure: StructureParts, name: str) -> Iterator[Problem]:
     for i, point in enumerate(points[1:], 1):
         apart = float(np.linalg.norm(points[:i] - point, axis=1).min())
         if apart < least:
-            came, key, todo = f"{1e3 * apart:.3g} mm", f"points[{i}]", "leave one of them out"
+            came, key, todo = f"{1e3 * apart:.3g} mm", f"points[{i}]", "remove one of them"
             break
     if came:
-        yield Problem("spots lie nearer than two can", came, allowed, todo, f"spot_welds.{name}.{key}")
+        yield Problem(
+            "the distance of the spot welds is too small", came, allowed, todo, f"spot_welds.{name}.{key}"
+        )
 
 
 def _too_wide(structure: StructureParts, name: str) -> Iterator[Problem]:
@@ -73,9 +75,12 @@ def _too_wide(structure: StructureParts, name: str) -> Iterator[Problem]:
     widest, member = widest_spot(structure, name)
     # a spot that reaches an edge, or a bend drawn sharp, still lies on its wall
     if welds.diameter > widest + structure.section_of(member).thickness:
-        what, came = "the spots are wider than the wall on which they lie", f"{1e3 * welds.diameter:.4g} mm"
+        what, came = (
+            "the diameter of the spot welds is larger than the wall allows",
+            f"{1e3 * welds.diameter:.4g} mm",
+        )
         allowed = (
-            f"at most {1e3 * widest:.3g} mm, twice the way to the nearer edge of a wall of member '{member}'"
+            f"at most {1e3 * widest:.3g} mm, twice the distance to the nearer wall edge of member '{member}'"
         )
         todo = "give the diameter of a spot, or place the spots farther inside"
         yield Problem(what, came, allowed, todo, f"spot_welds.{name}.diameter")
@@ -108,7 +113,7 @@ def _twice_welded(structure: StructureParts) -> Iterator[Problem]:
             what = f"{many} where spots of '{other}' tie the same members already"
             came = f"{1e3 * apart[near[0]]:.3g} mm apart at ({x:.6g}, {y:.6g}, {z:.6g}) mm"
             allowed = f"at least {1e3 * least:.3g} mm apart, the thickness of the wall"
-            yield Problem(what, came, allowed, "leave one of them out", f"spot_welds.{name}")
+            yield Problem(what, came, allowed, "remove one of them", f"spot_welds.{name}")
 
 
 def pitch_problems(structure: StructureParts) -> Iterator[Problem]:
@@ -117,9 +122,9 @@ def pitch_problems(structure: StructureParts) -> Iterator[Problem]:
     found = {name: has_weld_lines(structure, name) for name in structure.members}
     if None in found.values() or any(lines and name not in own for name, lines in found.items()):
         return
-    what = "there is no line of spot welds that would take this pitch"
+    what = "there is no line of spot welds for this pitch"
     allowed = "sections with lines of welds, of members that have no 'spot_welds' of their own"
-    todo = "take it away; spots between members have a pitch in 'spot_welds'"
+    todo = "remove it; spots between members have a pitch in 'spot_welds'"
     yield Problem(what, "", allowed, todo, "analysis.shell.weld_pitch")
 
 

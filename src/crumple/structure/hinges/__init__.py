@@ -1,1 +1,1 @@
-"""Where hinges are and what each can carry."""
+"""Positions of hinges and their laws."""

@@ -1,4 +1,4 @@
-"""Where `hinges: auto` puts candidate hinges: wherever a fold can form.
+"""Positions of candidate hinges of `hinges: auto`: wherever a fold can form.
 
 Bending moments are largest where something holds, joins or loads a member, and masses, supports and joints
 all sit on nodes: so a candidate lies at each end of a member, half a fold length inside, unless nothing there

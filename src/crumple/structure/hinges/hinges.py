@@ -1,4 +1,4 @@
-"""What each hinge of a structure can carry, and how stiff it is: the hinges as the solvers take them."""
+"""Law and stiffness of each hinge of a structure, for the solvers."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ member so far, and tolerances that count with the largest capacity stay small.""
 
 @dataclass(frozen=True, eq=False)
 class PlacedHinge:
-    """One hinge as the solvers take it.
+    """One hinge with its law, for the solvers.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class PlacedHinge:
     law
         Formula with source and range.
     record
-        The law as the stepper takes it.
+        The law as a record for the solver.
     spatial
         Of a hinge with several components, or one that breaks: all of them as the spatial stepper takes them;
         `axis`, `law` and `record` are then those of its first bending axis.  None for all others.
@@ -251,7 +251,7 @@ def _direction(structure: StructureParts, place: HingePlace) -> Floats:
     if normal is None or structure.section_of(place.member).kind != "circular_tube":
         return axis
     along = float(np.asarray(normal) @ axis)
-    # the given axis still says about which of the two it turns, and in which sense
+    # the given axis determines which of the two it is, and its sense
     return np.sign(along) * np.asarray(normal) if abs(along) > NEARER else axis
 
 

@@ -1,4 +1,4 @@
-"""Records of hinges with several components, from what the input says of their axes."""
+"""Records of hinges with several components, from the axes in the input."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def spatial_hinge_record(
     Parameters
     ----------
     keys
-        What the input says of its axes.
+        Axes as given in the input.
     record_about
         Gives the record of a bending axis.
     axis

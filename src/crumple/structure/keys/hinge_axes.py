@@ -1,4 +1,4 @@
-"""About and along which axes a hinge moves, what each can carry, and how they share it."""
+"""Axes of a hinge, the law of each, and their interaction."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ else:
 
 
 class Twist(Registered):
-    """What a hinge carries in twist."""
+    """Resistance of a hinge in torsion."""
 
     tag: ClassVar[str] = "law"
     default_type: ClassVar[str | None] = DEFAULT_TORSION
@@ -55,7 +55,7 @@ class Twist(Registered):
 
 
 class AxialSlip(Spec):
-    """What a hinge carries along its member: yield in tension, folding in compression."""
+    """Resistance of a hinge along its member: yield in tension, folding in compression."""
 
     law: AxialName | None = None
     """Law of axial crushing over the stretch of member that the hinge stands for; without it, and without
@@ -74,9 +74,7 @@ class AxialSlip(Spec):
         forces = {"peak": self.peak, "mean": self.mean, "stroke": self.stroke}
         given = [name for name, value in forces.items() if value is not None]
         if self.law is not None and given:
-            refuse(
-                "a law and forces of one's own exclude each other", key=given[0], todo="remove one of them"
-            )
+            refuse("a law and given forces exclude each other", key=given[0], todo="remove one of them")
         if given and len(given) < len(forces):
             missing = next(name for name in forces if name not in given)
             refuse(
@@ -100,7 +98,7 @@ def _yes(given: Any) -> Any:
 
 
 class HingeAxes(Spec):
-    """Axes of a hinge, what it carries about them, and when it breaks."""
+    """Axes of a hinge, their laws, and its fracture."""
 
     axis: BendingAxis | None = None
     """Section axis that the moment vector lies along; without it the one across the plane of bending."""
@@ -119,7 +117,7 @@ class HingeAxes(Spec):
     """How its axes share the capacity: the interaction of the section's walls (default), an ellipsoid, none,
     a ball (one curve over the angle of rotation), or a fold about its tension flange."""
     fracture: PositiveAngle | None = None
-    """Plastic rotation at which it breaks and opens for good."""
+    """Plastic rotation at which it breaks."""
 
     @model_validator(mode="after")
     def _axes_fit(self) -> HingeAxes:
@@ -130,7 +128,7 @@ class HingeAxes(Spec):
         if self.axis is not None:
             refuse("'axis' and 'axes' exclude each other", key="axis", todo="remove 'axis'")
         if len(set(self.axes)) < len(self.axes):
-            refuse("an axis is named twice", key="axes", allowed="x, y and z, each at most once")
+            refuse("an axis is given twice", key="axes", allowed="x, y and z, each at most once")
         if not self.bending:
             refuse("a hinge bends about y or z at least", key="axes", todo="add y or z")
         if self.twist is not None and "x" not in self.axes:
@@ -142,9 +140,9 @@ class HingeAxes(Spec):
         """Keys that would change nothing."""
         if self.coupling is not None and self.single:
             refuse(
-                "'coupling' joins the axes of a hinge, and this one has a single axis",
+                "'coupling' needs several axes, and this hinge has one",
                 key="coupling",
-                todo="remove it, or name more under 'axes' (as [y, z]), or add 'axial'",
+                todo="remove it, or give several 'axes' (as [y, z]), or add 'axial'",
             )
         about: tuple[BendingAxis, ...] = self.bending or ((self.axis,) if self.axis is not None else ())
         if self.laws is None or not about:
@@ -152,13 +150,13 @@ class HingeAxes(Spec):
         for axis in ("y", "z"):
             if axis not in about and getattr(self.laws, axis) is not None:
                 refuse(
-                    f"a law about {axis}, and the hinge does not turn about {axis}",
+                    f"this law is for {axis}, but the hinge has no axis {axis}",
                     key="laws",
-                    todo=f"remove it, or turn the hinge about {axis}",
+                    todo=f"remove it, or add {axis} to the axes",
                 )
         if self.law is not None and all(getattr(self.laws, axis) is not None for axis in about):
             refuse(
-                "'law' acts about axes without a law under 'laws', and there is none",
+                "'law' has no effect: every axis has a law under 'laws'",
                 key="law",
                 todo="remove it, or one of 'laws'",
             )

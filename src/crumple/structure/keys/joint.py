@@ -1,6 +1,6 @@
 """Joints that let a member's end move against its node, in place of the rigid connection.
 
-Friction none, no play: a joint carries what it holds and nothing of what it leaves free.
+Without friction and play: a joint transmits loads in its fixed degrees of freedom only.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Joint(Spec):
     """Direction of its axis at the start, global, of any length; a spherical joint has none. That of a
     universal joint is fixed to the node."""
     second: Direction | None = None
-    """Second axis of a universal joint, square to the first, fixed to the member."""
+    """Second axis of a universal joint, perpendicular to the first, fixed to the member."""
 
     @model_validator(mode="after")
     def _axes(self) -> Joint:
@@ -60,8 +60,8 @@ class Joint(Spec):
             along = sum(a * b for a, b in zip(self.axis, self.second, strict=True))
             sizes = [sum(a * a for a in axis) ** 0.5 for axis in (self.axis, self.second)]
             if abs(along) > SQUARE * sizes[0] * sizes[1]:
-                todo = "turn one of them"
-                refuse("the axes of a universal joint are not square", key="second", todo=todo)
+                todo = "change one of them"
+                refuse("the axes of a universal joint are not perpendicular", key="second", todo=todo)
         return self
 
     @property

@@ -40,13 +40,13 @@ class Stops(Spec):
     """Stops of both senses: a one-sided spring and damper each, of IMPACT form."""
 
     rotation: PositiveAngle
-    """Rotation at which a stop is touched."""
+    """Rotation at which a stop comes into contact."""
     stiffness: PositiveRotationalStiffness
     """Spring; with another exponent than 1 the moment at 1 rad of penetration."""
     exponent: StopExponent = 1.0
     """Exponent of the penetration."""
     damping: DampingOrCritical = "critical"
-    """Damper at full penetration; critical: computed when the stop is first touched."""
+    """Damper at full penetration; critical: computed at first contact with the stop."""
     penetration: NonNegativeAngle = 0.0
     """Penetration at which the damper acts fully; 0: at once."""
 
@@ -71,26 +71,26 @@ class LawKeys(Registered):
     type: str
     """Kind of law."""
     form: Literal["set-valued", "elastic-plastic", "regularised"] = "set-valued"
-    """How the capacity becomes a moment: rigid until reached, a spring in series, or a ramp over the rate."""
+    """Form of the hinge: rigid up to the capacity, a spring in series, or a ramp over the rate."""
     elastic_stiffness: StiffnessOrAuto = "auto"
     """Spring of the elastic-plastic form; auto: the law's own, else the hinge's share of the member's."""
     regularisation: Regularisation = Regularisation()
     """Ramp of the regularised form."""
     softening: Literal["peak", "rotation", "accumulated"] = "peak"
-    """What the curve runs on: largest plastic rotation of both senses, the current one, or the sum of all."""
+    """Abscissa of the curve: largest plastic rotation of both senses, the current one, or the sum of all."""
     stops: Annotated[StopsOrWord, BeforeValidator(_no_stops)] = "law"
-    """Stops of both senses; law: those that the law itself asks for."""
+    """Stops of both senses; law: those of the law itself."""
     rate: Annotated[Literal["on", "off"], BeforeValidator(_on_or_off)] = "on"
     """Whether the material's strain-rate law raises the capacity."""
     viscous_damping: NonNegativeRotationalDamping = 0.0
     """Rotational damper beside the hinge."""
     bound: Literal["nominal", "lower", "upper"] = "nominal"
-    """Which law of the band that the law states: the middle or an edge."""
+    """Nominal law, or the lower or upper bound of its band."""
 
     @model_validator(mode="after")
     def _ramp_is_used(self) -> LawKeys:
         if self.form != "regularised" and self.regularisation != Regularisation():
-            what = f"'regularisation' would do nothing: the form is {self.form}"
+            what = f"'regularisation' would have no effect: the form is {self.form}"
             refuse(what, key="regularisation", todo="write 'form: regularised', or leave it out")
         return self
 

@@ -37,7 +37,7 @@ class Mass(Spec):
         # no mass distribution has a moment above the sum of the other two: I_x + I_y - I_z = 2 int z^2 dm
         if 2.0 * max(self.rotary_inertia) > sum(self.rotary_inertia) * (1.0 + 1e-9):
             refuse(
-                "no body has these moments of inertia: one exceeds the sum of the other two",
+                "these moments of inertia are impossible: one exceeds the sum of the other two",
                 key="rotary_inertia",
                 allowed="Ixx <= Iyy + Izz and so on",
             )
@@ -48,7 +48,7 @@ class NodalImpulse(Spec):
     """Impulse on a node at the start."""
 
     node: Name
-    """Node that is struck."""
+    """Node with the impulse."""
     impulse: tuple[Impulse, Impulse, Impulse] = (0.0, 0.0, 0.0)
     """Impulse in global axes."""
     angular_impulse: tuple[AngularImpulse, AngularImpulse, AngularImpulse] = (0.0, 0.0, 0.0)
@@ -81,7 +81,7 @@ class Load(Spec):
     """Force and moment on a node; their directions stay fixed in space."""
 
     node: Name
-    """Node that is loaded."""
+    """Node with the load."""
     force: ForceComponents = ForceComponents()
     """Force."""
     moment: MomentComponents = MomentComponents()

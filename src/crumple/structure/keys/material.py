@@ -56,7 +56,7 @@ class MaterialSpec(Spec):
     """True stress against plastic strain, from the yield stress; shells follow it. Without it they are
     perfectly plastic at the flow stress."""
     failure_strain: PositiveNumber | None = None
-    """Plastic strain at which a wall tears: a shell element goes when all its points have reached it."""
+    """Plastic strain at which a wall tears: a shell element is deleted when all its points reach it."""
 
     @model_validator(mode="before")
     @classmethod
@@ -125,7 +125,7 @@ class MaterialSpec(Spec):
 
     @property
     def statement(self) -> str:
-        """What the numbers of its grade are and are not; empty without a grade."""
+        """Statement about the values of its grade; empty without a grade."""
         return "" if self.grade is None else material.grade(self.grade).statement
 
 

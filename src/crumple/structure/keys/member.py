@@ -30,7 +30,7 @@ from crumple.structure.keys.hinge_axes import HingeAxes
 from crumple.structure.schema.spec import Name, Spec
 
 MOST_BARS = 10_000
-"""Bars in one member; more is a slip of the pen and would fill the memory."""
+"""Largest number of bars in one member."""
 
 _DISTANCE = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)\s*([eE][+-]?\d+)?\s*\D")
 
@@ -103,7 +103,7 @@ GivenOrAutomatic = Annotated[
     Annotated[tuple[Hinge, ...], Tag("(list)")] | Annotated[OnlyAutomatic, Tag("(automatic)")],
     Discriminator(_hinges_tag),
 ]
-"""Hinges one by one, or `auto`."""
+"""List of hinges, or `auto`."""
 
 
 def _plain(given: Any) -> Any:
@@ -166,7 +166,7 @@ class Member(Spec):
     material: Name
     """Name of its material."""
     roll: Angle = 0.0
-    """Turns the section about local x; 90 deg sets it upright."""
+    """Rotation of the section about local x; 90 deg puts it on edge."""
     up: Direction | None = None
     """Direction whose part across the member is local z; without it global z, or x for a member along z."""
     bars: Annotated[Bars, BeforeValidator(_number_of_bars, json_schema_input_type=int | Bars)] = Bars()

@@ -1,4 +1,4 @@
-"""How a metal's stress rises with plastic strain and with strain rate, as the description gives it."""
+"""Hardening and strain-rate laws in the input."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ class HardeningSpec(Registered):
             # whatever the yield stress is, which the material knows
             self.curve(1.0)
         except InputError as error:
-            refuse("this is no hardening curve", problems=error.problems)
+            refuse("this is not a hardening curve", problems=error.problems)
         return self
 
     def curve(self, yield_stress: float) -> material.HardeningCurve:

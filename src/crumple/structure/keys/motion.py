@@ -1,4 +1,4 @@
-"""Where the structure is held, how it is driven, and how it moves at the start."""
+"""Supports, prescribed motion and initial motion of the structure."""
 
 from __future__ import annotations
 
@@ -41,7 +41,10 @@ def _known_freedoms(given: object) -> object:
     listed = given if isinstance(given, list | tuple) else [given]
     wrong = [freedom for freedom in listed if freedom not in FREEDOMS]
     if wrong:
-        refuse(f"'{shown(wrong[0])}' cannot be held", allowed="all, pin, or a list of x, y, z, rx, ry, rz")
+        refuse(
+            f"'{shown(wrong[0])}' is not a degree of freedom",
+            allowed="all, pin, or a list of x, y, z, rx, ry, rz",
+        )
     return tuple(listed)
 
 
@@ -54,17 +57,17 @@ class Support(Spec):
     node: Name
     """Node that it holds."""
     fix: Annotated[Fixed, BeforeValidator(_known_freedoms, json_schema_input_type=Fixed)] = ()
-    """What is held: all (a clamp), pin (displacements, not rotations), or a list of x, y, z, rx, ry, rz."""
+    """Fixed degrees of freedom: all (a clamp), pin (displacements), or a list of x, y, z, rx, ry, rz."""
     motion: Motion = Motion()
-    """What is driven in place of being held."""
+    """Prescribed motion instead of fixed degrees of freedom."""
 
     @model_validator(mode="after")
     def _holds_something(self) -> Support:
         if not self.held and not self.driven:
-            refuse("the support holds nothing", todo="add 'fix' or 'motion'")
+            refuse("the support fixes nothing", todo="add 'fix' or 'motion'")
         if isinstance(self.fix, tuple) and set(self.driven) & set(self.fix):
-            todo = "name it in 'fix' or in 'motion'"
-            refuse("the same freedom is held and driven", key="motion", todo=todo)
+            todo = "give it in 'fix' or in 'motion'"
+            refuse("the same degree of freedom is fixed and driven", key="motion", todo=todo)
         return self
 
     @property

@@ -1,4 +1,4 @@
-"""What a structure can hit: rigid planes, cylinders and spheres, fixed, driven or with a mass on a guide."""
+"""Obstacles: rigid planes, cylinders and spheres, fixed, driven or with a mass on a guide."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Turning(Spec):
 
 
 class Obstacle(Spec):
-    """Keys that every obstacle has: how it moves, and how it touches."""
+    """Keys that every obstacle has: motion and contact."""
 
     point: Position
     """Point on the plane or its edge, on the cylinder's axis, or the sphere's centre."""
@@ -71,7 +71,7 @@ class Obstacle(Spec):
     velocity: tuple[Velocity, Velocity, Velocity] = (0.0, 0.0, 0.0)
     """Velocity at the start of a mass; of an obstacle without mass for good."""
     motion: Travel = Travel()
-    """What is driven in place of being fixed."""
+    """Prescribed displacement of the obstacle."""
     turning: Turning | None = None
     """Driven rotation, after the displacements of `motion`."""
 
@@ -90,34 +90,36 @@ class Obstacle(Spec):
         return None if given is None else np.asarray(given, float) / np.linalg.norm(given)
 
     def _across(self) -> Direction | None:
-        """Direction in which such an obstacle is mostly hit; None where there is none."""
+        """Usual direction of impact on such an obstacle; None if there is none."""
         return None
 
     @model_validator(mode="after")
     def _moves_one_way(self) -> Obstacle:
         given = [key for key in ("x", "y", "z") if getattr(self.motion, key) is not None]
         if self.members == ():
-            refuse(
-                "no member can touch it", key="members", todo="name members, or take 'members' away for all"
-            )
+            refuse("no member can touch it", key="members", todo="give members, or remove 'members' for all")
         if self.guide is not None:
             _refuse_zero("guide", self.guide)
         if self.mass is None:
             if self.guide is not None:
-                refuse("a guide without a mass", key="guide", todo="give 'mass' too, or take the guide away")
+                refuse("a guide without a mass", key="guide", todo="give 'mass' too, or remove the guide")
             if any(self.velocity) and given:
                 refuse("the obstacle is driven twice", key="velocity", todo="keep 'velocity' or 'motion'")
             return self
         if given or self.turning is not None:
             key = "motion" if given else "turning"
-            refuse("an obstacle with a mass is not driven", key=key, todo=f"take 'mass' or '{key}' away")
+            refuse("an obstacle with a mass is not driven", key=key, todo=f"remove 'mass' or '{key}'")
         direction = self.guide_direction
         if direction is None:
             todo = "add 'guide', for example [1, 0, 0]"
-            refuse("nothing says in which direction the mass moves", key="mass", todo=todo)
+            refuse("the direction in which the mass moves is not given", key="mass", todo=todo)
         across = np.cross(direction, self.velocity)
         if float(np.linalg.norm(across)) > SLANT * float(np.linalg.norm(self.velocity)):
-            refuse("the velocity lies across the guide", key="velocity", allowed="a velocity along 'guide'")
+            refuse(
+                "the velocity is perpendicular to the guide",
+                key="velocity",
+                allowed="a velocity along 'guide'",
+            )
         return self
 
 
@@ -141,7 +143,10 @@ class PlaneObstacle(Obstacle):
             if abs(float(np.dot(self.normal, self.edge))) > SLANT * size:
                 todo = "turn one of them"
                 refuse(
-                    "the edge's direction leans", key="edge", allowed="at right angles to 'normal'", todo=todo
+                    "the direction of the edge is not perpendicular to the normal",
+                    key="edge",
+                    allowed="at right angles to 'normal'",
+                    todo=todo,
                 )
         return self
 
@@ -182,7 +187,7 @@ ObstacleSpec = Annotated[
     | Annotated[SphereObstacle, Tag("(type=sphere)")],
     Discriminator(type_tag),
 ]
-"""Any obstacle; ``type`` says which."""
+"""Any obstacle, by its ``type``."""
 
 
 class MemberContact(Spec):

@@ -1,4 +1,4 @@
-"""What a run reports."""
+"""Outputs of a run."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class SectionRotation(Spec):
 
 
 class SectionForce(Spec):
-    """Force and moment in a section of a member, in its local axes, and how near they are to its capacity."""
+    """Force and moment in a section of a member, in its local axes, and their ratio to its capacity."""
 
     member: Name
     """Member."""
@@ -44,7 +44,7 @@ class Distance(Spec):
 
 
 class Clearance(Spec):
-    """Least distance between a plane space that must stay free and the members around it, negative inside.
+    """Smallest distance between a plane survival space and the members around it, negative inside.
 
     A member counts as a round bar as thick as its section is deep or wide, whichever is more.
     """
@@ -52,7 +52,7 @@ class Clearance(Spec):
     points: Annotated[tuple[Position, ...], Field(min_length=3, max_length=100)]
     """Corners of the space at the start, in order, in one plane; across it the space has no end."""
     moves_with: Name
-    """Member whose middle carries the space along."""
+    """Member with whose middle the space moves."""
     members: tuple[Name, ...] | None = None
     """Members that must stay outside; without it all others."""
 
@@ -67,7 +67,7 @@ class Filter(Spec):
 
 
 class Outputs(Spec):
-    """What a run reports; the hinges' quantities and the energies are always there."""
+    """Outputs of a run; quantities of the hinges and energies are always included."""
 
     every: PositiveTime | None = None
     """Interval of the histories, at most 1 000 000 in the duration; without it a 200th of the duration."""

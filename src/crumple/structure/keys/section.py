@@ -89,4 +89,4 @@ SectionSpec = Annotated[
     Discriminator(_tag),
     BeforeValidator(_from_section),
 ]
-"""Any section; ``type`` says which."""
+"""Any section, by its ``type``."""

@@ -20,7 +20,7 @@ from crumple.structure.geometry import Frame
 from crumple.structure.schema.spec import Name, Spec
 
 MOST_SPOTS = 10_000
-"""Spots of one entry; more is a slip of the pen."""
+"""Largest number of spots of one entry."""
 
 
 class SpotWelds(Spec):
@@ -44,9 +44,9 @@ class SpotWelds(Spec):
     diameter: NonNegativeLength = 0.0
     """Of a spot: all nodes of both sheets within it are tied, and always those within 1.45 element sizes."""
     normal_strength: PositiveForce | None = None
-    """Tensile force across the sheets at which a spot fails; without it none does it harm."""
+    """Tensile force across the sheets at which a spot fails; without it there is no limit."""
     shear_strength: PositiveForce | None = None
-    """Force along the sheets at which a spot fails; without it none does it harm."""
+    """Force along the sheets at which a spot fails; without it there is no limit."""
 
     @model_validator(mode="after")
     def _one_way(self) -> SpotWelds:
@@ -59,15 +59,15 @@ class SpotWelds(Spec):
                     refuse(what, key=key, todo="remove it")
         elif self.members[0] == self.members[1]:
             refuse(
-                "both members are the same", key="members", todo="name two, or one alone for its own lines"
+                "both members are the same", key="members", todo="give two, or one alone for its own lines"
             )
         if self.points and line:
             key = {"start": "from", "end": "to"}.get(line[0], line[0])
-            refuse("the spots are given as points and as a line", key=key, todo="keep one of both")
+            refuse("the spots are given both as points and as a line", key=key, todo="keep one of them")
         if not self.points and self.pitch is None:
             refuse("the distance of the spots is missing", key="pitch", allowed="a length, for example 40 mm")
         if not self.points and self.at is None and len(self.members) == 2:
-            what = "nothing says where the spots lie"
+            what = "the positions of the spots are missing"
             refuse(what, key="at", allowed="y and z in the first member's section, or 'points'")
         if self.end is not None and self.end <= self.start:
             refuse("the line ends before it begins", key="to", allowed=f"more than {1e3 * self.start:g} mm")

@@ -1,4 +1,4 @@
-"""What happens in sequence to one structure: stages, each from where the one before it ended."""
+"""Stages of a run in sequence, each continuing from the end of the one before."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Until(Spec):
 
     @property
     def quantity(self) -> Quantity:
-        """Which of the four it looks at."""
+        """Quantity of the condition."""
         return next(key for key in QUANTITIES if getattr(self, key) is not None)
 
     @property
@@ -57,7 +57,11 @@ class Until(Spec):
             )
             refuse(what, allowed="one of " + ", ".join(QUANTITIES), todo="write one condition for each")
         if self.distance == 0.0:
-            refuse("the distance never changes by nothing", key="distance", allowed="a change that is not 0")
+            refuse(
+                "a change of distance of 0 is not a condition",
+                key="distance",
+                allowed="a change that is not 0",
+            )
         if (self.of is not None) != (given[0] in {"force", "displacement"}):
             what = f"'{given[0]}' needs 'of'" if self.of is None else f"'{given[0]}' has no 'of'"
             refuse(what, key="of", allowed="an obstacle or a support with 'force' and 'displacement'")
@@ -75,7 +79,7 @@ class Stage(Spec):
     name: Name
     """Name, unique in the sequence."""
     kind: Literal["dynamic", "quasi-static"] = "dynamic"
-    """With inertia, or pushed so slowly that there is none."""
+    """With inertia, or quasi-static, without inertia."""
     duration: PositiveTime
     """Time after which it ends at the latest."""
     until: tuple[Until, ...] = ()
@@ -84,16 +88,16 @@ class Stage(Spec):
     """Obstacles and supports whose prescribed motion runs; the others stay where they are. Without it
     all run, with an empty list none."""
     obstacles: tuple[Name, ...] | None = None
-    """Obstacles that are there; without it all."""
+    """Obstacles that are present; without it all."""
     initial_velocity: tuple[InitialVelocity, ...] = ()
-    """Velocity fields that are added at its start, to the structure as it lies then."""
+    """Velocity fields that are added at its start, to the structure in its current shape."""
     impulses: tuple[NodalImpulse, ...] = ()
-    """Impulses at its start, on nodes as they lie then."""
+    """Impulses at its start, on nodes in their current position."""
 
     @model_validator(mode="after")
     def _moves(self) -> Stage:
         if self.kind == "quasi-static" and (self.initial_velocity or self.impulses):
             key = "initial_velocity" if self.initial_velocity else "impulses"
-            what = "a quasi-static stage has no inertia that could carry this"
+            what = "a quasi-static stage has no inertia, so this has no effect"
             refuse(what, key=key, todo="make the stage dynamic, or drive a support or an obstacle")
         return self

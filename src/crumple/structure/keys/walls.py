@@ -36,7 +36,7 @@ class WallSpec(Spec):
     material: MaterialReference | None = None
     """Metal of this wall; without it the member's."""
     name: Label = ""
-    """What messages call it."""
+    """Name of the wall in messages."""
 
 
 class WeldSpec(Spec):

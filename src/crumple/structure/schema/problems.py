@@ -1,4 +1,4 @@
-"""pydantic's refusals in the words of `crumple.errors.Problem`: what came, what is allowed, what to do."""
+"""pydantic's refusals as `crumple.errors.Problem`: given value, what is allowed, what to do."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def placed_problems(
         problem = _problem(str(details["type"]), details["msg"], value, context, place, keys)
         if details["type"] == "missing" and place and isinstance(place[-1], int):
             problem, place = _too_short(value, place), place[:-1]
-            # every entry that is missing comes by itself; the last one tells how many there should be
+            # every missing entry is reported separately; the last one gives the required number
             placed = [other for other in placed if other[0] != place]
         placed.append((place, problem))
     # a misspelt key and the missing one that it stands for are one mistake
@@ -149,7 +149,9 @@ def _problem(
         expected = str(context.get("expected", ""))
         words = re.findall(r"'([^']*)'", expected)
         allowed = one_of(words) if words else expected
-        return Problem("this is none of the known choices", came, allowed, suggestion(value, words), where)
+        return Problem(
+            "this is not one of the permitted values", came, allowed, suggestion(value, words), where
+        )
     what, allowed = _WORDS.get(kind, (message, ""))
     return Problem(what, came, allowed.format_map(_Blank(context)), "", where)
 

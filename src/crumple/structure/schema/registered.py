@@ -36,9 +36,9 @@ class Registered(Spec):
     model_config = ConfigDict(extra="allow")
 
     tag: ClassVar[str] = "type"
-    """Key that says which one."""
+    """Key with the type."""
     default_type: ClassVar[str | None] = None
-    """Which one it is without that key; None: the key is needed."""
+    """Type without that key; None: the key is needed."""
 
     @classmethod
     def types(cls) -> Iterable[str]:
@@ -167,7 +167,7 @@ def _below(name: str | None, error: ValidationError) -> list[InitErrorDetails]:
     """Errors of an inner validation as those of a key; of the part itself for None."""
     return [
         InitErrorDetails(
-            # an error with a message of its own is built anew, pydantic knows the others by their names
+            # an error with its own message is created again, the others are known to pydantic by name
             type=PydanticCustomError("refused", "{what}", one["ctx"])
             if one["type"] == "refused"
             else one["type"],

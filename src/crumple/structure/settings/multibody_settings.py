@@ -15,7 +15,7 @@ class MultibodySettings(Spec):
     """Settings of the multibody solver."""
 
     kernel: Literal["auto", "tree", "spatial"] = "auto"
-    """Which stepper: the planar tree, the spatial one, or the tree wherever it suits."""
+    """Solver kernel: planar tree, spatial, or the tree wherever it is applicable."""
     accuracy: Accuracy = 1e-3
     """Relative error allowed in the rotations."""
     minimum_time_step: PositiveTime = 1e-9
@@ -26,7 +26,7 @@ class MultibodySettings(Spec):
     """Whether to solve four times more with capacities changed by 1 % and warn where other hinges open; auto:
     where hinges find their places automatically."""
     energy_residual_bound: Fraction = 1e-3
-    """Energy residual above which the run ends with a status that says not to trust it."""
+    """Energy residual above which the status marks the result as not reliable."""
 
     @model_validator(mode="after")
     def _steps(self) -> MultibodySettings:

@@ -93,7 +93,7 @@ class ShellSettings(Spec):
     damping: Damping = 0.0
     """Damping force over momentum."""
     energy_residual_bound: Fraction = 0.01
-    """Energy residual above which the run ends with a status that says not to trust it."""
+    """Energy residual above which the status marks the result as not reliable."""
 
     @model_validator(mode="after")
     def _rule_has_points(self) -> ShellSettings:
@@ -103,7 +103,7 @@ class ShellSettings(Spec):
 
     @model_validator(mode="after")
     def _nothing_idle(self) -> ShellSettings:
-        """Refuse keys that do nothing beside the others."""
+        """Refuse keys that have no effect with the others."""
         graded = self.fine_size is not None
         needs: dict[str, tuple[bool, str, str]] = {
             **dict.fromkeys(
@@ -127,7 +127,7 @@ class ShellSettings(Spec):
         }
         for key, (works, why, todo) in needs.items():
             if not works and getattr(self, key) != type(self).model_fields[key].default:
-                refuse(f"'{key}' would do nothing: {why}", key=key, todo=f"{todo}, or leave it out")
+                refuse(f"'{key}' would have no effect: {why}", key=key, todo=f"{todo}, or omit it")
         return self
 
     @model_validator(mode="after")

@@ -93,9 +93,9 @@ def test_a_largest_rotation_does_not_hide_its_plastic_part():
     comparison = SimpleNamespace(
         candidate=SimpleNamespace(name="multibody"), reference=SimpleNamespace(name="shell"), hinges=(hinge,)
     )
-    ((said, wrong),) = agreement(comparison)
+    ((message, wrong),) = agreement(comparison)
     assert wrong
-    assert "28.6° shell (+0.0 %), of which plastic 28.6° and 22.9° (+25.0 %); plastic energy" in said
+    assert "28.6° shell (+0.0 %), of which plastic 28.6° and 22.9° (+25.0 %); plastic energy" in message
 
 
 def test_hinges_in_one_fold_are_reported_with_their_total_rotation():
@@ -108,9 +108,9 @@ def test_hinges_in_one_fold_are_reported_with_their_total_rotation():
     found = compare(
         solve(with_frames(two, 21)), folded_result([(0.01, 0.08, angle_over_time(TIMES))]), two.structure
     )
-    (said,) = (text for text in found.trust.cautions if "are in one fold" in text)
-    assert said.startswith("Hinges root and next are in one fold of the shell result, from 10 mm to 80 mm")
-    assert "31.2° multibody and 34.4° shell" in said
+    (message,) = (text for text in found.trust.cautions if "are in one fold" in text)
+    assert message.startswith("Hinges root and next are in one fold of the shell result, from 10 mm to 80 mm")
+    assert "31.2° multibody and 34.4° shell" in message
 
 
 def test_the_total_rotation_of_a_corner_is_reported():
@@ -139,11 +139,11 @@ def test_the_total_rotation_of_a_corner_is_reported():
             for i, (name, hinge) in enumerate(hinges.items())
         ],
     )
-    ((said, caution),) = fold_sentences(comparison, structure, hinges)
-    assert said.startswith(
+    ((message, caution),) = fold_sentences(comparison, structure, hinges)
+    assert message.startswith(
         "Hinges middle-upper_bend and rear-upper_bend are on both sides of corner upper_bend"
     )
-    assert "total rotation of the corner is 72.9° multibody and 75.0° shell" in said
+    assert "total rotation of the corner is 72.9° multibody and 75.0° shell" in message
     assert not caution
 
 
@@ -162,10 +162,10 @@ def test_a_hinge_that_bends_two_ways_is_measured_whatever_the_axis():
         f"cut.root.moment.{axis}": size + 0.0 * shell.time
         for axis, size in (("x", 50.0), ("y", -900.0), ("z", 70.0))
     }
-    told = replace(
+    reported = replace(
         shell, channels={**shell.channels, **{name: Channel(name, "N*m", v) for name, v in cut.items()}}
     )
-    (motion,) = measured(told, two.structure, [hinge]).hinges
+    (motion,) = measured(reported, two.structure, [hinge]).hinges
     assert motion.moment[5:] == pytest.approx(900.0)
     # the multibody answer counts the same: the length of its vector of bending
     rotation = np.linspace(0.0, 1.0, 5)
@@ -224,10 +224,10 @@ def test_many_hinges_and_a_long_order_are_cut():
         hinges=hinges,
         opened=opened,
     )
-    told = list(agreement(comparison))
-    assert len(told) == 9
-    assert told[0][0].startswith("Hinge hinge 11: largest rotation")
-    assert told[-1] == (
+    reported = list(agreement(comparison))
+    assert len(reported) == 9
+    assert reported[0][0].startswith("Hinge hinge 11: largest rotation")
+    assert reported[-1] == (
         "4 further hinges have smaller errors or absorbed little energy; "
         "2 of them differ by more than 12.0 %.",
         True,
@@ -255,8 +255,8 @@ def test_welds_that_failed_are_a_caution(case, multibody):
 def test_a_run_that_ends_before_the_peak_is_a_caution(case, multibody):
     whole = folded_result(largest=0.545)
     early = compare(shortened(multibody, 0.04), shortened(whole, 0.04), case.structure).trust
-    (said,) = (text for text in early.cautions if "Still rotating" in text)
-    assert "ends at 40 ms: root (multibody); root (shell)" in said
+    (message,) = (text for text in early.cautions if "Still rotating" in text)
+    assert "ends at 40 ms: root (multibody); root (shell)" in message
     assert not any(
         "Still rotating" in text for text in compare(multibody, whole, case.structure).trust.cautions
     )

@@ -52,7 +52,7 @@ def test_former_names_of_axial_channels_are_those_of_today(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "says", "line"),
+    ("text", "expected", "line"),
     [
         ("", "the file is empty", 0),
         ("time [s],x [rad]\n", "contains a header but no numbers", 0),
@@ -67,12 +67,12 @@ def test_former_names_of_axial_channels_are_those_of_today(tmp_path):
         (b"time [s],x [rad]\n0,\xff\xfe\n", "not text in UTF-8", 0),
     ],
 )
-def test_errors_are_reported_with_their_line(tmp_path, text, says, line):
+def test_errors_are_reported_with_their_line(tmp_path, text, expected, line):
     path = written(tmp_path, text)
     with pytest.raises(InputError) as refusal:
         read_curves(path)
     problem = refusal.value.problems[0]
-    assert says in problem.what
+    assert expected in problem.what
     assert problem.file == str(path)
     assert problem.line == line
 

@@ -34,7 +34,7 @@ def test_range_ends_at_jamming_where_that_comes_first():
 
 
 @pytest.mark.parametrize(
-    ("dimensions", "said"),
+    ("dimensions", "message"),
     [
         ((0.025, 0.050, 0.00265), "thick flange"),
         ((0.025, 0.050, 0.00290), "outside the range of Kecman's tests, 9.14"),
@@ -44,5 +44,5 @@ def test_range_ends_at_jamming_where_that_comes_first():
         ((0.050, 0.025, 0.00265, 0.005), "rounded corners"),
     ],
 )
-def test_each_condition_warns_by_itself(dimensions, said):
-    assert any(said in warning for warning in validity(*dimensions).warnings)
+def test_each_condition_warns_by_itself(dimensions, message):
+    assert any(message in warning for warning in validity(*dimensions).warnings)

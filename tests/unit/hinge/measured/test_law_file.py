@@ -174,13 +174,13 @@ def line_of(words):
         ("rate: none", "rate: none\nrate: none", "is given twice"),
     ],
 )
-def test_mistakes_are_told_with_their_line(old, new, what):
+def test_mistakes_are_reported_with_their_line(old, new, what):
     assert old in GOOD
     with pytest.raises(InputError, match=what) as caught:
         read_law(GOOD.replace(old, new, 1), "law.yaml")
     problem = caught.value.problems[0]
     assert problem.file == "law.yaml"
-    # what YAML itself cannot read is told where the reader noticed
+    # invalid YAML is reported at the line where the parser noticed it
     assert line_of(old.strip()) - 1 <= problem.line <= line_of(old.strip()) + 5
 
 

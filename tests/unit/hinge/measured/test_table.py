@@ -26,7 +26,7 @@ def test_columns_are_found_by_name_and_converted(text):
 
 
 @pytest.mark.parametrize(
-    ("text", "line", "said"),
+    ("text", "line", "message"),
     [
         ("", 0, "empty"),
         ("# nothing\n\n", 0, "empty"),
@@ -40,8 +40,8 @@ def test_columns_are_found_by_name_and_converted(text):
         ("rotation [deg], moment [kN*m]\n0,nan\n", 2, "not a number"),
     ],
 )
-def test_bad_tables_are_refused_with_their_line(text, line, said):
-    with pytest.raises(InputError, match=said) as error:
+def test_bad_tables_are_refused_with_their_line(text, line, message):
+    with pytest.raises(InputError, match=message) as error:
         read_table(text, "bending.csv")
     assert error.value.problems[0].line == line
     assert error.value.problems[0].file == "bending.csv"
@@ -136,7 +136,7 @@ def test_callers_list_does_not_reach_into_the_law():
 
 
 @pytest.mark.parametrize(
-    ("keys", "said"),
+    ("keys", "message"),
     [
         ({"rotation": [], "moment": []}, "as many moments"),
         ({"rotation": [0.0, 1.0], "moment": [1.0]}, "as many moments"),
@@ -150,6 +150,6 @@ def test_callers_list_does_not_reach_into_the_law():
         ),
     ],
 )
-def test_bad_points_are_refused(keys, said):
-    with pytest.raises(InputError, match=said):
+def test_bad_points_are_refused(keys, message):
+    with pytest.raises(InputError, match=message):
         TabulatedLaw(**keys)

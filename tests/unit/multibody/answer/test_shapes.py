@@ -16,7 +16,7 @@ def tilt(states, station):
     """Angle by which the section at a station has turned about -y [rad], (n_states,)."""
     ring = np.isclose(states.station, station)
     moved = states.points[ring] + states.displacement[:, ring]
-    # upright at the start: its lowest and highest points tell how it leans
+    # upright at the start: its lowest and highest points give its inclination
     low, high = np.argmin(states.points[ring][:, 2]), np.argmax(states.points[ring][:, 2])
     upright = moved[:, high] - moved[:, low]
     start = states.points[ring][high] - states.points[ring][low]

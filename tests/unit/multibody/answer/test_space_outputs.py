@@ -55,7 +55,7 @@ def test_work_of_gravity_is_the_kinetic_energy_of_what_swings_free(result):
     )
 
 
-def test_the_fall_is_told_with_both_energies(result):
+def test_the_snap_is_reported_with_both_energies(result):
     table = fall_table(result)
     fall, prescribed = (float(row[1].replace("−", "-")) for row in table.rows[:2])
     assert fall == pytest.approx(result["energy.gravity"][-1], rel=1e-3)
@@ -63,14 +63,14 @@ def test_the_fall_is_told_with_both_energies(result):
 
 
 def test_wrong_clearances_are_refused():
-    for old, new, says in (
+    for old, new, expected in (
         ("moves_with: post", "moves_with: past", "no member 'past'"),
         ("members: [bar]", "members: [bor]", "no member 'bor'"),
         (", [2 m, 0 m, -1.5 m], [-1 m, 0 m, -1.5 m]]", "]", "clearances"),
         ("[2 m, 0 m, -1.5 m], [-1 m, 0 m, -1.5 m]]", "[3 m, 0 m, -2 m]]", "no area"),
         ("[2 m, 0 m, -1.5 m], [-1 m", "[2 m, 1 m, -1.5 m], [-1 m", "in one plane"),
     ):
-        with pytest.raises(InputError, match=says):
+        with pytest.raises(InputError, match=expected):
             loads(SWINGING.replace(old, new))
 
 

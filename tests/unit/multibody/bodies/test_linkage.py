@@ -51,7 +51,7 @@ def test_a_portal_moves_one_way_and_is_held_thrice_across():
     assert mobility(linkage, locked=True).motions == 0
     assert free_parts(linkage) == ()
     (note,) = notes(linkage)
-    assert note.startswith("3 of the constraints hold what others hold already")
+    assert note.startswith("3 of the constraints are redundant")
     assert "foot, knee, other_knee, other_foot" in note
 
 
@@ -65,7 +65,7 @@ def test_pinned_feet_let_a_portal_swing_sideways():
 
 def test_what_nothing_holds_floats():
     assert free_parts(link(portal(supports={}))) == (
-        "Nothing holds the structure: it moves freely in space.",
+        "The structure has no supports: it moves freely in space.",
     )
 
 

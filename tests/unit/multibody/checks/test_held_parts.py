@@ -1,4 +1,4 @@
-"""Obstacles that pass through held parts: told with the time at which the surfaces meet."""
+"""Obstacles that pass through held parts are reported with the time at which the surfaces meet."""
 
 import pytest
 
@@ -28,15 +28,15 @@ POLE = "type: cylinder, point: [-55 mm, 0 m, {height}], axis: [0, 1, 0], radius:
 BALL = "type: sphere, point: [-55 mm, 0 m, {height}], radius: 15 mm"
 
 
-def told(shape, more=", axial: true"):
+def reported(shape, more=", axial: true"):
     result = solve(loads(TEXT.format(shape=shape, more=more)))
     return [text for text in result.warnings if "held part" in text]
 
 
 @pytest.mark.parametrize("shape", [PLANE, POLE.format(height="230 mm"), BALL.format(height="230 mm")])
-def test_what_reaches_the_held_part_is_told(shape):
+def test_an_obstacle_that_reaches_the_held_part_is_reported(shape):
     # the plane has 15 mm to go at 100 mm/s; pole and ball stand 30 mm above the end, round with 25 mm
-    (text,) = told(shape)
+    (text,) = reported(shape)
     assert "Obstacle ram" in text
     assert "member post" in text
     if shape is PLANE:
@@ -54,7 +54,7 @@ def test_what_reaches_the_held_part_is_told(shape):
     ],
 )
 def test_what_stays_clear_of_it_is_not(shape):
-    assert told(shape) == []
+    assert reported(shape) == []
 
 
 def test_a_ball_that_wedges_what_cannot_slip_ends_the_run():

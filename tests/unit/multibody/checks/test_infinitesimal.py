@@ -31,11 +31,11 @@ def test_bars_in_one_line_begin_to_move_and_cannot_go_on(sag):
     [two_bars(0.05), two_bars(slide=True), portal(constant_law(1e3))[0], beam(constant_law(1e3))[0]],
     ids=["stiff triangle", "sliding", "portal", "beam that slides"],
 )
-def test_what_moves_on_or_not_at_all_is_not_told(structure):
+def test_finite_mechanisms_and_fixed_structures_are_not_reported(structure):
     assert infinitesimal(link(structure)) == ""
 
 
-def test_a_blow_on_such_bars_is_lost_and_says_why():
+def test_an_impulse_on_such_bars_is_lost_and_the_reason_reported():
     """The joints take all of the motion as it begins: nothing moves, no energy is unaccounted for."""
     struck = two_bars(impulses=[{"node": "m", "impulse": (0.0, 0.0, -30.0)}])
     result = solve_multibody(struck, Run(0.01, 0.005))

@@ -1,4 +1,4 @@
-"""Members that overlap at the start where members touch: told by name."""
+"""Members that overlap at the start, with contact of members, are reported by name."""
 
 import numpy as np
 import pytest
@@ -25,18 +25,18 @@ def two_bars(height, contact=True):
 
 
 @pytest.mark.parametrize(
-    ("height", "says"),
+    ("height", "expected"),
     [
         (0.06, None),
         (0.04, "Members low and high overlap at the start by up to 10 mm"),
         (0.002, "Members low and high cross at the start"),
     ],
 )
-def test_overlap_is_told(height, says):
+def test_overlap_is_reported(height, expected):
     result = solve_multibody(two_bars(height), Run(0.001, 0.001))
-    told = [text for text in result.warnings if "at the start" in text]
-    assert len(told) == (says is not None)
-    assert says is None or told[0].startswith(says)
+    reported = [text for text in result.warnings if "at the start" in text]
+    assert len(reported) == (expected is not None)
+    assert expected is None or reported[0].startswith(expected)
 
 
 def test_without_contact_nothing_overlaps():

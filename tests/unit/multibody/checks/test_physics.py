@@ -108,7 +108,7 @@ def test_a_fold_beyond_jamming_is_a_caution():
     result = solve(cantilever({"type": "kecman"}, initial_velocity=thrown), 0.2)
     (found,) = [caution for caution in result.cautions if caution.code == "beyond_jamming"]
     assert found.value == result.hinges["root"].rotation_max > found.limit
-    # said once, and not again as the range of the law
+    # reported once, and not again as the range of the law
     assert sum("turned by" in text for text in result.warnings) == 1
 
 
@@ -143,7 +143,7 @@ def test_a_crash_box_that_bottoms_out_is_a_caution():
     crush = fast.hinges["crush"].crush
     assert (crush.length, crush.stroke, crush.bottomed_out) == (found.value, found.limit, True)
     assert crush.efficiency == pytest.approx(crush.length / 0.25)
-    # nothing bent, and nobody is told of rotations and moments
+    # nothing bent: rotations and moments are not reported
     assert not fast.hinges["crush"].bends
     assert not any("rotations of" in text for text in fast.warnings)
     # the mean of the law until the folds are closed

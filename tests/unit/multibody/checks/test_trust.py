@@ -50,10 +50,10 @@ def test_rigid_bars_that_hide_much_elastic_energy_are_named() -> None:
     assert not about(thrown(15.0, form="elastic-plastic"), "elastically")
 
 
-def test_elastic_energy_beyond_all_that_was_put_in_is_told_in_words() -> None:
+def test_elastic_energy_above_the_energy_input_is_reported_in_words() -> None:
     # 3.1 J at 1 rad/s
     (text,) = about(thrown(1.0), "elastically")
-    assert "(more than all that was put in)" in text
+    assert "(more than the energy input)" in text
     assert "%" not in text
 
 
@@ -63,14 +63,14 @@ def test_a_stop_does_not_count_as_elastic_energy() -> None:
     assert "65.3 J" in text
 
 
-def test_turning_beyond_the_range_and_jamming_are_told_apart() -> None:
-    assert not about(thrown(15.0), "backed up to")
-    assert about(thrown(17.8), "backed up to 42.0 deg only")
+def test_rotation_beyond_the_range_and_jamming_are_distinguished() -> None:
+    assert not about(thrown(15.0), "valid up to")
+    assert about(thrown(17.8), "valid up to 42.0 deg only")
     (text,) = about(thrown(24.0), "jam at 53.1 deg")
     assert text.startswith("Hinge root turned by")
 
 
-def test_what_many_hinges_share_is_said_once() -> None:
+def test_a_warning_of_several_hinges_is_given_once() -> None:
     result = thrown(15.0, bars=12, type="constant")
     (text,) = about(result, "a constant capacity")
     assert text.startswith("Hinges root, tube-1, tube-2, tube-3, tube-4, 7 more: ")
@@ -106,8 +106,8 @@ def test_a_grade_is_typical_and_no_design_value() -> None:
     assert warning.startswith("Material steel: S355: typical, not design values")
 
 
-@pytest.mark.parametrize(("restitution", "said"), [(0.0, True), (0.9, True), (0.96, False)])
-def test_energy_that_rigid_impacts_took_is_named(restitution: float, said: bool) -> None:
+@pytest.mark.parametrize(("restitution", "message"), [(0.0, True), (0.9, True), (0.96, False)])
+def test_energy_that_rigid_impacts_took_is_named(restitution: float, message: bool) -> None:
     """A bar that falls flat: no hinge takes anything, and 1 - e^2 of its energy is gone."""
     structure = Structure(
         materials={"steel": STEEL},
@@ -125,13 +125,13 @@ def test_energy_that_rigid_impacts_took_is_named(restitution: float, said: bool)
         },
     )
     result = solve_multibody(structure, Run(0.03, 1e-3))
-    assert any("vanish in impacts" in warning for warning in result.warnings) == said
+    assert any("are lost in impacts" in warning for warning in result.warnings) == message
 
 
-def test_hinges_alike_are_told_together() -> None:
+def test_similar_hinges_are_reported_together() -> None:
     result = thrown(15.0, bars=130)
-    told = [text for text in result.assumptions if "capacity" in text]
-    (text,) = told
+    reported = [text for text in result.assumptions if "capacity" in text]
+    (text,) = reported
     assert text.startswith(f"{len(result.hinges)} hinges (tube-1, ")
     assert (
         f"{len(result.hinges) - 5} more) are rigid until their capacity is reached; their curves run" in text
@@ -139,7 +139,7 @@ def test_hinges_alike_are_told_together() -> None:
     assert len(result.warnings) < 8
 
 
-def test_turns_beyond_the_range_are_told_in_one_sentence() -> None:
+def test_rotations_beyond_the_range_are_reported_in_one_sentence() -> None:
     law = {"type": "table", "rotation": (0.0, 0.02), "moment": (900.0, 900.0), "rate": "off"}
     members = {
         name: {
@@ -162,5 +162,5 @@ def test_turns_beyond_the_range_are_told_in_one_sentence() -> None:
     (text,) = about(result, "turned by")
     turns = [f"{math.degrees(result.hinges[name].rotation_max):.3g}" for name in "ab"]
     assert text.startswith(
-        f"Hinges a, b: turned by {turns[0]} to {turns[1]} deg; the law is backed up to 1.1 deg"
+        f"Hinges a, b: turned by {turns[0]} to {turns[1]} deg; the law is valid up to 1.1 deg"
     )

@@ -62,7 +62,7 @@ def test_members_are_welded_at_nodes():
         (("b", "a"), 0.3, "b", -1.0),
     ],
 )
-def test_sign_says_whether_the_joint_turns_as_the_hinge_does(nodes, place, clamped, sign):
+def test_sign_is_that_of_the_joint_rotation_against_the_hinge(nodes, place, clamped, sign):
     """The joint is child against parent about +y; the hinge second side against first about local y.
 
     With the nodes exchanged local y points along -y and the sides are exchanged too.

@@ -130,7 +130,7 @@ def test_failed_variants_are_rows(bent):
     assert table[QUANTITY][0] == table[QUANTITY][3]
 
 
-def test_a_variant_that_does_not_converge_says_so(bent):
+def test_a_variant_that_does_not_converge_has_that_status(bent):
     table = solve_variants(bent, RUN, {"initial_velocity": [1.0, 1e150]})
     assert table.status[0] is Status.COMPLETE
     assert table.status[1] in (Status.STEP_COLLAPSED, Status.NOT_FINITE)
@@ -180,7 +180,7 @@ def test_stages_and_obstacles():
 
 
 def test_quasi_static_stages():
-    """Driven down at the tip: the work goes with the strength; beyond the limit load a status says so."""
+    """Driven down at the tip: the work scales with the strength; beyond the limit load a status."""
     supports = {
         "clamp": {"node": "root", "fix": "all"},
         "jack": {"node": "tip", "motion": {"z": {"table": {"time": (0.0, 1.0), "value": (0.0, -0.1)}}}},
@@ -199,4 +199,4 @@ def test_quasi_static_stages():
     loose = solve_variants(angle(), run, {"gravity": [1.0, 400.0]})
     assert loose.status[0] is Status.COMPLETE
     assert loose.status[1] is Status.LIMIT_LOAD
-    assert "gravity pass what the structure can carry" in loose.reason[1]
+    assert "gravity exceed the limit load" in loose.reason[1]

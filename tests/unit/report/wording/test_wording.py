@@ -1,4 +1,4 @@
-"""Numbers are written for people, and the verdict says what it must."""
+"""Numbers are readable, and the verdict contains every required sentence."""
 
 import math
 from dataclasses import replace
@@ -61,30 +61,30 @@ def test_column_shares_unit_and_decimals():
 
 
 def test_verdict_good():
-    said = verdict(tube_result(), 1e-3, 1e-3)
-    assert (said.level, said.headline) == ("good", "Complete.")
-    assert said.warnings == ()
-    assert "within its bound of 0.1 %" in said.reasons[0]
-    assert "stayed inside the range" in said.reasons[-1]
+    message = verdict(tube_result(), 1e-3, 1e-3)
+    assert (message.level, message.headline) == ("good", "Complete.")
+    assert message.warnings == ()
+    assert "within its bound of 0.1 %" in message.reasons[0]
+    assert "stayed inside the range" in message.reasons[-1]
 
 
 def test_verdict_cautions_outside_the_range_once():
-    said = verdict(frame_result(), 1e-3, None)
-    assert said.level == "caution"
-    assert said.warnings == (
+    message = verdict(frame_result(), 1e-3, None)
+    assert message.level == "caution"
+    assert message.warnings == (
         "Hinge h0 turned 28.65° (0.5000 rad), beyond the range of validity of its law, 11.46° (0.2000 rad).",
         "Hinge h1 turned 24.35° (0.4250 rad), beyond the range of validity of its law, 20.05° (0.3500 rad).",
     )
-    told = frame_result(warnings=("Hinge h0 turned by 28.6 deg; its law is valid up to 11.5 deg only.",))
-    assert len(verdict(told, 1e-3, None).warnings) == 2
+    reported = frame_result(warnings=("Hinge h0 turned by 28.6 deg; its law is valid up to 11.5 deg only.",))
+    assert len(verdict(reported, 1e-3, None).warnings) == 2
 
 
 def test_verdict_bad_gives_status_and_reason():
     result = tube_result(status=Status.RESIDUAL_EXCEEDED, reason="it grew from 3 ms on", energy_residual=2e-3)
-    said = verdict(result, 1e-3, None)
-    assert said.level == "bad"
-    assert said.headline == "Ended, but the energy residual exceeds its limit: do not trust this result."
-    assert said.reasons[:2] == (
+    message = verdict(result, 1e-3, None)
+    assert message.level == "bad"
+    assert message.headline == "Ended, but the energy residual exceeds its limit: do not trust this result."
+    assert message.reasons[:2] == (
         "It grew from 3 ms on.",
         "Energy balance: residual 0.2 % of the energy input, beyond its bound of 0.1 %.",
     )

@@ -1,4 +1,4 @@
-"""Settings that fit no mesh, obstacles that appear inside, files that are no restart files: told clearly."""
+"""Clear errors: settings that do not fit the mesh, obstacles that appear inside, wrong restart files."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What is asked for and would change nothing: refused, or said with the result."""
+"""Input without effect: refused, or reported with the result."""
 
 import pytest
 from tests.support.shell.structures import cantilever, thrown
@@ -24,28 +24,28 @@ COARSE = {"element_size": 24e-3}
         ({"drill_stiffness": 0.02}, {"warping_correction": "on"}),
     ],
 )
-def test_settings_that_do_nothing_are_refused_and_say_what_they_need(idle, beside):
+def test_settings_without_effect_are_refused_with_what_they_need(idle, beside):
     key = next(iter(idle))
     with pytest.raises(InputError) as caught:
         ShellSettings(element_size=25e-3, **idle)
     (problem,) = caught.value.problems
-    assert f"'{key}' would do nothing" in problem.what
+    assert f"'{key}' would have no effect" in problem.what
     assert problem.where == key
     ShellSettings(**{"element_size": 25e-3, **idle, **beside})
 
 
 def test_friction_without_contact_is_refused_unless_members_touch():
     idle = ShellSettings(self_contact="off", contact_friction=0.2)
-    with pytest.raises(InputError, match="'contact_friction' would do nothing"):
+    with pytest.raises(InputError, match="'contact_friction' would have no effect"):
         Analysis(structure=thrown(), duration=1e-3, shell=idle)
     touching = thrown().model_copy(update={"member_contact": {"friction": 0.1, "restitution": 0.5}})
     Analysis(structure=touching, duration=1e-3, shell=idle)
-    said = " ".join(
+    message = " ".join(
         solve_shell(touching, ShellRun(1e-4, 1e-4, ShellSettings(**COARSE, self_contact="off"))).assumptions
     )
-    assert "self-contact on." in said
-    assert "Self-contact is on despite its setting" in said
-    assert "restitution of member contact" in said
+    assert "self-contact on." in message
+    assert "Self-contact is on despite its setting" in message
+    assert "restitution of member contact" in message
     plain = " ".join(solve_shell(thrown(), ShellRun(1e-4, 1e-4, ShellSettings(**COARSE))).assumptions)
     assert "despite" not in plain
     assert "restitution" not in plain
@@ -57,7 +57,7 @@ def test_coarser_sections_without_space_are_reported():
     assert any("There are no coarser sections" in text for text in result.assumptions)
 
 
-def test_pictures_after_an_early_end_are_told():
+def test_pictures_after_an_early_end_are_reported():
     """The tip has moved by 2 mm long before the end."""
     way = [{"distance": 2e-3, "between": ("root", "tip")}]
     stages = (Stage(name="throw", duration=2e-3, until=[{"energy": 1e9}, *way]),)
@@ -71,8 +71,8 @@ def test_pictures_after_an_early_end_are_told():
     )
     assert result.status is Status.COMPLETE
     assert result.time[-1] < 1e-3
-    (said,) = [text for text in result.warnings if "no pictures at" in text]
-    assert "no pictures at 1 ms, 1.9 ms." in said
+    (message,) = [text for text in result.warnings if "no pictures at" in text]
+    assert "no pictures at 1 ms, 1.9 ms." in message
     run = Run(0.05, 0.005, outputs=Outputs(pictures=(0.0, 0.021)))
     stopped = solve_multibody(thrown(), run, cancel=lambda: True)
     assert stopped.status is Status.CANCELLED

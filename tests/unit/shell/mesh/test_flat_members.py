@@ -1,4 +1,4 @@
-"""Members of one flat wall: the places of nodes in a line tell no turn of a section."""
+"""Members of one flat wall: the positions of nodes in a line do not determine the rotation of a section."""
 
 import pytest
 from tests.support.structures import STEEL
@@ -15,7 +15,7 @@ FLAT = wall((-0.02, 0.0), (0.02, 0.0))
 ANGLE = wall((-0.02, 0.0), (0.02, 0.0), (0.02, 0.02))
 
 
-def told(section, hinged):
+def reported(section, hinged):
     law = {"type": "constant", "moment": 10.0}
     hinge = {"name": "h", "at": 0.03, "axis": "y", "law": law}
     member = {"nodes": ("a", "b"), "section": "sheet", "material": "steel"} | (
@@ -36,7 +36,7 @@ def told(section, hinged):
 @pytest.mark.parametrize(
     ("section", "hinged", "number"), [(FLAT, True, 1), (FLAT, False, 0), (ANGLE, True, 0)]
 )
-def test_hinges_in_a_flat_member_are_told_not_to_be_measured(section, hinged, number):
-    found = told(section, hinged)
+def test_hinges_in_a_flat_member_are_reported_as_not_measurable(section, hinged, number):
+    found = reported(section, hinged)
     assert len(found) == number
     assert all("Member strip" in text for text in found)

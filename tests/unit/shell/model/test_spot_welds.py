@@ -1,4 +1,4 @@
-"""Described spot welds in shells: where they lie, what is refused, what a run tells, threads and restart."""
+"""Described spot welds in shells: positions, refusals, what a run reports, threads and restart."""
 
 import numpy as np
 import pytest
@@ -133,7 +133,7 @@ def result():
     return solve_shell(peeled(), peel_run())
 
 
-def test_a_run_tells_which_spots_failed_when_and_where(result):
+def test_a_run_reports_which_spots_failed_when_and_where(result):
     assert result.status is Status.COMPLETE
     assert result["weld.left.failed"][0] == 0.0
     assert result["weld.left.failed"][-1] > 0.0

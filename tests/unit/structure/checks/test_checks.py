@@ -7,7 +7,7 @@ from crumple.structure import Outputs, Structure, output_problems, problems_in
 
 RAMP = {"step": {"x0": 0, "h0": 0, "x1": 1, "h1": 1}}
 
-# what is changed, where the message points, what it says
+# what is changed, the path in the message, its text
 MISTAKES = {
     "missing node": ({"members.arm.nodes": ("root", "tipp")}, "members.arm.nodes[1]", "no node 'tipp'"),
     "missing section": ({"members.arm.section": "tubes"}, "members.arm.section", "no section 'tubes'"),
@@ -25,7 +25,7 @@ MISTAKES = {
     "foreign node": (
         {"members.arm.hinges": [{"name": "a", "at": "top"}]},
         "members.arm.hinges[0].at",
-        "no node of this member",
+        "not a node of this member",
     ),
     "no length": ({"nodes.tip": (0, 0, 0)}, "members.arm", "the member has no length"),
     "coincident nodes": (
@@ -55,7 +55,7 @@ MISTAKES = {
     "hinge at a hinge": (
         {"members.arm.hinges": [{"name": "a", "at": 0.5}, {"name": "b", "at": 0.5}]},
         "members.arm.hinges[1]",
-        "lie at one place",
+        "are at the same position",
     ),
     "hinge name twice": (
         {"members.arm.hinges": [{"name": "a", "at": 0.5}, {"name": "a", "at": 0.6}]},
@@ -110,7 +110,7 @@ MISTAKES = {
     "impossible inertia": (
         {"masses.m": {"node": "tip", "mass": 1, "rotary_inertia": (1, 1, 3)}},
         "masses.m.rotary_inertia",
-        "no body has",
+        "these moments of inertia are impossible",
     ),
     "thick wall": (
         {"sections.tube.thickness": "12.5 mm"},

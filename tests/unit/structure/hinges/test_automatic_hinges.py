@@ -104,9 +104,9 @@ MISTAKES = {
 
 
 @pytest.mark.parametrize("name", MISTAKES)
-def test_a_mistake_for_all_members_is_told_once(name):
-    wish, says = MISTAKES[name]
-    with pytest.raises(InputError, match=says) as refused:
+def test_a_mistake_for_all_members_is_reported_once(name):
+    wish, expected = MISTAKES[name]
+    with pytest.raises(InputError, match=expected) as refused:
         frame(hinges=wish)
     (problem,) = refused.value.problems
     assert problem.where == "hinges.law"

@@ -33,7 +33,7 @@ def refusal(**joints):
         ({"type": "planar", "axis": (0, 0, 1)}, 3),
     ],
 )
-def test_every_type_frees_what_its_name_says(joint, free):
+def test_every_joint_type_has_its_free_motions(joint, free):
     whole = jointed(j={"node": "b", "member": "bc", **joint})
     assert len(whole.joints["j"].free) == free
     axes = joint_axes(whole.joints["j"])
@@ -55,7 +55,7 @@ def test_axes_of_a_universal_joint_are_its_y_and_z():
         ({"type": "universal", "axis": (0, 1, 0)}, "needs 'second'"),
         ({"type": "universal", "axis": (0, 1, 0), "second": (0, 1, 1)}, "not square"),
         ({"type": "revolute", "axis": (0, 1, 0), "second": (0, 0, 1)}, "has no 'second'"),
-        ({"type": "weld"}, "none of the known choices"),
+        ({"type": "weld"}, "not one of the permitted values"),
     ],
 )
 def test_axes_that_do_not_fit_the_type_are_refused(joint, words):

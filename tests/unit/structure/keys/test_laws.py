@@ -102,6 +102,6 @@ def test_keys_of_one_law_are_unknown_to_another():
 
 def test_a_ramp_that_no_form_uses_is_refused():
     assert LawKeys(type="kecman", form="regularised", regularisation={"rate": 0.1}).regularisation.rate == 0.1
-    with pytest.raises(InputError, match="'regularisation' would do nothing") as caught:
+    with pytest.raises(InputError, match="'regularisation' would have no effect") as caught:
         LawKeys(type="kecman", regularisation={"rate": 0.1})
     assert caught.value.problems[0].where == "regularisation"

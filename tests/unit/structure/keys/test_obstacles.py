@@ -46,7 +46,7 @@ def test_mass_moves_along_its_guide_else_its_velocity_else_across_the_plane():
     assert PlaneObstacle(point=(0, 0, 0), normal=(0, 0, 1)).guide_direction is None
 
 
-def test_driven_says_whether_the_motion_is_prescribed():
+def test_driven_is_true_for_prescribed_motion():
     assert not SphereObstacle(point=(0, 0, 0), radius=1).driven
     assert SphereObstacle(point=(0, 0, 0), radius=1, velocity=(1, 0, 0)).driven
     assert not SphereObstacle(point=(0, 0, 0), radius=1, velocity=(1, 0, 0), mass=1).driven
@@ -55,7 +55,7 @@ def test_driven_says_whether_the_motion_is_prescribed():
     assert SphereObstacle(point=(0, 0, 0), radius=1, turning=turning).driven
 
 
-# what is given, which key is to blame, what the message says
+# what is given, the key with the mistake, the message
 WRONG = {
     "zero normal": ({**FLOOR, "normal": (0, 0, 0)}, "normal", "direction is zero"),
     "zero axis": ({**BALL, "type": "cylinder", "axis": (0, 0, 0)}, "axis", "direction is zero"),
@@ -69,11 +69,11 @@ WRONG = {
         "motion",
         "not driven",
     ),
-    "no guide": ({**BALL, "mass": 1}, "mass", "in which direction"),
+    "no guide": ({**BALL, "mass": 1}, "mass", "direction in which the mass"),
     "slanted": (
         {**FLOOR, "mass": 1, "guide": (0, 0, 1), "velocity": (1, 0, 0)},
         "velocity",
-        "across the guide",
+        "perpendicular to the guide",
     ),
     "elastic beyond one": ({**BALL, "restitution": 1.5}, "restitution", "out of range"),
     "nothing to touch": ({**BALL, "members": ()}, "members", "no member can touch it"),
@@ -85,10 +85,10 @@ WRONG = {
 
 @pytest.mark.parametrize("name", WRONG)
 def test_wrong_obstacle_is_refused(name, keys):
-    obstacle, key, says = WRONG[name]
+    obstacle, key, expected = WRONG[name]
     with pytest.raises(InputError) as refused:
         Structure(**keys, obstacles={"thing": obstacle})
-    found = [problem for problem in refused.value.problems if says in str(problem)]
+    found = [problem for problem in refused.value.problems if expected in str(problem)]
     assert found, refused.value
     assert found[0].where.startswith("obstacles.thing")
     assert found[0].where.endswith(key)

@@ -52,7 +52,7 @@ def test_points_are_taken_as_they_are():
     ("keys", "words"),
     [
         ({"members": ("low", "top"), "at": (0, 0)}, "the distance of the spots is missing"),
-        ({"members": ("low", "top"), "pitch": 0.1}, "nothing says where the spots lie"),
+        ({"members": ("low", "top"), "pitch": 0.1}, "the positions of the spots are missing"),
         ({"members": ("low", "low"), "at": (0, 0), "pitch": 0.1}, "both members are the same"),
         ({"members": ("hat",), "at": (0, 0), "pitch": 0.1}, "lie on the weld lines of its section"),
         ({"members": ("hat",), "points": [(0, 0, 0)]}, "lie on the weld lines of its section"),
@@ -63,13 +63,16 @@ def test_points_are_taken_as_they_are():
         ({"members": ("hut",), "pitch": 0.1}, "there is no member 'hut'"),
         ({"members": ("hat",), "pitch": 0.1, "to": 1.2}, "outside the member"),
         ({"members": ("hat",), "pitch": 0.1, "from": 1.0}, "outside the member"),
-        ({"members": ("hat",), "pitch": 1e-5}, "too many spots"),
+        ({"members": ("hat",), "pitch": 1e-5}, "too many spot welds"),
         (
             {"members": ("low", "top"), "points": [(0.6, 0, 0.0125), (0.7, 0, 0.0125), (0.6, 0, 0.013)]},
             "nearer than",
         ),
-        ({"members": ("low", "top"), "at": (0, 0.0125), "pitch": 2e-3}, "nearer than two can"),
-        ({"members": ("hat",), "pitch": 1e-3}, "nearer than two can"),
+        (
+            {"members": ("low", "top"), "at": (0, 0.0125), "pitch": 2e-3},
+            "distance of the spot welds is too small",
+        ),
+        ({"members": ("hat",), "pitch": 1e-3}, "distance of the spot welds is too small"),
         ({"members": ("low",), "pitch": 0.1}, "the section of member 'low' has no lines of spot welds"),
     ],
 )
@@ -95,7 +98,7 @@ def test_a_spot_cannot_be_wider_than_its_wall(keys, member, widest):
     found, least = widest_spot(structure, "up")
     assert 1e3 * found == pytest.approx(widest, abs=0.8)
     assert least == member
-    with pytest.raises(InputError, match="the spots are wider than the wall") as caught:
+    with pytest.raises(InputError, match="diameter of the spot welds is larger than the wall") as caught:
         welded({"up": {**keys, "diameter": 0.5}})
     (problem,) = caught.value.problems
     assert (problem.came, problem.where) == ("500 mm", "spot_welds.up.diameter")
@@ -141,7 +144,7 @@ def test_a_pitch_of_the_shell_settings_needs_a_line_that_takes_it(entry):
         given = welded().model_copy(update={"members": {**welded().members, "hat": plain}})
     else:
         given = welded(entry)
-    with pytest.raises(InputError, match="no line of spot welds that would take this pitch"):
+    with pytest.raises(InputError, match="no line of spot welds for this pitch"):
         Analysis(structure=given, duration=1e-3, shell=settings)
 
 
