@@ -98,7 +98,7 @@ CASES = {
         "masses:",
         "impulses: [{node: root, impulse: [0, 0, 3 N*s]}]\nmasses:",
         "impulses[0].impulse[2]",
-        "the support 'clamp' takes z",
+        "the support 'clamp' fixes z",
     ),
     "zero mass": ("mass: 6 kg", "mass: 0 kg", "masses.payload.mass", "no inertia"),
     "zero density": ("7850 kg/m^3", "0 kg/m^3", "materials.steel.density", "it must be more than 0"),

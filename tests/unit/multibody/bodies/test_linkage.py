@@ -59,7 +59,7 @@ def test_pinned_feet_let_a_portal_swing_sideways():
     pins = {name: {"node": node, "fix": "pin"} for name, node in (("p", "a"), ("q", "d"))}
     (note,) = free_parts(link(portal(supports=pins)))
     assert note == (
-        "The supports and joints leave one way to move without any hinge turning (members ab, bc, cd)."
+        "The supports and joints leave one way to move without rotation of any hinge (members ab, bc, cd)."
     )
 
 
@@ -134,7 +134,7 @@ def test_a_joint_between_parts_that_are_one_is_refused():
     members = {name: bar(*name) for name in ("ab", "bc", "cd")} | {"da": member("d", "a")}
     joint = {"j": {"node": "a", "member": "ab", "type": "spherical"}}
     whole = structure(SQUARE, members, supports={}, joints=joint)
-    with pytest.raises(InputError, match="both sides of this joint are held or joined rigidly elsewhere"):
+    with pytest.raises(InputError, match="both sides of this joint are fixed or rigidly connected elsewhere"):
         link(whole)
 
 

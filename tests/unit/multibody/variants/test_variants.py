@@ -139,7 +139,7 @@ def alone_with(structure, run):
     [
         ({}, "no parameter"),
         ({"masses.payload.mass": []}, "no parameter"),
-        ({"materials.steel.yield": [1.0]}, "leads nowhere"),
+        ({"materials.steel.yield": [1.0]}, "this path does not exist"),
         ({"materials.steel": [1.0]}, "not the path of a number"),
         ({"members.tube.section": [1.0]}, "not the path of a number"),
         ({"hinges.nose.capacity": [1.0]}, "hinges.root.capacity"),

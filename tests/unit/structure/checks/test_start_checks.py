@@ -24,7 +24,7 @@ def test_impulse_along_a_held_freedom_is_refused():
     )
     (problem,) = found.values()
     assert problem.where == "impulses[1].impulse[2]"
-    assert "the support 'pin' takes z of node 'root'" in problem.what
+    assert "the support 'pin' fixes z of node 'root'" in problem.what
     assert problem.came == "5 N s"
 
 

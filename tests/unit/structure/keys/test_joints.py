@@ -53,7 +53,7 @@ def test_axes_of_a_universal_joint_are_its_y_and_z():
         ({"type": "revolute", "axis": (0, 0, 0)}, "the axis is zero"),
         ({"type": "spherical", "axis": (0, 1, 0)}, "has no 'axis'"),
         ({"type": "universal", "axis": (0, 1, 0)}, "needs 'second'"),
-        ({"type": "universal", "axis": (0, 1, 0), "second": (0, 1, 1)}, "not square"),
+        ({"type": "universal", "axis": (0, 1, 0), "second": (0, 1, 1)}, "not perpendicular"),
         ({"type": "revolute", "axis": (0, 1, 0), "second": (0, 0, 1)}, "has no 'second'"),
         ({"type": "weld"}, "not one of the permitted values"),
     ],

@@ -59,7 +59,7 @@ def test_driven_is_true_for_prescribed_motion():
 WRONG = {
     "zero normal": ({**FLOOR, "normal": (0, 0, 0)}, "normal", "direction is zero"),
     "zero axis": ({**BALL, "type": "cylinder", "axis": (0, 0, 0)}, "axis", "direction is zero"),
-    "leaning edge": ({**FLOOR, "edge": (1, 0, 0.1)}, "edge", "leans"),
+    "leaning edge": ({**FLOOR, "edge": (1, 0, 0.1)}, "edge", "not perpendicular"),
     "no radius": ({**BALL, "radius": 0}, "radius", "more than 0"),
     "unknown type": ({**BALL, "type": "cube"}, "", "cube"),
     "guide without mass": ({**BALL, "guide": (1, 0, 0)}, "guide", "guide without a mass"),

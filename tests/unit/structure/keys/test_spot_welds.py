@@ -66,7 +66,7 @@ def test_points_are_taken_as_they_are():
         ({"members": ("hat",), "pitch": 1e-5}, "too many spot welds"),
         (
             {"members": ("low", "top"), "points": [(0.6, 0, 0.0125), (0.7, 0, 0.0125), (0.6, 0, 0.013)]},
-            "nearer than",
+            "distance of the spot welds",
         ),
         (
             {"members": ("low", "top"), "at": (0, 0.0125), "pitch": 2e-3},

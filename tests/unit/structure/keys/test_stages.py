@@ -55,10 +55,10 @@ WRONG = {
     "drive": ({"drive": ("rem",)}, "drive[0]", "no obstacle or support 'rem'"),
     "obstacles": ({"obstacles": ("clamp",)}, "obstacles[0]", "no obstacle 'clamp'"),
     "of": ({"until": ({"force": 1, "of": "rom"},)}, "until[0].of", "no obstacle or support 'rom'"),
-    "absent": ({"obstacles": ("wall",), "until": ({"force": 1, "of": "ram"},)}, "until[0].of", "not there"),
+    "absent": ({"obstacles": ("wall",), "until": ({"force": 1, "of": "ram"},)}, "until[0].of", "not present"),
     "clamp": ({"until": ({"force": 1, "of": "clamp"},)}, "until[0].of", "not driven"),
     "still": ({"until": ({"displacement": 1, "of": "wall"},)}, "until[0].of", "never moves"),
-    "none there": ({"obstacles": (), "until": ({"force": 1, "of": "ram"},)}, "until[0].of", "not there"),
+    "none there": ({"obstacles": (), "until": ({"force": 1, "of": "ram"},)}, "until[0].of", "not present"),
     "between": ({"until": ({"distance": 1, "between": ("root", "tap")},)}, "until[0].between[1]", "'tap'"),
     "impulse": ({"impulses": ({"node": "x"},)}, "impulses[0].node", "no node 'x'"),
     "nodes": ({"initial_velocity": ({"nodes": ("x",)},)}, "initial_velocity[0].nodes[0]", "no node 'x'"),
@@ -106,7 +106,7 @@ IDLE = {
     "fixed": ("dynamic", ("wall",), "drive[0]", "the obstacle 'wall' is not driven"),
     "held": ("dynamic", ("clamp",), "drive[0]", "the support 'clamp' is not driven"),
     "with a mass": ("dynamic", ("heavy",), "drive[0]", "'heavy' has a mass and is not driven"),
-    "empty": ("quasi-static", (), "drive", "nothing pushes"),
+    "empty": ("quasi-static", (), "drive", "no drive and no load"),
 }
 
 
@@ -129,6 +129,6 @@ def test_drives_that_do_nothing_are_refused(name, keys):
 def test_first_push_needs_something_that_pushes(keys):
     push = Stage(name="push", kind="quasi-static", duration=1.0)
     (problem,) = stage_problems((push,), Structure(**keys, obstacles={"wall": WALL}))
-    assert "nothing pushes" in problem.what
+    assert "no drive and no load" in problem.what
     load = {"node": "tip", "force": {"z": "1 kN"}}
     assert stage_problems((push,), Structure(**keys, loads=[load])) == []
