@@ -1,8 +1,8 @@
 """Random frames with stated distributions, for campaigns: how many of them does the engine solve?
 
-`frame(seed, index)` is the case `index` of a campaign; it is drawn from `numpy.random.default_rng([seed,
-index])` alone, so every case can be had again by its two numbers.  A draw that the checks of the input refuse
-is drawn again, from the same stream, at most `MOST_DRAWS` times.
+`frame(seed, index)` is the case `index` of a campaign; it is drawn from `default_rng([seed, index])` alone,
+so every case can be had again by its two numbers. A draw that the checks of the input refuse, or whose
+driven supports rigid parts cannot follow, is drawn again, from the same stream, at most `MOST_DRAWS` times.
 
 Distributions ("one of" is uniform; all choices are independent unless said)
 
@@ -40,7 +40,7 @@ from tests.support.random_parts import Dice, Parts
 
 import crumple
 from crumple.errors import InputError
-from crumple.multibody import Run, solver_of
+from crumple.multibody import Run, link, solver_of, stuck_drives
 
 SEEDS = {"campaign": 20_240_901, "held_out": 731_993}
 """Seeds of the campaigns: the first is worked on; the second is looked at when the work is done."""
@@ -79,6 +79,8 @@ def check(analysis: crumple.Analysis) -> None:
     )
     if not solver.moving:
         raise InputError("nothing can move")
+    if stuck_drives(analysis.structure, link(analysis.structure, solver.hinges)):
+        raise InputError("a driven support that rigid parts cannot follow")
 
 
 class Draw(Dice):

@@ -38,11 +38,12 @@ def check(
 
 def _multibody_notes(analysis: Analysis) -> Iterator[str]:
     """Motions of the structure that are free, and constraints that are redundant."""
-    from crumple.multibody import infinitesimal, link, notes, unheld_notes
+    from crumple.multibody import infinitesimal, link, notes, stuck_drives, stuck_note, unheld_notes
 
     linkage = link(analysis.structure)
     loose = unheld_notes(analysis.structure, linkage, analysis.stages)
-    yield from filter(None, (*notes(linkage), infinitesimal(linkage), *loose))
+    stuck = stuck_note(stuck_drives(analysis.structure, linkage))
+    yield from filter(None, (*notes(linkage), infinitesimal(linkage), stuck, *loose))
 
 
 def _shell_notes(analysis: Analysis) -> Iterator[str]:

@@ -8,6 +8,7 @@ from crumple.multibody.bodies.dead_centres import dead_centres
 from crumple.multibody.bodies.linkage import Connection, Linkage, link
 from crumple.multibody.bodies.mobility import notes
 from crumple.multibody.checks.infinitesimal import infinitesimal
+from crumple.multibody.checks.stuck_drives import stuck_drives, stuck_note
 from crumple.multibody.checks.unheld import unheld_notes
 from crumple.multibody.planar.mechanism import Link, Mechanism, lower
 from crumple.multibody.planar.model import planar_initial_motion, tree_hinge, tree_model
@@ -40,6 +41,8 @@ __all__ = [
     "solve_variants",
     "solver_of",
     "stepping_seconds",
+    "stuck_drives",
+    "stuck_note",
     "tree_hinge",
     "tree_model",
     "unheld_notes",

@@ -6,7 +6,9 @@ it, X_i the twists of its freedoms, which to second order misses closing by
 
     J b + 1/2 sum_{i<j} a_i a_j [X_i, X_j] ,
 
-b being rates of second order (Baker, Campbell, Hausdorff; freedoms of one connection count as one motion).
+b being rates of second order (Baker, Campbell, Hausdorff).  Rotations of one connection count as one motion,
+and all freedoms of a hinge; a slot of a joint or support stays with its first body, so that it comes before
+the rotations, as the first axis of a universal joint comes before the second.
 Some b makes up for it if and only if every self-stress s (J^T s = 0) does no work on it: the quadratic forms
 
     Q_s(c) = 1/2 sum_{i<j} a_i a_j s.[X_i, X_j] = 0      for all s.
@@ -96,9 +98,9 @@ def dead_centres(linkage: Linkage) -> DeadCentres:
     held = frozenset(_freedom(linkage, tree, int(k)) for k in at if tree.owner[k] != GROUND)
     # joints and supports carry no moments where the hinges can
     hinges = frozenset(freedom for freedom in held if linkage.connections[freedom[0]].hinge is not None)
-    left = _without(linkage, hinges)
+    left = without(linkage, hinges)
     if _problem(left):
-        hinges, left = held, _without(linkage, held)
+        hinges, left = held, without(linkage, held)
     return DeadCentres(hinges, _crooked(left))
 
 
@@ -121,7 +123,7 @@ def _freedom(linkage: Linkage, tree: Tree, column: int) -> Freedom:
     return owner, linkage.connections[owner].free[column - tree.owner.index(owner)]
 
 
-def _without(linkage: Linkage, held: frozenset[Freedom]) -> Linkage:
+def without(linkage: Linkage, held: frozenset[Freedom]) -> Linkage:
     """A linkage without its held freedoms."""
     connections = [
         replace(c, free=tuple(freedom for freedom in c.free if (i, freedom) not in held))
@@ -174,9 +176,9 @@ def _forms(linkage: Linkage, tree: Tree, motions: Floats, stresses: Floats) -> F
             continue
         index = np.array([k for _, k, _ in along])
         twists = np.array([sign * tree.columns[k] for _, k, sign in along])
-        owner = np.array([connection for connection, _, _ in along])
+        part = np.array([_part(linkage, tree, owner, k) for owner, k, _ in along])
         work = 0.5 * np.einsum("sx,ijx->sij", stresses[:, 6 * row : 6 * row + 6], _brackets(twists))
-        ahead = np.triu(np.ones((len(index),) * 2), 1) * (owner[:, None] != owner[None, :])
+        ahead = np.triu(np.ones((len(index),) * 2), 1) * np.any(part[:, None] != part[None, :], axis=2)
         total[:, index[:, None], index[None, :]] += work * ahead
     forms = motions @ (total + total.transpose(0, 2, 1)) @ motions.T / 2.0
     _, sizes, rows = np.linalg.svd(forms.reshape(len(forms), -1), full_matrices=False)
@@ -194,9 +196,21 @@ def _along(linkage: Linkage, tree: Tree, closing: int, own: list[int]) -> list[t
     while first and second and first[-1][0] == second[-1][0]:
         first.pop()
         second.pop()
-    around = [(passed, k, sign) for passed, free, sign in reversed(first) for k in free]
-    around += [(closing, k, 1.0) for k in own]
-    return around + [(passed, k, -sign) for passed, free, sign in second for k in free]
+    passing = [
+        *reversed(first),
+        (closing, own, 1.0),
+        *((passed, free, -sign) for passed, free, sign in second),
+    ]
+    # against its sense a connection is passed from its last freedom to its first
+    return [(passed, k, sign) for passed, free, sign in passing for k in free[:: int(sign)]]
+
+
+def _part(linkage: Linkage, tree: Tree, owner: int, column: int) -> tuple[int, int]:
+    """Connection, and which of its motions a freedom belongs to: one after the other, from its first body."""
+    if owner == GROUND or linkage.connections[owner].hinge is not None:
+        return owner, 0
+    connection, (_, freedom) = linkage.connections[owner], _freedom(linkage, tree, column)
+    return owner, freedom if connection.universal else freedom // 3
 
 
 def _brackets(twists: Floats) -> Floats:

@@ -22,6 +22,7 @@ from crumple.multibody.bodies.linkage import check_inertia, described, link
 from crumple.multibody.bodies.mobility import free_parts
 from crumple.multibody.bodies.obstacle_bodies import with_obstacles
 from crumple.multibody.checks.infinitesimal import dead_centre_notes
+from crumple.multibody.checks.stuck_drives import stuck_drives, stuck_note
 from crumple.multibody.run import Run, output_times, step_bounds
 from crumple.multibody.spatial.case import added_motion, kernel_stage, recorded_hinges
 from crumple.multibody.spatial.model import spatial_model, support_drives
@@ -137,6 +138,11 @@ class SpatialSolver:
         elif 0 <= record.stuck_body < len(self.linkage.bodies):
             what, _ = described(self.linkage, record.stuck_body)
             record = replace(record, reason=f"{record.reason} (at {what})")
+        stuck = (
+            stuck_drives(self._structure, self.linkage) if record.outcome is Outcome.STEP_COLLAPSED else ()
+        )
+        if stuck:
+            record = replace(record, reason=f"{record.reason}. {stuck_note(stuck)}")
         return self._solved(record, stages, (given, lost, seconds))
 
     def _begin(

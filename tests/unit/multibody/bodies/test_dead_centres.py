@@ -95,3 +95,17 @@ def test_two_members_side_by_side_can_bend_together(rise):
     }
     frame = structure(nodes, members, supports={"clamp": {"node": "a", "fix": "all"}})
     assert at(frame) == set()
+
+
+def test_a_slot_across_a_straight_beam_lets_it_not_bend():
+    """The slot stays with the ground while the beam's end turns in it: the beam would have to lengthen."""
+    nodes = {"a": (0.0, 0.0, 0.0), "m": (0.5, 0.0, 0.0), "b": (1.0, 0.0, 0.0)}
+    stub = {"offset": 0.02}
+    members = {
+        "am": member("a", "m", ("h1", "a", stub), ("h2", "m", stub)),
+        "mb": member("m", "b", ("h3", "b", stub)),
+    }
+    slot = {"clamp": {"node": "a", "fix": "all"}, "slot": {"node": "b", "fix": ("x", "y", "rx", "rz")}}
+    frame = structure(nodes, members, supports=slot)
+    assert {name for name, _ in at(frame)} == {"h1", "h2", "h3"}
+    assert not dead_centres(link(frame)).aside
