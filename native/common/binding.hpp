@@ -5,9 +5,11 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <stdexcept>
 #include <initializer_list>
 #include <optional>
 #include <type_traits>
@@ -53,6 +55,64 @@ inline const double* rows(const Rows& given, std::size_t count, std::size_t each
     if (!given) return nullptr;
     require(given->size() == count * each && given->ndim() > 0 && given->shape(0) == count, what);
     return given->data();
+}
+
+// A state, and whether a thread is at work on it without the interpreter's lock; the flag changes under that lock alone.
+template <class State> struct Used : State {
+    using State::State;
+    bool busy = false;
+};
+
+// Holds a state for a while.
+class Busy {
+public:
+    template <class State> explicit Busy(Used<State>& state) : busy_(state.busy) {
+        if (busy_) throw std::runtime_error("this run is at work in another thread, or in what it calls");
+        busy_ = true;
+    }
+    ~Busy() { busy_ = false; }
+    Busy(const Busy&) = delete;
+    Busy& operator=(const Busy&) = delete;
+
+private:
+    bool& busy_;
+};
+
+// The function of a state for a `Used` one that nobody else holds.
+template <class State, class Result, class... Arguments> auto alone(Result (*function)(State&, Arguments...)) {
+    return [function](Used<std::remove_const_t<State>>& state, Arguments... arguments) {
+        const Busy busy(state);
+        return function(state, std::forward<Arguments>(arguments)...);
+    };
+}
+
+inline void require_settings(double accuracy, double minimum_step, double maximum_step, int parts = 1) {
+    require(parts >= 1, "a step has at least one part");
+    require(accuracy > 0 && std::isfinite(accuracy), "the accuracy must be positive");
+    require(minimum_step > 0 && std::isfinite(minimum_step), "the smallest step must be positive");
+    require(maximum_step >= minimum_step, "the largest step must not be below the smallest");
+}
+
+inline void require_times(const std::vector<double>& times, double now) {
+    require(!times.empty(), "at least one output time is needed");
+    for (std::size_t i = 0; i < times.size(); i++) {
+        require(std::isfinite(times[i]) && times[i] >= (i > 0 ? times[i - 1] : 0.0), "output times are finite and do not fall");
+    }
+    require(times.back() >= now, "the last output time lies in the past");
+}
+
+inline void require_step(double h) { require(h > 0 && std::isfinite(h), "a step is positive"); }
+
+// None in a list of models would be a null pointer
+template <class T> void require_all(const std::vector<T*>& given) {
+    for (const T* one : given) require(one != nullptr, "a model is missing");
+}
+
+// A tuple of so many fields.
+inline nanobind::tuple fields(nanobind::handle given, std::size_t number, const char* what) {
+    const auto found = nanobind::cast<nanobind::tuple>(given);
+    require(found.size() == number, what);
+    return found;
 }
 
 // Runs work(ask) while others may use the interpreter; `ask` calls `poll`, and is empty where that is None.

@@ -23,12 +23,20 @@ void share_out(std::size_t count, std::size_t share, int threads,
                const std::function<bool(double)>& poll) {
     std::atomic<std::size_t> next{0}, done{0};
     std::atomic<bool> cancelled{false};
+    std::exception_ptr thrown;
+    std::mutex throwing;
     const std::function<bool(double)> go_on = [&](double) { return !cancelled.load(std::memory_order_relaxed); };
     auto work = [&] {
         for (std::size_t begin = next.fetch_add(share); begin < count; begin = next.fetch_add(share)) {
             for (std::size_t i = begin; i < std::min(begin + share, count); i++) {
                 if (!go_on(0)) return;
-                task(i, go_on);
+                try {
+                    task(i, go_on);
+                } catch (...) {
+                    const std::lock_guard<std::mutex> one(throwing);
+                    if (!thrown) thrown = std::current_exception();
+                    cancelled = true;
+                }
                 done++;
             }
         }
@@ -66,6 +74,7 @@ void share_out(std::size_t count, std::size_t share, int threads,
     lock.unlock();
     for (std::thread& thread : team) thread.join();
     if (failed) std::rethrow_exception(failed);
+    if (thrown) std::rethrow_exception(thrown);
 }
 
 }  // namespace crumple

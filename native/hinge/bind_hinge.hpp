@@ -16,12 +16,17 @@ using Doubles = std::vector<double>;
 
 inline Curve make_curve(const Doubles& x, const Doubles& y) {
     require(!x.empty() && x.size() == y.size(), "a curve needs as many values as places, at least one");
-    for (size_t i = 1; i < x.size(); i++) require(x[i] > x[i - 1], "the places of a curve must increase");
+    for (size_t i = 0; i < x.size(); i++) {
+        require(std::isfinite(x[i]) && std::isfinite(y[i]), "places and values of a curve must be finite");
+        require(i == 0 || x[i] > x[i - 1], "the places of a curve must increase");
+    }
     return Curve(std::vector<Real>(x.begin(), x.end()), std::vector<Real>(y.begin(), y.end()));
 }
 
 // curves, stiffness, rate factor, damper and stops
 inline Hinge make_hinge(const nanobind::dict& d, Form form, Softening softening) {
+    require(form >= Form::set_valued && form <= Form::regularised, "a hinge has an unknown form");
+    require(softening >= Softening::peak && softening <= Softening::accumulated, "a hinge softens over an unknown variable");
     Hinge h;
     h.form = form;
     h.softening = softening;

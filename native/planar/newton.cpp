@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/pause.hpp"
 #include "planar/dense.hpp"
 #include "planar/stepper.hpp"
 
@@ -132,6 +133,7 @@ void Stepper::differentiate() {
 }
 
 void Stepper::solve_once() {
+    pause();
     work_ = bias_;
     solver_.solve(impedance_.data(), work_.data(), rhs_.data(), next_.data());
     solves_++;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/pause.hpp"
+
 namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
@@ -56,11 +58,18 @@ Simulation::Simulation(Model model, const Settings& settings)
     const std::vector<Real> rest(static_cast<size_t>(model_.tree.dofs()), 0.0);
     state_ = stepper_.start(model_.q0.data(), rest.data());
     between_.resize(rest.size());
+}
+
+// What takes long for many hinges, and must end where a run is cancelled.
+void Simulation::make_ready() {
+    if (ready_) return;
     set_damping();
+    ready_ = true;
 }
 
 // The inertia that a damper feels is taken at the start.
 void Simulation::set_damping() {
+    critical_.clear();
     for (Hinge& hinge : model_.hinges) {
         if (hinge.damping > 0) hinge.damped_inertia = stepper_.effective_inertia(state_, hinge.dof);
         for (Stop& stop : hinge.stop) {
@@ -73,13 +82,18 @@ void Simulation::set_damping() {
 // A stop without a damper of its own gets the critical one, c = 2 sqrt(k m), m the inertia felt just before the
 // stop is touched (at the start, should that come without notice).
 void Simulation::set_critical_damping(bool all) {
+    const Hinge* last = nullptr;
+    Real inertia = 0;
     for (const Critical& c : critical_) {
         const auto dof = static_cast<size_t>(c.hinge->dof);
         const double sign = c.stop == &c.hinge->stop[0] ? 1 : -1;
         const double gap = value(sign * state_.q[dof] - c.stop->rotation), rate = value(state_.w[dof]);
         const bool soon = gap <= 0 && gap + 2 * h_ * std::fabs(rate) > 0;
         if (!all && !soon) continue;
-        c.stop->damping = 2 * sqrt(c.stop->stiffness * stepper_.effective_inertia(state_, c.hinge->dof));
+        // both stops of a hinge feel the same
+        if (c.hinge != last) inertia = stepper_.effective_inertia(state_, c.hinge->dof);
+        last = c.hinge;
+        c.stop->damping = 2 * sqrt(c.stop->stiffness * inertia);
     }
 }
 
@@ -335,6 +349,18 @@ void Simulation::show_first_moments() {
 Record Simulation::run(const std::vector<double>& times, const std::function<bool(double)>& poll) {
     Record record;
     const std::int64_t solves = stepper_.solves();
+    try {
+        const Asking asking([&] { return !poll || poll(state_.t); });
+        run_to_end(times, poll, record);
+    } catch (const Stopped&) {
+        record.outcome = Outcome::cancelled;
+    }
+    record.solves = stepper_.solves() - solves;
+    return record;
+}
+
+void Simulation::run_to_end(const std::vector<double>& times, const std::function<bool(double)>& poll, Record& record) {
+    make_ready();
     const double duration = times.back() - state_.t;
     duration_ = duration;
     mark_ = state_.t;
@@ -361,8 +387,6 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
         if (!reached) break;
     }
     if (unseen_ > 0) record.unseen = unseen_ / std::max(speed_, large_speed_);
-    record.solves = stepper_.solves() - solves;
-    return record;
 }
 
 HingeSummary<Real> hinge_summary(const Simulation& simulation) {

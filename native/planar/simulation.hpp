@@ -51,6 +51,8 @@ public:
     // joint rates at time 0 from velocities and impulses at the centres of mass; returns the energy lost in fitting
     Real set_motion(const Twist* velocity, const Twist* impulse);
     void set_rates(const Real* w);
+    // before the first step; a run does so itself
+    void make_ready();
     // runs to the last of the times; `poll` gets the time reached and returns false to cancel
     Record run(const std::vector<double>& times, const std::function<bool(double)>& poll);
     // the present state alone
@@ -62,6 +64,7 @@ private:
         Stop* stop;
     };
     void set_damping();
+    void run_to_end(const std::vector<double>& times, const std::function<bool(double)>& poll, Record& record);
     void set_critical_damping(bool all);
     void bound_steps(double duration);
     double longest_part() const;
@@ -95,6 +98,7 @@ private:
     double duration_ = 0, mark_ = 0;  // of the run [s]; time at which it has advanced again
     int attempts_ = 0;                // steps, rejected ones too, since it last had
     std::int64_t poll_at_ = 0;  // work at which `poll` is asked next
+    bool ready_ = false;
 };
 
 // at the present state

@@ -1,5 +1,7 @@
 #include "planar/stepper.hpp"
 
+#include "common/pause.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -103,6 +105,7 @@ void Stepper::keep_joined(const State& at, Real* w) {
 }
 
 Real Stepper::effective_inertia(const State& at, int dof) {
+    pause();
     std::fill(impedance_.begin(), impedance_.end(), 0.0);
     std::fill(rhs_.begin(), rhs_.end(), 0.0);
     std::fill(work_.begin(), work_.end(), Twist{});

@@ -65,6 +65,10 @@ class InputError(CrumpleError):
         return (type(self), (self.problems,))
 
 
+class CancelledError(CrumpleError):
+    """The caller cancelled before the first step: there is nothing to keep."""
+
+
 class Status(Enum):
     """How a run ended; the value is the message for the user."""
 

@@ -18,6 +18,10 @@ from pathlib import Path
 from types import FrameType
 
 WINDOWS: bool = sys.platform == "win32"
+SYSTEM: str = sys.platform
+"""Name of the operating system, for reports of defects."""
+PART = ".crumple-part-"
+"""How names of files begin that are not whole yet; viewers that watch a folder do not open hidden files."""
 PATIENCE = 1.0
 """How long Windows may refuse to replace a file [s]; virus scanners hold a new one for a moment."""
 READABLE = {
@@ -78,10 +82,10 @@ def replacing(path: Path) -> Iterator[Path]:
     Yields
     ------
     Path
-        Where to write.  The name starts with a dot, so that viewers which watch the folder do not open it.
+        Where to write; a name that begins with `PART`.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.{os.urandom(4).hex()}")
+    temporary = path.with_name(f"{PART}{path.name}.{os.urandom(4).hex()}")
     # exclusively, and with the permissions that any new file gets
     temporary.open("xb").close()
     try:
@@ -89,12 +93,12 @@ def replacing(path: Path) -> Iterator[Path]:
         # the content must be on the disk before the name is, or a power cut leaves an empty file
         with temporary.open("rb+") as file:
             os.fsync(file.fileno())
-        _replace(temporary, path)
+        replace(temporary, path)
     finally:
         temporary.unlink(missing_ok=True)
 
 
-def _replace(source: Path, target: Path) -> None:
+def replace(source: Path, target: Path) -> None:
     """Move a file over another; Windows refuses it as long as some program has one of them open."""
     start = time.monotonic()
     while True:

@@ -213,6 +213,12 @@ def parse_quantity(text: str, unit: str) -> float:
         raise _refusal("this is not a text with a number and a unit", text, unit)
     if len(text) > MAX_TEXT:
         raise _refusal(f"a quantity has at most {MAX_TEXT} characters", text, unit)
+    return _parsed(text, unit)
+
+
+# a large frame writes the same few lengths again and again
+@lru_cache(8192)
+def _parsed(text: str, unit: str) -> float:
     match = _QUANTITY.fullmatch(text.strip())
     if match is None:
         raise _refusal("this is not a number with a unit", text, unit)

@@ -46,8 +46,29 @@ std::vector<Twist> to_twists(const In& a, int bodies) {
 }
 
 nb::dict run(Simulation& sim, const Doubles& times, nb::object poll) {
-    require(!times.empty(), "at least one output time is needed");
+    require_times(times, sim.state().t);
     return to_dict(sim, unlocked(poll, [&](const auto& ask) { return sim.run(times, ask); }));
+}
+
+double set_motion(Simulation& s, const In& velocity, const In& impulse) {
+    const int n = s.model().tree.bodies();
+    return s.set_motion(to_twists(velocity, n).data(), to_twists(impulse, n).data());
+}
+
+void set_rates(Simulation& s, const Doubles& w) {
+    require(w.size() == static_cast<size_t>(s.model().tree.dofs()), "one rate per joint coordinate");
+    s.set_rates(w.data());
+}
+
+bool step(Simulation& s, double h) {
+    require_step(h);
+    s.make_ready();
+    return s.stepper().step(s.state(), h);
+}
+
+double effective_inertia(Simulation& s, int dof) {
+    require(dof >= 0 && dof < s.model().tree.dofs(), "there is no such joint coordinate");
+    return s.stepper().effective_inertia(s.state(), dof);
 }
 
 }  // namespace
@@ -55,36 +76,23 @@ nb::dict run(Simulation& sim, const Doubles& times, nb::object poll) {
 void bind(nb::module_& m) {
     bind_model(m);
     bind_batch(m);
-    nb::class_<Simulation>(m, "Simulation", "One run: a frozen model, its state, and the adaptive stepper.")
+    using Run = Used<Simulation>;
+    nb::class_<Run>(m, "Simulation", "One run: a frozen model, its state, and the adaptive stepper.")
         .def("__init__",
-             [](Simulation* self, const Model& model, double accuracy, double minimum_step, double maximum_step,
-                int parts) {
-                 new (self) Simulation(model, {accuracy, minimum_step, maximum_step, parts});
+             [](Run* self, const Model& model, double accuracy, double minimum_step, double maximum_step, int parts) {
+                 require_settings(accuracy, minimum_step, maximum_step, parts);
+                 new (self) Run(model, Settings{accuracy, minimum_step, maximum_step, parts});
              },
-             nb::arg("model"), nb::arg("accuracy"), nb::arg("minimum_step"), nb::arg("maximum_step"),
-             nb::arg("parts") = 1)
-        .def("set_motion",
-             [](Simulation& s, const In& velocity, const In& impulse) {
-                 const int n = s.model().tree.bodies();
-                 return s.set_motion(to_twists(velocity, n).data(), to_twists(impulse, n).data());
-             },
-             nb::arg("velocity"), nb::arg("impulse"))
-        .def("set_rates",
-             [](Simulation& s, const Doubles& w) {
-                 require(w.size() == static_cast<size_t>(s.model().tree.dofs()), "one rate per joint coordinate");
-                 s.set_rates(w.data());
-             },
-             nb::arg("w"))
-        .def("run", &run, nb::arg("times"), nb::arg("poll") = nb::none())
-        .def("step", [](Simulation& s, double h) { return s.stepper().step(s.state(), h); }, nb::arg("h"),
-             "One fixed step of length h [s]; False when it did not converge.")
-        .def("effective_inertia", [](Simulation& s, int dof) { return s.stepper().effective_inertia(s.state(), dof); },
-             nb::arg("dof"))
-        .def("summary",
-             [](const Simulation& s) { return crumple::to_dict(hinge_summary(s), {s.state().hinge.size()}); })
-        .def_prop_ro("time", [](Simulation& s) { return s.state().t; })
-        .def_prop_ro("q", [](Simulation& s) { return s.state().q; })
-        .def_prop_ro("w", [](Simulation& s) { return s.state().w; });
+             nb::arg("model"), nb::arg("accuracy"), nb::arg("minimum_step"), nb::arg("maximum_step"), nb::arg("parts") = 1)
+        .def("set_motion", alone(&set_motion), nb::arg("velocity"), nb::arg("impulse"))
+        .def("set_rates", alone(&set_rates), nb::arg("w"))
+        .def("run", alone(&run), nb::arg("times"), nb::arg("poll") = nb::none())
+        .def("step", alone(&step), nb::arg("h"), "One fixed step of length h [s]; False when it did not converge.")
+        .def("effective_inertia", alone(&effective_inertia), nb::arg("dof"))
+        .def("summary", alone(+[](const Simulation& s) { return crumple::to_dict(hinge_summary(s), {s.state().hinge.size()}); }))
+        .def_prop_ro("time", alone(+[](const Simulation& s) { return s.state().t; }))
+        .def_prop_ro("q", alone(+[](const Simulation& s) { return s.state().q; }))
+        .def_prop_ro("w", alone(+[](const Simulation& s) { return s.state().w; }));
 }
 
 }  // namespace CRUMPLE_ARITHMETIC

@@ -17,7 +17,8 @@ void require_one_topology(const std::vector<const Model*>& models) {
     for (const Model* m : models) {
         bool same = m->tree.bodies() == first.tree.bodies() && m->tree.dofs() == first.tree.dofs() &&
                     m->hinges.size() == first.hinges.size() && m->loads.size() == first.loads.size() &&
-                    m->drives.size() == first.drives.size();
+                    m->drives.size() == first.drives.size() &&
+                    m->welds.size() == first.welds.size() && m->holds.size() == first.holds.size();
         for (int i = 0; same && i < first.tree.bodies(); i++) same = m->tree[i].parent == first.tree[i].parent;
         require(same, "all models of a batch must have the same bodies, hinges, loads and drives");
     }
@@ -47,8 +48,10 @@ nb::dict solve(const std::vector<const Model*>& models, const InNumbers& model_o
                const Rows& impulse, const Rows& capacity_scale, const Rows& load_scale, const Rows& bodies,
                const Rows& gravity, double accuracy, double minimum_step, double maximum_step, int threads,
                nb::object poll) {
+    require_all(models);
     require_one_topology(models);
-    require(end > 0, "the end must come after the start");
+    require_settings(accuracy, minimum_step, maximum_step);
+    require(std::isfinite(end) && end > 0, "the end must come after the start");
     const Model& first = *models.front();
     const auto n = static_cast<size_t>(first.tree.bodies());
     Variations v;

@@ -20,7 +20,9 @@ Tree make_tree(const InNumbers& parent, const InNumbers& joint, const In& bodies
     for (size_t i = 0; i < n; i++) {
         const double* b = bodies.data() + 6 * i;
         const auto p = static_cast<int>(parent.data()[i]);
-        require(p >= -1 && p < static_cast<int>(i), "a parent must come before its children");
+        require(p == parent.data()[i] && p >= -1 && p < static_cast<int>(i), "a parent must come before its children");
+        require(joint.data()[i] == 0 || joint.data()[i] == 1, "a joint is revolute or free");
+        for (int k = 0; k < 6; k++) require(std::isfinite(b[k]), "the numbers of a body must be finite");
         const Joint kind = joint.data()[i] == 0 ? Joint::revolute : Joint::free;
         require(kind == Joint::revolute || p == -1, "a free joint must hang on the ground");
         require(b[4] > 0 && b[5] > 0, "mass and inertia must be positive");
@@ -36,6 +38,7 @@ Hinge make_tree_hinge(const nb::dict& d) {
     return h;
 }
 
+// the first fields of a load or a drive: body, point, direction, times, values
 Load make_load(const nb::tuple& t) {
     const Doubles at = nb::cast<Doubles>(t[1]), along = nb::cast<Doubles>(t[2]);
     return {nb::cast<int>(t[0]), {at.at(0), at.at(1)}, {along.at(0), {along.at(1), along.at(2)}},
@@ -65,10 +68,10 @@ Model make_model(const InNumbers& parent, const InNumbers& joint, const In& bodi
     require(std::is_sorted(breaks.begin(), breaks.end()), "breaks must increase");
     require(q0.size() == static_cast<size_t>(model.tree.dofs()), "q0 must have one entry per joint coordinate");
     for (nb::handle h : hinges) model.hinges.push_back(make_tree_hinge(nb::cast<nb::dict>(h)));
-    for (nb::handle l : loads) model.loads.push_back(make_load(nb::cast<nb::tuple>(l)));
-    for (nb::handle d : drives) model.drives.push_back(make_drive(nb::cast<nb::tuple>(d)));
-    for (nb::handle d : holds) model.holds.push_back(make_hold(nb::cast<nb::tuple>(d)));
-    for (nb::handle w : welds) model.welds.push_back(make_weld(nb::cast<nb::tuple>(w)));
+    for (nb::handle l : loads) model.loads.push_back(make_load(fields(l, 5, "a load has body, point, direction, times, values")));
+    for (nb::handle d : drives) model.drives.push_back(make_drive(fields(d, 6, "a drive is a load with rates")));
+    for (nb::handle d : holds) model.holds.push_back(make_hold(fields(d, 3, "a hold has body, point, direction")));
+    for (nb::handle w : welds) model.welds.push_back(make_weld(fields(w, 4, "a weld has two bodies and two points")));
     auto known = [&](int body) { return body >= 0 && body < model.tree.bodies(); };
     for (const Hinge& h : model.hinges) require(h.dof >= 0 && h.dof < model.tree.dofs(), "a hinge names an unknown coordinate");
     for (const Load& l : model.loads) require(known(l.body), "a load names an unknown body");

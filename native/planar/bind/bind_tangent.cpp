@@ -46,6 +46,10 @@ nb::dict solve(Model& given, const std::vector<Model*>& up, const std::vector<Mo
                const In& velocity, const In& velocity_slopes, const In& impulse, const In& impulse_slopes,
                double end, double accuracy, double minimum_step, double maximum_step, nb::object poll) {
     const size_t count = width.size();
+    require_all(up);
+    require_all(down);
+    require_settings(accuracy, minimum_step, maximum_step);
+    require(std::isfinite(end) && end > 0, "the end must come after the start");
     require(count <= directions && up.size() == count && down.size() == count, "too many directions at a time");
     Model model = given;
     require(set_directions(model, up, down, width), "a parameter changes more than numbers of the model");

@@ -6,7 +6,12 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
 #include "common/binding.hpp"
+#include "shell/run/lowering.hpp"
 #include "shell/run/simulation.hpp"
 
 namespace nb = nanobind;
@@ -14,6 +19,7 @@ namespace nb = nanobind;
 namespace crumple::shell {
 
 using ModelPointer = std::shared_ptr<Model>;
+using Run = Used<Simulation>;
 void bind_model(nb::module_& m);
 
 static nb::dict energies(const Simulation& s) {
@@ -32,6 +38,7 @@ static nb::dict energies(const Simulation& s) {
 }
 
 static Array element_slot(const Simulation& s, int slot) {
+    require(slot >= 0 && slot < common_slots, "an element has no such slot");
     std::vector<double> v(s.model().elements());
     for (std::size_t e = 0; e < v.size(); e++) v[e] = s.slot(e, slot);
     return to_array(std::move(v), {s.model().elements()});
@@ -39,6 +46,7 @@ static Array element_slot(const Simulation& s, int slot) {
 
 // (elements, points): one quantity of every thickness point; points that a part does not have are zero
 static Array point_slot_values(const Simulation& s, int which) {
+    require(which >= 0 && which < point_slots, "a point has no such slot");
     std::size_t points = 0;
     for (const Part& p : s.blocks().parts) points = std::max(points, std::size_t(p.points));
     std::vector<double> v(s.model().elements() * points, 0.0);
@@ -48,6 +56,7 @@ static Array point_slot_values(const Simulation& s, int which) {
 }
 
 static nb::tuple cut(const Simulation& s, std::size_t i) {
+    require(i < s.model().cuts.size(), "there is no such cut");
     Vec3 centre;
     const Wrench w = s.cut(i, &centre);
     return nb::make_tuple(to_array({w.force.x, w.force.y, w.force.z}, {3}), to_array({w.moment.x, w.moment.y, w.moment.z}, {3}),
@@ -126,23 +135,27 @@ static nb::dict save(const Simulation& s) {
 
 // `same`: of the same model, else of the stage before
 static void restore(Simulation& s, const nb::dict& d, bool same) {
-    const Checkpoint size = s.save();
+    const Checkpoint before = s.save();
     Checkpoint c;
-    auto get = [&](const char* name, std::vector<double>& v, std::size_t expected) {
-        v = to_vector(nb::cast<In>(d[name]));
-        if (expected && v.size() != expected) throw std::invalid_argument("the checkpoint belongs to another model or instruction set");
-    };
-    get("numbers", c.numbers, size.numbers.size());
-    get("nodes", c.nodes, size.nodes.size());
-    get("elements", c.elements, size.elements.size());
-    get("sums", c.sums, size.sums.size());
-    get("bodies", c.bodies, size.bodies.size());
-    get("drives", c.drives, same ? size.drives.size() : 0);
-    get("contact", c.contact, 0);
-    same ? s.restore(c) : s.go_on_from(c);
+    auto get = [&](const char* name, std::vector<double>& v) { v = to_vector(nb::cast<In>(d[name])); };
+    get("numbers", c.numbers);
+    get("nodes", c.nodes);
+    get("elements", c.elements);
+    get("sums", c.sums);
+    get("bodies", c.bodies);
+    get("drives", c.drives);
+    get("contact", c.contact);
+    try {
+        same ? s.restore(c) : s.go_on_from(c);
+    } catch (const std::invalid_argument&) {
+        // a refused checkpoint changes nothing
+        s.restore(before);
+        throw;
+    }
 }
 
 static nb::tuple thickness_points(int points, bool lobatto) {
+    require(points >= (lobatto ? 2 : 1) && points <= max_points, "1 to 10 thickness points are allowed (Lobatto: 2 to 10)");
     std::vector<double> z(std::size_t(points), 0.0), w(std::size_t(points), 0.0);
     thickness_rule(points, lobatto, z.data(), w.data());
     return nb::make_tuple(to_array(std::move(z), {std::size_t(points)}), to_array(std::move(w), {std::size_t(points)}));
@@ -151,6 +164,7 @@ static nb::tuple thickness_points(int points, bool lobatto) {
 static void deform(Simulation& s, const In& x, const In& v, const In& w, double dt) {
     for (const In* a : {&x, &v, &w})
         if (a->size() != 3 * s.model().nodes()) throw std::invalid_argument("positions and velocities have shape (nodes, 3)");
+    require(dt > 0.0 && std::isfinite(dt), "a step is positive");
     s.deform(x.data(), v.data(), w.data(), dt);
 }
 
@@ -160,45 +174,52 @@ static void add_motion(Simulation& s, const In& v, const In& w) {
     s.add_motion(v.data(), w.data());
 }
 
+// Work that leaves the interpreter's lock: nobody else may touch the state meanwhile.
+static int advance(Run& s, double until, double seconds, std::int64_t steps, int threads) {
+    require(!std::isnan(until) && !std::isnan(seconds) && steps >= 0, "a run needs an end, a time and a number of steps");
+    const Busy busy(s);
+    nb::gil_scoped_release release;
+    return int(s.advance(until, seconds, steps, threads));
+}
+
 static void bind_simulation(nb::module_& m) {
-    nb::class_<Simulation>(m, "Simulation")
-        .def("__init__", [](Simulation* self, const ModelPointer& model, const std::string& isa) {
+    nb::class_<Run>(m, "Simulation")
+        .def("__init__", [](Run* self, const ModelPointer& model, const std::string& isa) {
+            require(model != nullptr, "a model is needed");
             check(*model);
-            new (self) Simulation(std::make_shared<const Model>(*model), choose_kernels(isa.c_str()));
+            new (self) Run(std::make_shared<const Model>(*model), choose_kernels(isa.c_str()));
         })
-        .def("advance", [](Simulation& s, double until, double seconds, std::int64_t steps, int threads) {
-            nb::gil_scoped_release release;
-            return int(s.advance(until, seconds, steps, threads));
-        })
-        .def("deform", &deform)
-        .def("energies", &energies)
-        .def("element_slot", &element_slot)
-        .def("point_slot", &point_slot_values)
-        .def("cut", &cut)
-        .def("positions", &positions)
-        .def("velocities", &velocities)
-        .def("node_forces", &node_forces)
-        .def("rigid_states", &rigid_states)
-        .def("weld_states", &weld_states)
-        .def("save", &save)
-        .def("restore", &restore)
-        .def("obstacle_states", &obstacle_states)
-        .def("appeared_inside", &appeared_inside)
-        .def("add_motion", &add_motion)
-        .def("stop", &Simulation::stop)
-        .def("external_work", &Simulation::external_work)
-        .def_prop_ro("time", &Simulation::time)
-        .def_prop_ro("step", &Simulation::step)
-        .def_prop_ro("first_step", &Simulation::first_step)
-        .def_prop_ro("steps", &Simulation::steps)
-        .def_prop_ro("end", [](const Simulation& s) { return int(s.end()); })
-        .def_prop_ro("failed_element", &Simulation::failed_element)
-        .def_prop_ro("isa", [](const Simulation& s) { return std::string(s.kernels().name); })
-        .def_prop_ro("mass", [](const Simulation& s) { return s.masses().structure; })
-        .def_prop_ro("added_mass", [](const Simulation& s) { return s.masses().added; })
-        .def_prop_ro("deepest_penetration", [](const Simulation& s) { return s.contact().deepest(); })
-        .def_prop_ro("contact_searches", [](const Simulation& s) { return s.contact().searches(); })
-        .def_prop_ro("touching_nodes", [](const Simulation& s) { return s.contact().touching(); });
+        .def("advance", &advance)
+        .def("deform", alone(&deform))
+        .def("energies", alone(&energies))
+        .def("element_slot", alone(&element_slot))
+        .def("point_slot", alone(&point_slot_values))
+        .def("cut", alone(&cut))
+        .def("positions", alone(&positions))
+        .def("velocities", alone(&velocities))
+        .def("node_forces", alone(&node_forces))
+        .def("rigid_states", alone(&rigid_states))
+        .def("weld_states", alone(&weld_states))
+        .def("save", alone(&save))
+        .def("restore", alone(&restore))
+        .def("obstacle_states", alone(&obstacle_states))
+        .def("appeared_inside", alone(&appeared_inside))
+        .def("add_motion", alone(&add_motion))
+        .def("stop", alone(+[](Simulation& s) { s.stop(); }))
+        .def("external_work", alone(+[](Simulation& s) { return s.external_work(); }))
+        .def_prop_ro("time", alone(+[](const Simulation& s) { return s.time(); }))
+        .def_prop_ro("step", alone(+[](const Simulation& s) { return s.step(); }))
+        .def_prop_ro("first_step", alone(+[](const Simulation& s) { return s.first_step(); }))
+        .def_prop_ro("steps", alone(+[](const Simulation& s) { return s.steps(); }))
+        .def_prop_ro("end", alone(+[](const Simulation& s) { return int(s.end()); }))
+        .def_prop_ro("failed_element", alone(+[](const Simulation& s) { return s.failed_element(); }))
+        .def_prop_ro("isa", alone(+[](const Simulation& s) { return std::string(s.kernels().name); }))
+        .def_prop_ro("lanes", alone(+[](const Simulation& s) { return s.kernels().lanes; }))
+        .def_prop_ro("mass", alone(+[](const Simulation& s) { return s.masses().structure; }))
+        .def_prop_ro("added_mass", alone(+[](const Simulation& s) { return s.masses().added; }))
+        .def_prop_ro("deepest_penetration", alone(+[](const Simulation& s) { return s.contact().deepest(); }))
+        .def_prop_ro("contact_searches", alone(+[](const Simulation& s) { return s.contact().searches(); }))
+        .def_prop_ro("touching_nodes", alone(+[](const Simulation& s) { return s.contact().touching(); }));
 }
 
 void bind(nb::module_& m) {

@@ -114,7 +114,10 @@ static Vec3 unit(const nb::handle& given, const char* what) {
 }
 
 // curves come as pairs of arrays
-static Curve curve_of(const nb::handle& pair) { return curve(nb::cast<In>(pair[0]), nb::cast<In>(pair[1])); }
+static Curve curve_of(const nb::handle& pair) {
+    if (nb::len(pair) != 2) throw std::invalid_argument("a curve is times and values");
+    return curve(nb::cast<In>(pair[0]), nb::cast<In>(pair[1]));
+}
 
 static void add_obstacle(Model& m, const nb::dict& d) {
     Obstacle o{};
@@ -130,6 +133,7 @@ static void add_obstacle(Model& m, const nb::dict& d) {
     o.mass = nb::cast<double>(d["mass"]);
     o.guide = unit(d["guide"], "guide");
     o.velocity = vec3(nb::cast<In>(d["velocity"]));
+    if (nb::len(nb::object(d["motion"])) != 3) throw std::invalid_argument("an obstacle moves in three directions");
     for (int i = 0; i < 3; i++) {
         const nb::object motion = d["motion"][i];
         if (!motion.is_none()) o.motion[i] = curve_of(motion);

@@ -43,10 +43,12 @@ void NodeForces::save(std::vector<double>& out) const {
         for (Index n : chunk) out.insert(out.end(), {double(n), force_[4 * n], force_[4 * n + 1], force_[4 * n + 2]});
 }
 
-void NodeForces::restore(const double*& in) {
+void NodeForces::restore(Saved& in) {
     clear({0, chunks()});
-    std::size_t count = std::size_t(*in++);
-    for (; count > 0; count--, in += 4) add(Index(in[0]), read3(in + 1));
+    for (std::size_t count = in.count(4); count > 0; count--) {
+        const Index node = Index(in.index(force_.size() / 4));
+        add(node, in.vector());
+    }
 }
 
 Contact::Contact(const Model& model, const Masses& masses, double step) : sheets_(model, masses, step), obstacles_(sheets_) {
@@ -169,19 +171,21 @@ std::vector<double> Contact::save() const {
 }
 
 void Contact::restore(const std::vector<double>& saved) {
-    work_ = saved[0];
-    deepest_ = saved[1];
-    searches_ = std::size_t(saved[2]);
-    checks_ = std::size_t(saved[3]);
-    const double* in = saved.data() + 5;
-    searched_at_.assign(in, in + std::size_t(saved[4]));
-    in += std::size_t(saved[4]);
+    constexpr std::size_t most = std::size_t(1) << 53;
+    Saved in(saved);
+    work_ = in.number();
+    deepest_ = in.number();
+    searches_ = in.index(most);
+    checks_ = in.index(most);
+    if (in.count(1) != searched_at_.size()) throw std::invalid_argument("the checkpoint is that of another contact");
+    in.copy(searched_at_);
     now_.restore(in);
     if (walls_) {
         walls_->restore(in);
         edges_->restore(in);
     }
     obstacles_.restore(in);
+    in.finish();
     all_ = true;
 }
 

@@ -216,11 +216,14 @@ void EdgeContact::save(std::vector<double>& out) const {
     for (const Pair& p : pairs_) out.insert(out.end(), {double(p.first), double(p.second), p.gap, p.stick.x, p.stick.y, p.stick.z});
 }
 
-void EdgeContact::restore(const double*& in) {
-    pairs_.resize(std::size_t(*in++));
+void EdgeContact::restore(Saved& in) {
+    pairs_.resize(in.count(6));
     for (Pair& p : pairs_) {
-        p = {Index(in[0]), Index(in[1]), in[2], read3(in + 3), false};
-        in += 6;
+        p.first = Index(in.index(edges_.size()));
+        p.second = Index(in.index(edges_.size()));
+        p.gap = in.number();
+        p.stick = in.vector();
+        p.close = false;
     }
 }
 

@@ -5,6 +5,7 @@
 // elements now at an angle.  Theory: docs/theory/contact.md.
 #pragma once
 #include "shell/contact/wall_contact.hpp"
+#include "shell/run/saved.hpp"
 
 namespace crumple::shell {
 
@@ -28,7 +29,7 @@ public:
     void end_search(const Motions& m);
 
     void save(std::vector<double>& out) const;
-    void restore(const double*& in);
+    void restore(Saved& in);
 
 private:
     struct Edge {

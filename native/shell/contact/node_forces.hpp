@@ -1,6 +1,7 @@
 // Contact forces on nodes, summed in a fixed order, and what contact knows of the sheets.
 #pragma once
 #include "shell/run/lowering.hpp"
+#include "shell/run/saved.hpp"
 #include "shell/contact/penalty.hpp"
 #include "common/team.hpp"
 
@@ -79,7 +80,7 @@ public:
         return count;
     }
     void save(std::vector<double>& out) const;
-    void restore(const double*& in);
+    void restore(Saved& in);
 
 private:
     aligned_vector<double> force_;               // [node][4]

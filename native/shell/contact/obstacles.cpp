@@ -284,29 +284,25 @@ void ObstacleContact::save(std::vector<double>& out) const {
     for (const Item& item : items_) out.insert(out.end(), {double(item.obstacle), double(item.place)});
 }
 
-void ObstacleContact::restore(const double*& in) {
-    outside_work_ = *in++;
+void ObstacleContact::restore(Saved& in) {
+    outside_work_ = in.number();
     for (std::size_t i = 0; i < model_.size(); i++) {
         State& s = states_[i];
-        for (Vec3* v : {&s.shift, &s.velocity, &s.force, &s.moment, &s.force_before, &s.moment_before, &s.impulse, &searched_at_[i]}) {
-            *v = read3(in);
-            in += 3;
-        }
-        s.angle = in[0];
-        s.rate = in[1];
-        s.deepest = in[2];
-        present_[i] = in[3] != 0.0;
-        in += 4;
+        for (Vec3* v : {&s.shift, &s.velocity, &s.force, &s.moment, &s.force_before, &s.moment_before, &s.impulse, &searched_at_[i]}) *v = in.vector();
+        s.angle = in.number();
+        s.rate = in.number();
+        s.deepest = in.number();
+        present_[i] = in.number() != 0.0;
         turn_[i] = s.angle != 0.0 ? turned(model_[i].turn_axis, s.angle) : Mat3{};
-        for (std::size_t k = 0; k < gap_[i].size(); k++, in += 4) {
-            gap_[i][k] = in[0];
-            stick_[i][k] = read3(in + 1);
+        for (std::size_t k = 0; k < gap_[i].size(); k++) {
+            gap_[i][k] = in.number();
+            stick_[i][k] = in.vector();
         }
     }
-    items_.resize(std::size_t(*in++));
+    items_.resize(in.count(2));
     for (Item& item : items_) {
-        item = {std::uint32_t(in[0]), std::uint32_t(in[1])};
-        in += 2;
+        item.obstacle = std::uint32_t(in.index(model_.size()));
+        item.place = std::uint32_t(in.index(gap_[item.obstacle].size()));
     }
     touch_.assign(items_.size(), Touch{});
 }

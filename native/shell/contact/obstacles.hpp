@@ -5,6 +5,7 @@
 // the end of a wall that stands on a plane has no thickness towards it.  Theory: docs/theory/contact.md.
 #pragma once
 #include "shell/contact/body_contact.hpp"
+#include "shell/run/saved.hpp"
 #include "shell/contact/node_forces.hpp"
 
 namespace crumple::shell {
@@ -55,7 +56,7 @@ public:
     void search(const Motions& m, double skin);
 
     void save(std::vector<double>& out) const;
-    void restore(const double*& in);
+    void restore(Saved& in);
 
 private:
     struct Item {

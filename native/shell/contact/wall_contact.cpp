@@ -286,20 +286,22 @@ void WallContact::save(std::vector<double>& out) const {
     }
 }
 
-void WallContact::restore(const double*& in) {
-    listed_.resize(std::size_t(*in++));
-    candidates_.resize(std::size_t(*in++));
+void WallContact::restore(Saved& in) {
+    const std::size_t elements = sheets_.model.elements();
+    listed_.resize(in.count(8));
+    candidates_.resize(in.count(2));
     is_close_.assign(candidates_.size(), 0);
     candidate_first_.assign(listed_.size() + 1, 0);
     stick_.assign(stick_.size(), Vec3{});
     for (std::size_t i = 0; i < listed_.size(); i++) {
-        listed_[i] = Index(*in++);
-        candidate_first_[i + 1] = std::size_t(*in++);
-        for (std::size_t k = 0; k < 2; k++, in += 3) stick_[2 * listed_[i] + k] = read3(in);
+        listed_[i] = Index(in.index(stick_.size() / 2));
+        candidate_first_[i + 1] = in.index(candidates_.size() + 1);
+        if (candidate_first_[i + 1] < candidate_first_[i]) throw std::invalid_argument("the lists of contact are damaged");
+        for (std::size_t k = 0; k < 2; k++) stick_[2 * listed_[i] + k] = in.vector();
     }
     for (Candidate& c : candidates_) {
-        c.element = Index(*in++);
-        c.side = std::int8_t(*in++);
+        c.element = Index(in.index(elements));
+        c.side = std::int8_t(in.whole(-1, 3));
     }
 }
 

@@ -6,6 +6,7 @@
 // side, so that a wall between two walls is held by both.  Theory: docs/theory/contact.md.
 #pragma once
 #include "shell/contact/closest_point.hpp"
+#include "shell/run/saved.hpp"
 #include "shell/contact/contact_search.hpp"
 #include "shell/contact/node_forces.hpp"
 
@@ -36,7 +37,7 @@ public:
     bool neighbour(Index node, Index element) const;
 
     void save(std::vector<double>& out) const;
-    void restore(const double*& in);
+    void restore(Saved& in);
 
 private:
     struct Candidate {

@@ -207,10 +207,10 @@ void SpotWelds::save(std::vector<double>& out) const {
     for (const WeldState& w : states_) out.insert(out.end(), {double(w.broken), w.time, w.normal, w.shear, w.worst});
 }
 
-void SpotWelds::restore(const double*& in) {
+void SpotWelds::restore(Saved& in) {
     for (WeldState& w : states_) {
-        w = {in[0] != 0.0, in[1], in[2], in[3], in[4]};
-        in += 5;
+        w.broken = in.number() != 0.0;
+        for (double* x : {&w.time, &w.normal, &w.shear, &w.worst}) *x = in.number();
     }
 }
 

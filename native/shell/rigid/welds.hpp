@@ -11,6 +11,7 @@
 // Theory: docs/theory/spot_welds.md.
 #pragma once
 #include "shell/run/lowering.hpp"
+#include "shell/run/saved.hpp"
 
 namespace crumple::shell {
 
@@ -46,7 +47,7 @@ public:
     void bear(const double* position, double time, double kick, const std::vector<Vec3>& impulse);
 
     void save(std::vector<double>& out) const;
-    void restore(const double*& in);
+    void restore(Saved& in);
 
 private:
     struct Side {

@@ -164,37 +164,35 @@ Checkpoint Simulation::save() const {
 }
 
 void Simulation::restore(const Checkpoint& c) {
-    const double* p = c.numbers.data();
-    for (double* x : {&time_, &dt_, &last_dt_, &outside_work_, &body_damping_, &first_kinetic_}) *x = *p++;
-    steps_ = std::int64_t(*p++);
-    failed_element_ = std::int64_t(*p++);
-    end_ = End(int(*p++));
-    std::copy_n(p, damping_work_.size(), damping_work_.begin());
+    const Checkpoint own = save();
+    auto same = [](const auto& a, const auto& b) { return a.size() == b.size(); };
+    if (!same(c.numbers, own.numbers) || !same(c.nodes, own.nodes) || !same(c.elements, own.elements) || !same(c.sums, own.sums) ||
+        !same(c.bodies, own.bodies) || !same(c.drives, own.drives))
+        throw std::invalid_argument("the checkpoint belongs to another model or instruction set");
+    Saved numbers(c.numbers);
+    for (double* x : {&time_, &dt_, &last_dt_, &outside_work_, &body_damping_, &first_kinetic_}) *x = numbers.number();
+    steps_ = std::int64_t(numbers.index(std::size_t(1) << 53));
+    // -1 for none
+    failed_element_ = numbers.whole(-1, model_->elements() + 1);
+    end_ = End(int(numbers.index(std::size_t(End::inverted) + 1)));
+    numbers.copy(damping_work_);
     std::copy_n(c.nodes.begin(), position_.size(), position_.begin());
     std::copy_n(c.nodes.begin() + std::ptrdiff_t(position_.size()), velocity_.size(), velocity_.begin());
     std::copy_n(c.elements.begin(), state_.size(), state_.begin());
     std::copy_n(c.sums.begin(), sum_.size(), sum_.begin());
     std::copy_n(c.sums.begin() + std::ptrdiff_t(sum_.size()), kept_.size(), kept_.begin());
-    p = c.bodies.data();
+    Saved bodies(c.bodies);
     for (RigidState& s : body_states_) {
-        for (Vec3* v : {&s.centre, &s.velocity, &s.angular_momentum, &s.omega}) {
-            *v = read3(p);
-            p += 3;
-        }
-        std::copy_n(p, 9, s.rotation.m);
-        p += 9;
+        for (Vec3* v : {&s.centre, &s.velocity, &s.angular_momentum, &s.omega}) *v = bodies.vector();
+        for (double& x : s.rotation.m) x = bodies.number();
     }
-    welds_->restore(p);
+    welds_->restore(bodies);
     sort_welds();
-    p = c.drives.data();
-    for (Driven& d : driven_) {
-        std::copy_n(p, 6, d.outside);
-        p += 6;
-    }
-    for (BodyDrive& d : body_drives_) {
-        std::copy_n(p, 6, d.outside);
-        p += 6;
-    }
+    Saved drives(c.drives);
+    for (Driven& d : driven_)
+        for (double& x : d.outside) x = drives.number();
+    for (BodyDrive& d : body_drives_)
+        for (double& x : d.outside) x = drives.number();
     contact_->restore(c.contact);
     update_alive();
 }

@@ -101,12 +101,34 @@ static void check_sets(const Model& m) {
             taken[n] = Index(i + 1);
         }
     check_rigid_elements(m, taken);
-    for (std::size_t i = 0; i < m.loads.size(); i++)
+    for (std::size_t i = 0; i < m.loads.size(); i++) {
         if (m.loads[i].node >= m.nodes()) refuse("load", i, "its node does not exist");
+        if (m.loads[i].dof < 0 || m.loads[i].dof > 5) refuse("load", i, "its degree of freedom is none of six");
+    }
     for (std::size_t i = 0; i < m.motions.size(); i++) {
         const Motion& a = m.motions[i];
+        if (a.dof < 0 || a.dof > 5) refuse("motion", i, "its degree of freedom is none of six");
         if (a.target >= (a.rigid ? m.rigid_sets.size() : m.nodes())) refuse("motion", i, "its target does not exist");
         if (!a.rigid && taken[a.target]) refuse("motion", i, "its node belongs to a rigid set; move the set instead");
+    }
+}
+
+static void check_obstacles(const Model& m) {
+    for (std::size_t i = 0; i < m.obstacles.size(); i++) {
+        const Obstacle& o = m.obstacles[i];
+        if (o.shape < Shape::plane || o.shape > Shape::sphere) refuse("obstacle", i, "its shape is unknown");
+        for (Index n : o.nodes)
+            if (n >= m.nodes()) refuse("obstacle", i, "node " + std::to_string(n) + " does not exist");
+    }
+}
+
+static void check_cuts(const Model& m) {
+    for (std::size_t i = 0; i < m.cuts.size(); i++) {
+        for (Index e : m.cuts[i].elements)
+            if (e >= m.elements()) refuse("cut", i, "element " + std::to_string(e) + " does not exist");
+        for (Index n : m.cuts[i].nodes)
+            if (n >= m.nodes()) refuse("cut", i, "node " + std::to_string(n) + " does not exist");
+        if (m.cuts[i].nodes.empty()) refuse("cut", i, "it has no nodes");
     }
 }
 
@@ -116,6 +138,7 @@ static void check_finite(const std::vector<double>& values, const char* what, st
 }
 
 void check(const Model& m) {
+    if (m.position.size() % 3 != 0) throw std::invalid_argument("positions have shape (nodes, 3)");
     if (m.elements() == 0) throw std::invalid_argument("the model has no elements");
     check_finite(m.position, "its position", 3);
     check_finite(m.velocity, "its velocity", 3);
@@ -123,6 +146,8 @@ void check(const Model& m) {
     check_materials(m);
     check_elements(m);
     check_sets(m);
+    check_obstacles(m);
+    check_cuts(m);
     check_welds(m);
 }
 

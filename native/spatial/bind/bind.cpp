@@ -141,7 +141,7 @@ void add_spring(Model& model, const nb::tuple& t) {
 void add_contact(Model& model, const nb::dict& d) {
     ContactModel& contact = model.contact;
     for (nb::handle h : nb::cast<nb::list>(d["capsules"])) {
-        const nb::tuple t = nb::cast<nb::tuple>(h);
+        const nb::tuple t = fields(h, 4, "a capsule has body, two ends, radius");
         const int body = nb::cast<int>(t[0]);
         require_body(model, body, true);
         const Vec3 c = centre(model, body);
@@ -172,7 +172,7 @@ void add_contact(Model& model, const nb::dict& d) {
     for (nb::handle h : nb::cast<nb::list>(d["pairs"])) {
         const auto pair = nb::cast<std::vector<int>>(h);
         for (const int c : {pair.at(0), pair.at(1)}) require(c >= 0 && c < capsules, "a pair names an unknown capsule");
-        require(pair[0] != pair[1], "a capsule does not touch itself");
+        require(pair.size() == 2 && pair[0] != pair[1], "a capsule does not touch itself");
         contact.pairs.push_back({pair[0], pair[1]});
     }
     for (const Joint& joint : model.joints) {
@@ -189,11 +189,19 @@ void add_contact(Model& model, const nb::dict& d) {
 Model make_model(const nb::dict& d) {
     Model model;
     add_bodies(model, d);
-    for (nb::handle h : nb::cast<nb::list>(d["joints"])) add_joint(model, nb::cast<nb::tuple>(h));
+    for (nb::handle h : nb::cast<nb::list>(d["joints"])) {
+        add_joint(model, fields(h, 6, "a joint has two bodies, place, axes, held freedoms, cross"));
+    }
     for (nb::handle h : nb::cast<nb::list>(d["hinges"])) add_hinge(model, nb::cast<nb::dict>(h));
-    for (nb::handle h : nb::cast<nb::list>(d["drives"])) add_drive(model, nb::cast<nb::tuple>(h));
-    for (nb::handle h : nb::cast<nb::list>(d["loads"])) add_load(model, nb::cast<nb::tuple>(h));
-    for (nb::handle h : nb::cast<nb::list>(d["springs"])) add_spring(model, nb::cast<nb::tuple>(h));
+    for (nb::handle h : nb::cast<nb::list>(d["drives"])) {
+        add_drive(model, fields(h, 5, "a drive has joint, freedom, times, rates, start"));
+    }
+    for (nb::handle h : nb::cast<nb::list>(d["loads"])) {
+        add_load(model, fields(h, 6, "a load has body, point, force, moment, times, values"));
+    }
+    for (nb::handle h : nb::cast<nb::list>(d["springs"])) {
+        add_spring(model, fields(h, 7, "a spring has two bodies, two points, stiffness, length, damping"));
+    }
     add_contact(model, d);
     model.gravity = vector(d["gravity"]);
     model.length = nb::cast<double>(d["length"]);
@@ -203,7 +211,8 @@ Model make_model(const nb::dict& d) {
     return model;
 }
 
-Condition make_condition(const Model& model, const nb::tuple& t) {
+Condition make_condition(const Model& model, nb::handle given) {
+    const nb::tuple t = fields(given, 6, "a condition has kind, value, index, freedom, bodies, points");
     Condition c;
     const int kind = nb::cast<int>(t[0]);
     require(kind >= 0 && kind <= static_cast<int>(Quantity::displacement), "unknown condition");
@@ -212,11 +221,12 @@ Condition make_condition(const Model& model, const nb::tuple& t) {
     c.index = nb::cast<int>(t[2]);
     c.freedom = nb::cast<int>(t[3]);
     const auto bodies = nb::cast<std::vector<int>>(t[4]);
-    const auto points = nb::cast<std::vector<Doubles>>(t[5]);
+    const auto points = nb::cast<nb::list>(t[5]);
+    require(bodies.size() == 2 && points.size() == 2, "a condition has two bodies and a point of each");
     for (size_t k = 0; k < 2; k++) {
-        c.body[k] = bodies.at(k);
+        c.body[k] = bodies[k];
         require_body(model, c.body[k], true);
-        c.arm[k] = vector(points.at(k).data());
+        c.arm[k] = vector(points[k]);
     }
     if (c.quantity == Quantity::force) {
         require(c.index >= 0 && c.index < static_cast<int>(model.contact.obstacles.size()), "a condition names an unknown obstacle");
@@ -283,39 +293,48 @@ void stage(Simulation& sim, bool quasi_static, const std::vector<int>& drives, c
     const std::vector<bool> acting = chosen(drives, sim.model().drives.size(), "a drive is unknown");
     const std::vector<bool> present = chosen(obstacles, sim.model().contact.obstacles.size(), "an obstacle is unknown");
     std::vector<Condition> conditions;
-    for (nb::handle h : until) conditions.push_back(make_condition(sim.model(), nb::cast<nb::tuple>(h)));
+    for (nb::handle h : until) conditions.push_back(make_condition(sim.model(), h));
     sim.begin_stage(quasi_static, acting, present, conditions);
 }
 
 nb::dict run(Simulation& sim, const Doubles& times, nb::object poll) {
-    require(!times.empty(), "at least one output time is needed");
+    require_times(times, sim.state().t);
     return to_dict(sim, unlocked(poll, [&](const auto& ask) { return sim.run(times, ask); }));
+}
+
+double set_motion(Simulation& s, const In& velocity, const In& impulse) {
+    const size_t n = s.model().bodies.size();
+    return s.set_motion(to_twists(velocity, n).data(), to_twists(impulse, n).data());
+}
+
+bool step(Simulation& s, double h) {
+    require_step(h);
+    return s.step(h);
+}
+
+std::pair<int, int> freedoms(Simulation& s) {
+    const int held = s.stepper().held_rows(), redundant = s.stepper().redundant();
+    return {6 * static_cast<int>(s.model().bodies.size()) - held + redundant, redundant};
 }
 
 }  // namespace
 
 void bind(nb::module_& m) {
-    nb::class_<Simulation>(m, "Simulation", "One run: a frozen model, its state, and the adaptive stepper.")
+    using Run = Used<Simulation>;
+    nb::class_<Run>(m, "Simulation", "One run: a frozen model, its state, and the adaptive stepper.")
         .def("__init__",
-             [](Simulation* self, const nb::dict& model, double accuracy, double minimum_step, double maximum_step, int parts) {
-                 new (self) Simulation(make_model(model), {accuracy, minimum_step, maximum_step, parts});
+             [](Run* self, const nb::dict& model, double accuracy, double minimum_step, double maximum_step, int parts) {
+                 require_settings(accuracy, minimum_step, maximum_step, parts);
+                 new (self) Run(make_model(model), Settings{accuracy, minimum_step, maximum_step, parts});
              },
              nb::arg("model"), nb::arg("accuracy"), nb::arg("minimum_step"), nb::arg("maximum_step"), nb::arg("parts") = 1)
-        .def("set_motion",
-             [](Simulation& s, const In& velocity, const In& impulse) {
-                 const size_t n = s.model().bodies.size();
-                 return s.set_motion(to_twists(velocity, n).data(), to_twists(impulse, n).data());
-             })
-        .def("stage", &stage)
-        .def("run", &run, nb::arg("times"), nb::arg("poll") = nb::none())
-        .def("step", &Simulation::step)
-        .def("freedoms",
-             [](Simulation& s) {
-                 const int held = s.stepper().held_rows(), redundant = s.stepper().redundant();
-                 return std::pair<int, int>(6 * static_cast<int>(s.model().bodies.size()) - held + redundant, redundant);
-             })
-        .def("redundant", [](Simulation& s) { return s.stepper().redundant_rows(); })
-        .def_prop_ro("time", [](Simulation& s) { return s.state().t; });
+        .def("set_motion", alone(&set_motion))
+        .def("stage", alone(&stage))
+        .def("run", alone(&run), nb::arg("times"), nb::arg("poll") = nb::none())
+        .def("step", alone(&step))
+        .def("freedoms", alone(&freedoms))
+        .def("redundant", alone(+[](Simulation& s) { return s.stepper().redundant_rows(); }))
+        .def_prop_ro("time", alone(+[](Simulation& s) { return s.state().t; }));
 }
 
 }  // namespace crumple::spatial

@@ -14,13 +14,13 @@ namespace {
 
 void add_stage(Case& of, double duration, bool quasi_static, const std::vector<int>& drives, const std::vector<int>& obstacles,
                const nb::list& until) {
-    require(duration > 0, "a stage must last");
+    require(duration > 0 && std::isfinite(duration), "a stage must last");
     CaseStage stage;
     stage.duration = duration;
     stage.quasi_static = quasi_static;
     stage.drives = chosen(drives, of.model.drives.size(), "a drive is unknown");
     stage.obstacles = chosen(obstacles, of.model.contact.obstacles.size(), "an obstacle is unknown");
-    for (nb::handle h : until) stage.until.push_back(make_condition(of.model, nb::cast<nb::tuple>(h)));
+    for (nb::handle h : until) stage.until.push_back(make_condition(of.model, h));
     of.stages.push_back(stage);
 }
 
@@ -48,6 +48,8 @@ nb::dict solve(const std::vector<const Case*>& cases, const InNumbers& case_of, 
                double minimum_step, double maximum_step, int threads, nb::object poll,
                bool led) {
     require(!cases.empty(), "at least one model is needed");
+    require_all(cases);
+    require_settings(accuracy, minimum_step, maximum_step);
     const Case& first = *cases.front();
     require(!first.stages.empty(), "a case needs a stage");
     for (const Case* other : cases) {

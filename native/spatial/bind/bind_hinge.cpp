@@ -76,6 +76,7 @@ nb::dict state_of(const Element& e) {
 }
 
 Surface make_surface(const nb::dict& d, int n) {
+    require(n >= 1 && n <= most_components, "a hinge has one to four components");
     Surface s;
     const int kind = nb::cast<int>(d["coupling"]);
     require(kind >= 0 && kind <= static_cast<int>(Coupling::tension_flange), "unknown coupling");
@@ -126,11 +127,13 @@ void bind_hinge(nb::module_& m) {
              })
         .def("freeze",
              [](Element& e, double h, const Doubles& w0, const Doubles& w1) {
+                 require_step(h);
                  e.frozen = freeze(e.hinge, e.state, h, e.q.data(), checked(e, w0), checked(e, w1));
              })
         .def("widen", [](Element& e, double width) { widen(e.hinge, e.frozen, width); })
         .def("scale_capacity",
              [](Element& e, int k, double factor) {
+                 require(k >= 0 && k < size(e.hinge), "a hinge has no such component");
                  for (double& c : e.frozen.component[k].capacity) c *= factor;
                  if (e.hinge.components[static_cast<size_t>(k)].freedom < 3) return;
                  for (double& top : e.frozen.top) top *= factor;
@@ -150,12 +153,14 @@ void bind_hinge(nb::module_& m) {
         .def_prop_ro("state", &state_of);
     m.def("surface_point", [](const nb::dict& d, const Doubles& y, const Doubles& metric) {
         const auto n = y.size();
+        require(n <= most_components && metric.size() == n, "the metric must have shape (n,)");
         const Surface s = make_surface(d, static_cast<int>(n));
         Doubles derivative(n * n);
         const SurfacePoint p = nearest(s, static_cast<int>(n), y.data(), metric.data(), nullptr, derivative.data());
         return nb::make_tuple(Doubles(p.x, p.x + n), p.value, p.multiplier, derivative);
     });
     m.def("surface_gauge", [](const nb::dict& d, const Doubles& x) {
+        require(x.size() <= most_components, "a hinge has one to four components");
         const Surface s = make_surface(d, static_cast<int>(x.size()));
         Doubles gradient(x.size());
         const double g = gauge(s, static_cast<int>(x.size()), x.data(), gradient.data());

@@ -8,7 +8,7 @@
 namespace crumple::spatial {
 
 Model make_model(const nanobind::dict& d);
-Condition make_condition(const Model& model, const nanobind::tuple& t);
+Condition make_condition(const Model& model, nanobind::handle given);
 // flags of n things, true for the indices given
 std::vector<bool> chosen(const std::vector<int>& indices, size_t n, const char* unknown);
 

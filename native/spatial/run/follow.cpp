@@ -37,6 +37,7 @@ bool Stepper::follow_pass() {
 
 bool Simulation::follow(const StepRecords& steps) {
     Record record;
+    make_ready();
     if (!steps.empty()) prepare(steps.back().end);
     for (const StepRecord& step : steps) {
         stepper_.follow(&step.passes);

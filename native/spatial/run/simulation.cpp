@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/pause.hpp"
+
 namespace crumple::spatial {
 
 namespace {
@@ -58,11 +60,18 @@ Simulation::Simulation(Model model, const Settings& settings)
     first_ = state_;
     stepper_.set_obstacles(std::vector<bool>(model_.contact.obstacles.size(), true), state_);
     peak_.assign(2 * state_.rotation.size(), 0.0);
+}
+
+// What takes long for many hinges, and must end where a run is cancelled.
+void Simulation::make_ready() {
+    if (ready_) return;
     set_damping();
+    ready_ = true;
 }
 
 // The inertia that a damper feels is taken at the start.
 void Simulation::set_damping() {
+    critical_.clear();
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         SpatialHinge& hinge = model_.hinges[j];
         for (int k = 0; k < size(hinge); k++) {
@@ -95,10 +104,17 @@ void Simulation::record_step(double h) {
 }
 
 void Simulation::set_critical_damping(const std::vector<bool>& which) {
+    const Critical* last = nullptr;
+    double inertia = 0;
     for (size_t i = 0; i < critical_.size(); i++) {
         const Critical& c = critical_[i];
         if (!which[i]) continue;
-        c.stop->damping = 2 * std::sqrt(c.stop->stiffness * stepper_.effective_inertia(state_, c.hinge, c.component));
+        // both stops of a component feel the same
+        if (!last || last->hinge != c.hinge || last->component != c.component) {
+            inertia = stepper_.effective_inertia(state_, c.hinge, c.component);
+        }
+        last = &c;
+        c.stop->damping = 2 * std::sqrt(c.stop->stiffness * inertia);
     }
 }
 
@@ -347,12 +363,18 @@ void Simulation::prepare(double end) {
 Record Simulation::run(const std::vector<double>& times, const std::function<bool(double)>& poll) {
     Record record;
     const std::int64_t solves = stepper_.solves();
-    prepare(times.back());
-    for (const double t : times) {
-        const bool reached = t <= state_.t || advance(t, record, poll);
-        // a run that ends before its time tells where it came to
-        if (reached || record.time.empty() || record.time.back() < state_.t) store(record);
-        if (!reached) break;
+    try {
+        const Asking asking([&] { return !poll || poll(state_.t); });
+        make_ready();
+        prepare(times.back());
+        for (const double t : times) {
+            const bool reached = t <= state_.t || advance(t, record, poll);
+            // a run that ends before its time tells where it came to
+            if (reached || record.time.empty() || record.time.back() < state_.t) store(record);
+            if (!reached) break;
+        }
+    } catch (const Stopped&) {
+        record.outcome = Outcome::cancelled;
     }
     if (unseen_ > 0) record.unseen = unseen_ / std::max(speed_, large_speed_);
     record.solves = stepper_.solves() - solves;

@@ -66,7 +66,12 @@ public:
     void begin_stage(bool quasi_static, const std::vector<bool>& drives, const std::vector<bool>& obstacles,
                      std::vector<Condition> until);
     // one fixed step of length h
-    bool step(double h) { return stepper_.step(state_, h, nullptr); }
+    bool step(double h) {
+        make_ready();
+        return stepper_.step(state_, h, nullptr);
+    }
+    // before the first step; a run does so itself
+    void make_ready();
     // runs to the last of the times; `poll` gets the time reached and returns false to cancel
     Record run(const std::vector<double>& times, const std::function<bool(double)>& poll);
     // the present state alone
@@ -150,6 +155,7 @@ private:
     StepRecords* step_records_ = nullptr;
     std::vector<Pass> passes_;        // of the step last solved, where they are kept
     std::int64_t poll_at_ = 0;        // work at which `poll` is asked next
+    bool ready_ = false;
 };
 
 }  // namespace crumple::spatial

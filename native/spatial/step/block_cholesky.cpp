@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "common/pause.hpp"
+
 namespace crumple::spatial {
 
 namespace {
@@ -102,6 +104,7 @@ void BlockCholesky::eliminate(const std::vector<int>& size, std::vector<std::vec
     std::vector<std::vector<int>> columns;
     std::vector<int> merged;
     while (!queue.empty()) {
+        pause();
         const int node = queue.begin()->second;
         queue.erase(queue.begin());
         place_[at(node)] = static_cast<int>(order_.size());
@@ -191,6 +194,7 @@ void BlockCholesky::factor(const std::vector<double>& floor, const std::vector<c
         for (int i = 0; i < n; i++) inverse_[at(start_[node] + i)] = values_[diagonal_[node] + at(i * n + i)];
     }
     for (size_t k = 0; k < order_.size(); k++) {
+        pause();
         const int node = order_[k], n = size_[at(node)];
         const size_t first = at(start_[at(node)]);
         factor_diagonal(node, &floor[first], &redundant[first]);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/pause.hpp"
 #include "spatial/model/eigen.hpp"
 #include "spatial/step/stepper.hpp"
 
@@ -212,6 +213,7 @@ bool Stepper::descend(int limit, bool full_steps) {
 
 // velocities, rates and impulses with every law's tangent at w_
 void Stepper::solve_once() {
+    pause();
     const std::vector<Link>& links = system_.links();
     for (size_t c = 0; c < links.size(); c++) {
         const int first = start(c);

@@ -7,7 +7,7 @@ form and SHA-256.  An `Analysis` has ``structure``, ``duration`` [s], ``title``,
 
 from crumple.analysis.analysis import Analysis
 from crumple.analysis.canonical import canonical, input_hash
-from crumple.analysis.input_file import FORMAT, InputFile, check, load, loads, with_lines
+from crumple.analysis.input_file import FORMAT, InputFile, LoadedInput, check, load, load_input, loads
 from crumple.analysis.schema import json_schema
 from crumple.analysis.solve import FIDELITIES, solve
 
@@ -16,12 +16,13 @@ __all__ = [
     "FORMAT",
     "Analysis",
     "InputFile",
+    "LoadedInput",
     "canonical",
     "check",
     "input_hash",
     "json_schema",
     "load",
+    "load_input",
     "loads",
     "solve",
-    "with_lines",
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Annotated
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field, ValidationInfo, model_validator
 
 from crumple.analysis.filters import filter_problems
 from crumple.errors import Problem
@@ -17,6 +17,7 @@ from crumple.structure import (
     ShellSettings,
     Stage,
     Structure,
+    history_problems,
     output_problems,
     shell_problems,
     stage_problems,
@@ -131,9 +132,14 @@ class Analysis(Spec):
     outputs: Outputs = Outputs()
 
     @model_validator(mode="after")
-    def _sound(self) -> Analysis:
+    def _sound(self, info: ValidationInfo) -> Analysis:
+        if info.context and info.context.get("checked"):
+            return self
         problems = output_problems(self.outputs, self.structure)
-        problems += run_problems(self.outputs, self.duration)
+        samples = run_problems(self.outputs, self.duration)
+        problems += samples or history_problems(
+            self.structure, self.outputs, self.duration / self.output_interval
+        )
         problems += shell_problems(self.shell, self.structure)
         problems += stage_problems(self.stages, self.structure)
         total = sum(stage.duration for stage in self.stages)

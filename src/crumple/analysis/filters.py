@@ -56,6 +56,8 @@ def with_filters(result: Result, outputs: Outputs, interval: float) -> Result:
     interval
         Of the histories [s].
     """
+    if not result.time.size:
+        return result
     channels, warnings = dict(result.channels), list(result.warnings)
     # picture times may lie between the samples: filter the regular samples alone
     regular = np.arange(math.floor(result.time[-1] / interval + 1e-9) + 1) * interval

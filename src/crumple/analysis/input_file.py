@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -18,6 +19,7 @@ from crumple.structure import (
     Outputs,
     Structure,
     hinge_places,
+    history_problems,
     output_problems,
     problems_in,
     shell_problems,
@@ -49,6 +51,41 @@ _OF_THE_RUN = set(InputFile.model_fields) - set(StructureParts.model_fields)
 """Keys whose mistakes do not affect the structure."""
 
 
+@dataclass(frozen=True)
+class LoadedInput:
+    """An input file as it was when it was read: this is solved and shown, whatever becomes of the file.
+
+    Attributes
+    ----------
+    analysis
+        Complete: no file is needed any more.
+    path
+        Of the file.
+    document
+        Its text, and the line of every key.
+    """
+
+    analysis: Analysis
+    path: Path
+    document: Document
+
+    def with_lines(self, error: InputError) -> InputError:
+        """A solver's refusal of the analysis with the lines of the file."""
+        structure = self.analysis.structure
+        problems = [_where_written(problem, structure) for problem in error.problems]
+        placed = [(path_of(problem.where), problem) for problem in problems]
+        return InputError(_placed(placed, self.document, str(self.path)))
+
+    def refusals(self, fidelity: str = "multibody") -> list[Problem]:
+        """What a solver refuses of the analysis; it starts, but takes no step beyond the first."""
+        begun: list[float] = []
+        try:
+            solve(self.analysis, fidelity, progress=begun.append, cancel=lambda: bool(begun))
+        except InputError as error:
+            return self.with_lines(error).problems
+        return []
+
+
 def load(path: str | Path) -> Analysis:
     """Analysis that an input file describes.
 
@@ -67,8 +104,14 @@ def load(path: str | Path) -> Analysis:
     InputError
         With every mistake, each with file and line.
     """
+    return load_input(path).analysis
+
+
+def load_input(path: str | Path) -> LoadedInput:
+    """Like `load`, with the text of the file."""
     path = Path(path)
-    return _analysis(read_file(path), str(path), path.parent)
+    document = read_file(path)
+    return LoadedInput(_analysis(document, str(path), path.parent), path, document)
 
 
 def loads(text: str, *, file: str = "", directory: str | Path = ".") -> Analysis:
@@ -87,31 +130,9 @@ def check(path: str | Path, fidelity: str = "multibody") -> list[Problem]:
         Solver that checks the input; it starts, but stops after its first step.
     """
     try:
-        analysis = load(path)
+        return load_input(path).refusals(fidelity)
     except InputError as error:
         return error.problems
-    try:
-        solve(analysis, fidelity, cancel=lambda: True)
-    except InputError as error:
-        return with_lines(error, path, analysis.structure).problems
-    return []
-
-
-def with_lines(error: InputError, path: str | Path, structure: Structure) -> InputError:
-    """A solver's refusal with the lines of the input file.
-
-    Parameters
-    ----------
-    error
-        What the solver raised.
-    path
-        File that the analysis was loaded from.
-    structure
-        Of that analysis.
-    """
-    problems = [_where_written(problem, structure) for problem in error.problems]
-    placed = [(path_of(problem.where), problem) for problem in problems]
-    return InputError(_placed(placed, read_file(Path(path)), str(path)))
 
 
 def _where_written(problem: Problem, structure: Structure) -> Problem:
@@ -142,15 +163,17 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
         cross += output_problems(outputs, structure, defined)
     if whole:
         duration = whole.analysis.total_duration
-        cross += run_problems(whole.outputs, duration)
+        interval = whole.outputs.every or duration / DEFAULT_INTERVALS
+        samples = run_problems(whole.outputs, duration)
+        cross += samples or history_problems(structure, whole.outputs, duration / interval)
         cross += shell_problems(whole.analysis.shell, structure, defined)
         cross += stage_problems(whole.analysis.stages, structure, defined)
     if whole and not cross:
-        interval = whole.outputs.every or duration / DEFAULT_INTERVALS
         cross += filter_problems(structure, whole.outputs, duration, interval)
     problems += [(path_of(problem.where), problem) for problem in cross]
     if problems or document.problems or whole is None:
         raise InputError(_placed(problems, document, file))
+    # everything was checked above, with lines
     return Analysis.model_validate(
         {
             "structure": Structure.model_construct(
@@ -162,7 +185,8 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
             "multibody": whole.analysis.multibody,
             "shell": whole.analysis.shell,
             "outputs": whole.outputs,
-        }
+        },
+        context={"checked": True},
     )
 
 
@@ -193,19 +217,23 @@ def _sound_part(data: dict[str, Any], context: dict[str, Any]) -> StructureParts
         structure, problems = _validated(StructureParts, parts, context)
         if isinstance(structure, StructureParts):
             return structure
-        for place, _ in problems:
-            _remove(parts, place)
+        _remove(parts, [place for place, _ in problems])
 
 
-def _remove(parts: dict[str, Any], place: Place) -> None:
-    """Remove the named part or list entry of a problem; the whole group if the path names no part."""
-    kind = parts.get(str(place[0])) if place else None
-    if len(place) > 1 and isinstance(kind, dict) and place[1] in kind:
-        parts[str(place[0])] = {name: part for name, part in kind.items() if name != place[1]}
-    elif place:
-        parts.pop(str(place[0]), None)
-    else:
-        parts.clear()
+def _remove(parts: dict[str, Any], places: Iterable[Place]) -> None:
+    """Drop the named parts or list entries that problems lie in; the whole group where there are none."""
+    dropped: dict[str, set[str | int]] = defaultdict(set)
+    for place in places:
+        kind = parts.get(str(place[0])) if place else None
+        if len(place) > 1 and isinstance(kind, dict) and place[1] in kind:
+            dropped[str(place[0])].add(place[1])
+        elif place:
+            parts.pop(str(place[0]), None)
+        else:
+            parts.clear()
+    for key, names in dropped.items():
+        if key in parts:
+            parts[key] = {name: part for name, part in parts[key].items() if name not in names}
 
 
 def _defined(data: dict[str, Any]) -> dict[str, list[str]]:

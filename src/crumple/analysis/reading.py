@@ -14,11 +14,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from crumple.analysis.simple_yaml import SimpleText
 from crumple.errors import InputError, Problem
 from crumple.structure.schema.problems import Place, shown, spelled
 
-LARGEST_FILE = 1_000_000
-"""Largest size of an input file [bytes]; a frame of ten thousand members is smaller."""
+LARGEST_FILE = 4_000_000
+"""Bytes of an input file; a chain of ten thousand members, each with a hinge, has 1.5 MB."""
+LARGEST_TEXT = 1_000_000
+"""Characters of a text that is not in simple lines: the full parser takes ten seconds for it."""
 MOST_REPEATED = 20
 """Repeated keys that are listed; after that reading stops."""
 DEEPEST = 16
@@ -26,7 +29,7 @@ DEEPEST = 16
 
 _NEAR = "look at this line and the one before; indent with spaces, quote texts that contain ': ' or '#'"
 _CONTROL = re.compile(r"[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-_NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?")
+_NUMBER = re.compile(r"[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?")
 _NOT_FINITE = re.compile(r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)")
 _CONSTANTS: dict[str, bool | None] = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
 _CONSTANTS |= {"true": True, "True": True, "TRUE": True, "false": False, "False": False, "FALSE": False}
@@ -44,11 +47,14 @@ class Document:
         1-based line of each place (path of keys and indices).
     problems
         Mistakes that did not stop the reading.
+    text
+        As its author wrote it.
     """
 
     data: Any
     lines: dict[Place, int] = field(default_factory=dict)
     problems: list[Problem] = field(default_factory=list)
+    text: str = ""
 
     def line_of(self, place: Place) -> int:
         """Line of a path, or of the nearest enclosing path that is in the file."""
@@ -103,8 +109,20 @@ def read_text(text: str, file: str = "") -> Document:
     if control is not None:
         line, came = text.count("\n", 0, control.start()) + 1, f"the control character {ord(control[0])}"
         raise _refusal("the file is binary", file, came, "a YAML text", "write it with a text editor", line)
-    reader = _Reader(text, file)
-    document = reader.read()
+    simple = SimpleText(text, _plain_scalar, DEEPEST)
+    data = simple.read()
+    if data is not None:
+        return Document(data, simple.lines, text=text)
+    if len(text) > LARGEST_TEXT:
+        came, allowed = f"{len(text) / 1e6:.1f} MB", f"at most {LARGEST_TEXT / 1e6:g} MB"
+        allowed += (
+            f", or {LARGEST_FILE / 1e6:g} MB in lines such as 'key: value' and 'key: {{a: 1, b: [2, 3]}}'"
+        )
+        todo = "write this line so, or put curves into CSV files"
+        raise _refusal(
+            "so large a file can have simple lines only", file, came, allowed, todo, simple.stopped
+        )
+    document = _Reader(text, file).read()
     if document.data is None:
         raise _refusal("the file is empty", file, "", "a description", "start with the line 'crumple: 1'", 1)
     return document
@@ -117,7 +135,7 @@ class _Reader:
         from ruamel.yaml import YAML  # noqa: PLC0415  (an analysis built in Python needs none)
 
         self._file = file
-        self._document = Document(None)
+        self._document = Document(None, text=text)
         self._events: Iterator[Any] = iter(YAML(typ="safe", pure=True).parse(text))
 
     def read(self) -> Document:
@@ -206,22 +224,24 @@ class _Reader:
         return values
 
     def _scalar(self, event: Any) -> Any:
-        text = event.value
-        if event.style in {"'", '"', "|", ">"}:
-            return text
-        if text in _CONSTANTS:
-            return _CONSTANTS[text]
-        if _NOT_FINITE.fullmatch(text):
-            return math.nan if "n" in text.lower()[:2] else math.inf
-        # a number with too many digits stays a text: it is refused where a number is needed
-        if len(text) <= 40 and _NUMBER.fullmatch(text):
-            return int(text) if text.lstrip("+-").isdigit() else float(text)
-        return text
+        return event.value if event.style in {"'", '"', "|", ">"} else _plain_scalar(event.value)
 
     def _refusal(
         self, event: Any, what: str, came: str = "", allowed: str = "", todo: str = ""
     ) -> InputError:
         return _refusal(what, self._file, came, allowed, todo, event.start_mark.line + 1)
+
+
+def _plain_scalar(text: str) -> Any:
+    """Value of a text that is not in quotes."""
+    if text in _CONSTANTS:
+        return _CONSTANTS[text]
+    if _NOT_FINITE.fullmatch(text):
+        return math.nan if "n" in text.lower()[:2] else math.inf
+    # a number longer than any of use stays a text: it is refused where a number is needed
+    if len(text) <= 40 and _NUMBER.fullmatch(text):
+        return int(text) if text.lstrip("+-").isdigit() else float(text)
+    return text
 
 
 def _refusal(

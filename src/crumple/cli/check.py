@@ -20,18 +20,17 @@ def check(
     fidelity: Annotated[Fidelity, typer.Option(help="Solver to check for.")] = Fidelity.MULTIBODY,
 ) -> None:
     """Report every mistake in an input file, and the notes of a solver before its first step."""
-    from crumple.analysis import check as problems_of
-    from crumple.analysis import load
+    from crumple.analysis import load_input
     from crumple.errors import InputError
 
+    source = load_input(file)
     # a problem that every solver reports is listed once
-    found = {str(p): p for solver in fidelity.solvers for p in problems_of(file, solver.value)}
+    found = {str(p): p for solver in fidelity.solvers for p in source.refusals(solver.value)}
     if found:
         raise InputError(list(found.values()))
     typer.echo(f"{file}: no mistakes found")
-    analysis = load(file)
     for solver in fidelity.solvers:
-        notes = _shell_notes(analysis) if solver is Fidelity.SHELL else _multibody_notes(analysis)
+        notes = (_shell_notes if solver is Fidelity.SHELL else _multibody_notes)(source.analysis)
         for note in notes:
             typer.echo(f"  {note}")
 

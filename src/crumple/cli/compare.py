@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from crumple.analysis import Analysis
+    from crumple.analysis import Analysis, LoadedInput
     from crumple.comparison import Comparison
-    from crumple.report import ReportInput
+    from crumple.result import Result
 
+PAGE = "report.html"
 MOST_HINGES = 8
 """Number of hinges in the table, those with the largest absorbed energy; the page lists more."""
 
@@ -62,47 +64,75 @@ def compare(
         ),
     ] = None,
 ) -> None:
-    """Solve with both solvers and compare. Writes multibody/, shell/ and report.html to a folder."""
-    from crumple.analysis import load, with_lines
+    """Solve with both engines and compare. Writes multibody/, shell/ and report.html to a folder."""
+    from crumple.analysis import load_input
     from crumple.cli.console.curves import curves_of
-    from crumple.cli.console.folder import results_errors, results_folder
-    from crumple.cli.console.progress import progress_bar
-    from crumple.cli.console.shell_run import RESTART, long_run_of
-    from crumple.comparison import picture_times, solve_and_compare, with_mesh
-    from crumple.errors import InputError
-    from crumple.portable import available_cores, stop_on_interrupt
+    from crumple.cli.console.folder import results_folder
+    from crumple.cli.console.shell_run import RESTART, remove_restart
+    from crumple.cli.console.storing import report_input, stored
+    from crumple.comparison import picture_times, with_mesh
+    from crumple.portable import stop_on_interrupt
     from crumple.report import write_comparison
 
-    analysis = load(file)
+    source = load_input(file)
     curves = curves_of(curve or [], pair or [])
     if second_mesh is not None:
-        # refused before the folder is created and before the first mesh is solved
-        _refuse_mesh(with_mesh(analysis, second_mesh), second_mesh)
-    folder = results_folder(out, file)
-    for name in ("multibody", "shell"):
-        results_folder(str(folder / name), file)
-    with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
+        # refused before the folder is made, and before the first mesh is solved
+        _refuse_mesh(with_mesh(source.analysis, second_mesh), second_mesh)
+    with results_folder(out, file, ("multibody", "shell")) as folder:
+        wish = {"curves": curves, "variants": variants, "second_mesh": second_mesh}
+        with stop_on_interrupt() as cancel:
+            found = _solve(source, folder, (threads, restart), cancel, wish)
+            shown, pictures = report_input(source), picture_times(source.analysis)
+            stored(folder, lambda place: write_comparison(found, shown, place, pictures=pictures), PAGE)
+        remove_restart(folder / "shell", found.reference.result)
+        _show(found, folder)
+        if (folder / "shell" / RESTART).exists():
+            typer.echo(f"Go on with the same command and --restart {folder / 'shell' / RESTART}")
+    if not all(s.result.status.ok for s in (found.candidate, found.reference)):
+        raise typer.Exit(1)
+
+
+def _solve(
+    source: LoadedInput,
+    folder: Path,
+    how: tuple[int | None, Path | None],
+    cancel: Callable[[], bool],
+    wish: Mapping[str, Any],
+) -> Comparison:
+    """Solve everything; each engine's result is on the disk as soon as there is one."""
+    from crumple.cli.console.progress import progress_bar
+    from crumple.cli.console.refusal import show_refusal
+    from crumple.cli.console.shell_run import long_run_of
+    from crumple.cli.console.storing import store
+    from crumple.comparison import picture_times, solve_and_compare, with_pictures
+    from crumple.errors import InputError
+    from crumple.portable import available_cores
+
+    threads, restart = how
+
+    def keep(result: Result) -> None:
+        # the page of an earlier comparison is not of these results
+        (folder / PAGE).unlink(missing_ok=True)
         try:
-            found = solve_and_compare(
-                analysis,
+            store(with_pictures(result, picture_times(source.analysis)), source, folder / result.fidelity)
+        except InputError as error:
+            # what is solved can still be compared
+            show_refusal(error)
+
+    with progress_bar("solving") as progress:
+        try:
+            return solve_and_compare(
+                source.analysis,
                 threads=threads or available_cores(),
-                curves=curves,
-                variants=variants,
-                second_mesh=second_mesh,
                 progress=progress,
                 cancel=cancel,
                 long_run=long_run_of(folder / "shell", restart, progress),
+                keep=keep,
+                **wish,
             )
         except InputError as error:
-            raise with_lines(error, file, analysis.structure) from None
-    with results_errors(folder):
-        source = write_both(found, analysis, file, folder)
-        write_comparison(found, source, folder, pictures=picture_times(analysis))
-    _show(found, folder)
-    if (folder / "shell" / RESTART).exists():
-        typer.echo(f"Continue with the same command and --restart {folder / 'shell' / RESTART}")
-    if not all(s.result.status.ok for s in (found.candidate, found.reference)):
-        raise typer.Exit(1)
+            raise source.with_lines(error) from None
 
 
 def _refuse_mesh(analysis: Analysis, factor: float) -> None:
@@ -118,29 +148,6 @@ def _refuse_mesh(analysis: Analysis, factor: float) -> None:
         asked = f"--second-mesh {factor:g}"
         problems = [replace(p, what=f"{p.what}, with {asked}", where=asked) for p in error.problems]
         raise InputError(problems) from None
-
-
-def write_both(found: Comparison, analysis: Analysis, file: Path, folder: Path) -> ReportInput:
-    """Write a folder for each of the two results; return the input summary for the pages."""
-    from dataclasses import replace
-
-    from crumple.analysis import canonical
-    from crumple.comparison import picture_times, with_pictures
-    from crumple.report import ReportInput, write_report
-    from crumple.result import write
-
-    source = ReportInput(
-        title=analysis.title,
-        text=file.read_text(encoding="utf-8-sig"),
-        name=file.name,
-        canonical=canonical(analysis),
-    )
-    for each, settings in ((found.candidate, analysis.multibody), (found.reference, analysis.shell)):
-        result = with_pictures(each.result, picture_times(analysis))
-        write(result, folder / each.name)
-        bound = settings.energy_residual_bound
-        write_report(result, replace(source, residual_bound=bound), folder / each.name)
-    return source
 
 
 def _crush_lines(found: Comparison) -> Iterator[str]:

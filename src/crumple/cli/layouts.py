@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
     from crumple.report import Layout
 
+PAGE = "report.html"
+
 
 def layouts(
     files: Annotated[list[Path], typer.Argument(help="Input files (YAML).", show_default=False)],
@@ -20,22 +22,24 @@ def layouts(
     title: Annotated[str, typer.Option(help="Title of the page.")] = "Layouts",
 ) -> None:
     """Solve several layouts as multibody models and compare them. A layout that fails has a row."""
-    from crumple.cli.console.folder import results_errors, results_folder
+    from crumple.cli.console.folder import results_folder
     from crumple.cli.console.progress import progress_bar
+    from crumple.cli.console.storing import stored
     from crumple.portable import stop_on_interrupt
     from crumple.report import write_layouts
 
-    folder = results_folder(out, files[0])
-    found: list[Layout] = []
-    with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
-        for i, (name, file) in enumerate(zip(_names(files), files, strict=True)):
-            found.append(_solved(name, file, results_folder(folder / name, file), cancel))
-            progress((i + 1) / len(files))
-            if cancel():
-                break
-    with results_errors(folder):
-        write_layouts(found, title, folder)
-    _show(found, folder)
+    names = _names(files)
+    with results_folder(out, files[0], tuple(names)) as folder:
+        found: list[Layout] = []
+        with stop_on_interrupt() as cancel:
+            with progress_bar("solving") as progress:
+                for i, (name, file) in enumerate(zip(names, files, strict=True)):
+                    found.append(_solved(name, file, folder / name, cancel))
+                    progress((i + 1) / len(files))
+                    if cancel():
+                        break
+            stored(folder, lambda place: write_layouts(found, title, place), PAGE)
+        _show(found, folder)
     if not all(layout.result is not None and layout.result.status.ok for layout in found):
         raise typer.Exit(1)
 
@@ -51,30 +55,22 @@ def _names(files: list[Path]) -> list[str]:
 
 def _solved(name: str, file: Path, folder: Path, cancel: Callable[[], bool]) -> Layout:
     """One layout: read, solved and written to its folder; if it is refused, the reason is kept."""
-    from crumple.analysis import canonical, load, solve
-    from crumple.cli.console.folder import results_errors
+    from crumple.analysis import load_input, solve
+    from crumple.cli.console.storing import store
     from crumple.errors import InputError
-    from crumple.report import Layout, ReportInput, write_report
-    from crumple.result import write
+    from crumple.report import Layout
 
     try:
-        analysis = load(file)
-        result = solve(analysis, cancel=cancel)
+        source = load_input(file)
+        result = solve(source.analysis, cancel=cancel)
     except InputError as error:
         first, more = error.problems[0], len(error.problems) - 1
         place = f" ({first.where})" if first.where else ""
         return Layout(name, reason=f"{first.what}{place}" + (f", and {more} more" if more else ""))
-    source = ReportInput(
-        title=analysis.title,
-        text=file.read_text(encoding="utf-8-sig"),
-        name=file.name,
-        canonical=canonical(analysis),
-        residual_bound=analysis.multibody.energy_residual_bound,
-        accuracy=analysis.multibody.accuracy,
-    )
-    with results_errors(folder):
-        write(result, folder)
-        write_report(result, source, folder)
+    if not result.time.size:
+        return Layout(name, reason=result.reason)
+    store(result, source, folder)
+    analysis = source.analysis
     return Layout(name, analysis.title, analysis.structure.mass_of_members, result)
 
 

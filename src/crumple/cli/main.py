@@ -12,13 +12,14 @@ import typer
 
 from crumple.cli.check import check
 from crumple.cli.compare import compare
+from crumple.cli.console.defect import EXIT_CODE, DefectError, show_defect
 from crumple.cli.console.refusal import show_refusal
 from crumple.cli.hinge import hinge
 from crumple.cli.layouts import layouts
 from crumple.cli.run import run
 from crumple.cli.schema import schema
 from crumple.cli.section import section
-from crumple.errors import InputError
+from crumple.errors import CancelledError, InputError
 from crumple.portable import prepare_consoles, reader_left
 from crumple.version import __version__
 
@@ -26,7 +27,8 @@ app = typer.Typer(
     name="crumple",
     help="Crash analysis at the concept stage for thin-walled structures.",
     epilog="Exit codes: 0 done; 1 a run ended without a reliable result; 2 the input, or the "
-    "folder for the results, cannot be accepted; 130 ended by Ctrl-C without a stored result.",
+    "folder for the results, cannot be accepted; 3 a defect of Crumple; 130 ended by Ctrl-C "
+    "without a stored result.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -52,10 +54,13 @@ def _options(
 
 
 def main() -> None:
-    """Run the command; a refusal is printed without a traceback and ends with exit code 2."""
+    """Run the command; a refusal ends with exit code 2, a defect of Crumple with 3, none with a traceback."""
     prepare_consoles()
     try:
         app()
+    except CancelledError as error:
+        typer.echo(str(error), err=True)
+        sys.exit(130)
     except InputError as error:
         show_refusal(error)
         sys.exit(2)
@@ -65,3 +70,12 @@ def main() -> None:
             sys.exit(1)
         typer.echo(f"error: {error.filename or 'file'}: {error.strerror or error}", err=True)
         sys.exit(2)
+    except MemoryError:
+        typer.echo("error: this machine has too little memory for the model", err=True)
+        sys.exit(2)
+    except DefectError as error:
+        show_defect(error.__cause__ or error, error.folder)
+        sys.exit(EXIT_CODE)
+    except Exception as error:
+        show_defect(error)
+        sys.exit(EXIT_CODE)

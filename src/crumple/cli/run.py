@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from rich.table import Table
 
-    from crumple.analysis import Analysis
+    from crumple.analysis import LoadedInput
     from crumple.result import HingeSummary, Result
 
 MOST_HINGES = 20
@@ -41,25 +41,37 @@ def run(
     as_json: Annotated[bool, typer.Option("--json", help="Print summary.json instead of the table.")] = False,
 ) -> None:
     """Solve an input file and report. Writes summary, histories, shapes, figures and a page to a folder."""
-    from crumple.analysis import load
+    from crumple.analysis import load_input
     from crumple.cli.console.folder import results_folder
-    from crumple.errors import Status
 
-    analysis = load(file)
+    source = load_input(file)
     if restart is not None and fidelity is not Fidelity.SHELL:
         raise typer.BadParameter("only shell runs have restart files", param_hint="--restart")
-    folder = results_folder(out, file)
     both = fidelity is Fidelity.BOTH
+    within = tuple(one.value for one in fidelity.solvers) if both else ()
+    with results_folder(out, file, within) as folder:
+        good = _run(source, folder, (fidelity, threads, restart), as_json=as_json)
+    if not good:
+        raise typer.Exit(1)
+
+
+def _run(
+    source: LoadedInput, folder: Path, how: tuple[Fidelity, int | None, Path | None], *, as_json: bool
+) -> bool:
+    """Solve with every engine that is asked for and report; whether all results can be trusted."""
+    from crumple.errors import Status
+
+    fidelity, threads, restart = how
     summaries, good = {}, True
     for one in fidelity.solvers:
-        place = results_folder(str(folder / one.value), file) if both else folder
-        result = _solve(analysis, file, place, (one, threads, restart))
+        place = folder / one.value if fidelity is Fidelity.BOTH else folder
+        result = _solve(source, place, (one, threads, restart))
         good = good and result.status.ok
         if as_json:
             summaries[one.value] = _summary(result)
         else:
             _show(result, place)
-            _show_restart(file, place)
+            _show_restart(source.path, place)
         if result.status is Status.CANCELLED:
             # a user who stops the first run does not want the second one
             break
@@ -68,50 +80,41 @@ def run(
 
         from crumple.portable import console_takes_all
 
-        content = summaries if both else next(iter(summaries.values()))
+        content = summaries if fidelity is Fidelity.BOTH else next(iter(summaries.values()))
         typer.echo(json.dumps(content, indent=2, ensure_ascii=not console_takes_all(), allow_nan=False))
-    if not good:
-        raise typer.Exit(1)
+    return good
 
 
-def _solve(
-    analysis: Analysis, file: Path, folder: Path, how: tuple[Fidelity, int | None, Path | None]
-) -> Result:
+def _solve(source: LoadedInput, folder: Path, how: tuple[Fidelity, int | None, Path | None]) -> Result:
     """Solve with one solver and write its files; `how`: solver, threads, restart file."""
-    from crumple.analysis import canonical, solve, with_lines
-    from crumple.cli.console.folder import results_errors
+    from crumple.analysis import solve
     from crumple.cli.console.progress import progress_bar
-    from crumple.cli.console.shell_run import long_run_of
-    from crumple.errors import InputError
+    from crumple.cli.console.shell_run import long_run_of, remove_restart
+    from crumple.cli.console.storing import store
+    from crumple.errors import CancelledError, InputError
     from crumple.portable import available_cores, stop_on_interrupt
-    from crumple.report import ReportInput, write_report
-    from crumple.result import write
 
     fidelity, threads, restart = how
     is_shell = fidelity is Fidelity.SHELL
-    with stop_on_interrupt() as cancel, progress_bar("solving") as progress:
+    with stop_on_interrupt() as cancel:
         try:
-            result = solve(
-                analysis,
-                fidelity=fidelity.value,
-                threads=threads or (available_cores() if is_shell else 1),
-                progress=progress,
-                cancel=cancel,
-                long_run=long_run_of(folder, restart, progress) if is_shell else None,
-            )
+            with progress_bar("solving") as progress:
+                result = solve(
+                    source.analysis,
+                    fidelity=fidelity.value,
+                    threads=threads or (available_cores() if is_shell else 1),
+                    progress=progress,
+                    cancel=cancel,
+                    long_run=long_run_of(folder, restart, progress) if is_shell else None,
+                )
         except InputError as error:
-            raise with_lines(error, file, analysis.structure) from None
-    source = ReportInput(
-        title=analysis.title,
-        text=file.read_text(encoding="utf-8-sig"),
-        name=file.name,
-        canonical=canonical(analysis),
-        residual_bound=(analysis.shell if is_shell else analysis.multibody).energy_residual_bound,
-        accuracy=None if is_shell else analysis.multibody.accuracy,
-    )
-    with results_errors(folder):
-        write(result, folder)
-        write_report(result, source, folder)
+            raise source.with_lines(error) from None
+        if not result.time.size:
+            raise CancelledError(result.reason)
+        # still inside: Ctrl-C while figures are drawn must not lose the result
+        store(result, source, folder)
+    if is_shell:
+        remove_restart(folder, result)
     return result
 
 

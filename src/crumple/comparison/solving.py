@@ -23,7 +23,7 @@ from crumple.comparison.variant import (
     with_elastic_members,
     with_measured_laws,
 )
-from crumple.errors import InputError, Problem, Status
+from crumple.errors import CancelledError, InputError, Problem, Status
 from crumple.multibody import Run, least_seconds, stepping_seconds
 from crumple.result import Result
 from crumple.structure import Structure
@@ -53,6 +53,7 @@ def solve_and_compare(
     progress: Progress | None = None,
     cancel: Cancel | None = None,
     long_run: LongRun | None = None,
+    keep: Callable[[Result], None] | None = None,
 ) -> Comparison:
     """Solve an analysis with both solvers and compare the results.
 
@@ -72,6 +73,8 @@ def solve_and_compare(
     progress, cancel, long_run
         As for `crumple.analysis.solve`; progress is that of the shell run.  After a cancellation, further
         models and meshes that are not yet solved are left out.
+    keep
+        Called with each engine's result as soon as there is one: what follows may take long.
 
     Returns
     -------
@@ -86,10 +89,16 @@ def solve_and_compare(
     dense = with_frames(analysis)
     other = None if second_mesh is None else with_mesh(dense, second_mesh)
     candidate = _hashed(solve(dense, cancel=cancel), analysis)
+    if not candidate.time.size:
+        raise CancelledError(candidate.reason)
+    if keep is not None:
+        keep(candidate)
     begin, worked = time.perf_counter(), time.process_time()
     shell = solve(dense, "shell", threads, progress, cancel, long_run=long_run)
     busy = (time.process_time() - worked) / (threads * (time.perf_counter() - begin))
     reference = _hashed(shell, analysis)
+    if keep is not None:
+        keep(reference)
     models = {candidate.fidelity: (analysis.structure, candidate)}
     if variants and reference.time.size:
         models |= _variants(dense, candidate, reference, cancel)

@@ -14,7 +14,7 @@ from crumple.errors import InputError, Problem
 from crumple.multibody.bodies.assembly import assemble
 from crumple.multibody.bodies.dead_centres import dead_centres
 from crumple.multibody.bodies.linkage import GROUND, Linkage, link
-from crumple.multibody.bodies.mobility import mobility
+from crumple.multibody.bodies.mobility import mobility, too_large
 from crumple.multibody.planar.plane import PARALLEL, plane_of
 from crumple.multibody.run import Run
 from crumple.numeric.arrays import Floats
@@ -82,6 +82,9 @@ def _reasons(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run) ->
     loops = len(linkage.connections) - len(linkage.bodies)
     if loops > MOST_LOOPS:
         yield f"there are {loops} closed loops"
+    if too_large(linkage):
+        yield "there are too many hinges in closed loops"
+        return
     normal = plane_of(structure, hinges).normal
     leaning = _leaning(structure, normal)
     if leaning is not None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from crumple._core.outcome import Outcome
-from crumple.errors import Status
+from crumple.errors import CancelledError, Status
 from crumple.numeric.arrays import Floats
 from crumple.structure import MultibodySettings, Outputs, Stage
 
@@ -78,6 +78,18 @@ def poll_of(
         return not (cancel is not None and cancel())
 
     return poll
+
+
+def refuse_unbegun(outcome: Outcome, time: Floats) -> None:
+    """Raise where a run was cancelled before its first output: there is nothing to make a result of.
+
+    Raises
+    ------
+    CancelledError
+        Then.
+    """
+    if outcome is Outcome.CANCELLED and len(time) <= 1:
+        raise CancelledError("cancelled before the first output: nothing was kept")
 
 
 def outcome_status(outcome: Outcome, reason: str, residual: float, bound: float) -> tuple[Status, str]:

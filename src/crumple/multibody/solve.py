@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from crumple._core.outcome import Outcome
-from crumple.errors import InputError, Problem, Status
+from crumple.cancelling import asking
+from crumple.errors import CancelledError, InputError, Problem, Status
 from crumple.multibody.answer.crush import with_crush
 from crumple.multibody.answer.histories import (
     clearance_channels,
@@ -20,7 +21,7 @@ from crumple.multibody.answer.histories import (
     section_channels,
     summaries,
 )
-from crumple.multibody.answer.shapes import states_of
+from crumple.multibody.answer.shapes import refuse_pictures, states_of
 from crumple.multibody.answer.solved import HingeHistory, Solved, Solver
 from crumple.multibody.checks import trust
 from crumple.multibody.checks.collapse import changed_capacities, collapse_log, not_unique
@@ -66,17 +67,25 @@ def solve_multibody(
     tests/verification.
     """
     begin = time.perf_counter()
-    solver = solver_of(structure, run)
-    if not solver.moving:
-        raise _nothing_moves()
+    refuse_pictures(structure, len(picture_times(run)))
     accuracy = run.settings.accuracy
     poll = poll_of(run.duration, (0.0, 0.7), progress, cancel)
-    solved = rough = solver.run(accuracy / CHECK_FACTOR, poll)
+    try:
+        with asking(cancel):
+            solver = solver_of(structure, run)
+            if not solver.moving:
+                raise _nothing_moves()
+            solved = rough = solver.run(accuracy / CHECK_FACTOR, poll)
+    except CancelledError as error:
+        return _nothing_solved(run, str(error), time.perf_counter() - begin)
     if solved.outcome is Outcome.COMPLETE:
         poll = poll_of(run.duration, (0.7, 1.0), progress, cancel)
-        rough = solver.run(accuracy, poll, ends_only=True)
-        if rough.outcome is Outcome.CANCELLED:
-            solved = replace(solved, outcome=rough.outcome, reason=rough.reason)
+        try:
+            with asking(cancel):
+                rough = solver.run(accuracy, poll, ends_only=True)
+        except CancelledError:
+            reason = "asked to stop while the error was estimated; the run itself is complete"
+            solved = rough = replace(solved, outcome=Outcome.CANCELLED, reason=reason)
     errors = None
     if solved.outcome is Outcome.COMPLETE and rough.outcome is Outcome.COMPLETE:
         errors = _errors(rough, solved)
@@ -124,7 +133,11 @@ def _doubt(
     runs = [rough.hinges]
     poll = poll_of(run.duration, (1.0, 1.0), None, cancel)
     for hinges in changed_capacities(placed_hinges(structure)):
-        solved = solver.with_hinges(hinges).run(run.settings.accuracy, poll, ends_only=True)
+        try:
+            with asking(cancel):
+                solved = solver.with_hinges(hinges).run(run.settings.accuracy, poll, ends_only=True)
+        except CancelledError:
+            return "Cancelled before it was checked whether small changes of capacities fold it elsewhere."
         if solved.outcome is Outcome.COMPLETE:
             runs.append(solved.hinges)
     return not_unique(runs)
@@ -200,6 +213,25 @@ def _settings(run: Run, solver: Solver, solved: Solved) -> dict[str, float | int
         "rejected_steps": solved.rejected,
         "newton_steps": solved.solves,
     }
+
+
+def _nothing_solved(run: Run, reason: str, seconds: float) -> Result:
+    """What a run is that was cancelled before its first step: no histories, no hinges, no shapes."""
+    return Result(
+        status=Status.CANCELLED,
+        reason=reason,
+        fidelity="multibody",
+        title=run.title,
+        time=np.zeros(0),
+        channels={},
+        hinges={},
+        states=None,
+        energy_residual=0.0,
+        solve_seconds=seconds,
+        warnings=(),
+        assumptions=(),
+        provenance=Provenance(version="", input_hash="", isa="scalar"),
+    )
 
 
 def _nothing_moves() -> InputError:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import json
-import zlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from zipfile import BadZipFile, is_zipfile
+from zipfile import is_zipfile
 
 import numpy as np
 
@@ -19,7 +18,7 @@ from crumple.result import StageSummary
 from crumple.shell.answer.record import Record
 from crumple.structure import Outputs, ShellSettings, Stage, Structure
 
-FORMAT = 4
+FORMAT = 5
 """Version of the file; another one is refused."""
 
 
@@ -76,10 +75,20 @@ def write_restart(path: Path, saved: Saved, mark: str) -> None:
         for name, values in getattr(saved, kind).items()
     }
     arrays |= saved.record.to_arrays()
-    head = {"format": FORMAT, "mark": mark, "isa": saved.isa, "seconds": saved.seconds}
+    head = {"format": FORMAT, "mark": mark, "isa": saved.isa, "seconds": saved.seconds, "sum": _sum(arrays)}
     text = json.dumps({**head, "ended": [asdict(stage) for stage in saved.ended]})
     with replacing(path) as temporary, temporary.open("wb") as file:
         np.savez(file, allow_pickle=False, head=np.frombuffer(text.encode(), dtype=np.uint8), **arrays)
+
+
+def _sum(arrays: Mapping[str, Floats]) -> str:
+    """SHA-256 of the names, types, shapes and bytes of arrays."""
+    digest = hashlib.sha256()
+    for name in sorted(arrays):
+        values = np.asarray(arrays[name])
+        digest.update(f"{name} {values.dtype.str} {values.shape} ".encode())
+        digest.update(values.tobytes())
+    return digest.hexdigest()
 
 
 def _unreadable(path: Path, error: Exception) -> InputError:
@@ -111,11 +120,14 @@ def read_restart(path: Path, mark: str, isa: str) -> Saved:
     try:
         with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:
             arrays = {name: file[name] for name in file.files}
-        head = json.loads(arrays["head"].tobytes())
+        head = json.loads(arrays.pop("head").tobytes())
         found = {key: head[key] for key in ("format", "mark", "isa", "seconds")}
+        whole = found["format"] != FORMAT or head["sum"] == _sum(arrays)
         ended = tuple(StageSummary(**stage) for stage in head.get("ended", ()))
-    except (OSError, KeyError, TypeError, ValueError, EOFError, BadZipFile, zlib.error) as error:
+    except Exception as error:  # a damaged file can hold anything, and each reader has its own words for it
         raise _unreadable(path, error) from error
+    if not whole:
+        raise _unreadable(path, ValueError("checksum"))
     if found["format"] != FORMAT or found["mark"] != mark:
         what, todo = (
             "the restart file belongs to another input",

@@ -118,6 +118,7 @@ def _result(structure: Structure, run: ShellRun, stepping: Stepping, status: Sta
         solve_seconds=stepping.seconds,
         warnings=trust.warnings(structure, case, record, state)
         + trust.slow_warnings(run.stages, stepping.ended, record)
+        + ((stepping.unsaved,) if stepping.unsaved else ())
         + tuple(missing_pictures(run.outputs.pictures, float(times[-1]))),
         assumptions=trust.assumptions(structure, case, run.settings),
         provenance=Provenance("", "", state.isa, run.threads, _settings(run, case, state, record)),

@@ -34,6 +34,8 @@ SAVE_EVERY = 300.0
 """Wall time between two restart files [s]."""
 WATCH_EVERY = 0.5
 """Wall time between two looks at the energies [s]; a look costs about as much as ten steps."""
+SAVE_AT_END = 10.0
+"""Wall time of a run [s] from which its end is saved too: drawing and further solves may follow."""
 REPORT_INTERVAL = 0.1
 """Wall time between two calls of what watches a run that is looked at more often [s]."""
 SAME_TIME = 1e-9
@@ -79,14 +81,18 @@ class LongRun:
     restart_from
         Restart file of an interrupted run of the same input.
     restart_to
-        Written now and then and when the run is cancelled; removed when it ends.
+        Written now and then, when the run is cancelled, and at the end of a run that took long: whoever has
+        put its results on the disk removes it.
     watch
         Called about twice a second.
+    warn
+        Told at once when a restart file cannot be written; the run goes on.
     """
 
     restart_from: Path | None = None
     restart_to: Path | None = None
     watch: Callable[[Moment], None] | None = None
+    warn: Callable[[str], None] | None = None
 
 
 def output_times(run: ShellRun, begin: float, duration: float) -> Floats:
@@ -132,6 +138,7 @@ class Stepping:
         self.spent_before = self.first_time = 0.0
         self.saved = self.watched = self.reported = self.begin
         self.resumed: Saved | None = None
+        self.unsaved = ""
         if self.long_run.restart_from is not None:
             self._resume(self.long_run.restart_from)
 
@@ -151,8 +158,9 @@ class Stepping:
             status, reason = self._run_stage(number)
             if not status.ok:
                 return status, reason
-        if self.long_run.restart_to is not None:
-            self.long_run.restart_to.unlink(missing_ok=True)
+        # a run that goes on from its end has been saved there
+        if self.seconds > SAVE_AT_END and self.resumed is None:
+            self._save()
         residual, bound = trust.energy_residual(self.record), self.run.settings.energy_residual_bound
         if residual > bound:
             return Status.RESIDUAL_EXCEEDED, f"energy residual {residual:.2e} above its bound {bound:.2e}"
@@ -269,15 +277,30 @@ class Stepping:
             watch = {} if self.watch is None else self.watch.to_arrays()
             state = self.state
             saved = Saved(self.record, self.seconds, self.ended, state.checkpoint(), watch, state.isa)
-            write_restart(self.long_run.restart_to, saved, self.mark)
+            try:
+                write_restart(self.long_run.restart_to, saved, self.mark)
+                self.unsaved = ""
+            except OSError as error:
+                self._warn_unsaved(self.long_run.restart_to, error)
         self.saved = time.perf_counter()
+
+    def _warn_unsaved(self, path: Path, error: OSError) -> None:
+        """A run that is healthy goes on without a restart file."""
+        reason = error.strerror or "the system refused"
+        self.unsaved = f"The restart file {path} could not be written at {self.state.time:.4g} s: {reason}."
+        if self.long_run.warn is not None:
+            self.long_run.warn(self.unsaved)
 
     def _resume(self, path: Path) -> None:
         """Go back to where a restart file was written."""
         saved = read_restart(path, self.mark, self.state.isa)
         self.record, self.spent_before, self.ended = saved.record, saved.seconds, saved.ended
         if saved.ended:
-            self.state = self._state_of(self.run.sequence[len(saved.ended)], saved.ended[-1].end)
+            # a run that was saved at its end is still in its last stage
+            number = min(len(saved.ended), len(self.run.sequence) - 1)
+            self.state = self._state_of(
+                self.run.sequence[number], saved.ended[number - 1].end if number else 0.0
+            )
         self.state.restore(saved.state)
         self.first_time, self.resumed = self.state.time, saved
 

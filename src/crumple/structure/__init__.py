@@ -16,11 +16,12 @@ For a solver:
 from crumple.structure.bending import across_plane, planar
 from crumple.structure.change import changed, value_at
 from crumple.structure.checks.checks import output_problems, problems_in, shell_problems
+from crumple.structure.checks.limit_checks import history_problems
 from crumple.structure.checks.obstacle_checks import gap, stage_problems
 from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges.automatic import any_automatic
 from crumple.structure.hinges.hinges import PlacedHinge, placed_hinges, plastic_hinges, shares_left_out
-from crumple.structure.hinges.places import HingePlace, hinge_places
+from crumple.structure.hinges.places import HingePlace, hinge_places, member_hinge_places
 from crumple.structure.keys.joint import Joint
 from crumple.structure.keys.law import LawKeys, Regularisation, Stops
 from crumple.structure.keys.load import ForceComponents, Load, Mass, MomentComponents, NodalImpulse
@@ -99,6 +100,8 @@ __all__ = [
     "frame_of",
     "gap",
     "hinge_places",
+    "history_problems",
+    "member_hinge_places",
     "output_problems",
     "placed_hinges",
     "planar",

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cached_property
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
@@ -24,6 +25,28 @@ from crumple.structure.keys.section import SectionSpec
 from crumple.structure.keys.spot_welds import SpotWelds
 from crumple.structure.schema.mapping import FrozenMapping
 from crumple.structure.schema.spec import Named, Spec
+
+Part = TypeVar("Part")
+
+
+def _by_node(parts: Iterable[tuple[str, Part]]) -> dict[str, list[Part]]:
+    """Parts by the node at which each is."""
+    found: dict[str, list[Part]] = {}
+    for node, part in parts:
+        found.setdefault(node, []).append(part)
+    return found
+
+
+class Kept(dict[tuple[str, str], Any]):
+    """What was worked out of a structure, by kind and name; no part of what it is."""
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Kept)
+
+    __hash__ = None
+
+    def __reduce__(self) -> tuple[type[Kept], tuple[()]]:
+        return (Kept, ())
 
 
 class StructureParts(Spec):
@@ -97,9 +120,37 @@ class StructureParts(Spec):
 
     def frame_of(self, member: str) -> Frame:
         """Origin, axes and length of a member at the start."""
-        spec = self.members[member]
-        first, second = (self.nodes[name] for name in spec.nodes)
-        return frame_of(first, second, up=spec.up, roll=spec.roll)
+        frame = self.kept.get(("frame", member))
+        if frame is None:
+            spec = self.members[member]
+            first, second = (self.nodes[name] for name in spec.nodes)
+            self.kept["frame", member] = frame = frame_of(first, second, up=spec.up, roll=spec.roll)
+        return cast(Frame, frame)
+
+    @cached_property
+    def kept(self) -> Kept:
+        """What was worked out of it before."""
+        return Kept()
+
+    @cached_property
+    def supports_at(self) -> dict[str, list[tuple[str, Support]]]:
+        """Supports and their names by their node."""
+        return _by_node((support.node, (name, support)) for name, support in self.supports.items())
+
+    @cached_property
+    def masses_at(self) -> dict[str, list[Mass]]:
+        """Lumped masses by their node."""
+        return _by_node((mass.node, mass) for mass in self.masses.values())
+
+    @cached_property
+    def joints_at(self) -> dict[str, list[Joint]]:
+        """Joints by their node."""
+        return _by_node((joint.node, joint) for joint in self.joints.values())
+
+    @cached_property
+    def members_at(self) -> dict[str, list[str]]:
+        """Names of the members by the nodes at which they end."""
+        return _by_node((node, name) for name, spec in self.members.items() for node in spec.nodes)
 
     @property
     def mass_of_members(self) -> float:

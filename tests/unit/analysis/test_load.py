@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from crumple.analysis import Analysis, check, input_hash, load, loads, with_lines
+from crumple.analysis import Analysis, check, input_hash, load, load_input, loads
 from crumple.errors import InputError, Problem
 
 EXAMPLE = Path("examples/01_tube_bending.yaml")
@@ -162,7 +162,10 @@ def test_a_hinge_that_the_solver_names_is_found_in_its_member(text, tmp_path):
     file = tmp_path / "a.yaml"
     file.write_text(text)
     refusal = InputError([Problem("idle", where="hinges.root"), Problem("idle", where="hinges.of a support")])
-    problems = with_lines(refusal, file, loads(text).structure).problems
+    loaded = load_input(file)
+    # what is told is of the file as it was read
+    file.unlink()
+    problems = loaded.with_lines(refusal).problems
     assert {problem.where for problem in problems} == {"members", "members.tube.hinges[0]"}
     assert "name: root" in text.splitlines()[max(problem.line for problem in problems) - 1]
 

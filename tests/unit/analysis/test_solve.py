@@ -1,5 +1,6 @@
 """From an analysis to a result: provenance, filters, and the same answer from file and Python."""
 
+import re
 import runpy
 from dataclasses import replace
 from pathlib import Path
@@ -63,9 +64,15 @@ def test_progress_is_reported_and_a_cancelled_run_keeps_its_results():
     assert result.status is Status.COMPLETE
     assert reported == sorted(reported)
     assert 0.0 <= reported[0] <= reported[-1] <= 1.0
-    cancelled = solve(loads(TEXT), cancel=lambda: True)
+    shares = [0.0]
+    long = loads(TEXT.replace("accuracy: 1e-3", "accuracy: 1e-10"))
+    cancelled = solve(long, progress=shares.append, cancel=lambda: shares[-1] > 0.0)
     assert cancelled.status is Status.CANCELLED
-    assert cancelled.reason == "stopped on request; the last output is at 0 s of 100 ms"
+    assert re.fullmatch(r"stopped on request; the last output is at [0-9.]+ ms of 100 ms", cancelled.reason)
+    # without an output after the start there is nothing to keep
+    nothing = solve(loads(TEXT), cancel=lambda: True)
+    assert nothing.status is Status.CANCELLED
+    assert nothing.time.size == 0
 
 
 def test_a_filtered_channel_is_that_of_the_equally_spaced_samples():

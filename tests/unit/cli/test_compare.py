@@ -34,7 +34,9 @@ def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
         "compare", coarse(tmp_path, 12), "--out", tmp_path / "out", "--threads", 1,
         "--curve", f"bench={measured}", "--pair", "tip=-member.tube.chord_rotation", "--second-mesh", 1.5,
     )  # fmt: skip
-    assert (run.returncode, run.stderr) == (0, "")
+    assert run.returncode == 0
+    # on a busy machine it takes so long that there are news
+    assert all(" ms, step " in line for line in run.stderr.splitlines())
     assert "times faster" in run.stdout
     assert "Solved again, multibody took" in run.stdout
     assert "Caution" in run.stdout
@@ -138,7 +140,6 @@ def test_an_interrupted_comparison_goes_on(tmp_path: Path, monkeypatch, capsys) 
 
     with monkeypatch.context() as patch:
         patch.setattr("crumple.cli.console.shell_run.status_line", end)
-        patch.setattr("crumple.cli.console.shell_run.STATUS_INTERVAL", -1.0)
         patch.setattr("crumple.shell.stepping.WATCH_EVERY", 0.0)
         words = ["crumple", "compare", file, "--out", parts, "--threads", 1, "--no-variants"]
         patch.setattr(sys, "argv", [str(word) for word in words])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -11,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from crumple.cli.console.progress import Bar
-from crumple.cli.console.shell_run import duration, long_run_of, status_line
+from crumple.cli.console.progress import Bar, duration
+from crumple.cli.console.shell_run import long_run_of, status_line
 from crumple.cli.main import main
 from crumple.shell import Moment
 
@@ -71,7 +72,6 @@ def test_an_interrupted_run_can_be_read_and_continues_bitwise(tmp_path: Path, mo
         return ""
 
     monkeypatch.setattr("crumple.cli.console.shell_run.status_line", end)
-    monkeypatch.setattr("crumple.cli.console.shell_run.STATUS_INTERVAL", -1.0)
     monkeypatch.setattr("crumple.shell.stepping.WATCH_EVERY", 0.0)
     words = ["crumple", "run", file, "--fidelity", "shell", "--out", parts, "--threads", 1]
     monkeypatch.setattr(sys, "argv", [str(word) for word in words])
@@ -105,8 +105,13 @@ def test_wall_times_for_people() -> None:
 
 
 def test_news_go_to_standard_error_where_there_is_no_terminal(monkeypatch, capsys, tmp_path) -> None:
-    monkeypatch.setattr("crumple.cli.console.shell_run.STATUS_INTERVAL", -1.0)
-    watch = long_run_of(tmp_path, None, Bar("solving")).watch
+    monkeypatch.setattr("crumple.cli.console.progress.STATUS_INTERVAL", -1.0)
+    bar = Bar("solving")
+    bar(0.0)
+    bar(0.25)
+    assert re.fullmatch(r"solving: 0 %\nsolving: 25 %, about \d+ s left\n", capsys.readouterr().err)
+    watch = long_run_of(tmp_path, None, bar).watch
     assert watch is not None
     watch(MOMENT)
+    bar(0.5)
     assert "of 100 ms" in capsys.readouterr().err

@@ -166,7 +166,8 @@ def test_cancelled_run_keeps_what_it_has_and_goes_on_with_the_same_bits(result, 
     assert file.exists()
     resumed = solve_shell(thrown(), run(threads=2), long_run=LongRun(restart_from=file, restart_to=file))
     assert resumed.status is Status.COMPLETE
-    assert not file.exists()
+    # whoever has put the results on the disk removes it
+    assert file.exists()
     assert all(np.array_equal(resumed[name], result[name]) for name in result.channels)
     for name, values in result.states.cell_data.items():
         assert np.array_equal(resumed.states.cell_data[name], values)
@@ -285,3 +286,42 @@ def test_hinges_of_a_frame_are_measured_each_in_its_stretch():
         assert work > 0.5 * moved[f"hinge.{name}.energy"][-1]
     parts = sum(moved[f"hinge.{name}.energy"][-1] for name in moved.hinges)
     assert parts <= moved["energy.dissipated"][-1]
+
+
+def test_a_restart_file_that_cannot_be_written_is_a_warning_and_the_run_goes_on(
+    result, tmp_path, monkeypatch
+):
+    told = []
+    monkeypatch.setattr("crumple.shell.stepping.SAVE_EVERY", 0.0)
+    nowhere = LongRun(restart_to=tmp_path / "file" / "restart.npz", warn=told.append)
+    (tmp_path / "file").write_text("in the way")
+    ended = solve_shell(thrown(), run(), long_run=nowhere)
+    assert ended.status is Status.COMPLETE
+    assert told[-1].startswith("The restart file")
+    assert told[-1] in ended.warnings
+    assert all(np.array_equal(ended[name], result[name]) for name in result.channels)
+
+
+def test_a_run_that_was_saved_at_its_end_gives_the_same_answer_without_a_step(result, tmp_path, monkeypatch):
+    file = tmp_path / "restart.npz"
+    monkeypatch.setattr("crumple.shell.stepping.SAVE_AT_END", 0.0)
+    solve_shell(thrown(), run(), long_run=LongRun(restart_to=file))
+    monkeypatch.setattr(ShellState, "advance", None)
+    again = solve_shell(thrown(), run(), long_run=LongRun(restart_from=file))
+    assert again.status is Status.COMPLETE
+    assert all(np.array_equal(again[name], result[name]) for name in result.channels)
+
+
+@pytest.mark.parametrize("change", [lambda a: a[:0], lambda a: a[:-1], lambda a: a + 1.0])
+@pytest.mark.parametrize("name", ["state/contact", "state/elements", "rows/energy", "shapes/position"])
+def test_a_restart_file_whose_arrays_were_changed_is_refused(tmp_path, name, change):
+    file = tmp_path / "restart.npz"
+    asked = iter(range(1000))
+    solve_shell(thrown(), run(), cancel=lambda: next(asked) > 3, long_run=LongRun(restart_to=file))
+    with np.load(file) as saved:
+        arrays = dict(saved)
+    name = name if name in arrays else next(key for key in arrays if key.startswith(name.split("/")[0]))
+    arrays[name] = change(arrays[name])
+    np.savez(file, **arrays)
+    with pytest.raises(InputError, match="damaged"):
+        solve_shell(thrown(), run(), long_run=LongRun(restart_from=file))

@@ -1,33 +1,55 @@
-"""The folder of a run's results: checked before the run; error messages name the user's path."""
+"""The folder of a run's results, tried and locked before the run; its errors name the user's path."""
 
 from __future__ import annotations
 
 import os
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from crumple.cli.console.defect import defects_into
 from crumple.errors import InputError, Problem
 from crumple.portable import reader_left
+
+if TYPE_CHECKING:
+    from filelock import BaseFileLock
 
 FILES = ("result.vtkhdf", "histories.csv", "summary.json", "report.html")
 """Files of a run; a folder with one of these names is an error."""
 FIGURES = "figures"
+LOCK = ".crumple.lock"
+"""Held by the run that writes into a folder; the system releases it with the process, however that ends."""
 
 
-def results_folder(given: str | Path | None, file: Path) -> Path:
-    """The folder, created and checked for write access; by default out/ and the input file's name.
+@contextmanager
+def results_folder(given: str | Path | None, file: Path, within: tuple[str, ...] = ()) -> Iterator[Path]:
+    """Make, try and lock the folder, and folders within it; by default out/ and the input file's name.
+
+    Unfinished files of an interrupted run are removed.  Unforeseen exceptions of the block are wrapped with
+    the folder, see `crumple.cli.console.defect`.
 
     Raises
     ------
     InputError
-        If it cannot be created or written to, or a folder in it has the name of a result file.
+        If a folder cannot be made or written to, another run writes into it, or something is in the way.
     """
     if given is not None and not str(given).strip():
         todo = "give a folder; . is the current one"
         raise InputError(Problem("the name of the results' folder is empty", todo=todo, where="--out"))
     folder = Path(given) if given is not None else Path("out") / file.stem
+    with ExitStack() as held:
+        for each in (folder, *(folder / name for name in within)):
+            _try(each)
+            held.enter_context(_locked(each))
+            _tidy(each)
+        held.enter_context(defects_into(folder))
+        yield folder
+
+
+def _try(folder: Path) -> None:
+    """Make a folder and see that files can be written there, and under the names that results have."""
     with results_errors(folder):
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -47,7 +69,30 @@ def results_folder(given: str | Path | None, file: Path) -> Path:
             for name in blocked
         ]
         raise InputError(problems)
-    return folder
+
+
+def _locked(folder: Path) -> BaseFileLock:
+    """Lock of a folder, held."""
+    from filelock import FileLock, Timeout
+
+    lock = FileLock(folder / LOCK)
+    try:
+        with results_errors(folder):
+            lock.acquire(blocking=False)
+    except Timeout:
+        what, todo = (
+            f"another run is writing into {folder}",
+            "wait for it, or choose another folder with --out",
+        )
+        raise InputError(Problem(what, todo=todo, where="--out")) from None
+    return lock
+
+
+def _tidy(folder: Path) -> None:
+    from crumple.result.publishing import remove_left_over
+
+    with results_errors(folder):
+        remove_left_over(folder)
 
 
 @contextmanager
@@ -56,7 +101,7 @@ def results_errors(folder: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        if reader_left(error):
+        if reader_left(error) or isinstance(error, TimeoutError):
             raise
         # libraries give their own text, with temporary names, in place of the system's reason
         reason = os.strerror(error.errno) if error.errno else "the operating system refused"

@@ -1,6 +1,7 @@
 """A progress bar for long runs.
 
-The bar is drawn on standard error and only after `PATIENCE`; most runs end before.
+The bar is drawn on standard error and only after `PATIENCE`; most runs end before.  Where standard error is
+no terminal, a line is written every `STATUS_INTERVAL`.
 """
 
 from __future__ import annotations
@@ -16,18 +17,24 @@ if TYPE_CHECKING:
 
 PATIENCE = 0.4
 """Time before the bar appears [s]: for shorter runs it would only flicker."""
+STATUS_INTERVAL = 10.0
+"""Wall time between two status lines if there is no terminal for a progress bar [s]."""
 
 
 class Bar:
-    """Call it with the fraction done, 0 to 1."""
+    """Call it with the fraction done, 0 to 1; without a terminal it writes a line now and then."""
 
     def __init__(self, title: str) -> None:
         self._title, self._started = title, time.monotonic()
+        self._reported, self._text = self._started, ""
         self._bar: Progress | None = None
 
     def __call__(self, fraction: float) -> None:
+        if not sys.stderr.isatty():
+            self._report(fraction)
+            return
         if self._bar is None:
-            if time.monotonic() - self._started < PATIENCE or not sys.stderr.isatty():
+            if time.monotonic() - self._started < PATIENCE:
                 return
             from rich.console import Console
             from rich.progress import Progress
@@ -37,13 +44,9 @@ class Bar:
             self._bar.start()
         self._bar.update(self._bar.task_ids[0], completed=fraction)
 
-    @property
-    def drawn(self) -> bool:
-        """Whether the bar is shown on the terminal."""
-        return self._bar is not None
-
     def describe(self, text: str) -> None:
-        """Show a status text beside the bar, if the bar is shown."""
+        """Show a status text: beside the bar, or in the next status line."""
+        self._text = text
         if self._bar is not None:
             self._bar.update(self._bar.task_ids[0], description=text)
 
@@ -51,6 +54,22 @@ class Bar:
         """Remove the bar."""
         if self._bar is not None:
             self._bar.stop()
+
+    def _report(self, fraction: float) -> None:
+        now = time.monotonic()
+        if now - self._reported < STATUS_INTERVAL:
+            return
+        self._reported = now
+        spent = now - self._started
+        left = f", about {duration(spent * (1.0 - fraction) / fraction)} left" if fraction > 0.0 else ""
+        print(self._text or f"{self._title}: {100.0 * fraction:.3g} %{left}", file=sys.stderr, flush=True)
+
+
+def duration(seconds: float) -> str:
+    """Wall time for people."""
+    if seconds < 100.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 6000.0 else f"{seconds / 3600.0:.1f} h"
 
 
 @contextmanager

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import sys
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from crumple.cli.console.progress import duration
+from crumple.errors import Status
 
 if TYPE_CHECKING:
     from crumple.analysis import Analysis
     from crumple.cli.console.progress import Bar
+    from crumple.result import Result
     from crumple.shell import LongRun, Moment
 
 RESTART = "restart.npz"
 """Name of the restart file in the folder of the results."""
-STATUS_INTERVAL = 10.0
-"""Wall time between two status lines if there is no terminal for a progress bar [s]."""
 PUT_IN = ("kinetic", "elastic", "plastic", "hourglass", "contact")
 """Energies in the status line."""
 
@@ -44,18 +45,19 @@ def long_run_of(folder: Path, restart: Path | None, bar: Bar) -> LongRun:
     """Restart files and a callback that reports the state of the run on standard error."""
     from crumple.shell import LongRun
 
-    last = time.monotonic()
-
     def watch(moment: Moment) -> None:
-        nonlocal last
-        text = status_line(moment)
-        if bar.drawn:
-            bar.describe(text)
-        elif not sys.stderr.isatty() and time.monotonic() - last > STATUS_INTERVAL:
-            last = time.monotonic()
-            print(text, file=sys.stderr, flush=True)
+        bar.describe(status_line(moment))
 
-    return LongRun(restart_from=restart, restart_to=folder / RESTART, watch=watch)
+    def warn(text: str) -> None:
+        print(f"Warning: {text}", file=sys.stderr, flush=True)
+
+    return LongRun(restart_from=restart, restart_to=folder / RESTART, watch=watch, warn=warn)
+
+
+def remove_restart(folder: Path, result: Result) -> None:
+    """Remove the restart file of a run that came to its end and whose results are on the disk."""
+    if result.status in (Status.COMPLETE, Status.RESIDUAL_EXCEEDED):
+        (folder / RESTART).unlink(missing_ok=True)
 
 
 def status_line(moment: Moment) -> str:
@@ -65,10 +67,3 @@ def status_line(moment: Moment) -> str:
         f"{1e3 * moment.time:.4g} of {1e3 * moment.duration:.4g} ms, step {1e6 * moment.time_step:.3g} us, "
         f"{energies}; about {duration(moment.seconds_left)} left"
     )
-
-
-def duration(seconds: float) -> str:
-    """Wall time in readable units."""
-    if seconds < 100.0:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60.0:.0f} min" if seconds < 6000.0 else f"{seconds / 3600.0:.1f} h"

@@ -25,6 +25,10 @@ LARGEST_FILE = 50_000_000
 """Bytes; a history of some hundred thousand times and a dozen columns."""
 LARGEST = 1e100
 """Largest magnitude of a number; squares of larger ones could overflow."""
+MOST_LINES = 1_000_000
+"""Lines; every one takes some microseconds to read."""
+LONGEST_LINE = 100_000
+"""Characters of a line; a row of a thousand numbers has a fifth of it."""
 SHOWN = 10
 """Number of wrong lines that are reported."""
 SUFFIXES = {
@@ -83,17 +87,15 @@ def read_curves(path: Path | str, name: str = "", pairs: Mapping[str, str] | Non
         missing, times that do not increase, two columns of one name.
     """
     place = Path(path)
-    text = _text(place)
-    lines = [
-        (n, t) for n, t in enumerate(text.splitlines(), 1) if t.strip() and not t.lstrip().startswith("#")
-    ]
+    lines = _lines(place)
     if not lines:
         raise _refused(
             "the file is empty", place, todo="write a header such as 'time [ms], hinge.root.rotation [deg]'"
         )
     head_line, head = lines[0]
     separator = max(",;\t", key=head.count)
-    columns = _columns(next(csv.reader([head], delimiter=separator)), place, head_line)
+    titles = next(csv.reader([head], delimiter=separator))
+    columns = _columns(titles, place, head_line)
     times = [i for i, (title, _, unit) in columns.items() if unit == "s" and title.lower() in ("time", "t")]
     if not times:
         raise _refused(
@@ -123,10 +125,24 @@ def read_curves(path: Path | str, name: str = "", pairs: Mapping[str, str] | Non
             todo = "leave one of them out, or give it another name"
             raise _refused("two columns have the same name", place, head_line, called, "", todo=todo)
         signals[called] = Signal(called, unit, time, side * scaled[i])
-    titles = next(csv.reader([head], delimiter=separator))
     left = tuple(title.strip() for i, title in enumerate(titles) if i not in columns)
     named = tuple(title for i, (title, _, _) in columns.items() if i != times[0])
     return CurveFile(name or place.stem, str(place), signals, left, named)
+
+
+def _lines(place: Path) -> list[tuple[int, str]]:
+    """Lines with something in them, by number, few and short enough to be read."""
+    every = _text(place).splitlines()
+    if len(every) > MOST_LINES:
+        came, allowed = str(len(every)), f"at most {MOST_LINES}"
+        raise _refused("the file has too many lines", place, 0, came, allowed, todo="leave some times out")
+    lines = [(n, t) for n, t in enumerate(every, 1) if t.strip() and not t.lstrip().startswith("#")]
+    for number, line in lines:
+        if len(line) > LONGEST_LINE:
+            came, allowed = f"{len(line)} characters", f"at most {LONGEST_LINE}"
+            todo = "write one row of numbers per line, separated by comma, semicolon or tab"
+            raise _refused("the line is too long", place, number, came, allowed, todo=todo)
+    return lines
 
 
 def _text(place: Path) -> str:

@@ -73,9 +73,9 @@ def read_table(text: str, file: str = "", columns: tuple[Column, Column] = BENDI
     head_line, head = lines[0]
     separator = max(",;\t", key=head.count)
     places = [_column(head.split(separator), column, file, head_line) for column in columns]
-    rows = csv.reader([line for _, line in lines[1:]], delimiter=separator)
     numbers, problems = [], []
-    for (line, _), row in zip(lines[1:], rows, strict=True):
+    for line, content in lines[1:]:
+        row = _cells(content, separator, file, line)
         values = [_number(row[index]) if index < len(row) else math.nan for index, _ in places]
         numbers.append(values)
         if not np.all(np.isfinite(values)):
@@ -87,6 +87,17 @@ def read_table(text: str, file: str = "", columns: tuple[Column, Column] = BENDI
         )
     table = np.array(numbers) * np.array([factor for _, factor in places])
     return table[:, 0], table[:, 1]
+
+
+def _cells(content: str, separator: str, file: str, line: int) -> list[str]:
+    """Cells of one line; a quote that is not closed ends with it."""
+    try:
+        return next(csv.reader([content], delimiter=separator))
+    except csv.Error as error:
+        allowed, todo = f"cells of at most {csv.field_size_limit()} characters", "write plain numbers"
+        raise InputError(
+            Problem(f"this is no row of a table: {error}", "", allowed, todo, "", file, line)
+        ) from None
 
 
 def plastic_part(

@@ -2,20 +2,50 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from itertools import groupby
 from operator import itemgetter
 
 import numpy as np
 
+from crumple.errors import InputError, Problem
 from crumple.multibody.answer.poses import Poses
 from crumple.multibody.bodies.assembly import Piece
 from crumple.numeric.arrays import Floats, Integers
 from crumple.numeric.rotation import product, turned, vector_quaternion
 from crumple.result import States
-from crumple.structure import Structure
+from crumple.structure import Structure, member_hinge_places
 
+MOST_POINTS = 20_000_000
+"""Points in all pictures of a run: 0.5 GB."""
 LONGEST_QUAD = 2.0
 """Length of a quadrilateral over the section's largest side: smooth enough to draw, few enough to store."""
+
+
+def refuse_pictures(structure: Structure, pictures: int) -> None:
+    """Refuse shapes that would fill the memory, before anything is built or solved.
+
+    Raises
+    ------
+    InputError
+        Naming the member that takes the most points.
+    """
+    points = {}
+    for name in structure.members:
+        outline, length = structure.section_of(name).outline(), structure.frame_of(name).length
+        rings = length / (LONGEST_QUAD * float(np.ptp(outline, axis=0).max())) + len(
+            member_hinge_places(structure, name)
+        )
+        points[name] = len(outline) * (rings + 2.0)
+    total = pictures * sum(points.values())
+    if total > MOST_POINTS:
+        most = max(points, key=lambda name: points[name])
+        what, came = "the shapes of the members have too many points", f"{total:.3g} in {pictures} pictures"
+        allowed, todo = (
+            f"at most {MOST_POINTS:.3g}",
+            "ask for fewer pictures, or correct the length of this member",
+        )
+        raise InputError(Problem(what, came, allowed, todo, f"members.{most}"))
 
 
 def states_of(structure: Structure, poses: Poses, output_times: Floats, times: Floats) -> States:
@@ -68,8 +98,10 @@ def _tube_quads(rings: int, around: int) -> Integers:
 
 def _meeting(poses: Poses, member: str, station: float) -> tuple[int, int]:
     """Bodies that carry a station of a member: one twice, or the two that a hinge there joins."""
-    bodies = [piece.body for piece in poses.pieces[member] if piece.start <= station <= piece.end]
-    return bodies[0], bodies[-1]
+    pieces = poses.pieces[member]
+    first = bisect_left(pieces, station, key=lambda piece: piece.end)
+    last = bisect_right(pieces, station, key=lambda piece: piece.start) - 1
+    return pieces[first].body, pieces[last].body
 
 
 def _carried(poses: Poses, bodies: tuple[int, int], rings: Floats, rows: Integers) -> Floats:

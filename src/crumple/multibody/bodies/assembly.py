@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from crumple.cancelling import go_on
 from crumple.errors import InputError, Problem
 from crumple.multibody.bodies.rigid import RigidMass, combined, lump_mass, piece_mass
 from crumple.structure import Joint, PlacedHinge, Structure
@@ -64,6 +65,7 @@ class Assembly:
         """Mass of every rigid part that has a piece or a lump."""
         parts: dict[int, list[RigidMass]] = defaultdict(list)
         for name, cuts in self.pieces.items():
+            go_on()
             for start, end, i in cuts:
                 parts[self.root(i)].append(piece_mass(self.structure, name, start, end))
         for mass in self.structure.masses.values():
@@ -96,6 +98,7 @@ def assemble(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Assembly:
     for hinge in sorted(hinges, key=lambda hinge: hinge.station):
         by_member[hinge.member].append(hinge)
     for name, member in structure.members.items():
+        go_on()
         length = structure.frame_of(name).length
         stations = [0.0, *(hinge.station for hinge in by_member[name]), length]
         pieces = [(a, b, assembly.new()) for a, b in pairwise(stations)]

@@ -19,11 +19,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from crumple.cancelling import go_on
 from crumple.multibody.bodies.linkage import GROUND, Connection, Linkage
 from crumple.numeric.arrays import Floats
 
 NOTHING = 1e-9
 """Singular value over the largest, and share of a motion, below which it is rounding."""
+LARGEST_SYSTEM = 2000
+"""Equations, or freedoms, of loops that are decomposed: seconds, and 32 MB."""
 MOST_NAMES = 6
 """Members or hinges that a sentence names one by one."""
 
@@ -92,16 +95,25 @@ def mobility(linkage: Linkage, *, locked: bool = False) -> Mobility:
     null, redundant = null_space(system[:, coupled])
     moves = np.ones(width, bool)
     moves[coupled] = np.any(np.abs(null) > NOTHING, axis=0)
-    bodies = {
-        body
-        for body in range(len(linkage.bodies))
-        if any(moves[k] for _, own, _ in tree.path(body) for k in own)
-    }
-    free = {i: [k for k, owner in enumerate(tree.owner) if owner == i] for i in set(tree.owner) - {GROUND}}
+    bodies: set[int] = set()
+    # every body comes after the one that it is reached from
+    for body, (before, _, own, _) in tree.inboard.items():
+        if before in bodies or moves[own].any():
+            bodies.add(body)
+    free: dict[int, list[int]] = defaultdict(list)
+    for k, owner in enumerate(tree.owner):
+        if owner != GROUND:
+            free[owner].append(k)
     stuck = tuple(i for i, own in sorted(free.items()) if not moves[own].any())
     doubled = {i for rows, loop in blocks if redundant and null_space(rows)[1] for i in loop}
     number = width - len(coupled) + len(null)
     return Mobility(number, tuple(sorted(bodies)), stuck, redundant, tuple(sorted(doubled)))
+
+
+def too_large(linkage: Linkage) -> bool:
+    """Whether the equations of the loops are too many for a dense decomposition."""
+    tree = tree_of(linkage)
+    return bool(tree.loops) and max(6 * len(tree.loops), len(tree.owner)) > LARGEST_SYSTEM
 
 
 def free_twists(linkage: Linkage, points: Floats, *, locked: bool = False) -> Floats:
@@ -139,6 +151,8 @@ def free_twists(linkage: Linkage, points: Floats, *, locked: bool = False) -> Fl
 
 def notes(linkage: Linkage) -> tuple[str, ...]:
     """Sentences about parts that nothing holds, hinges that cannot turn, and constraints held twice."""
+    if too_large(linkage):
+        return ("The structure is too large to count what is free, locked or held twice.",)
     found = list(free_parts(linkage))
     free = mobility(linkage)
     names = [connection.name for connection in linkage.connections]
@@ -173,11 +187,15 @@ def free_parts(linkage: Linkage) -> tuple[str, ...]:
 
 def floating_members(linkage: Linkage) -> tuple[str, ...]:
     """Members that nothing connects with the ground, in the structure's order."""
-    held, growing = {GROUND}, True
-    while growing:
-        pairs = [{connection.first, connection.second} for connection in linkage.connections]
-        reached = held.union(*(pair for pair in pairs if pair & held))
-        growing, held = reached != held, reached
+    beside: dict[int, list[int]] = defaultdict(list)
+    for connection in linkage.connections:
+        beside[connection.first].append(connection.second)
+        beside[connection.second].append(connection.first)
+    held, queue = {GROUND}, deque([GROUND])
+    while queue:
+        reached = set(beside[queue.popleft()]) - held
+        held |= reached
+        queue.extend(reached)
     return tuple(name for name, pieces in linkage.pieces.items() if not {p.body for p in pieces} & held)
 
 
@@ -205,6 +223,7 @@ def tree_of(linkage: Linkage, locked: bool = False) -> Tree:
             tree.inboard[start] = (GROUND, GROUND, floating, 1.0)
         queue = deque([start])
         while queue:
+            go_on()
             here = queue.popleft()
             for i in edges[here]:
                 connection = linkage.connections[i]

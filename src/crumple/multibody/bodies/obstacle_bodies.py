@@ -25,6 +25,8 @@ from crumple._core.spatial.model import (
     SpatialObstacle,
     frame_of,
 )
+from crumple.cancelling import go_on
+from crumple.errors import InputError, Problem
 from crumple.multibody.bodies.assembly import Piece
 from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.bodies.sampled_functions import sampled_motion
@@ -34,6 +36,8 @@ from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereO
 LIGHT = 1e-3
 """Mass of a driven obstacle over that of the structure: its motion is given, so that the mass changes nothing
 but the work of its drive; far smaller ones would cost digits."""
+MOST_PAIRS = 1_000_000
+"""Pairs of bars that may touch each other; the kernel looks at each."""
 ROUND = 1.1
 """Ratio of the sides of a section up to which one row of capsules stands for it."""
 
@@ -221,8 +225,16 @@ def touching_pairs(
     structure: Structure, capsules: list[SpatialCapsule], member: list[str]
 ) -> Iterator[tuple[int, int]]:
     """Capsules of members that share no node, on different bodies."""
+    if len(capsules) * (len(capsules) - 1) // 2 > MOST_PAIRS:
+        what, allowed = (
+            f"{len(capsules)} bars are too many to touch each other",
+            f"at most {MOST_PAIRS} pairs",
+        )
+        todo = "leave 'member_contact' out, or describe the structure by fewer bars"
+        raise InputError(Problem(what, "", allowed, todo, "member_contact"))
     nodes = {name: set(spec.nodes) for name, spec in structure.members.items()}
     for i, j in combinations(range(len(capsules)), 2):
+        go_on()
         if capsules[i].body != capsules[j].body and not nodes[member[i]] & nodes[member[j]]:
             yield i, j
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from crumple.multibody.bodies.dead_centres import CROOKED, DeadCentres, dead_centres
 from crumple.multibody.bodies.linkage import Linkage
-from crumple.multibody.bodies.mobility import listed
+from crumple.multibody.bodies.mobility import listed, too_large
 
 
 def infinitesimal(linkage: Linkage) -> str:
     """What of a linkage is at a dead centre at the start; empty where nothing is."""
+    if too_large(linkage):
+        return ""
     return " ".join(dead_centre_notes(linkage, dead_centres(linkage)))
 
 

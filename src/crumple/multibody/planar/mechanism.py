@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from crumple.cancelling import go_on
 from crumple.errors import InputError, Problem
 from crumple.multibody.bodies.assembly import Piece, idle
 from crumple.multibody.bodies.linkage import GROUND, Linkage, link
@@ -176,6 +177,7 @@ def _walk(structure: Structure, linkage: Linkage, plane: Plane) -> Mechanism:
     def spread(start: int) -> None:
         queue = deque([start])
         while queue:
+            go_on()
             here = queue.popleft()
             for hinge, first, second in graph.edges[here]:
                 if hinge.name in used:

@@ -13,7 +13,7 @@ from crumple.multibody.answer.solved import Poll, Solved
 from crumple.multibody.planar.case import recorded_hinges
 from crumple.multibody.planar.mechanism import Mechanism, lower
 from crumple.multibody.planar.model import planar_initial_motion, tree_model
-from crumple.multibody.run import Run, output_times, step_bounds
+from crumple.multibody.run import Run, output_times, refuse_unbegun, step_bounds
 from crumple.structure import PlacedHinge, Structure
 
 
@@ -74,6 +74,7 @@ class TreeSolver:
         begin = time.perf_counter()
         record = simulation.run(output_times(self._run, ends_only=ends_only), poll)
         seconds = time.perf_counter() - begin
+        refuse_unbegun(record.outcome, record.time)
         return Solved(
             outcome=record.outcome,
             reason=record.reason,

@@ -23,7 +23,7 @@ from crumple.multibody.bodies.mobility import free_parts
 from crumple.multibody.bodies.obstacle_bodies import with_obstacles
 from crumple.multibody.checks.infinitesimal import dead_centre_notes
 from crumple.multibody.checks.stuck_drives import stuck_drives, stuck_note
-from crumple.multibody.run import Run, output_times, step_bounds
+from crumple.multibody.run import Run, output_times, refuse_unbegun, step_bounds
 from crumple.multibody.spatial.case import added_motion, kernel_stage, recorded_hinges
 from crumple.multibody.spatial.model import spatial_model, support_drives
 from crumple.multibody.spatial.off_dead_centres import off_dead_centres, with_held_moments
@@ -121,9 +121,13 @@ class SpatialSolver:
             clock = time.perf_counter()
             records.append(simulation.run(times, poll))
             seconds += time.perf_counter() - clock
+            if len(records) == 1:
+                refuse_unbegun(records[0].outcome, records[0].time)
             conditions = kernel_conditions(self._structure, self.linkage, self._touching, stage)
             ended = end_reason(stage, conditions, records[-1])
-            stages.append(StageSummary(stage.name, begin, float(records[-1].time[-1]), ended))
+            # a stage that was cancelled at once has no output
+            reached = float(records[-1].time[-1]) if len(records[-1].time) else begin
+            stages.append(StageSummary(stage.name, begin, reached, ended))
             if records[-1].outcome is not Outcome.COMPLETE:
                 break
         record = with_held_moments(_joined(records), self.linkage, model, self._holding)

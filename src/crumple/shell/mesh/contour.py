@@ -64,7 +64,8 @@ def outline_points(section: Section, size: float) -> Floats:
     breaks = np.flatnonzero(_is_break(outline))
     if not breaks.size:
         length = float(_lengths(outline).sum())
-        number = max(LEAST_AROUND_CIRCLE, 4 * round(length / (4.0 * size)))
+        quarter = number_of_sides(length / 4.0, size, bend=True)
+        number = max(LEAST_AROUND_CIRCLE, 4 * round(length / (4.0 * size)), 4 * quarter if quarter > 1 else 0)
         return _divided(np.vstack([outline, outline[:1]]), number)[:-1]
     start = np.roll(outline, -breaks[0], axis=0)
     ends = [*(breaks - breaks[0]), len(outline)]

@@ -15,7 +15,7 @@ from crumple.shell.mesh.contour import Contour, contour_of
 from crumple.shell.mesh.imperfection import offsets
 from crumple.shell.mesh.joints import SHEARED_LENGTH, Joint, Kind, joints_of
 from crumple.shell.mesh.stations import Sizes, Zone, stations
-from crumple.structure import Frame, Outputs, ShellSettings, Structure, hinge_places
+from crumple.structure import Frame, Outputs, ShellSettings, Structure, member_hinge_places
 
 MOST_ELEMENTS = 5_000_000
 """Elements of one mesh; more is a slip of the pen and would fill the memory."""
@@ -210,7 +210,7 @@ def _fine_zones(
         for node, end in zip(structure.members[member].nodes, ends, strict=True)
         if node in held or len(joints[node].ends) > 1
     ]
-    centres += [place.station for place in hinge_places(structure) if place.member == member]
+    centres += [place.station for place in member_hinge_places(structure, member)]
     centres += [place.at for place in settings.fine_at if place.member == member]
     return [(centre - reach, centre + reach) for centre in centres]
 

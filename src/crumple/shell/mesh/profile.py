@@ -6,12 +6,17 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from crumple.errors import InputError, Problem
 from crumple.material import Material
 from crumple.numeric.arrays import Floats, Integers
 
 SHORTEST_BEND = 0.3
 """Length of a bend over the element size below which it is drawn as a sharp corner: a shorter side would cost
 more than three times the time steps, and a bend that small has next to no length to fold in."""
+MOST_SIDES = 100_000
+"""Elements along a wall of a section."""
+MOST_SIDES = 100_000
+"""Elements along a wall of a section."""
 ONE_SIDE = 1.2
 """Length of a wall over the element size up to which it is one side, not two."""
 
@@ -53,6 +58,10 @@ class Contour:
 
 def number_of_sides(length: float, size: float, *, bend: bool) -> int:
     """Sides of a wall or bend of a length [m]; of a wall an even number: nodes in its middle."""
+    if length / size > MOST_SIDES:
+        what, todo = "the elements are far too small for a section", "give larger elements"
+        came, allowed = f"{1e3 * size:.3g} mm", f"at most {MOST_SIDES} along a wall"
+        raise InputError(Problem(what, came, allowed, todo, "analysis.shell"))
     if bend:
         return max(1, round(length / size))
     return 1 if length < ONE_SIDE * size else 2 * max(1, round(length / (2.0 * size)))

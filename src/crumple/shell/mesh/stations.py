@@ -15,10 +15,13 @@ from itertools import pairwise
 
 import numpy as np
 
+from crumple.errors import InputError, Problem
 from crumple.numeric.arrays import Floats
 
 Zone = tuple[float, float]
 
+MOST_RINGS = 1_000_000
+"""Elements along a member."""
 TOO_NEAR = 0.5
 """Share of the wished length below which two fixed places are one: a sliver would rule the time step."""
 SAMPLES_PER_ELEMENT = 8
@@ -99,6 +102,12 @@ def _divided(a: float, b: float, zones: Sequence[Zone], sizes: Sizes) -> Floats:
     s = np.linspace(a, b, number + 1)
     density = 1.0 / sizes.at(s, zones)
     integral = np.concatenate([[0.0], np.cumsum((density[1:] + density[:-1]) / 2 * np.diff(s))])
+    if integral[-1] > MOST_RINGS:
+        what, todo = (
+            f"a member has {integral[-1]:.3g} elements along it",
+            "give larger elements, or a shorter member",
+        )
+        raise InputError(Problem(what, "", f"at most {MOST_RINGS}", todo, "analysis.shell.element_size"))
     elements = max(1, round(float(integral[-1])))
     rings = np.interp(np.linspace(0.0, integral[-1], elements + 1), integral, s)
     rings[0], rings[-1] = a, b

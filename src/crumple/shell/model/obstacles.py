@@ -74,7 +74,7 @@ def refuse_walls_inside(structure: Structure, mesh: Mesh, stage: Stage) -> None:
         if stage.obstacles is not None and name not in stage.obstacles:
             continue
         nodes = touching(mesh, obstacle)
-        depth = np.array([-gap(obstacle, mesh.position[node]) for node in nodes])
+        depth = -gap(obstacle, mesh.position[nodes])
         worst = int(np.argmax(depth))
         if depth[worst] > INSIDE:
             member = next(m for m, tube in mesh.tubes.items() if nodes[worst] in tube.nodes)

@@ -7,8 +7,9 @@ passed that exist in the input but whose parts were refused, so that one mistake
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import combinations, product
+from math import dist
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from crumple.hinge.registry import BENDING
 from crumple.numeric.arrays import Floats
 from crumple.structure.checks.hinge_checks import inertia_problems, place_problems
 from crumple.structure.checks.joint_checks import bare_node_problems, joint_problems
+from crumple.structure.checks.limit_checks import limit_problems, output_limit_problems, pitch_limit_problems
 from crumple.structure.checks.obstacle_checks import obstacle_problems
 from crumple.structure.checks.rigid_checks import rigid_problems
 from crumple.structure.checks.start_checks import start_problems
@@ -25,7 +27,7 @@ from crumple.structure.keys.hinge_axes import AxisLaws, HingeAxes
 from crumple.structure.keys.member import AutomaticHinges
 from crumple.structure.keys.outputs import Outputs
 from crumple.structure.parts import StructureParts
-from crumple.structure.schema.problems import one_of, outside, shown, suggestion, unknown
+from crumple.structure.schema.problems import Names, one_of, outside, shown, suggestion, unknown
 from crumple.structure.settings.shell_settings import ShellSettings
 
 COINCIDENT = 1e-6
@@ -38,13 +40,13 @@ UNEVEN = 1e-3
 """Distance from its plane over the size up to which a polygon counts as plane."""
 KINDS = ("nodes", "members", "sections", "materials", "hinge_laws", "supports", "obstacles")
 
-Names = Mapping[str, Iterable[str]]
+Defined = Mapping[str, Iterable[str]]
 """Names per kind of part that the input defines, including those of refused parts."""
-Known = Mapping[str, set[str]]
+Known = Mapping[str, Names]
 
 
 def problems_in(
-    structure: StructureParts, defined: Names | None = None, *, complete: bool = True
+    structure: StructureParts, defined: Defined | None = None, *, complete: bool = True
 ) -> list[Problem]:
     """Every mistake of a structure.
 
@@ -59,17 +61,22 @@ def problems_in(
         False if parts were refused: a missing part is then not a mistake.
     """
     given = defined or {}
-    known = {kind: {*getattr(structure, kind), *given.get(kind, ())} for kind in KINDS}
+    known = {kind: Names([*getattr(structure, kind), *given.get(kind, ())]) for kind in KINDS}
     checks = (*_CHECKS, *(_CHECKS_OF_WHAT_IS_MISSING if complete else ()))
+    # what is too large is refused before anything is made of it
+    if problems := [*limit_problems(structure, known), *pitch_limit_problems(structure)]:
+        return problems
     return list(dict.fromkeys(problem for check in checks for problem in check(structure, known)))
 
 
 def output_problems(
-    outputs: Outputs, structure: StructureParts, defined: Names | None = None
+    outputs: Outputs, structure: StructureParts, defined: Defined | None = None
 ) -> list[Problem]:
     """Every name in the outputs that does not exist, and every place outside its member."""
-    nodes = {*structure.nodes, *(defined or {}).get("nodes", ())}
-    members = {*structure.members, *(defined or {}).get("members", ())}
+    nodes = Names([*structure.nodes, *(defined or {}).get("nodes", ())])
+    members = Names([*structure.members, *(defined or {}).get("members", ())])
+    if too_many := list(output_limit_problems(outputs)):
+        return too_many
     problems = [
         problem
         for i, node in enumerate(outputs.nodes)
@@ -119,10 +126,10 @@ def _shape_problems(corners: Floats, where: str) -> Iterator[Problem]:
 
 
 def shell_problems(
-    settings: ShellSettings, structure: StructureParts, defined: Names | None = None
+    settings: ShellSettings, structure: StructureParts, defined: Defined | None = None
 ) -> list[Problem]:
     """Fine-mesh positions outside members or on unknown members; settings without effect."""
-    members = {*structure.members, *(defined or {}).get("members", ())}
+    members = Names([*structure.members, *(defined or {}).get("members", ())])
     problems: list[Problem] = []
     for i, place in enumerate(settings.fine_at):
         where = f"analysis.shell.fine_at[{i}]"
@@ -142,7 +149,7 @@ def shell_problems(
 
 def _names(structure: StructureParts, known: Known) -> Iterator[Problem]:
     """Names that members refer to."""
-    laws = {*known["hinge_laws"], *BENDING}
+    laws = Names([*known["hinge_laws"], *BENDING])
     if structure.hinges is not None:
         yield from _unknown_laws(structure.hinges, laws, "hinges")
     for name, member in structure.members.items():
@@ -190,8 +197,7 @@ def _members(structure: StructureParts, known: Known) -> Iterator[Problem]:
         where = f"members.{name}"
         if not all(node in structure.nodes for node in member.nodes):
             continue
-        first, second = (np.array(structure.nodes[node]) for node in member.nodes)
-        if float(np.linalg.norm(second - first)) < COINCIDENT:
+        if dist(*(structure.nodes[node] for node in member.nodes)) < COINCIDENT:
             todo = "move one of its nodes"
             yield Problem("the member has no length", ", ".join(member.nodes), "two nodes apart", todo, where)
         elif not structure.has_line(name):
@@ -213,8 +219,7 @@ def _coincident(structure: StructureParts, known: Known) -> Iterator[Problem]:
     pairs = {pair for pair in pairs if frozenset(pair) not in joined}
     order = {name: i for i, name in enumerate(structure.nodes)}
     for first, second in sorted(pairs, key=lambda pair: (order[pair[1]], order[pair[0]])):
-        gap = np.subtract(structure.nodes[first], structure.nodes[second])
-        if float(np.linalg.norm(gap)) < COINCIDENT:
+        if dist(structure.nodes[first], structure.nodes[second]) < COINCIDENT:
             todo = f"use one node, or move '{second}'"
             yield Problem(f"the nodes '{first}' and '{second}' coincide", where=f"nodes.{second}", todo=todo)
 
@@ -224,11 +229,11 @@ def _connections(structure: StructureParts, known: Known) -> Iterator[Problem]:
     joined = {node for member in structure.members.values() for node in member.nodes}
     if not joined <= known["nodes"]:
         return  # a misspelt name may be the connection of a node
-    carriers = list(_carriers(structure))
+    carriers, ends = list(_carriers(structure)), one_of(sorted(joined))
     for where, node, noun in carriers:
         if node in structure.nodes and node not in joined:
             what = f"{noun} is not connected: no member ends at node '{node}'"
-            yield Problem(what, node, one_of(sorted(joined)), "choose a node of a member", where)
+            yield Problem(what, node, ends, "choose a node of a member", where)
     carried = {node for _, node, _ in carriers}
     for name in structure.nodes:
         if name not in joined and name not in carried:
@@ -283,7 +288,7 @@ def _carriers(structure: StructureParts) -> Iterator[tuple[str, str, str]]:
         yield f"impulses[{i}].node", struck.node, "the impulse"
 
 
-def _unknown_laws(keys: HingeAxes, known: Collection[str], where: str) -> Iterator[Problem]:
+def _unknown_laws(keys: HingeAxes, known: Names, where: str) -> Iterator[Problem]:
     own = keys.laws or AxisLaws()
     for key, law in (("law", keys.law), ("laws.y", own.y), ("laws.z", own.z)):
         if isinstance(law, str):

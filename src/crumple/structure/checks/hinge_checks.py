@@ -13,16 +13,16 @@ from crumple.hinge.registry import BENDING
 from crumple.structure.hinges.hinges import spatial_record_of
 from crumple.structure.hinges.places import HingePlace, holds_rotation, law_of, member_hinge_places
 from crumple.structure.parts import StructureParts
-from crumple.structure.schema.problems import outside
+from crumple.structure.schema.problems import Names, outside
 
 APART = 1e-6
 """Distance of two hinges, as a share of the member, below which the bar between has negligible inertia."""
 
 
-def place_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
+def place_problems(structure: StructureParts, known: Mapping[str, Names]) -> Iterator[Problem]:
     """Places, names and laws of hinges."""
     where: dict[str, list[str]] = defaultdict(list)
-    reported: list[Problem] = []
+    reported: set[Problem] = set()
     for name in sound_members(structure):
         places, length = member_hinge_places(structure, name), structure.frame_of(name).length
         for place in places:
@@ -32,7 +32,7 @@ def place_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> 
         # one message for the many hinges between equal bars, and for those of a wish for many members
         for place in {(place.where, place.axis): place for place in places}.values():
             found = [problem for problem in _law_problems(structure, place) if problem not in reported]
-            reported += found
+            reported.update(found)
             yield from found
         for first, second in pairwise(places):
             if second.station - first.station < APART * length:
@@ -44,7 +44,7 @@ def place_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> 
             yield Problem(what, name, "a name of its own", todo, f"{named[-1]}.name")
 
 
-def inertia_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
+def inertia_problems(structure: StructureParts, known: Mapping[str, Names]) -> Iterator[Problem]:
     """Hinges at a free end, with nothing to rotate beyond them."""
     joined = Counter(node for member in structure.members.values() for node in member.nodes)
     turning = {m.node for m in structure.masses.values() if any(m.rotary_inertia) or any(m.offset)}
@@ -81,8 +81,8 @@ def _law_problems(structure: StructureParts, place: HingePlace) -> Iterator[Prob
     """Reasons why laws and axes do not fit the section of their hinge; unknown names have another check."""
     keys = place.keys
     places = [replace(place, axis=axis, law=keys.law_about(axis)) for axis in keys.bending] or [place]
-    known = {*structure.hinge_laws, *BENDING}
-    if any(isinstance(about.law, str) and about.law not in known for about in places):
+    named = [about.law for about in places if isinstance(about.law, str)]
+    if any(law not in structure.hinge_laws and law not in BENDING for law in named):
         return
     found = [problem for about in places for problem in _refusals(partial(law_of, structure, about))]
     where = f"{place.where}.law"

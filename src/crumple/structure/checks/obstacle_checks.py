@@ -13,7 +13,7 @@ from crumple.structure.checks.start_checks import swallowed
 from crumple.structure.keys.obstacles import CylinderObstacle, Obstacle, PlaneObstacle
 from crumple.structure.keys.stages import Stage, Until
 from crumple.structure.parts import StructureParts
-from crumple.structure.schema.problems import unknown
+from crumple.structure.schema.problems import Names, unknown
 
 JUMP = 1e-12
 """Prescribed displacement [m] or rotation [rad] at the start that is still rounding."""
@@ -22,10 +22,10 @@ ALONG = np.linspace(0.0, 1.0, 201)
 INSIDE = 1e-6
 """Depth [m] of a node in an obstacle that is still rounding."""
 
-Names = Mapping[str, Iterable[str]]
+Defined = Mapping[str, Iterable[str]]
 
 
-def obstacle_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
+def obstacle_problems(structure: StructureParts, known: Mapping[str, Names]) -> Iterator[Problem]:
     """Members that do not exist, motions that start with a jump, nodes inside, names taken."""
     for name, obstacle in structure.obstacles.items():
         where = f"obstacles.{name}"
@@ -39,47 +39,55 @@ def obstacle_problems(structure: StructureParts, known: Mapping[str, set[str]]) 
             if abs(start) > JUMP:
                 what, todo = "the prescribed motion starts with a jump", "let it start from 0"
                 yield Problem(what, f"{start:g}", "0 at the start", todo, f"{where}.{key}")
-        for node in _touching_nodes(structure, obstacle):
-            depth = -gap(obstacle, np.asarray(structure.nodes[node], float))
-            if depth > INSIDE:
-                what, todo = f"the node '{node}' starts inside the obstacle", "move the node or the obstacle"
-                yield Problem(what, f"{1e3 * depth:.4g} mm deep", "outside it", todo, where)
-        yield from _members_inside(structure, obstacle, where)
+        nodes = _touching_nodes(structure, obstacle)
+        gaps = gap(obstacle, np.array([structure.nodes[node] for node in nodes], float).reshape(-1, 3))
+        for i in np.flatnonzero(gaps < -INSIDE).tolist():
+            what, todo = f"the node '{nodes[i]}' starts inside the obstacle", "move the node or the obstacle"
+            yield Problem(what, f"{-1e3 * gaps[i]:.4g} mm deep", "outside it", todo, where)
+        yield from _members_inside(structure, obstacle, dict(zip(nodes, gaps.tolist(), strict=True)), where)
 
 
-def _members_inside(structure: StructureParts, obstacle: Obstacle, where: str) -> Iterator[Problem]:
-    """Members whose line starts inside although their ends do not."""
+def _members_inside(
+    structure: StructureParts, obstacle: Obstacle, of_node: Mapping[str, float], where: str
+) -> Iterator[Problem]:
+    """Members whose line starts inside although their ends, whose gaps are given, do not."""
     for name in structure.members if obstacle.members is None else obstacle.members:
         if not structure.has_line(name):
             continue
-        first, second = (np.asarray(structure.nodes[node], float) for node in structure.members[name].nodes)
-        gaps = [gap(obstacle, first + share * (second - first)) for share in ALONG]
-        if min(gaps[0], gaps[-1]) >= -INSIDE > min(gaps):
+        ends = structure.members[name].nodes
+        first, second = (np.asarray(structure.nodes[node], float) for node in ends)
+        # a gap changes by no more than the way
+        if sum(of_node[node] for node in ends) - float(np.linalg.norm(second - first)) >= -2.0 * INSIDE:
+            continue
+        gaps = gap(obstacle, first + ALONG[:, None] * (second - first))
+        least = float(gaps.min())
+        if min(gaps[0], gaps[-1]) >= -INSIDE > least:
             what, todo = f"the member '{name}' starts inside the obstacle", "move the member or the obstacle"
-            yield Problem(what, f"{-1e3 * min(gaps):.4g} mm deep", "outside it", todo, where)
+            yield Problem(what, f"{-1e3 * least:.4g} mm deep", "outside it", todo, where)
 
 
-def gap(obstacle: Obstacle, point: Floats) -> float:
-    """Distance of a point from an obstacle at the start [m], negative inside."""
-    apart = point - np.asarray(obstacle.point, float)
+def gap(obstacle: Obstacle, points: Floats) -> Floats:
+    """Distance of points, (..., 3), from an obstacle at the start [m], (...,), negative inside."""
+    apart = points - np.asarray(obstacle.point, float)
     if isinstance(obstacle, PlaneObstacle):
-        above = float(apart @ _unit(obstacle.normal))
+        above = apart @ _unit(obstacle.normal)
         if obstacle.edge is None:
-            return above
-        beyond = float(apart @ _unit(obstacle.edge))
-        return float(np.hypot(above, beyond)) if min(above, beyond) > 0.0 else max(above, beyond)
+            return np.asarray(above, float)
+        beyond = apart @ _unit(obstacle.edge)
+        outside = np.minimum(above, beyond) > 0.0
+        return np.asarray(np.where(outside, np.hypot(above, beyond), np.maximum(above, beyond)))
     radius = float(getattr(obstacle, "radius", 0.0))
     if isinstance(obstacle, CylinderObstacle):
         axis = _unit(obstacle.axis)
-        along = float(apart @ axis)
+        along = apart @ axis
         if obstacle.length is not None:
-            along = min(max(along, 0.0), obstacle.length)
-        apart = apart - along * axis
-    return float(np.linalg.norm(apart)) - radius
+            along = np.clip(along, 0.0, obstacle.length)
+        apart = apart - along[..., None] * axis
+    return np.asarray(np.linalg.norm(apart, axis=-1) - radius)
 
 
 def stage_problems(
-    stages: tuple[Stage, ...], structure: StructureParts, defined: Names | None = None
+    stages: tuple[Stage, ...], structure: StructureParts, defined: Defined | None = None
 ) -> list[Problem]:
     """Every name in the stages that does not exist or is used twice.
 
@@ -93,12 +101,13 @@ def stage_problems(
         Names per kind that exist even if their parts are missing here.
     """
 
-    def names(*kinds: str) -> set[str]:
-        return {
+    def names(*kinds: str) -> Names:
+        return Names(
             name for kind in kinds for name in (*getattr(structure, kind), *(defined or {}).get(kind, ()))
-        }
+        )
 
     moving, nodes, obstacles = names("supports", "obstacles"), names("nodes"), names("obstacles")
+    members = names("members")
     problems: list[Problem] = []
     for i, stage in enumerate(stages):
         where = f"analysis.stages[{i}]"
@@ -125,8 +134,8 @@ def stage_problems(
                 problems += unknown("node", node, nodes, f"{where}.initial_velocity[{j}].nodes[{k}]")
             for k, member in enumerate(field.members or ()):
                 place = f"{where}.initial_velocity[{j}].members[{k}]"
-                problems += unknown("member", member, names("members"), place)
-        whole = moving == {*structure.supports, *structure.obstacles}
+                problems += unknown("member", member, members, place)
+        whole = set(moving) == {*structure.supports, *structure.obstacles}
         problems += _pushing(stage, structure, where) if i == 0 and whole and not problems else ()
     return problems
 

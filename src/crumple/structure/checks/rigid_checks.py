@@ -8,13 +8,13 @@ from crumple.errors import Problem
 from crumple.structure.checks.hinge_checks import sound_members
 from crumple.structure.hinges.places import member_hinge_places
 from crumple.structure.parts import StructureParts
-from crumple.structure.schema.problems import outside
+from crumple.structure.schema.problems import Names, outside
 
 AT_END = 1e-9
 """Share of a member within which a hinge lies at the end of a rigid part, where the next part can fold."""
 
 
-def rigid_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
+def rigid_problems(structure: StructureParts, known: Mapping[str, Names]) -> Iterator[Problem]:
     """Rigid parts that are not on their member, and hinges in rigid parts."""
     for name in sound_members(structure):
         member, length = structure.members[name], structure.frame_of(name).length

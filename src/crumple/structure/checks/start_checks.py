@@ -11,12 +11,13 @@ from crumple.numeric.arrays import Floats
 from crumple.structure.keys.load import NodalImpulse
 from crumple.structure.keys.motion import FREEDOMS, InitialVelocity
 from crumple.structure.parts import StructureParts
+from crumple.structure.schema.problems import Names
 
 ROUNDING = 1e-9
 """Share of a velocity field's largest velocity below which a component is rounding."""
 
 
-def start_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
+def start_problems(structure: StructureParts, known: Mapping[str, Names]) -> Iterator[Problem]:
     """Impulses and velocities at the start that a support absorbs."""
     yield from swallowed(structure, structure.impulses, structure.initial_velocity)
 
@@ -81,8 +82,8 @@ def _holder(structure: StructureParts, node: str, freedom: str) -> str:
     return next(
         (
             name
-            for name, support in structure.supports.items()
-            if support.node == node and freedom in (*support.held, *support.driven)
+            for name, support in structure.supports_at.get(node, ())
+            if freedom in (*support.held, *support.driven)
         ),
         "",
     )

@@ -7,13 +7,12 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from crumple.errors import Problem
-from crumple.structure.keys.spot_welds import MOST_SPOTS
 from crumple.structure.parts import StructureParts
-from crumple.structure.schema.problems import one_of, outside, unknown
+from crumple.structure.schema.problems import Names, one_of, outside, unknown
 from crumple.structure.weld_room import spot_places, widest_spot
 
 
-def spot_weld_problems(structure: StructureParts, known: Mapping[str, set[str]]) -> Iterator[Problem]:
+def spot_weld_problems(structure: StructureParts, known: Mapping[str, Names]) -> Iterator[Problem]:
     """Mistakes of a structure's spot welds."""
     for name, welds in structure.spot_welds.items():
         where = f"spot_welds.{name}"
@@ -28,14 +27,9 @@ def spot_weld_problems(structure: StructureParts, known: Mapping[str, set[str]])
                 yield outside(f"{where}.{key}", station, length)
         if welds.start >= length and welds.end is None:
             yield outside(f"{where}.from", welds.start, length)
-        if welds.pitch is not None and (welds.end or length) - welds.start > MOST_SPOTS * welds.pitch:
-            came, todo = f"{1e3 * welds.pitch:g} mm", "give a larger pitch"
-            what, allowed = "the line has too many spot welds", f"at most {MOST_SPOTS}"
-            yield Problem(what, came, allowed, todo, f"{where}.pitch")
-        else:
-            yield from _crowded(structure, name)
-            if _placed(structure, name):
-                yield from _too_wide(structure, name)
+        yield from _crowded(structure, name)
+        if _placed(structure, name):
+            yield from _too_wide(structure, name)
         if len(welds.members) == 1 and has_weld_lines(structure, first) is False:
             what = f"the section of member '{first}' has no lines of spot welds"
             welded = [other for other in structure.members if has_weld_lines(structure, other)]

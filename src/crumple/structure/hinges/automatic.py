@@ -89,20 +89,15 @@ def automatic_stations(
 
 def carries_moment(structure: StructureParts, member: str, node: str) -> bool:
     """Whether anything at a member's end can take a bending moment: another member, a support, an inertia."""
-    mine = [joint for joint in structure.joints.values() if joint.node == node]
+    mine = structure.joints_at.get(node, ())
     if any(joint.member == member and joint.type == "spherical" for joint in mine):
         return False
     freed = {joint.member for joint in mine if joint.type == "spherical"}
-    others = any(
-        node in spec.nodes and name != member and name not in freed
-        for name, spec in structure.members.items()
-    )
+    others = any(name != member and name not in freed for name in structure.members_at.get(node, ()))
     turned = any(
-        support.node == node and any(freedom[0] == "r" for freedom in (*support.held, *support.driven))
-        for support in structure.supports.values()
+        freedom[0] == "r"
+        for _, support in structure.supports_at.get(node, ())
+        for freedom in (*support.held, *support.driven)
     )
-    inertia = any(
-        mass.node == node and (any(mass.rotary_inertia) or any(mass.offset))
-        for mass in structure.masses.values()
-    )
+    inertia = any(any(mass.rotary_inertia) or any(mass.offset) for mass in structure.masses_at.get(node, ()))
     return others or turned or inertia

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from crumple import hinge
+from crumple.cancelling import go_on
 from crumple.errors import InputError, Problem
 from crumple.hinge import (
     ConstantLaw,
@@ -109,6 +110,7 @@ def placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
         shares, about = member_shares(structure, places, free(member))
         own = []
         for place, share in zip(places, shares, strict=True):
+            go_on()
             try:
                 own.append(_placed(structure, place, share))
             except InputError as error:

@@ -73,6 +73,13 @@ def hinge_places(structure: StructureParts) -> tuple[HingePlace, ...]:
 
 def member_hinge_places(structure: StructureParts, member: str) -> list[HingePlace]:
     """Hinges of one member by increasing station."""
+    found: list[HingePlace] | None = structure.kept.get(("hinges", member))
+    if found is None:
+        structure.kept["hinges", member] = found = _hinge_places(structure, member)
+    return found
+
+
+def _hinge_places(structure: StructureParts, member: str) -> list[HingePlace]:
     spec, length = structure.members[member], structure.frame_of(member).length
     bars, where, axis = spec.bars, f"members.{member}", bending_axis(structure, member)
     places = [
@@ -111,8 +118,8 @@ def hinge_station(structure: StructureParts, member: str, given: Hinge) -> float
 
 def holds_rotation(structure: StructureParts, node: str, direction: Floats) -> bool:
     """Whether supports hold or drive the rotation of a node about a direction."""
-    supports = [support for support in structure.supports.values() if support.node == node]
-    held = {freedom for support in supports for freedom in (*support.held, *support.driven)}
+    supports = structure.supports_at.get(node, ())
+    held = {freedom for _, support in supports for freedom in (*support.held, *support.driven)}
     needed = (FREEDOMS[3 + i] for i in range(3) if abs(direction[i]) > SAME_DIRECTION)
     return all(freedom in held for freedom in needed)
 

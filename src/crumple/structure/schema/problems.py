@@ -6,6 +6,7 @@ import difflib
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
 
@@ -14,6 +15,8 @@ from pydantic import BaseModel, ValidationError
 from crumple.errors import Problem
 
 Place = tuple[str | int, ...]
+MOST_COMPARED = 50_000
+"""Pairs of names that are compared in search of what was meant: half a second's work."""
 LONGEST_SHOWN = 60
 """Characters of a refused value that a message repeats; a longer one is cut."""
 _MEANT = re.compile(r"did you mean '([^']*)'")
@@ -38,6 +41,7 @@ def placed_problems(
 ) -> list[tuple[Place, Problem]]:
     """Problems with their place as a path of keys and indices, tags of alternatives left out."""
     placed: list[tuple[Place, Problem]] = []
+    short: dict[Place, tuple[Place, Problem]] = {}
     for details in error.errors(include_url=False):
         place = tuple(part for part in details["loc"] if not _is_internal(part))
         context = details.get("ctx", {})
@@ -53,10 +57,11 @@ def placed_problems(
             value = value.get(context["key"])
         problem = _problem(str(details["type"]), details["msg"], value, context, place, keys)
         if details["type"] == "missing" and place and isinstance(place[-1], int):
-            problem, place = _too_short(value, place), place[:-1]
             # every missing entry is reported separately; the last one gives the required number
-            placed = [other for other in placed if other[0] != place]
+            short[place[:-1]] = (place[:-1], _too_short(value, place))
+            continue
         placed.append((place, problem))
+    placed += short.values()
     # a misspelt key and the missing one that it stands for are one mistake
     meant = {(*place[:-1], key) for place, problem in placed for key in _MEANT.findall(problem.todo)}
     return [
@@ -67,7 +72,8 @@ def placed_problems(
 def path_of(where: str) -> Place:
     """Keys and indices of a path such as ``sum[0].step.x0``."""
     parts = re.findall(r"[^.\[\]]+", where)
-    return tuple(int(part) if part.isdigit() else part for part in parts)
+    # digits of other scripts, and superscripts, are letters of a name
+    return tuple(int(part) if part.isascii() and part.isdigit() else part for part in parts)
 
 
 def spelled(place: Iterable[str | int]) -> str:
@@ -95,19 +101,42 @@ def shown(value: object) -> str:
     return text if len(text) <= LONGEST_SHOWN else text[:LONGEST_SHOWN] + "..."
 
 
+class Names(frozenset[str]):
+    """Names that are defined, against which many others are held: a refusal does not sort them again."""
+
+    @cached_property
+    def listed(self) -> str:
+        """Them as an allowed value."""
+        return one_of(sorted(self))
+
+    @cached_property
+    def _left(self) -> list[int]:
+        """Comparisons that suggestions may still cost."""
+        return [MOST_COMPARED]
+
+    def suggestion(self, name: str) -> str:
+        """Like the function, but empty once suggestions have cost enough."""
+        if self._left[0] < len(self):
+            return ""
+        self._left[0] -= len(self)
+        return suggestion(name, sorted(self))
+
+
 def suggestion(name: object, known: Iterable[str]) -> str:
-    """Closest known name as ``did you mean 'x'?``; empty where none is close."""
+    """Closest known name as ``did you mean 'x'?``; empty where none is close, or too many are known."""
     names = list(known)
+    if len(names) > MOST_COMPARED:
+        return ""
     close = difflib.get_close_matches(str(name)[:64], names, n=1, cutoff=0.6)
     return f"did you mean '{close[0]}'?" if close else ""
 
 
 def unknown(kind: str, name: str, known: Iterable[str], where: str) -> Iterator[Problem]:
     """The refusal of a name that is not among those known; nothing where it is."""
-    names = sorted(known)
+    names = known if isinstance(known, Names) else Names(known)
     if name not in names:
-        todo = suggestion(name, names) or f"define the {kind} '{shown(name)}' or correct the name"
-        yield Problem(f"there is no {kind} '{shown(name)}'", shown(name), one_of(names), todo, where)
+        todo = names.suggestion(name) or f"define the {kind} '{shown(name)}' or correct the name"
+        yield Problem(f"there is no {kind} '{shown(name)}'", shown(name), names.listed, todo, where)
 
 
 def outside(where: str, station: float, length: float) -> Problem:

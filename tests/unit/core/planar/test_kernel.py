@@ -34,7 +34,7 @@ def hinge(dof=0, curve=CURVE):
         (TreeModel((body(parent=1), body()), ()), "parent must come before"),
         (TreeModel((body(), body(parent=0, joint=JointKind.FREE)), ()), "free joint must hang on the ground"),
         (TreeModel((body(mass=0.0),), ()), "mass and inertia must be positive"),
-        (TreeModel((body(inertia=float("nan")),), ()), "mass and inertia must be positive"),
+        (TreeModel((body(inertia=float("nan")),), ()), "must be finite"),
         (TreeModel((body(),), (hinge(dof=1),)), "unknown coordinate"),
         (TreeModel((body(),), (hinge(curve=(np.array([0.0, 0.0]), np.ones(2))),)), "must increase"),
         (TreeModel((body(),), (hinge(curve=(np.zeros(0), np.zeros(0))),)), "at least one"),

@@ -50,7 +50,7 @@ BAD_FILES = {
     "wrong unit": ("rotation [mm], moment [N*m]\n0, 1\n", "unit of a length"),
     "bad row": ("rotation [deg], moment [N*m]\n0, 1\n5, x\n", "not a number in every column"),
     "short row": ("rotation [deg], moment [N*m]\n0, 1\n5\n", "not a number in every column"),
-    "quoted newline": ('rotation [deg], moment [N*m]\n"0\n", 1\n5, 1\n', ""),
+    "quote left open": ('rotation [deg], moment [N*m]\n"0, 1\n5, 1\n', "not a number in every column"),
     "binary": (b"\xff\xfe\x00", "not a text in UTF-8"),
     "too large": ("0, 1\n" * 500_000, "too large"),
     "too long": (

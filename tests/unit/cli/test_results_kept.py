@@ -1,0 +1,198 @@
+"""Nothing computed is lost: folders are locked, files whole, the input read once, defects told."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from crumple.cli.console import defect
+from crumple.cli.console.folder import LOCK, results_folder
+from crumple.cli.main import main
+from crumple.errors import InputError
+from crumple.portable import PART
+from crumple.result.publishing import published
+
+EXAMPLE = Path(__file__).parents[3] / "examples" / "01_tube_bending.yaml"
+
+
+@pytest.fixture
+def command(monkeypatch, capsys):
+    """Run the command line in this process; gives exit code, output and errors."""
+
+    def run(*arguments: object) -> tuple[int, str, str]:
+        monkeypatch.setattr(sys, "argv", ["crumple", *map(str, arguments)])
+        with pytest.raises(SystemExit) as end:
+            main()
+        return (end.value.code or 0, *capsys.readouterr())
+
+    return run
+
+
+def test_a_second_run_into_a_folder_is_refused(command, tmp_path: Path) -> None:
+    with results_folder(tmp_path, EXAMPLE):
+        code, _, err = command("run", EXAMPLE, "--out", tmp_path)
+        assert code == 2
+        assert f"another run is writing into {tmp_path}" in err
+        assert not (tmp_path / "summary.json").exists()
+    assert command("run", EXAMPLE, "--out", tmp_path)[0] == 0
+
+
+def test_folders_within_are_locked_too(command, tmp_path: Path) -> None:
+    with results_folder(tmp_path, EXAMPLE, ("shell",)), pytest.raises(InputError, match="another run"):
+        results_folder(tmp_path / "shell", EXAMPLE).__enter__()
+
+
+def test_a_lock_goes_with_its_process(command, tmp_path: Path) -> None:
+    code = (
+        "import os, signal\nfrom crumple.cli.console.folder import results_folder\n"
+        f"with results_folder({str(tmp_path)!r}, None): os.kill(os.getpid(), signal.SIGKILL)"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == -9
+    assert (tmp_path / LOCK).exists()
+    assert command("run", EXAMPLE, "--out", tmp_path)[0] == 0
+
+
+def test_what_an_interrupted_run_left_unfinished_is_removed(command, tmp_path: Path) -> None:
+    (tmp_path / f"{PART}abc").mkdir()
+    (tmp_path / f"{PART}abc" / "summary.json").write_text("{}")
+    (tmp_path / f"{PART}restart.npz.xyz").write_text("half")
+    (tmp_path / "mine.txt").write_text("stays")
+    assert command("run", EXAMPLE, "--out", tmp_path)[0] == 0
+    assert [path.name for path in tmp_path.glob(f"{PART}*")] == []
+    assert (tmp_path / "mine.txt").read_text() == "stays"
+
+
+def test_files_are_published_together_with_the_summary_last(tmp_path: Path, monkeypatch) -> None:
+    (tmp_path / "summary.json").write_text("old")
+    (tmp_path / "histories.csv").write_text("old")
+
+    def interrupted() -> None:
+        with published(tmp_path) as staging:
+            (staging / "histories.csv").write_text("new")
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        interrupted()
+    assert (tmp_path / "histories.csv").read_text() == "old"
+    order, replace = [], Path.replace
+
+    def noted(self: Path, target: Path) -> Path:
+        assert (tmp_path / "summary.json").exists() is False
+        order.append(target.name)
+        return replace(self, target)
+
+    monkeypatch.setattr(Path, "replace", noted)
+    with published(tmp_path) as staging:
+        for name in ("summary.json", "histories.csv", "a"):
+            (staging / name).write_text("new")
+        (staging / "figures").mkdir()
+        (staging / "figures" / "z.svg").write_text("new")
+    assert order[-1] == "summary.json"
+    assert (tmp_path / "figures" / "z.svg").read_text() == "new"
+    assert {path.name for path in tmp_path.iterdir()} == {"summary.json", "histories.csv", "a", "figures"}
+
+
+def test_the_report_shows_the_input_that_was_solved(command, tmp_path: Path, monkeypatch) -> None:
+    file, text = tmp_path / "tube.yaml", EXAMPLE.read_text(encoding="utf-8")
+    file.write_text(text, encoding="utf-8")
+    import crumple.analysis as analysis_room
+
+    solve = analysis_room.solve
+
+    def and_delete(*arguments, **options):
+        file.unlink()
+        return solve(*arguments, **options)
+
+    monkeypatch.setattr(analysis_room, "solve", and_delete)
+    assert command("run", file, "--out", tmp_path / "out")[0] == 0
+    assert "Steel tube thrown" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+
+
+def test_results_that_their_folder_does_not_take_are_kept_elsewhere(
+    command, tmp_path: Path, monkeypatch
+) -> None:
+    import crumple.result
+
+    write, spare = crumple.result.write, tmp_path / "spare"
+    spare.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(spare))
+
+    def full(result, folder):
+        if (tmp_path / "out") in Path(folder).parents:
+            raise OSError(errno.ENOSPC, "no room")
+        write(result, folder)
+
+    monkeypatch.setattr(crumple.result, "write", full)
+    code, _, err = command("run", EXAMPLE, "--out", tmp_path / "out")
+    assert code == 2
+    [kept] = spare.glob("crumple-results-*")
+    assert f"the results are in {kept}" in err
+    assert json.loads((kept / "summary.json").read_text())["ok"]
+    assert [path.name for path in (tmp_path / "out").iterdir()] == [LOCK]
+
+
+def test_a_figure_that_cannot_be_drawn_loses_no_numbers(command, tmp_path: Path, monkeypatch) -> None:
+    import crumple.report
+
+    monkeypatch.setattr(crumple.report, "write_report", lambda *_: 1 / 0)
+    code, _, err = command("run", EXAMPLE, "--out", tmp_path)
+    assert code == defect.EXIT_CODE
+    assert "Traceback" not in err
+    assert json.loads((tmp_path / "summary.json").read_text())["ok"]
+
+
+def test_a_defect_is_told_with_what_to_send(command, tmp_path: Path, monkeypatch) -> None:
+    import crumple.analysis
+
+    monkeypatch.setattr(crumple.analysis, "solve", lambda *_, **__: {}["nothing"])
+    code, out, err = command("run", EXAMPLE, "--out", tmp_path)
+    assert (code, out) == (defect.EXIT_CODE, "")
+    assert "this is a defect of Crumple" in err
+    assert "Traceback" not in err
+    kept = tmp_path / defect.NAME
+    assert f"the file {kept}" in err
+    assert "KeyError: 'nothing'" in kept.read_text(encoding="utf-8")
+
+
+def test_a_defect_outside_of_a_run_goes_to_a_folder_for_temporary_files(
+    command, tmp_path, monkeypatch
+) -> None:
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    monkeypatch.setattr("crumple.analysis.load_input", lambda *_: 1 / 0)
+    code, _, err = command("check", EXAMPLE)
+    assert code == defect.EXIT_CODE
+    assert f"the file {tmp_path / defect.NAME}" in err
+
+
+def test_too_little_memory_is_told(command, monkeypatch) -> None:
+    def hungry(*_):
+        raise MemoryError
+
+    monkeypatch.setattr("crumple.analysis.load_input", hungry)
+    code, _, err = command("check", EXAMPLE)
+    assert (code, "too little memory" in err) == (2, True)
+
+
+@pytest.mark.parametrize(
+    "terminal",
+    [{"PYTHONIOENCODING": "ascii"}, {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}],
+)
+def test_a_terminal_without_the_letters_of_a_title_shows_others(
+    tmp_path: Path, terminal: dict[str, str]
+) -> None:
+    file = tmp_path / "a.yaml"
+    text = EXAMPLE.read_text(encoding="utf-8")
+    title = "title: Steel tube thrown at 15 rad/s, bending about its weak axis"
+    assert title in text
+    file.write_text(text.replace(title, 'title: "Größe 😀 <ß>"'), encoding="utf-8")
+    environment = {key: value for key, value in os.environ.items() if not key.startswith(("LC_", "LANG"))}
+    words = [sys.executable, "-m", "crumple", "run", str(file), "--out", str(tmp_path / "out")]
+    done = subprocess.run(words, env=environment | terminal, capture_output=True, check=False)
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert b"Gr??e ? <?>" in done.stdout
