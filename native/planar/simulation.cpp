@@ -10,47 +10,8 @@ inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
-// Error that one step may add, measured by the difference between one step and two halves.  The local error goes
-// with h^3 and the error of the whole motion with h^2, so below `loosest_share` the share of a step shrinks with
-// the square root of the accuracy: then the whole error shrinks in proportion to it, and a quarter of the
-// accuracy halves the step.  With the whole accuracy for each step the verification problems err by more than it
-// from 1e-5 on.
-constexpr double loosest_share = 1e-3;
-
-double step_tolerance(double accuracy) { return accuracy * std::min(1.0, std::sqrt(accuracy / loosest_share)); }
-
 // Turn [rad] by which a locked hinge may creep; the strongest hinge's work over it is no energy worth balancing.
 constexpr double negligible_turn = 1e-9;
-constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
-// Steps in a row, rejected ones too, that advance a run by less than a share of its time and end it.
-constexpr int most_attempts = 10'000;
-constexpr double advance_share = 1e-3;
-
-// length and error of a step that was made
-struct Attempt {
-    double h = 0, e = 0;
-};
-
-// Power of the step with which its error goes: three, but down to one where velocities jump, which follows from two
-// step lengths from the same state.
-double error_order(const Attempt& rejected, const Attempt& present) {
-    if (rejected.h == 0 || !(present.e > 1)) return 3;
-    return std::clamp(std::log(rejected.e / present.e) / std::log(rejected.h / present.h), 1.0, 3.0);
-}
-
-constexpr std::int64_t poll_interval = 100'000;  // solves times bodies between calls of `poll`: some 10 ms
-
-double kinetic_norm(const Tree& tree, const std::vector<Twist>& a, const std::vector<Twist>* b) {
-    double e = 0;
-    for (int i = 0; i < tree.bodies(); i++) {
-        const auto k = static_cast<size_t>(i);
-        Twist v = a[k];
-        if (b) v = {v.w - (*b)[k].w, v.v - (*b)[k].v};
-        e += value(tree[i].mass * dot(v.v, v.v) + tree[i].inertia * v.w * v.w);
-    }
-    return std::sqrt(e);
-}
-
 }  // namespace
 
 Simulation::Simulation(Model model, const Settings& settings)
@@ -118,107 +79,6 @@ void Simulation::set_rates(const Real* w) {
     state_ = stepper_.start(q.data(), w);
 }
 
-double Simulation::error(const State& coarse, const State& fine) const {
-    double worst = 0;
-    for (int i = 0; i < model_.tree.bodies(); i++) {
-        const Body& b = model_.tree[i];
-        const int n = b.joint == Joint::revolute ? 1 : 3;
-        for (int k = 0; k < n; k++) {
-            const auto dof = static_cast<size_t>(b.dof + k);
-            const double e = std::fabs(value(fine.q[dof] - coarse.q[dof]));
-            worst = std::max(worst, k == 0 ? e : e / value(model_.length));
-        }
-    }
-    for (size_t j = 0; j < model_.hinges.size(); j++) {
-        worst = std::max(worst, value(fine.hinge[j].overrun - state_.hinge[j].overrun));
-    }
-    double e = worst / scale_;
-    const double speed = std::max(speed_, negligible_speed_);
-    if (speed > 0) e = std::max(e, kinetic_norm(model_.tree, coarse.velocity, &fine.velocity) / speed);
-    return e / step_tolerance_;
-}
-
-// A step of length h, and two halves that start from the rates it found.  After a rejected step `between_` holds
-// rates of its middle: they know already which hinges come loose.
-bool Simulation::step_twice(double h, bool again) {
-    coarse_ = state_;
-    fine_ = state_;
-    if (!stepper_.step(coarse_, h, again ? between_.data() : state_.w.data(), Stepper::most_passes)) return false;
-    for (size_t k = 0; k < between_.size(); k++) between_[k] = (state_.w[k] + coarse_.w[k]) / 2;
-    if (!stepper_.step(fine_, h / 2, between_.data(), 1)) return false;
-    between_ = fine_.w;
-    return stepper_.step(fine_, h / 2, coarse_.w.data(), 1);
-}
-
-bool Simulation::stalled(Record& record) {
-    if (state_.t >= mark_) {
-        mark_ = state_.t + advance_share * duration_;
-        attempts_ = 0;
-    }
-    if (++attempts_ <= most_attempts) return false;
-    record.outcome = Outcome::stalled;
-    record.reason = "10000 steps in a row advanced the run by less than 0.1 % of its time";
-    return true;
-}
-
-bool Simulation::advance(double target, Record& record, const std::function<bool(double)>& poll) {
-    Attempt rejected;
-    while (state_.t < target) {
-        const std::int64_t done = stepper_.solves() * model_.tree.bodies();
-        if (done > poll_at_ && poll) {
-            poll_at_ = done + poll_interval;
-            if (!poll(state_.t)) {
-                record.outcome = Outcome::cancelled;
-                return false;
-            }
-        }
-        if (stalled(record)) return false;
-        const double stop = std::min(target, next_break()), left = stop - state_.t;
-        const double ahead = std::min(h_, longest_part());
-        const double wanted = ahead >= left * (1 - 1e-9) ? left : (ahead > left / 2 ? left / 2 : ahead);
-        const StepBound::Step seen = resolved(wanted);
-        const double h = seen.h;
-        const bool last = h == left, cut = last || h < wanted || ahead < h_;
-        const bool solved = step_twice(h, rejected.h > 0);
-        const double e = solved ? error(coarse_, fine_) : INFINITY;
-        const bool smallest = h <= settings_.minimum_step * 1.001;
-        if (std::isnan(e)) {
-            record.outcome = Outcome::not_finite;
-            record.reason = "a joint coordinate is not a number";
-            return false;
-        }
-        if (!solved && smallest) {
-            record.outcome = Outcome::step_collapsed;
-            record.reason = "the equations of a step did not converge at the smallest step";
-            return false;
-        }
-        const double factor = e > 0 ? safety * std::pow(e, -1 / error_order(rejected, {h, e})) : growth_limit;
-        const double next = std::clamp(h * std::clamp(factor, shrink_limit, growth_limit), settings_.minimum_step,
-                                       settings_.maximum_step);
-        if (e > 1 && !smallest) {
-            record.rejected++;
-            rejected = solved ? Attempt{h, e} : Attempt{};
-            h_ = std::min(next, 0.7 * h);
-            if (h_ < settings_.minimum_step) h_ = settings_.minimum_step;
-            continue;
-        }
-        rejected = {};
-        if (e > 1) record.forced++;
-        if (last) fine_.t = stop;
-        const bool rested = resting();
-        std::swap(state_, fine_);
-        h_ = cut && e <= 1 ? std::max(h_, next) : next;
-        std::fill(moved_.begin(), moved_.end(), NAN);
-        if (seen.unresolved > 0 && (rested || resting())) {
-            unseen_ = std::max(unseen_, seen.unresolved * settings_.accuracy * std::max(speed_, large_speed_));
-        }
-        record.steps++;
-        watch(record);
-        set_critical_damping(false);
-    }
-    return true;
-}
-
 // Loads and drives that vary bound the steps.
 void Simulation::bound_steps(double duration) {
     auto plain = [](const std::vector<Real>& given) {
@@ -250,36 +110,6 @@ void Simulation::bound_steps(double duration) {
     const double slow = std::sqrt(mass) * settings_.scale_floor * value(model_.length) / std::max(duration, settings_.minimum_step);
     negligible_speed_ = bound_.empty() ? 0 : slow;
     large_speed_ = strongest > 0 ? std::sqrt(2 * strongest * settings_.scale_floor) : slow;
-}
-
-// Breaks nearer than the smallest step are passed with what follows.
-double Simulation::next_break() const {
-    const auto next = std::lower_bound(breaks_.begin(), breaks_.end(), state_.t + settings_.minimum_step * (1 - 1e-6));
-    return next == breaks_.end() ? INFINITY : *next;
-}
-
-// Where breaks bound the steps they still differ between two runs that ask for different numbers of parts.
-double Simulation::longest_part() const {
-    if (breaks_.empty() || settings_.parts < 2) return INFINITY;
-    const auto next = std::lower_bound(breaks_.begin(), breaks_.end(), state_.t + settings_.minimum_step * (1 - 1e-6));
-    const double since = next == breaks_.begin() ? begin_ : *(next - 1), until = next == breaks_.end() ? end_ : *next;
-    return std::max((until - since) / settings_.parts, settings_.minimum_step);
-}
-
-// whether a hinge does not turn
-bool Simulation::resting() const {
-    return std::any_of(state_.hinge.begin(), state_.hinge.end(), [](const HingeState& h) { return !h.sliding; });
-}
-
-// Length of a step, at most h, that sees what loads and drives do within it.
-StepBound::Step Simulation::resolved(double h) {
-    if (bound_.empty()) return {h, 0};
-    const double large = std::max(speed_, large_speed_);
-    auto speed = [&](size_t group) {
-        if (std::isnan(moved_[group])) moved_[group] = stepper_.moved_by(state_, grouped_[group]);
-        return moved_[group] / large;
-    };
-    return bound_.dynamic(state_.t, h, settings_.accuracy, std::min(settings_.minimum_step, h), speed);
 }
 
 void Simulation::watch(Record& record) {

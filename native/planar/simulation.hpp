@@ -38,6 +38,11 @@ struct Record {
     std::int64_t steps = 0, rejected = 0, forced = 0, solves = 0;
 };
 
+// Error that one step may add [of the error measure].
+double step_tolerance(double accuracy);
+// Norm of velocities by kinetic energy, or of the difference of two [m/s kg^1/2].
+double kinetic_norm(const Tree& tree, const std::vector<Twist>& a, const std::vector<Twist>* b);
+
 class Simulation {
 public:
     explicit Simulation(Model model, const Settings& settings);

@@ -7,6 +7,7 @@
 #include "planar/newton.cpp"
 #include "planar/stepper.cpp"
 #include "planar/simulation.cpp"
+#include "planar/step_control.cpp"
 #include "planar/bind/bind_model.cpp"
 #include "planar/directions.cpp"
 #include "planar/bind/bind_tangent.cpp"

@@ -51,6 +51,13 @@ struct Record {
     std::int64_t steps = 0, rejected = 0, forced = 0, solves = 0;
 };
 
+// Error that one step may add [of the error measure].
+double step_tolerance(double accuracy);
+// Norm by kinetic energy of the structure's velocities, or of the difference of all bodies' between two states.
+double kinetic_norm(const Model& model, const State& a, const State* b);
+// Share of all kinetic energy, that of heavy obstacles included, below which energies are rounding.
+constexpr double rounding_share = 1e-10;
+
 class Simulation {
 public:
     Simulation(Model model, const Settings& settings);

@@ -15,15 +15,13 @@ constexpr int full_step_limit = 32, full_step_limit_before_path = 12;
 // Newton steps per width of the ramps before the step is given up and shortened: a fixed number, and some per hinge,
 // since in the worst case (an impulse on the end of a long chain) hinges lock and release one at a time.
 constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
-// Widening: from the largest rate down by this factor a time.
-constexpr double narrowing = 1e-1;
+constexpr double narrowing = 1e-1;  // of the widening: from the largest rate down by this factor a time
 // Relative accuracy of a law's impulse; piecewise linear laws reach rounding, curved ones converge to this.  At widened ramps
 // it only has to show which hinges slide.
 constexpr double impulse_tolerance = 1e-9, widened_tolerance = 1e-1;
 // Energy that a Newton step could still move, relative to the kinetic energy: below it is rounding.
 constexpr double energy_rounding = 1e-14;
-// Energy [J] that is no motion at all: what friction leaves of a speed dies away below the smallest number.
-constexpr double no_energy = 1e-60;
+constexpr double no_energy = 1e-60;  // [J]: what friction leaves of a speed dies away below the smallest number
 // Rates of held rows and of stiff laws are met to this share of the speed; what is left is projected out at the step's end.
 constexpr double rate_tolerance = 1e-10;
 
