@@ -88,7 +88,7 @@ def compare(
         remove_restart(folder / "shell", found.reference.result)
         _show(found, folder)
         if (folder / "shell" / RESTART).exists():
-            typer.echo(f"Go on with the same command and --restart {folder / 'shell' / RESTART}")
+            typer.echo(f"Continue with the same command and --restart {folder / 'shell' / RESTART}")
     if not all(s.result.status.ok for s in (found.candidate, found.reference)):
         raise typer.Exit(1)
 

@@ -112,7 +112,7 @@ def test_check(run_command, tmp_path: Path) -> None:
     )
     code, out, err = run_command("check", loose)
     assert code == 0, err
-    assert "Stage hang is quasi-static, and nothing resists gravity there" in out
+    assert "Stage hang is quasi-static, and nothing resists gravity" in out
     bad = tmp_path / "bad.yaml"
     bad.write_text(
         EXAMPLE.read_text()

@@ -87,7 +87,8 @@ CALLS = {
         "ShellState(model(settings=ShellSettings(self_contact=True))).restore("
         "ShellState(model()).checkpoint() | {'contact': np.zeros(5)})",
         "kernel.Simulation.__new__(kernel.Simulation).advance(1.0, 1.0, 1, 1)",
-        "state = ShellState(model()); work = threading.Thread(target=state.advance, args=(5e-3,))\n"
+        "state = ShellState(model())\n"
+        "work = threading.Thread(target=state.advance, args=(1.0,), daemon=True)\n"
         "work.start()\n"
         "while work.is_alive(): state.position; state.energies",
     ],

@@ -189,7 +189,7 @@ def test_a_mechanism_that_a_small_change_moves_elsewhere_is_named():
     base = [history(h, 0.4), history(i, 0.3), history(k, 0.0)]
     assert not_unique([base, [history(h, 0.41), history(i, 0.28), history(k, 0.01)]]) is None
     text = not_unique([base, [history(h, 0.4), history(i, 0.0), history(k, 0.3)]])
-    assert text == "The mechanism is not unique. With capacities changed by 1 %: k opens in place of i."
+    assert text == "The mechanism is not unique. With capacities changed by 1 %: k opens instead of i."
 
 
 def test_equal_hinges_at_a_corner_make_a_mechanism_that_is_not_unique():

@@ -1,11 +1,11 @@
 """Pulses in loads and drives against closed forms, in both kernels, batch and derivatives.
 
 The closed form of a bar with a rigid-plastic hinge under a piecewise linear moment is that of
-`tests.support.multibody.pulses`: cubics
-between events.  A support that moves up by d at the speed d/T gives a bar with a mass m at its tip, hinge
-free beside the
-impact, the rate v/L that its hinge then stops in I w^2/(2 M).  An impulse J is passed on whole by loads of
-any duration.
+`tests.support.multibody.pulses`: cubics between events.  A support that moves up by d at the speed d/T gives
+a bar with a mass m at its tip, hinge free beside the impact, the rate v/L that its hinge then stops in
+I w^2/(2 M).  An impulse J is passed on whole by loads of any duration.
+
+Kind: closed form.  Source: derived here.
 """
 
 import math

@@ -6,6 +6,8 @@ With the obstacle's centre at (x, z) from the hinge, and R its radius and half t
 x sin a - z cos a = R and w = v cos a/(x cos a + z sin a).  A hinge between a clamp and a support that goes
 out by an angle and back dissipates 2 M times the angle, however short the way.  Two equal pulses in two
 stages turn twice as far as one.
+
+Kind: closed form.  Source: derived here.
 """
 
 import math

@@ -58,7 +58,7 @@ def pitch_limit_problems(structure: StructureParts) -> Iterator[Problem]:
         end = welds.end or structure.frame_of(welds.members[0]).length
         if end - welds.start > MOST_SPOTS * welds.pitch:
             came, todo = f"{1e3 * welds.pitch:g} mm", "give a larger pitch"
-            what, allowed = "the line has too many spots", f"at most {MOST_SPOTS}"
+            what, allowed = "the line has too many spot welds", f"at most {MOST_SPOTS}"
             yield Problem(what, came, allowed, todo, f"spot_welds.{name}.pitch")
 
 

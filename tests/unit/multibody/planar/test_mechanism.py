@@ -135,7 +135,7 @@ def test_body_that_closes_a_loop_is_cut_in_equal_parts():
 
 def test_hinge_between_rigidly_joined_sides_is_refused():
     supports = {"one": {"node": "a", "fix": "all"}, "two": {"node": "b", "fix": "all"}}
-    refused("cannot turn", members={"bar": member("a", "b", ("h", 0.4))}, supports=supports)
+    refused("cannot rotate", members={"bar": member("a", "b", ("h", 0.4))}, supports=supports)
 
 
 def test_pin_of_a_clamped_part_is_no_joint():

@@ -7,7 +7,7 @@ from crumple.analysis import Analysis
 from crumple.errors import InputError, Status
 from crumple.multibody import Run, solve_multibody
 from crumple.shell import ShellRun, solve_shell
-from crumple.structure import Outputs, ShellSettings, Stage
+from crumple.structure import MultibodySettings, Outputs, ShellSettings, Stage
 
 COARSE = {"element_size": 24e-3}
 
@@ -73,9 +73,11 @@ def test_pictures_after_an_early_end_are_reported():
     assert result.time[-1] < 1e-3
     (message,) = [text for text in result.warnings if "no pictures at" in text]
     assert "no pictures at 1 ms, 1.9 ms." in message
-    run = Run(0.05, 0.005, outputs=Outputs(pictures=(0.0, 0.021)))
-    stopped = solve_multibody(thrown(), run, cancel=lambda: True)
+    precise = MultibodySettings(accuracy=1e-10)
+    run = Run(0.05, 0.005, settings=precise, outputs=Outputs(pictures=(0.0, 0.049)))
+    shares = [0.0]
+    stopped = solve_multibody(thrown(), run, shares.append, lambda: shares[-1] > 0.0)
     assert stopped.status is Status.CANCELLED
-    assert any("no pictures at 21 ms." in text for text in stopped.warnings)
+    assert any("no pictures at 49 ms." in text for text in stopped.warnings)
     whole = solve_multibody(thrown(), run)
     assert not [text for text in whole.warnings if "pictures" in text]
