@@ -1,7 +1,8 @@
 # Everything a fresh clone needs is Python >= 3.11 with its headers and venv, a C++17 compiler and make.
 #
 #   make demo     solve the first example with both engines, compare, and say where the report is (AXIS=strong)
-#   make test     unit, verification and regression tests
+#   make test     unit, verification and regression tests, and 300 random inputs
+#   make fuzz     attack it with N random inputs (N=2000); findings in out/fuzz
 #   make check    format, lint, types, import contract, sizes, circles of imports
 #   make verify   slow verification too, native code under sanitizers, lowest and newest versions of what users
 #                 install, and docs/verification.md written again
@@ -18,6 +19,9 @@ KERNEL_TESTS := tests/unit/core
 # one process a core; a file stays in one process, since its tests may share a solution
 PARALLEL ?= --numprocesses auto --dist loadfile
 DEMO := out/demo
+# cases of `make fuzz`; another seed gives other cases
+N ?= 2000
+SEED ?= 0
 # AXIS=strong turns the section of the tube upright
 TUBE := $(if $(filter strong,$(AXIS)),out/tube_upright.yaml,examples/01_tube_bending.yaml)
 # exact versions for every environment but those of `make verify` that test users' ranges; older versions of pip
@@ -30,7 +34,7 @@ SANITIZED := build/sanitized
 SANITIZERS_address := address,undefined,float-cast-overflow
 SANITIZERS_thread := thread
 
-.PHONY: demo test check verify bench wheel clean install lowest newest
+.PHONY: demo test fuzz check verify bench wheel clean install lowest newest
 
 demo: $(VENV)/installed $(TUBE)
 	$(BIN)/crumple compare $(TUBE) --out $(DEMO) --second-mesh 2
@@ -42,6 +46,9 @@ out/tube_upright.yaml: examples/01_tube_bending.yaml
 
 test: $(VENV)/installed-test
 	$(BIN)/python -m pytest -m "not slow" $(PARALLEL)
+
+fuzz: $(VENV)/installed-test
+	$(BIN)/python -m tests.fuzz $(N) --seed $(SEED)
 
 check: $(VENV)/installed-test $(VENV)/installed-check
 	$(BIN)/ruff format --check .

@@ -91,7 +91,7 @@ def _sum(arrays: Mapping[str, Floats]) -> str:
     return digest.hexdigest()
 
 
-def _unreadable(path: Path, error: Exception) -> InputError:
+def unreadable(path: Path, error: Exception) -> InputError:
     """What is wrong with a file that is no restart file, or no longer one."""
     allowed, todo = "the file that an interrupted run wrote", "give that file, or start from the beginning"
     if not path.exists():
@@ -125,9 +125,9 @@ def read_restart(path: Path, mark: str, isa: str) -> Saved:
         whole = found["format"] != FORMAT or head["sum"] == _sum(arrays)
         ended = tuple(StageSummary(**stage) for stage in head.get("ended", ()))
     except Exception as error:  # a damaged file can hold anything, and each reader has its own words for it
-        raise _unreadable(path, error) from error
-    if not whole:
-        raise _unreadable(path, ValueError("checksum"))
+        raise unreadable(path, error) from error
+    if not whole or any(values.dtype.kind not in "fiub" for values in arrays.values()):
+        raise unreadable(path, ValueError("checksum"))
     if found["format"] != FORMAT or found["mark"] != mark:
         what, todo = (
             "the restart file belongs to another input",

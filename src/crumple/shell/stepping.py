@@ -21,7 +21,7 @@ from crumple.shell.model.bodies import moved
 from crumple.shell.model.initial_motion import shell_initial_motion
 from crumple.shell.model.model import ShellCase, model_of_stage
 from crumple.shell.model.obstacles import appeared_inside
-from crumple.shell.restart import Saved, fingerprint, read_restart, write_restart
+from crumple.shell.restart import Saved, fingerprint, read_restart, unreadable, write_restart
 from crumple.shell.until import LOOK_STEPS, Watch
 from crumple.structure import Outputs, ShellSettings, Stage, Structure
 
@@ -176,7 +176,7 @@ class Stepping:
                 return Status.OVERLAPPING, f"stage {stage.name}: {inside}"
         self.watch = Watch(self.structure, self.case, stage, self.state)
         if self.resumed is not None:
-            self.watch.restore(self.resumed.watch)
+            self._restore_watch(self.watch, self.resumed)
             self.resumed = None
         why = ""
         for at in output_times(self.run, begin, stage.duration):
@@ -302,7 +302,19 @@ class Stepping:
                 self.run.sequence[number], saved.ended[number - 1].end if number else 0.0
             )
         self.state.restore(saved.state)
+        fresh = Record()
+        fresh.add({"at": np.array(0.0), **self.sampler.sample(self.state)})
+        fresh.add_shape(shape_of(self.state, self.case.mesh))
+        if not saved.record.is_like(fresh):
+            raise unreadable(path, ValueError("record"))
         self.first_time, self.resumed = self.state.time, saved
+
+    def _restore_watch(self, watch: Watch, saved: Saved) -> None:
+        try:
+            watch.restore(saved.watch)
+        except ValueError as error:
+            assert self.long_run.restart_from is not None
+            raise unreadable(self.long_run.restart_from, error) from error
 
 
 def with_place(reason: str, case: ShellCase) -> str:

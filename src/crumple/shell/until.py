@@ -68,7 +68,9 @@ class Watch:
         }
 
     def restore(self, arrays: Mapping[str, Floats]) -> None:
-        """Restore the state from the arrays of `to_arrays`."""
+        """Restore the state from the arrays of `to_arrays`; ValueError if other conditions wrote them."""
+        if {k: v.shape for k, v in arrays.items()} != {k: v.shape for k, v in self.to_arrays().items()}:
+            raise ValueError("the conditions are not those of the stage")
         self.work, self.since, self.seen = (float(value) for value in arrays["numbers"])
         vectors = arrays["vectors"].reshape(3, -1, 3)
         self.first, self.impulse, self.mark = ([*part] for part in vectors)

@@ -1,5 +1,8 @@
 """Runs from end to end on coarse meshes: closed forms, names, restart, cancelling, failures, shapes."""
 
+import json
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tests.support.shell.structures import cantilever, knee, structure, tee, thrown
@@ -7,6 +10,8 @@ from tests.support.shell.structures import cantilever, knee, structure, tee, thr
 from crumple._core.shell.simulation import ShellState
 from crumple.errors import InputError, Status
 from crumple.shell import LongRun, ShellRun, lower, solve_shell
+from crumple.shell.answer.record import Record
+from crumple.shell.restart import read_restart, write_restart
 from crumple.shell.stepping import with_place
 from crumple.structure import Outputs, ShellSettings
 
@@ -183,6 +188,31 @@ def test_restart_file_of_another_input_is_refused(tmp_path):
     file.write_bytes(b"PK\x03\x04 not whole")
     with pytest.raises(InputError, match="no restart file"):
         solve_shell(thrown(), run(), long_run=LongRun(restart_from=file))
+
+
+def test_restart_file_whose_histories_or_conditions_are_cut_is_refused(tmp_path):
+    file, asked = tmp_path / "restart.npz", iter(range(1000))
+    solve_shell(thrown(), run(), cancel=lambda: next(asked) > 7, long_run=LongRun(restart_to=file))
+    with np.load(file) as arrays:
+        head = json.loads(arrays["head"].tobytes())
+    mark, whole = head["mark"], read_restart(file, head["mark"], head["isa"])
+    rows, shapes = whole.record.rows, whole.record.shapes
+    cut = [
+        {"record": Record(rows | {"energy": rows["energy"][:-1]}, shapes)},
+        {"record": Record(rows | {"energy": [row[:-1] for row in rows["energy"]]}, shapes)},
+        {"record": Record({name: rows[name] for name in rows if name != "zone"}, shapes)},
+        {"record": Record(rows, shapes | {"displacement": shapes["displacement"][:-1]})},
+        {"state": dict(list(whole.state.items())[1:])},
+        {"state": {name: values.astype(complex) for name, values in whole.state.items()}},
+        {"watch": whole.watch | {"numbers": whole.watch["numbers"][:-1]}},
+        {"watch": whole.watch | {"vectors": np.zeros((3, 3))}},
+    ]
+    for change in cut:
+        write_restart(file, replace(whole, **change), mark)
+        with pytest.raises(InputError, match=r"damaged|lacks"):
+            solve_shell(thrown(), run(), long_run=LongRun(restart_from=file))
+    write_restart(file, whole, mark)
+    assert solve_shell(thrown(), run(), long_run=LongRun(restart_from=file)).status is Status.COMPLETE
 
 
 def test_run_cancelled_at_once_is_a_result():

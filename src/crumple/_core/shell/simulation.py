@@ -303,6 +303,8 @@ class ShellState:
             self._core.restore({name: floats(saved[name]) for name in saved}, not of_stage_before)
         except ValueError as error:
             raise InputError(str(error)) from error
+        except KeyError as error:
+            raise InputError(f"the checkpoint lacks {error}") from error
 
 
 def thickness_rule(points: int, lobatto: bool = False) -> tuple[Floats, Floats]:

@@ -133,6 +133,20 @@ class Record:
         """All rows of one kind, (n, ...)."""
         return np.array(self.rows[name])
 
+    def is_like(self, other: Record) -> bool:
+        """Whether it has rows and stored shapes of the same names and forms as another, all rows whole."""
+        if not self.rows:
+            return not self.shapes
+        mine, theirs = self.to_arrays(), other.to_arrays()
+        if not self.shapes:
+            theirs = {name: values for name, values in theirs.items() if name.startswith("rows/")}
+        return (
+            {name: (values.dtype, *values.shape[1:]) for name, values in mine.items()}
+            == {name: (values.dtype, *values.shape[1:]) for name, values in theirs.items()}
+            and {len(values) for values in self.rows.values()} == {len(self)}
+            and len({len(values) for values in self.shapes.values()}) <= 1
+        )
+
     def to_arrays(self) -> dict[str, Floats]:
         """Everything as named arrays."""
         rows = {f"rows/{name}": np.array(values) for name, values in self.rows.items()}

@@ -1,0 +1,158 @@
+"""What the worker does with a case of every kind: "" where it was accepted, else the message of the refusal.
+
+Any exception but a refusal is a finding, and so is what an accepted case must not give.
+"""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from crumple.analysis import Analysis, check, input_hash, loads, solve
+from crumple.comparison.rating.curve_file import read_curves
+from crumple.errors import InputError, Problem, Status
+from crumple.hinge.measured.law_file import read_law
+
+PATIENCE = 5.0
+"""Wall time after which a solve is cancelled [s]; it must obey within the time of a case."""
+LONGEST = 200_000
+"""Characters of all messages of a refusal."""
+
+
+def told(problems: list[Problem]) -> str:
+    """The first of the problems, without names and numbers; all must say something."""
+    assert problems, "a refusal without a problem"
+    assert all(problem.what for problem in problems), "a problem without a sentence"
+    assert sum(len(str(problem)) for problem in problems) < LONGEST, "messages that nobody can read"
+    return plain(problems[0].what)
+
+
+def plain(text: str) -> str:
+    """A message without what is in quotes, and without numbers."""
+    return re.sub(r"\d[\d.e+-]*", "#", re.sub(r"'[^']*'", "'...'", text.split("\n", maxsplit=1)[0]))[:90]
+
+
+def refused(call: Callable[[], object]) -> str:
+    """The message if the call refuses."""
+    try:
+        call()
+    except InputError as error:
+        return told(error.problems)
+    return ""
+
+
+def attack_bytes(content: bytes) -> str:
+    """Any bytes as an input file."""
+    Path("case.yaml").write_bytes(content)
+    problems = check("case.yaml")
+    return told(problems) if problems else ""
+
+
+def attack_input(text: str) -> str:
+    """An input file: read, hash, lower to the multibody model."""
+    return attack_bytes(text.encode("utf-8", "surrogatepass"))
+
+
+def attack_shell(text: str) -> str:
+    """An input file: mesh it and lower it to shells."""
+    Path("case.yaml").write_text(text, encoding="utf-8", errors="surrogatepass")
+    problems = check("case.yaml", "shell")
+    return told(problems) if problems else ""
+
+
+def attack_solve(text: str) -> str:
+    """An input file: solve it with bodies and hinges, for some seconds at most."""
+    analysis: list[Analysis] = []
+    message = refused(lambda: analysis.append(loads(text)))
+    if message:
+        return message
+    assert len(input_hash(analysis[0])) == 64
+    end = time.monotonic() + PATIENCE
+    return refused(lambda: sound(solve(analysis[0], cancel=lambda: time.monotonic() > end)))
+
+
+def sound(result: Any) -> None:
+    """What every result must keep."""
+    assert isinstance(result.status, Status)
+    if result.status is Status.COMPLETE:
+        assert np.isfinite(result.energy_residual), "complete, but no finite energy residual"
+        wrong = [c.name for c in result.channels.values() if np.isinf(c.values).any()]
+        assert not wrong, "complete, but infinite values"
+
+
+def attack_law(text: str) -> str:
+    """A law file."""
+    return refused(lambda: read_law(text, "law.yaml"))
+
+
+CURVE_USER = Path(__file__).parent / "bases" / "curve_user.yaml"
+
+
+def attack_curve(content: bytes) -> str:
+    """A CSV file: as curves to compare with, and as the table of a hinge law."""
+    Path("curve.csv").write_bytes(content)
+    compared = refused(lambda: read_curves(Path("curve.csv")))
+    law = refused(lambda: loads(CURVE_USER.read_text(encoding="utf-8")))
+    return compared and law
+
+
+def attack_restart(edits: Mapping[str, Any]) -> str:
+    """A restart file of a small shell run, changed; the run goes on from it."""
+    from tests.fuzz.restart_base import base, changed
+
+    from crumple.shell import LongRun
+
+    analysis, content = base()
+    Path("restart.npz").write_bytes(changed(content, edits))
+    asked, end = iter(range(10**9)), time.monotonic() + PATIENCE
+
+    def enough() -> bool:
+        return next(asked) > 20 or time.monotonic() > end
+
+    run = LongRun(restart_from=Path("restart.npz"))
+    # changed numbers may overflow on the way: the status says so
+    with np.errstate(all="ignore"):
+        return refused(lambda: solve(analysis, "shell", cancel=enough, long_run=run))
+
+
+def attack_kernel(payload: tuple[str, Any]) -> str:
+    """Calls of a private face of the kernels; any exception with words is a refusal there."""
+    from tests.fuzz.kernel_base import CALLS
+
+    room, edits = payload
+    try:
+        CALLS[room](edits)
+    except MemoryError:
+        raise
+    except Exception as error:
+        if not str(error):
+            raise
+        return plain(f"{type(error).__name__}: {error}")
+    return ""
+
+
+def attack_self(code: str) -> str:
+    """Python code that crashes or hangs: whether the worker tells it."""
+    from tests.fuzz.child import limit
+
+    exec(code, {"limit": limit})
+    return ""
+
+
+ATTACKS: dict[str, Callable[[Any], str]] = {
+    "bytes": attack_bytes,
+    "input": attack_input,
+    "solve": attack_solve,
+    "shell": attack_shell,
+    "law": attack_law,
+    "curve": attack_curve,
+    "restart": attack_restart,
+    "kernel": attack_kernel,
+    "self-test": attack_self,
+}
+"""By kind."""
