@@ -7,7 +7,7 @@ import numpy as np
 from crumple.multibody.bodies.linkage import link
 from crumple.multibody.bodies.obstacle_bodies import member_capsules, touching_pairs
 from crumple.numeric.arrays import Floats
-from crumple.structure import PlacedHinge, Structure
+from crumple.structure import Structure
 
 JOINED = 0.1
 """Share of the radii within which centre lines meet: as in native/spatial/contact/contacts.cpp."""
@@ -15,13 +15,13 @@ LEAST = 1e-6
 """Overlap [m] that is rounding of the input."""
 
 
-def overlap_warnings(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> tuple[str, ...]:
+def overlap_warnings(structure: Structure) -> tuple[str, ...]:
     """A sentence for members that overlap, and one for those that cross and so never touch."""
     if structure.member_contact is None:
         return ()
     deepest: dict[tuple[str, str], float] = {}
     crossing: set[tuple[str, str]] = set()
-    capsules, owner = member_capsules(structure, link(structure, hinges).pieces)
+    capsules, owner = member_capsules(structure, link(structure).pieces)
     for i, j in touching_pairs(structure, capsules, owner):
         first, second = capsules[i], capsules[j]
         radii = first.radius + second.radius

@@ -126,7 +126,7 @@ def warnings(
         turned = _span([math.degrees(hinges[name].rotation_max) for name in names], 3)
         found.append(f"{named('Hinge', names)}: {text.format(turned=turned)}")
     found += broken_warnings(solved.hinges)
-    found += overlap_warnings(structure, tuple(placed))
+    found += overlap_warnings(structure)
     found += held_part_warnings(structure, solved)
     found += _inaccurate(hinges, largest)
     found += [
