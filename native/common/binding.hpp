@@ -101,6 +101,17 @@ inline void require_times(const std::vector<double>& times, double now) {
     require(times.back() >= now, "the last output time lies in the past");
 }
 
+// Times at which a step must end.
+inline void require_breaks(const std::vector<double>& breaks) {
+    for (std::size_t i = 0; i < breaks.size(); i++) {
+        require(std::isfinite(breaks[i]) && (i == 0 || breaks[i] > breaks[i - 1]), "breaks are finite and increase");
+    }
+}
+
+inline void require_finite(std::initializer_list<double> numbers, const char* what) {
+    for (const double x : numbers) require(std::isfinite(x), what);
+}
+
 inline void require_step(double h) { require(h > 0 && std::isfinite(h), "a step is positive"); }
 
 // None in a list of models would be a null pointer

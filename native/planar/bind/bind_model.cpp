@@ -1,8 +1,6 @@
 // The frozen model of a planar tree, from plain Python data; nothing here decides physics.
 #include "planar/bind/bind_model.hpp"
 
-#include <algorithm>
-
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -65,7 +63,10 @@ Model make_model(const InNumbers& parent, const InNumbers& joint, const In& bodi
                  const nb::list& hinges, const nb::list& loads, const nb::list& drives, const nb::list& holds,
                  const nb::list& welds, const Doubles& gravity, double length, const Doubles& breaks) {
     Model model{make_tree(parent, joint, bodies), {}, {}, {}, {}, {}, {gravity.at(0), gravity.at(1)}, {q0.begin(), q0.end()}, length, breaks};
-    require(std::is_sorted(breaks.begin(), breaks.end()), "breaks must increase");
+    require_breaks(breaks);
+    require_finite({gravity[0], gravity[1]}, "gravity must be finite");
+    require(length > 0 && std::isfinite(length), "the length must be positive");
+    for (const double q : q0) require_finite({q}, "q0 must be finite");
     require(q0.size() == static_cast<size_t>(model.tree.dofs()), "q0 must have one entry per joint coordinate");
     for (nb::handle h : hinges) model.hinges.push_back(make_tree_hinge(nb::cast<nb::dict>(h)));
     for (nb::handle l : loads) model.loads.push_back(make_load(fields(l, 5, "a load has body, point, direction, times, values")));

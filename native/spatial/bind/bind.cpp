@@ -205,9 +205,10 @@ Model make_model(const nb::dict& d) {
     add_contact(model, d);
     model.gravity = vector(d["gravity"]);
     model.length = nb::cast<double>(d["length"]);
-    require(model.length > 0, "the length must be positive");
+    require_finite({model.gravity.x, model.gravity.y, model.gravity.z}, "gravity must be finite");
+    require(model.length > 0 && std::isfinite(model.length), "the length must be positive");
     model.breaks = nb::cast<Doubles>(d["breaks"]);
-    require(std::is_sorted(model.breaks.begin(), model.breaks.end()), "breaks must increase");
+    require_breaks(model.breaks);
     return model;
 }
 

@@ -8,7 +8,7 @@ from contextlib import suppress
 
 import pytest
 
-from crumple.analysis import loads
+from crumple.analysis import check, loads
 from crumple.errors import InputError
 
 HEAD = """crumple: 1
@@ -92,7 +92,7 @@ def test_hinges_are_counted_before_they_are_placed(
 def test_spots_are_counted_before_they_are_placed(factor: float) -> None:
     text = chain(1, "").replace("section: tube", "section: hat").replace(", }", "}")
     text += f"\nspot_welds: {{own: {{members: [m0], pitch: {1e-9 * factor:g} m}}}}"
-    assert ("spot_welds.own.pitch", "the line has too many spots") in refused(text)
+    assert ("spot_welds.own.pitch", "the line has too many spot welds") in refused(text)
 
 
 def test_groups_have_most_entries() -> None:
@@ -123,3 +123,13 @@ def test_digits_that_are_not_plain_are_letters_of_a_name(name: str) -> None:
     [(where, what)] = refused(text)
     assert where == f"masses.{name}.node"
     assert what == "there is no node 'q'"
+
+
+@pytest.mark.parametrize("thickness", [0.032, 0.040, 0.044])
+def test_walls_too_thin_for_the_formula_are_refused_with_their_member(tmp_path, thickness: float) -> None:
+    text = chain(1, "hinges: [{name: root, at: n0}]").replace("thickness: 2 mm", f"thickness: {thickness} mm")
+    (tmp_path / "thin.yaml").write_text(text, encoding="utf-8")
+    problem = check(tmp_path / "thin.yaml")[0]
+    assert problem.where == "members.m0"
+    assert "changes too steeply for a table" in problem.what
+    assert "thicker walls" in problem.todo

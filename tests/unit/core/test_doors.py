@@ -48,7 +48,7 @@ k = _kernels.spatial
 lists = ("joints", "hinges", "drives", "loads", "springs", "capsules", "obstacles", "pairs")
 def model(**keys):
     body = dict(mass=np.ones(1), inertia=np.eye(3)[None], centre=np.zeros((1, 3)), contact=(0.0, 0.0))
-    return body | {name: [] for name in lists} | dict(gravity=[0.0, 0.0, 0.0], length=1.0) | keys
+    return body | {name: [] for name in lists} | dict(gravity=[0.0, 0.0, 0.0], length=1.0, breaks=[]) | keys
 def run(**keys):
     return k.Simulation(model(**keys), 1e-3, 1e-9, 1e-3)
 held = (-1, 0, [0.0] * 3, list(np.eye(3).ravel()), [True] * 6, False)
@@ -103,6 +103,13 @@ CALLS = {
         "changed(8, [(0, -1)])",
         "changed(8, [(0, 9, [0.0, 0.0], [0.0, 0.0])])",
         "changed(9, [])",
+        "changed(9, [float('nan'), 0.0])",
+        "changed(10, -1.0)",
+        "changed(3, [float('inf')])",
+        "changed(11, [float('nan')])",
+        "changed(11, [1e-3, float('inf')])",
+        "changed(11, [2e-3, 1e-3])",
+        "changed(11, [1e-3, 1e-3])",
         "changed(0, np.array([2**40]))",
         "changed(1, np.array([7]))",
         "changed(2, np.array([[0.0, 0, 0, 0, float('nan'), 1]]))",
@@ -134,6 +141,10 @@ CALLS = {
         "run(pairs=[[0]])",
         "run(pairs=[[0, 1, 2]])",
         "run(mass=np.ones(2))",
+        "run(breaks=[nan])",
+        "run(breaks=[2e-3, 1e-3])",
+        "run(gravity=[nan, 0.0, 0.0])",
+        "run(length=float('inf'))",
         "run(joints=[held]).stage(False, [], [], [(4, 1.0, 0, 3, [-1, -1], [[], []])])",
         "run(joints=[held]).stage(False, [], [], [(4, 1.0, 9, 3, [-1, -1], [[0.0] * 3] * 2)])",
         "run(joints=[held]).stage(False, [5], [], [])",
@@ -150,6 +161,11 @@ CALLS = {
         "case = k.Case(model()); case.add_stage(nan, False, [], [], [])",
     ],
 }  # fmt: skip
+SOUND = {
+    SHELL: "advanced(built(model()))",
+    PLANAR: "run.run([1e-3])",
+    SPATIAL: "run(joints=[held]).run([1e-3])",
+}
 RUNNER = """
 import json, os, sys
 def tried(call):
@@ -177,16 +193,19 @@ print(json.dumps([tried(call) for call in json.load(sys.stdin)]))
 def test_what_cannot_be_is_refused_and_crashes_nothing(room: str) -> None:
     alone = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     words = [sys.executable, "-c", room + RUNNER]
+    calls = [SOUND[room], *CALLS[room]]
     done = subprocess.run(
         words,
-        input=json.dumps(CALLS[room]),
+        input=json.dumps(calls),
         env=alone,
         stdout=subprocess.PIPE,
         text=True,
         check=True,
         timeout=100,
     )
-    outcomes = dict(zip(CALLS[room], json.loads(done.stdout), strict=True))
+    outcomes = dict(zip(calls, json.loads(done.stdout), strict=True))
+    # so that the others are refused for what is wrong in them
+    assert outcomes.pop(SOUND[room]) == [0, ""]
     # a negative code is the signal of a crash; without an exception it is 0
     assert {call: code for call, (code, _) in outcomes.items() if code != 1} == {}
     assert [call for call, (_, told) in outcomes.items() if not told.partition(": ")[2]] == []

@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from crumple.errors import CrumpleError, InputError, Problem
+from crumple.errors import InputError, Problem
 from crumple.hinge.law import HingeLaw
 from crumple.hinge.record.record import Envelope
 from crumple.numeric.arrays import Floats
@@ -49,9 +49,8 @@ def sampled_envelope(
     Raises
     ------
     InputError
-        If the capacity is not positive somewhere: the error is relative, and such a hinge is a joint.
-    CrumpleError
-        If the law's capacity is not smooth between its kinks.
+        If the capacity is not positive somewhere: the error is relative, and such a hinge is a joint.  If it
+        is not smooth between the kinks that the law reports: extremely thin walls, an unreported kink.
     """
     ends = np.array([0.0, *sorted({k for k in law.kinks(sense) if 0.0 < k < rotation_max}), rotation_max])
     dense = ends[:-1, None] + (ends[1:] - ends[:-1])[:, None] * DENSE
@@ -79,10 +78,14 @@ def sampled_envelope(
             points.flags.writeable = moment.flags.writeable = False
             return Envelope(points, moment)
         counts = np.where(too_far, np.maximum(counts + 1, np.ceil(1.05 * counts)), counts).astype(np.int64)
-    low, high = ends[np.argmax(counts) :][:2]
-    raise CrumpleError(
-        f"the capacity is not smooth between {low:.6g} and {high:.6g} rad: its law does not report a kink"
+    low, high = np.degrees(ends[np.argmax(counts) :][:2])
+    what = f"the capacity of the law '{law.title}' changes too steeply for a table"
+    came, allowed = (
+        f"between {low:.4g} and {high:.4g} deg",
+        f"{MOST_PIECES} chords with an error below {error:g}",
     )
+    todo = "give thicker walls, or a measured law; a law of your own must report its kinks"
+    raise InputError(Problem(what, came, allowed, todo))
 
 
 def _refuse_without_capacity(law: HingeLaw, rotation: Floats, capacity: Floats) -> None:

@@ -114,7 +114,7 @@ def placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
             try:
                 own.append(_placed(structure, place, share))
             except InputError as error:
-                problems += error.problems
+                problems += [replace(p, where=p.where or f"members.{member}") for p in error.problems]
         placed += own
         placed += elastic_joints(structure, own, about) if own else []
     if problems:

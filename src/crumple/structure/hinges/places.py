@@ -142,7 +142,13 @@ def law_spec(structure: StructureParts, place: HingePlace) -> LawKeys:
         reference = DEFAULT_BENDING[kind]
     if not isinstance(reference, str):
         return reference
-    return structure.hinge_laws[reference] if reference in structure.hinge_laws else LawKeys(type=reference)
+    return structure.hinge_laws[reference] if reference in structure.hinge_laws else _plain_law(reference)
+
+
+# the same for every hinge of a chain
+@remembered(MADE)
+def _plain_law(kind: str) -> LawKeys:
+    return LawKeys(type=kind)
 
 
 def law_of(structure: StructureParts, place: HingePlace) -> HingeLaw:
