@@ -98,7 +98,7 @@ inline void require_times(const std::vector<double>& times, double now) {
     for (std::size_t i = 0; i < times.size(); i++) {
         require(std::isfinite(times[i]) && times[i] >= (i > 0 ? times[i - 1] : 0.0), "output times are finite and do not fall");
     }
-    require(times.back() >= now, "the last output time lies in the past");
+    require(times.back() >= now * (1 - 1e-9), "the last output time lies in the past");
 }
 
 // Times at which a step must end.

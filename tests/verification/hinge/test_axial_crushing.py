@@ -207,5 +207,5 @@ def test_warnings():
     stout = build_axial_law("square", RectangularTube(0.04, 0.04, 0.008), STEEL)
     assert any("extensional" in warning for warning in stout.validity.warnings)
     slow = Material("steel", 210e9, 0.3, 7850.0, 300e6, yield_rate=CowperSymonds(40.4, 5.0))
-    assert any("at flow" in w for w in build_axial_law("square", SQUARE, slow).validity.warnings)
+    assert any("give flow_rate" in w for w in build_axial_law("square", SQUARE, slow).validity.warnings)
     assert HatCrushing.from_perimeter(0.3, 0.0015, STEEL, True).double

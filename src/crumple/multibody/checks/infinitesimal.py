@@ -14,8 +14,8 @@ def infinitesimal(linkage: Linkage) -> str:
     return " ".join(dead_centre_notes(linkage, dead_centres(linkage)))
 
 
-def dead_centre_notes(linkage: Linkage, centres: DeadCentres) -> tuple[str, ...]:
-    """Sentences about what is held, and what is moved aside."""
+def dead_centre_notes(linkage: Linkage, centres: DeadCentres, *, aside: bool = False) -> tuple[str, ...]:
+    """Sentences about what is held, and what a run has moved aside."""
     found = []
     if centres.held:
         names = dict.fromkeys(linkage.connections[i].name for i, _ in sorted(centres.held))
@@ -24,11 +24,11 @@ def dead_centre_notes(linkage: Linkage, centres: DeadCentres) -> tuple[str, ...]
             "between supports, for example): these are held, and what is given to their motion is lost at "
             "once. Let a support slide, or give members hinges that lengthen ('axial')."
         )
-    if centres.aside:
+    if aside:
         names = dict.fromkeys(linkage.connections[i].name for i in sorted(centres.aside))
         found.append(
-            "The structure can go on in several ways at once from where it stands (equal members side by "
-            f"side, for example): {listed(list(names))} are moved aside by {CROOKED:g} of its size, as "
-            "members are never straight, and it goes on in one of them."
+            "The structure can move in several ways from its start position (equal members side by side, for "
+            f"example), and the loads do not select one: {listed(list(names))} were moved aside by "
+            f"{CROOKED:g} of its size, as members are never straight, and it moves in one of the ways."
         )
     return tuple(found)

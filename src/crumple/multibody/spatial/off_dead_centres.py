@@ -14,7 +14,7 @@ from crumple.multibody.bodies.linkage import Linkage
 
 
 def off_dead_centres(
-    model: SpatialModel, linkage: Linkage, centres: DeadCentres
+    model: SpatialModel, linkage: Linkage, centres: DeadCentres, *, aside: bool = False
 ) -> tuple[SpatialModel, dict[int, int]]:
     """A model that begins to move only where it can go on.
 
@@ -23,7 +23,9 @@ def off_dead_centres(
     model, linkage
         As `spatial_model` gives it, obstacles added.
     centres
-        Freedoms that further joints hold, and connections that are moved aside.
+        Freedoms that further joints hold, and connections from which several ways go on.
+    aside
+        Move these connections aside.
 
     Returns
     -------
@@ -33,7 +35,7 @@ def off_dead_centres(
         Index of the further joint by connection.
     """
     joints = list(model.joints)
-    for i, (place, axes) in centres.aside.items():
+    for i, (place, axes) in centres.aside.items() if aside else ():
         joints[i] = replace(joints[i], position=place, axes=axes)
     held = defaultdict(list)
     for connection, freedom in sorted(centres.held):

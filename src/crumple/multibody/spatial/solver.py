@@ -76,8 +76,9 @@ class SpatialSolver:
         plain = spatial_model(structure, self.linkage, longest)
         owners = tuple(name for name, _ in support_drives(structure, self.linkage, longest))
         touching = with_obstacles(structure, self.linkage, plain, owners, longest)
-        self._dead_centres = dead_centres(self.linkage)
-        model, self._holding = off_dead_centres(touching.model, self.linkage, self._dead_centres)
+        self._model, self._dead_centres = touching.model, dead_centres(self.linkage)
+        self._aside = False
+        model, self._holding = off_dead_centres(self._model, self.linkage, self._dead_centres)
         self._touching = replace(touching, model=model)
 
     @property
@@ -93,14 +94,29 @@ class SpatialSolver:
     @property
     def notes(self) -> tuple[str, ...]:
         """See `Solver`."""
-        return dead_centre_notes(self.linkage, self._dead_centres)
+        return dead_centre_notes(self.linkage, self._dead_centres, aside=self._aside)
 
     def with_hinges(self, hinges: tuple[PlacedHinge, ...]) -> SpatialSolver:
         """See `Solver`."""
         return SpatialSolver(self._structure, self._run, hinges)
 
     def run(self, accuracy: float, poll: Poll | None, *, ends_only: bool = False) -> Solved:
-        """See `Solver`."""
+        """See `Solver`.
+
+        Where several ways go on from the start, loads mostly decide for one.  Where they do not, the motion
+        is a mixture that soon cannot go on; the run is then repeated with hinges a little aside of their
+        places, which leaves one way.
+        """
+        solved = self._run_once(accuracy, poll, ends_only)
+        failed = solved.outcome in (Outcome.STEP_COLLAPSED, Outcome.STALLED, Outcome.NOT_FINITE)
+        if self._aside or not self._dead_centres.aside or not failed:
+            return solved
+        self._aside = True
+        model, self._holding = off_dead_centres(self._model, self.linkage, self._dead_centres, aside=True)
+        self._touching = replace(self._touching, model=model)
+        return self._run_once(accuracy, poll, ends_only)
+
+    def _run_once(self, accuracy: float, poll: Poll | None, ends_only: bool) -> Solved:
         model, settings = self._touching.model, self._run.settings
         longest, least_parts = step_bounds(self._run, ends_only=ends_only)
         if not ends_only:
