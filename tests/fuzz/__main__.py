@@ -7,6 +7,7 @@ reached, and what was found; findings are saved, shrunk, in out/fuzz.  The exit 
 from __future__ import annotations
 
 import argparse
+import math
 import pickle
 import sys
 import time
@@ -21,6 +22,7 @@ def main() -> int:
     words = argparse.ArgumentParser(prog="python -m tests.fuzz", description=__doc__)
     words.add_argument("number", nargs="?", type=int, default=2000, help="cases")
     words.add_argument("--seed", type=int, default=0, help="another one gives other cases")
+    words.add_argument("--minutes", type=float, default=math.inf, help="begin nothing new after so long")
     words.add_argument("--kinds", nargs="+", choices=sorted(SHARES), help="only these")
     words.add_argument("--out", type=Path, default=Path("out/fuzz"), help="folder of findings")
     words.add_argument("--again", type=Path, metavar="FILE.case", help="try a saved case once more")
@@ -34,7 +36,7 @@ def main() -> int:
         return int(bool(outcome.finding))
     begin = time.monotonic()
     shares = {kind: share for kind, share in SHARES.items() if not given.kinds or kind in given.kinds}
-    tally = campaign(given.number, given.seed, shares, folder=given.out)
+    tally = campaign(given.number, given.seed, shares, folder=given.out, longest=60 * given.minutes)
     print(tally.table(given.messages))
     print(f"\n{sum(tally.tried.values())} cases in {time.monotonic() - begin:.0f} s")
     return int(bool(tally.findings))

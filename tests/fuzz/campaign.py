@@ -7,6 +7,7 @@ shrunk again.
 
 from __future__ import annotations
 
+import math
 import pickle
 import time
 from collections import Counter
@@ -122,17 +123,28 @@ def attack(kind: str, number: int, of_seed: int, worker: Worker, tally: Tally) -
 
 
 def campaign(
-    number: int, first_seed: int = 0, shares: Mapping[str, float] = SHARES, *, folder: Path | None = None
+    number: int,
+    first_seed: int = 0,
+    shares: Mapping[str, float] = SHARES,
+    *,
+    folder: Path | None = None,
+    longest: float = math.inf,
 ) -> Tally:
-    """Try at least so many cases, `shares` of each kind; findings are written into the folder."""
+    """Try at least so many cases, `shares` of each kind; findings are written into the folder.
+
+    No chunk begins after the wall time `longest` [s].
+    """
+    begin = time.monotonic()
     tally, total = Tally(), sum(shares.values())
     wanted = {kind: round(number * share / total) for kind, share in shares.items()}
     with Worker() as worker:
         chunk = 0
-        while any(tally.tried[kind] < n for kind, n in wanted.items()):
+        while time.monotonic() - begin <= longest and any(
+            tally.tried[kind] < n for kind, n in wanted.items()
+        ):
             for place, (kind, n) in enumerate(wanted.items()):
                 left = n - tally.tried[kind]
-                if left <= 0:
+                if left <= 0 or time.monotonic() - begin > longest:
                     continue
                 known = len(tally.findings)
                 attack(kind, min(left, CHUNK), 1000 * (first_seed + chunk) + place, worker, tally)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
@@ -11,11 +12,13 @@ from typing import Any
 
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
-from tests.fuzz.mutation import Edit, edited
+from tests.fuzz.mutation import Edit, Pool, edited
 
 from crumple.analysis import InputFile
 from crumple.analysis.reading import read_text
 from crumple.analysis.schema import models_of
+from crumple.hinge.registry import AXIAL, BENDING, TORSION
+from crumple.section.shapes.registry import SHAPES
 
 ROOT = Path(__file__).parents[2]
 KEYS = sorted(
@@ -64,13 +67,14 @@ TEXTS = [
     "../a", "CON", "0", "-",
 ]  # fmt: skip
 FACTORS = [-1.0, 0.0, 1e-12, 1e-6, 1e-3, 0.1, 0.5, 0.8, 1.2, 2.0, 10.0, 1e3, 1e6, 1e12]
+LAW_TYPES = [*BENDING, *AXIAL, *TORSION, "table", "file", "constant"]
 GENTLE = [0.8, 0.9, 0.95, 1.05, 1.1, 1.2]
 Numbered = SearchStrategy[Edit]
 
 
 def edits(kinds: Sequence[str], *, values: SearchStrategy[Any]) -> Numbered:
     """Changes of the data, of these kinds."""
-    return st.tuples(st.integers(0, 10**5), st.sampled_from(kinds), values)
+    return st.tuples(st.integers(0, 10**9), st.sampled_from(kinds), values)
 
 
 def anything() -> SearchStrategy[Any]:
@@ -115,30 +119,49 @@ def bases() -> tuple[dict[str, Any], ...]:
 
 
 @cache
-def pool() -> dict[str, list[Any]]:
-    """Values of every key in the good files."""
-    found: dict[str, list[Any]] = {key: [] for key in KEYS}
+def pool() -> Pool:
+    """Values of every key: those of the good files, words that the key allows, files and texts of laws."""
+    models = list(models_of(InputFile))
+    found = defaultdict[str, list[Any]](list, {key: [] for key in KEYS})
+    for model in models:
+        for name, field in model.model_fields.items():
+            words = re.findall(r"Literal\[(.*?)\]", str(field.annotation))
+            found[field.alias or name] += [word for one in words for word in re.findall(r"'([^']*)'", one)]
+    found["type"] += [*SHAPES, *LAW_TYPES]
+    found["law"] += LAW_TYPES
+    found["file"] += ["curve.csv", "no.csv", "law.yaml", "..", "/dev/null"]
+    found["negative_file"] += ["curve.csv"]
+    found["units"] += [{"rotation": "deg"}, {"moment": "kN"}, {"time": "ms", "value": "kN"}, {"x": "m"}]
+    found["text"] += ["crumple_law: 1", "", "\n"]
+
+    typed: list[Mapping[str, Any]] = []
 
     def collect(data: Any) -> None:
+        if isinstance(data, Mapping) and "type" in data:
+            typed.append(data)
         for key, value in data.items() if isinstance(data, Mapping) else ():
-            found.setdefault(key, []).append(value)
+            found[key].append(value)
             collect(value)
         for value in data if isinstance(data, list) else ():
             collect(value)
 
     for data in bases():
         collect(data)
-    return {
+    groups = {frozenset(field.alias or name for name, field in m.model_fields.items()) for m in models}
+    groups |= {frozenset(group) for group in typed}
+    values = {
         key: [json.loads(one) for one in sorted({json.dumps(v) for v in values})]
         for key, values in found.items()
     }
+    return Pool(values, sorted(groups, key=sorted))
 
 
 def input_files(good: Sequence[Mapping[str, Any]], *, most: int = 3) -> SearchStrategy[str]:
     """Texts of input files: a frame or a good file with at most so many changes."""
-    count = st.sampled_from([0, 1, 1, *range(1, most + 1)])
+    count = st.sampled_from([0, *range(1, most + 1)])
     some = count.flatmap(lambda n: st.lists(changes(), min_size=n, max_size=n))
-    data = st.one_of(frames(), frames(), st.sampled_from(good))
+    # by their numbers: reports of Hypothesis then stay short
+    data = st.one_of(frames(), st.sampled_from(range(len(good))).map(good.__getitem__))
     return st.tuples(data, some).map(lambda both: written(edited(both[0], both[1], pool())))
 
 

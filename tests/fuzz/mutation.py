@@ -4,30 +4,37 @@ from __future__ import annotations
 
 import copy
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 _QUANTITY = re.compile(r"([-+]?[0-9.]+(?:e[-+]?[0-9]+)?)( ?)(.*)")
 Edit = tuple[int, str, Any]
-"""Number of the place (modulo their count), what is done, and the value for it."""
+"""Number of the place, what is done, and the value for it."""
 
 
 class _Tuple(list[Any]):
     """What was a tuple, and will be one again."""
 
 
-def places(data: Any) -> Iterator[tuple[Any, Any]]:
-    """Every part of the data as its holder and its key or index there."""
-    if isinstance(data, dict):
-        for key in data:
-            yield data, key
-            yield from places(data[key])
-    elif isinstance(data, list):
-        for i, part in enumerate(data):
-            yield data, i
-            yield from places(part)
+def place(data: Any, number: int) -> tuple[Any, Any] | None:
+    """A part of the data as its holder and its key or index there; None where there is none.
+
+    The number chooses a way down from the top, so that parts of small groups are met as often as those of
+    large ones; one in five ways ends on each level.
+    """
+    found = None
+    while isinstance(data, dict | list) and data:
+        keys = list(data) if isinstance(data, dict) else range(len(data))
+        number, at = divmod(number, len(keys))
+        number, stop = divmod(number, 5)
+        found = data, keys[at]
+        data = data[keys[at]]
+        if stop == 4:
+            break
+    return found
 
 
 def listed(data: Any) -> Any:
@@ -48,18 +55,39 @@ def _restored(data: Any) -> Any:
     return data
 
 
-def edited(data: Any, edits: Sequence[Edit], pool: Mapping[str, Sequence[Any]] | None = None) -> Any:
-    """Copy of the data after the edits; `pool` has values by key for "splice" and "add"."""
-    data = [listed(data)]
+@dataclass(frozen=True)
+class Pool:
+    """What fits somewhere: values by key, and the keys that stand together in a group."""
+
+    values: Mapping[str, Sequence[Any]] = field(default_factory=dict)
+    groups: Sequence[frozenset[str]] = ()
+
+    def value(self, key: Any, number: int, now: Any = None) -> Any:
+        """One of the values of a key, as new lists and mappings; `now` if there is none."""
+        values = self.values.get(key, ()) if isinstance(key, str) else ()
+        return listed(values[number % len(values)]) if values else now
+
+    def missing(self, group: Mapping[Any, Any], number: int) -> str:
+        """A key that the group could have too: of the kind of group that it is most like."""
+        alike = max(self.groups, key=lambda known: len(known & set(group)) - 0.01 * len(known))
+        names = sorted(alike - set(group)) or sorted(self.values)
+        return names[number % len(names)]
+
+
+NOTHING = Pool()
+
+
+def edited(data: Any, edits: Sequence[Edit], pool: Pool = NOTHING) -> Any:
+    """Copy of the data after the edits; the pool serves "splice" and "add"."""
+    data = listed(data)
     for number, what, value in edits:
-        found = list(places(data[0]))
-        if found:
-            holder, key = found[number % len(found)]
-            _apply(holder, key, what, value, pool or {})
-    return _restored(data[0])
+        found = place(data, number)
+        if found is not None:
+            _apply(*found, what, value, pool)
+    return _restored(data)
 
 
-def _apply(holder: Any, key: Any, what: str, value: Any, pool: Mapping[str, Sequence[Any]]) -> None:
+def _apply(holder: Any, key: Any, what: str, value: Any, pool: Pool) -> None:
     now = holder[key]
     if what == "drop":
         del holder[key]
@@ -76,20 +104,16 @@ def _apply(holder: Any, key: Any, what: str, value: Any, pool: Mapping[str, Sequ
             now = {key: now} if i % 2 and isinstance(key, str) else [now]
         holder[key] = now
     elif what == "splice":
-        holder[key] = listed(_other(pool.get(key, ()) if isinstance(key, str) else (), value, now))
-    elif what == "add" and isinstance(now, dict) and pool:
-        name = sorted(pool)[value % len(pool)]
-        now[name] = listed(_other(pool[name], value // len(pool), None))
+        holder[key] = pool.value(key, value, now)
+    elif what == "add" and isinstance(now, dict) and pool.groups:
+        name = pool.missing(now, value)
+        now[name] = pool.value(name, value // 7)
     elif what == "scale":
         holder[key] = scaled(now, value)
     elif what == "array" and isinstance(now, np.ndarray):
         holder[key] = reshaped(now, value)
     elif what == "set":
         holder[key] = value
-
-
-def _other(values: Sequence[Any], number: int, now: Any) -> Any:
-    return values[number % len(values)] if values else now
 
 
 def scaled(now: Any, factor: float) -> Any:
