@@ -10,6 +10,7 @@ from typing import Annotated
 
 import typer
 
+from crumple.cli.characterise import characterise
 from crumple.cli.check import check
 from crumple.cli.compare import compare
 from crumple.cli.console.defect import EXIT_CODE, DefectError, show_defect
@@ -34,7 +35,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,  # rich takes 60 ms to import: a third of the time allowed for --help
 )
-for verb in (run, compare, layouts, check, schema, hinge, section):
+for verb in (run, compare, layouts, check, schema, hinge, section, characterise):
     app.command()(verb)
 
 

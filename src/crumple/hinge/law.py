@@ -40,6 +40,7 @@ class Trust(Enum):
     DERIVED = "derived here and checked numerically; the concept, not the formula, is from the cited work"
     QUOTED = "widely quoted; the original text was not seen"
     MEASURED = "measured curve supplied by the user"
+    COMPUTED = "computed with shell finite elements of this program"
     ASSUMED = "chosen by the user"
 
 

@@ -1,4 +1,7 @@
-"""Random frames of stated distributions: small ones always, a hundred of any size in the slow run."""
+"""Random frames of stated distributions: small ones always, a hundred of any size in the slow run.
+
+Kind: invariant.  Source: derived here.
+"""
 
 import numpy as np
 import pytest

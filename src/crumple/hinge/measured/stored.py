@@ -118,13 +118,17 @@ class StoredLaw:
         """Whether both senses have one curve."""
         return self.curve.positive == self.curve.negative
 
+    def points(self, sense: int = 1) -> Points:
+        """Rotations [rad] and capacities [N m] of the curve of a sense."""
+        return self.curve.positive if sense > 0 else self.curve.negative
+
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Every point of the curve [rad]."""
-        return _both(self.curve)[0 if sense > 0 else 1][0]
+        return self.points(sense)[0]
 
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
-        at, moment = _both(self.curve)[0 if sense > 0 else 1]
+        at, moment = self.points(sense)
         return np.asarray(np.interp(np.asarray(rotation, np.float64), at, moment), np.float64)
 
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:

@@ -1,0 +1,14 @@
+"""Hinge laws from shells: sub-models of members and corners, solved slowly, measured, kept as law files."""
+
+from crumple.characterisation.bending import Bending
+from crumple.characterisation.curve import LawCurve
+from crumple.characterisation.solving import Characterised, characterise
+from crumple.characterisation.store import LawStore
+
+__all__ = [
+    "Bending",
+    "Characterised",
+    "LawCurve",
+    "LawStore",
+    "characterise",
+]

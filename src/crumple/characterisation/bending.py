@@ -1,0 +1,202 @@
+"""Sub-models that bend: a straight member that folds in its middle, or a mitred corner in its plane."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple.analysis import Analysis
+from crumple.characterisation.curve import LawCurve, law_curve
+from crumple.characterisation.resolution import NOMINAL, Resolution
+from crumple.errors import InputError, Problem
+from crumple.material import Material
+from crumple.numeric.arrays import Floats
+from crumple.result import Result
+from crumple.section import Axis, Section, half_fold_length
+from crumple.structure import Structure
+
+STUB = 1.75
+"""Length beside the gauge over the largest side of the section: what the rigid ends disturb stays outside."""
+KINK = math.radians(0.2)
+"""Angle by which the two halves of a straight member meet, so that its fold is in the middle [rad]."""
+OUTPUTS = 400
+"""Points in time at which a sub-model is measured."""
+OVERSHOOT, ELASTIC_TURN = 1.15, math.radians(5.0)
+"""End rotation: plastic rotation of the law times the one plus the other; the piece also bends elsewhere."""
+RISE = (0.05, 0.3)
+"""Shares of the peak moment between which the elastic stiffness is measured."""
+
+
+@dataclass(frozen=True)
+class Bending:
+    """Two pieces of one section, end to end in line or at an angle, bent in their plane by end moments.
+
+    Attributes
+    ----------
+    section, material
+        Of both pieces.
+    axis
+        Axis of the section about which it bends; that of a corner is normal to its plane.
+    sense
+        +1 or -1: sense of rotation about the axis.  +1 closes a corner, -1 opens it.
+    angle
+        Angle between the axes of the pieces [rad], pi/2 for a right-angled corner; None: a straight member.
+    largest
+        Plastic rotation at which the law ends [rad].
+    length_factor
+        Length of the pieces beside the gauge over the usual one; others give the same law.
+    resolution
+        How finely and how slowly it is solved.
+
+    References
+    ----------
+    docs/theory/characterisation.md.
+    """
+
+    section: Section
+    material: Material
+    axis: Axis = "y"
+    sense: int = 1
+    angle: float | None = None
+    largest: float = math.radians(30.0)
+    length_factor: float = 1.0
+    resolution: Resolution = NOMINAL
+
+    @property
+    def title(self) -> str:
+        """One line for people."""
+        if self.angle is None:
+            return f"{self.section.title}, bending about {self.axis}, sense {self.sense:+d}"
+        doing = "closed" if self.sense > 0 else "opened"
+        angle = f"{math.degrees(self.angle):.4g} deg"
+        return f"{self.section.title}, corner of {angle}, {doing} about {self.axis}"
+
+    @property
+    def origin(self) -> dict[str, str]:
+        """What the law file says of the place."""
+        own = {"section": self.section.title, "axis": self.axis}
+        if self.angle is None:
+            kink = f"kink of {math.degrees(KINK):.2g} deg in the middle"
+            return {**own, "gauge": f"{1e3 * self.gauge:.4g} mm", "imperfection": kink}
+        angle = f"{math.degrees(self.angle):.6g} deg"
+        return {**own, "corner": angle, "gauge": f"{1e3 * self.gauge:.4g} mm", "imperfection": "none"}
+
+    @property
+    def gauge(self) -> float:
+        """Distance of the planes between which the rotation is measured, along the axes [m].
+
+        Two half fold lengths of a member, two section sides of a corner.
+        """
+        if self.angle is None:
+            return 2.0 * half_fold_length(self.section, self.axis)
+        return 2.0 * largest_side(self.section)
+
+    @property
+    def piece(self) -> float:
+        """Length of each piece [m]."""
+        return 0.5 * self.gauge + self.length_factor * STUB * largest_side(self.section)
+
+    @property
+    def turn(self) -> float:
+        """End rotation [rad]."""
+        return OVERSHOOT * self.largest + ELASTIC_TURN * max(self.length_factor, 1.0)
+
+    def analysis(self) -> Analysis:
+        """Input of the shell solver."""
+        duration = self.resolution.duration(
+            self.section, self.material, self.axis, 2.0 * self.piece, self.turn
+        )
+        near, far = 0.5 * self.gauge, self.piece - 0.5 * self.gauge
+        return Analysis(
+            title=f"Sub-model: {self.title}",
+            structure=self._structure(duration),
+            duration=duration,
+            shell={"element_size": self.resolution.element_size(self.section, self.axis)},
+            outputs={
+                "every": duration / OUTPUTS,
+                "nodes": ["turned"],
+                "section_rotations": {
+                    "first": {"member": "first", "from": 0.0, "to": far},
+                    "second": {"member": "second", "from": near, "to": self.piece},
+                },
+                "pictures": [duration],
+            },
+        )
+
+    def _structure(self, duration: float) -> Structure:
+        """One end held, the other turned about the axis and free to move: one moment everywhere."""
+        kink = self.sense * KINK if self.angle is None else self.angle
+        along, across = _second_piece(kink, self.axis)
+        held = [f"r{axis}" for axis in "xyz" if axis != self.axis]
+        turning = {"x0": 0.0, "h0": 0.0, "x1": duration, "h1": self.sense * self.turn}
+        piece = {"section": "section", "material": "metal"}
+        return Structure(
+            materials={"metal": self.material},
+            sections={"section": self.section},
+            nodes={
+                "held": (-self.piece, 0.0, 0.0),
+                "middle": (0.0, 0.0, 0.0),
+                "turned": tuple(self.piece * along),
+            },
+            members={
+                "first": {"nodes": ("held", "middle"), "up": (0.0, 0.0, 1.0), **piece},
+                "second": {"nodes": ("middle", "turned"), "up": tuple(across), **piece},
+            },
+            supports={
+                "held": {"node": "held", "fix": "all"},
+                "turned": {"node": "turned", "fix": held, "motion": {f"r{self.axis}": {"havsin": turning}}},
+            },
+        )
+
+    def curve(self, result: Result) -> LawCurve:
+        """Law measured in the solved sub-model.
+
+        Raises
+        ------
+        InputError
+            If nothing folded between the planes.
+        """
+        moment = self._moment(result)
+        pieces = result["first"] + result["second"]
+        between = self.sense * (result[f"node.turned.rotation.{self.axis}"] - pieces)
+        stiffness = self.material.youngs_modulus * self.section.second_moment(self.axis)
+        own = between - moment * self.gauge / stiffness
+        flexibility = 0.0 if self.angle is None else max(_elastic_flexibility(own, moment), 0.0)
+        curve = law_curve(own - flexibility * moment, moment, self.largest)
+        if curve.rotation[-1] < 0.5 * self.largest:
+            came = f"{math.degrees(curve.rotation[-1]):.2g} deg between the planes of measurement"
+            raise InputError(Problem("the sub-model folded elsewhere", came, where=self.title))
+        return curve if flexibility == 0.0 else curve.with_stiffness(1.0 / flexibility)
+
+    def _moment(self, result: Result) -> Floats:
+        """Moment in the middle [N m]: the mean of both ends, free of inertia to first order.
+
+        The channels hold what the structure exerts on its supports.
+        """
+        held, turned = (result[f"support.{name}.moment.{self.axis}"] for name in ("held", "turned"))
+        return 0.5 * self.sense * (held - turned)
+
+
+def largest_side(section: Section) -> float:
+    """Largest extent of the outer outline [m]."""
+    return float(np.ptp(section.outer_outline(), axis=0).max())
+
+
+def _second_piece(angle: float, axis: Axis) -> tuple[Floats, Floats]:
+    """Direction of the second piece, turned by an angle about the section's axis, and of its section's z."""
+    cos, sin = math.cos(angle), math.sin(angle)
+    if axis == "y":
+        return np.array([cos, 0.0, -sin]), np.array([sin, 0.0, cos])
+    return np.array([cos, sin, 0.0]), np.array([0.0, 0.0, 1.0])
+
+
+def _elastic_flexibility(rotation: Floats, moment: Floats) -> float:
+    """Rotation over moment in the elastic rise [rad/(N m)]: slope of a straight line fitted there."""
+    peak = int(np.argmax(moment))
+    share = moment[: peak + 1] / moment[peak]
+    rise = (share > RISE[0]) & (share < RISE[1])
+    if np.count_nonzero(rise) < 2:
+        return 0.0
+    return float(np.polyfit(moment[: peak + 1][rise], rotation[: peak + 1][rise], 1)[0])

@@ -1,0 +1,62 @@
+"""From a measured curve to a law file."""
+
+from __future__ import annotations
+
+import math
+
+from crumple.characterisation.bending import Bending
+from crumple.characterisation.curve import LawCurve
+from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
+from crumple.hinge.measured.stored import StoredCurve, StoredLaw
+from crumple.version import __version__
+
+CITATION = "shell sub-model, docs/theory/characterisation.md"
+
+
+def law_of(
+    model: Bending, curve: LawCurve, opposite: LawCurve | None, facts: dict[str, str], error: float | None
+) -> StoredLaw:
+    """Law of a sub-model, ready for its file.
+
+    Parameters
+    ----------
+    model
+        What was solved.
+    curve, opposite
+        Law in the sense of the model, and in the other sense; None: the section is the same in both.
+    facts
+        What the law file says of the run, by key.
+    error
+        Relative error of the energy, estimated on other meshes; None where only one was solved.
+
+    Returns
+    -------
+    StoredLaw
+        Its positive sense is that of the hinge: positive about the axis.
+    """
+    positive, negative = (curve, opposite) if model.sense > 0 else (opposite, curve)
+    points = [_points(one if one is not None else curve) for one in (positive, negative)]
+    reach = min(float(one.rotation[-1]) for one in (curve, opposite) if one is not None)
+    material = model.material
+    origin = {
+        "method": "shell",
+        **model.origin,
+        "material": f"E {material.youngs_modulus / 1e9:g} GPa, yield {material.yield_stress / 1e6:g} MPa",
+        "made_by": f"crumple {__version__}, crumple characterise",
+        **facts,
+    }
+    basis = f"shell sub-model solved up to a plastic rotation of {math.degrees(reach):.0f} deg"
+    return StoredLaw(
+        title=model.title,
+        law="shell",
+        origin=tuple(origin.items()),
+        curve=StoredCurve(*points),
+        source=Source(CITATION, Trust.COMPUTED, "as good as shells are for this section"),
+        validity=Validity(reach, basis, (), error),
+        softening_variable=SofteningVariable.PEAK,
+        elastic_stiffness=curve.stiffness,
+    )
+
+
+def _points(curve: LawCurve) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    return tuple(curve.rotation.tolist()), tuple(curve.moment.tolist())

@@ -1,0 +1,48 @@
+"""How finely and how slowly a sub-model is solved.
+
+With mass m, length L, end rotation theta and plastic moment M_p, the kinetic energy near the middle of the
+turn goes with m L^2 (theta/T)^2 and the plastic work with M_p theta.  So with the time of the turn
+
+    T = slowness sqrt(m L^2 theta/M_p)
+
+the share of kinetic energy depends on `slowness` alone.  docs/theory/characterisation.md.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from crumple.material import Material
+from crumple.section import Axis, Section, half_fold_length
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """Fineness of the mesh and slowness of the turn.
+
+    Attributes
+    ----------
+    elements
+        Elements along half a fold.
+    slowness
+        Time of the turn over sqrt(m L^2 theta/M_p).
+    """
+
+    elements: float = 8.0
+    slowness: float = 7.0
+
+    def element_size(self, section: Section, axis: Axis) -> float:
+        """Length of the elements [m]."""
+        return half_fold_length(section, axis) / self.elements
+
+    def duration(
+        self, section: Section, material: Material, axis: Axis, length: float, rotation: float
+    ) -> float:
+        """Time in which a piece of a length [m] is turned by an end rotation [rad]: T [s]."""
+        mass = section.mass_per_length(material.density) * length
+        moment = material.yield_stress * section.plastic_section_modulus(axis)
+        return self.slowness * math.sqrt(mass * length**2 * rotation / moment)
+
+
+NOMINAL = Resolution()

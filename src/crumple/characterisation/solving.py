@@ -1,0 +1,163 @@
+"""Solve sub-models: both senses where they differ, slowly enough, on finer meshes for an error estimate."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from crumple.analysis import solve
+from crumple.characterisation.bending import Bending
+from crumple.characterisation.curve import LawCurve
+from crumple.characterisation.law import law_of
+from crumple.errors import InputError, Problem
+from crumple.hinge.measured.stored import StoredLaw
+from crumple.numeric.arrays import Floats
+from crumple.result import Result
+from crumple.section import Axis, Section
+
+MOST_KINETIC = 0.02
+"""Kinetic over internal energy after `AFTER`: above, the sub-model is solved again, more slowly."""
+AFTER = np.deg2rad(2.0)
+"""Rotation of the law from which the kinetic energy is watched [rad]."""
+ATTEMPTS = 3
+"""Times that a sub-model is slowed down before it is given up."""
+FINER = (1.25, 1.5625)
+"""Elements of the finer meshes over those of the nominal one: steps of one ratio."""
+FIRST_COMPARED = np.deg2rad(5.0)
+"""Rotation from which the energies of meshes are compared [rad]."""
+
+
+@dataclass(frozen=True)
+class Characterised:
+    """Law of a sub-model with the runs that it came from.
+
+    Attributes
+    ----------
+    law
+        Ready for its file.
+    curve
+        In the sense of the model.
+    result
+        Shell run of the nominal mesh in this sense.
+    kinetic
+        Largest kinetic over internal energy after 2 degrees [-].
+    error
+        Estimated relative error of the energy from the mesh [-]; None where one mesh was solved.
+    """
+
+    law: StoredLaw
+    curve: LawCurve
+    result: Result
+    kinetic: float
+    error: float | None
+
+
+def characterise(
+    model: Bending,
+    *,
+    converge: bool = False,
+    threads: int = 1,
+    progress: Callable[[str, float], None] | None = None,
+    cancel: Callable[[], bool] | None = None,
+) -> Characterised:
+    """Law of a sub-model from shells.
+
+    Parameters
+    ----------
+    model
+        What folds.
+    converge
+        Solve two finer meshes too, and state the error of the energy.
+    threads
+        Threads of the shell solver.
+    progress
+        Called with what is being solved and the share done, 0 to 1.
+    cancel
+        Asked now and then; True ends with an `InputError`.
+
+    Raises
+    ------
+    InputError
+        If the section cannot be meshed, the run ended early, or inertia could not be kept out.
+
+    References
+    ----------
+    docs/theory/characterisation.md.  Verified in tests/verification/characterisation.
+    """
+
+    def solved(one: Bending, what: str) -> tuple[Result, LawCurve, float, Bending]:
+        def tell(share: float) -> None:
+            if progress is not None:
+                progress(what, share)
+
+        for _ in range(ATTEMPTS):
+            result = solve(one.analysis(), "shell", threads, tell, cancel)
+            if result.status.value != "complete":
+                raise InputError(Problem(f"the sub-model ended early: {result.reason}", one.title))
+            curve = one.curve(result)
+            kinetic = kinetic_share(result, curve)
+            if kinetic <= MOST_KINETIC:
+                return result, curve, kinetic, one
+            slower = one.resolution.slowness * 1.2 * float(np.sqrt(kinetic / MOST_KINETIC))
+            one = replace(one, resolution=replace(one.resolution, slowness=slower))
+        what_failed = f"kinetic energy is {kinetic:.1%} of the internal energy"
+        raise InputError(Problem(what_failed, one.title, f"at most {MOST_KINETIC:.0%}"))
+
+    result, curve, kinetic, slow = solved(model, "nominal mesh")
+    opposite = None
+    if model.angle is not None or not is_mirrored(model.section, model.axis):
+        opposite = solved(replace(slow, sense=-model.sense), "other sense")[1]
+    error = None
+    if converge:
+        elements = slow.resolution.elements
+        finer = [
+            solved(
+                replace(slow, resolution=replace(slow.resolution, elements=ratio * elements)),
+                f"mesh {ratio:.3g} times finer",
+            )[1]
+            for ratio in FINER
+        ]
+        error = energy_error(curve, *finer)
+    facts = {
+        "mesh": f"{slow.resolution.elements:g} elements along half a fold",
+        "kinetic_energy": f"at most {kinetic:.2%} of the internal energy after 2 deg",
+        "energy_residual": f"{result.energy_residual:.2g} of the energy input",
+    }
+    return Characterised(law_of(model, curve, opposite, facts, error), curve, result, kinetic, error)
+
+
+def kinetic_share(result: Result, curve: LawCurve) -> float:
+    """Largest kinetic over internal energy once the law has taken the work of its first 2 degrees [-]."""
+    internal = result["energy.elastic"] + result["energy.dissipated"]
+    later = result["energy.dissipated"] >= curve.energy_at(float(AFTER))
+    if not later.any():
+        return 0.0
+    return float((result["energy.kinetic"][later] / internal[later]).max())
+
+
+def energy_error(nominal: LawCurve, fine: LawCurve, finest: LawCurve) -> float:
+    """Relative error of the energy on the nominal mesh, by extrapolation from two finer ones [-].
+
+    The order p follows from the three energies, E(h) = E_0 + C h^p, within 1 to 2; the error is that at the
+    rotation where it is largest.
+    """
+    end = min(curve.rotation[-1] for curve in (nominal, fine, finest))
+    at = np.linspace(min(float(FIRST_COMPARED), 0.5 * end), end, 50)
+    one, two, three = (np.interp(at, curve.rotation, curve.energy) for curve in (nominal, fine, finest))
+    first, second = np.abs(one - two), np.maximum(np.abs(two - three), 1e-12 * np.abs(three))
+    ratio = FINER[0]
+    order = np.clip(np.log(np.maximum(first, 1e-300) / second) / np.log(ratio), 1.0, 2.0)
+    limit = three + (three - two) / (ratio**order - 1.0)
+    return float(np.abs((one - limit) / limit).max())
+
+
+def is_mirrored(section: Section, axis: Axis) -> bool:
+    """Whether a section is its own mirror image about an axis of bending: both senses have one law then."""
+    points = section.outline()
+    across = 1 if axis == "y" else 0
+    image: Floats = points.copy()
+    image[:, across] *= -1.0
+    apart = np.linalg.norm(points[:, None] - image[None, :], axis=2).min(axis=0)
+    return bool(apart.max() < 1e-6 * np.ptp(points, axis=0).max())

@@ -1,0 +1,170 @@
+"""`crumple characterise SECTION --material ...`: the law of a member or a corner from a shell sub-model."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from crumple.cli.console.named import MATERIAL_HELP, SECTION_HELP
+
+if TYPE_CHECKING:
+    from crumple.characterisation import Bending, Characterised, LawCurve
+
+ROTATIONS = (0, 1, 2, 5, 10, 15, 20, 25, 30, 40, 50, 60)
+"""Rotations of the table [deg]."""
+SMALLEST, LARGEST = 0.0873, 1.0473
+"""Plastic rotation up to which a law can be had: 5 to 60 degrees [rad], with room for rounding."""
+STEEPEST = 2.3563
+"""Largest angle of a corner: 135 degrees [rad], with room for rounding."""
+
+
+def characterise(
+    section: Annotated[str, typer.Argument(help=SECTION_HELP, show_default=False)],
+    *,
+    material: Annotated[str, typer.Option(help=MATERIAL_HELP, show_default=False)],
+    axis: Annotated[
+        str, typer.Option(help="Bending axis y or z, along the moment vector; y compresses the width.")
+    ] = "y",
+    sense: Annotated[str, typer.Option(help="Sense of the printed curve: + or -; + closes a corner.")] = "+",
+    angle: Annotated[
+        str | None,
+        typer.Option(
+            help="A mitred corner in place of a straight member: angle between the axes of its two members, "
+            "'90 deg' for a right-angled one. The axis is then normal to its plane.",
+            show_default=False,
+        ),
+    ] = None,
+    to: Annotated[str, typer.Option(help="Plastic rotation at which the law ends.")] = "30 deg",
+    converge: Annotated[
+        bool, typer.Option(help="Solve two finer meshes too and state the error; some six times the work.")
+    ] = False,
+    store: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder of the law files.")] = Path("laws"),
+    threads: Annotated[
+        int | None, typer.Option(help="Threads; by default all cores.", min=1, show_default=False)
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON in place of the table.")] = False,
+) -> None:
+    """Solve a shell sub-model of a section, and keep the hinge law that it gives as a law file."""
+    from crumple.characterisation import LawStore
+
+    model = _model(section, material, axis, sense, angle, to)
+    laws = LawStore(store)
+    law = laws.law(model)
+    if law is None or (converge and law.validity.uncertainty is None):
+        done = _solved(model, converge, threads)
+        law = done.law
+        path = laws.keep(model, law)
+        _picture(done, path)
+    if as_json:
+        _print_json(model, law, laws.path(model))
+    else:
+        _show(model, law, laws.path(model))
+
+
+def _model(section: str, material: str, axis: str, sense: str, angle: str | None, to: str) -> Bending:
+    from crumple.characterisation import Bending
+    from crumple.cli.console.named import material_of, section_of
+    from crumple.errors import InputError, Problem
+    from crumple.section.section import checked_axis
+    from crumple.units import parse_quantity
+
+    senses = {"+": 1, "-": -1}
+    if sense not in senses:
+        raise InputError(Problem("the sense is unknown", sense, "+ or -", "choose one", "--sense"))
+    largest = parse_quantity(to, "rad")
+    if not SMALLEST <= largest <= LARGEST:
+        raise InputError(Problem("the rotation is out of range", to, "5 deg to 60 deg", "", "--to"))
+    shape, (metal, _) = section_of(section), material_of(material)
+    which = checked_axis(axis)
+    corner = None if angle is None else parse_quantity(angle, "rad")
+    if corner is not None and not 0.0 < corner <= STEEPEST:
+        allowed, todo = "above 0 deg, at most 135 deg", "0 would be a straight member: leave --angle out"
+        raise InputError(
+            Problem("the angle of the corner is out of range", angle or "", allowed, todo, "--angle")
+        )
+    return Bending(shape, metal, which, senses[sense], corner, largest)
+
+
+def _solved(model: Bending, converge: bool, threads: int | None) -> Characterised:
+    from crumple.characterisation import characterise as characterised
+    from crumple.cli.console.progress import progress_bar
+    from crumple.portable import available_cores, stop_on_interrupt
+
+    with stop_on_interrupt() as cancel, progress_bar(model.title) as bar:
+
+        def progress(what: str, share: float) -> None:
+            bar.describe(f"{model.title}: {what}")
+            bar(share)
+
+        cores = threads or available_cores()
+        return characterised(model, converge=converge, threads=cores, progress=progress, cancel=cancel)
+
+
+def _picture(done: Characterised, path: Path) -> None:
+    """Draw the folded sub-model beside its law file."""
+    from crumple.report.figures.shape import deformation
+
+    drawing = deformation(done.result)
+    if drawing is not None:
+        path.with_suffix(".svg").write_text(drawing, encoding="utf-8")
+
+
+def _curve(model: Bending, law: Any) -> LawCurve:
+    """Curve of a law in the sense of the model."""
+    import numpy as np
+
+    from crumple.characterisation import LawCurve
+
+    rotation, moment = (np.array(one) for one in law.points(model.sense))
+    work = np.concatenate([[0.0], np.cumsum(0.5 * (moment[1:] + moment[:-1]) * np.diff(rotation))])
+    return LawCurve(rotation, moment, work, law.elastic_stiffness)
+
+
+def _print_json(model: Bending, law: Any, path: Path) -> None:
+    import json
+
+    curve = _curve(model, law)
+    content = {
+        "title": law.title,
+        "law_file": str(path),
+        "origin": dict(law.origin),
+        "error": law.validity.uncertainty,
+        "elastic_stiffness": law.elastic_stiffness,
+        "curve": {
+            "rotation": curve.rotation.tolist(),
+            "moment": curve.moment.tolist(),
+            "energy": curve.energy.tolist(),
+        },
+        "units": {"rotation": "rad, plastic", "moment": "N*m", "energy": "J", "elastic_stiffness": "N*m/rad"},
+    }
+    typer.echo(json.dumps(content, indent=2, allow_nan=False))
+
+
+def _show(model: Bending, law: Any, path: Path) -> None:
+    import numpy as np
+    from rich.console import Console
+    from rich.table import Table
+
+    curve = _curve(model, law)
+    console = Console(highlight=False)
+    console.print(law.title, style="bold", markup=False)
+    table = Table()
+    for heading in ("Plastic rotation, deg", "Moment, N*m", "Energy, J"):
+        table.add_column(heading, justify="right")
+    for degrees in ROTATIONS:
+        at = float(np.deg2rad(degrees))
+        if at <= curve.rotation[-1] * (1.0 + 1e-9):
+            table.add_row(f"{degrees:g}", f"{curve.moment_at(at):.4g}", f"{curve.energy_at(at):.4g}")
+    console.print(table)
+    for key, text in law.origin:
+        console.print(f"{key}: {text}", style="dim", markup=False)
+    error = law.validity.uncertainty
+    said = "not estimated (--converge)" if error is None else f"{error:.1%} of the energy"
+    console.print(f"Error from the mesh: {said}", markup=False)
+    console.print(
+        f"Law file: {path}   use it with `law: {{type: file, file: {path.name}}}`",
+        soft_wrap=True,
+        markup=False,
+    )

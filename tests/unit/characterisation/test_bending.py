@@ -1,0 +1,78 @@
+"""Sub-models of members and corners: geometry, mirror images, kept laws."""
+
+import math
+
+import numpy as np
+import pytest
+
+from crumple.characterisation import Bending, LawCurve, LawStore
+from crumple.characterisation.law import law_of
+from crumple.characterisation.solving import energy_error, is_mirrored
+from crumple.hinge.measured.law_file import read_law, write_law
+from crumple.material import Material
+from crumple.section import half_fold_length
+from crumple.section.shapes.hat import Hat
+from crumple.section.shapes.rectangular_tube import RectangularTube
+
+STEEL = Material("steel", 210e9, 0.3, 7850.0, 488e6)
+TUBE = RectangularTube(width=0.050, depth=0.025, thickness=0.00265)
+
+
+def test_member_is_almost_straight_and_its_gauge_two_half_folds():
+    model = Bending(TUBE, STEEL)
+    nodes = {name: np.array(at) for name, at in model.analysis().structure.nodes.items()}
+    first, second = nodes["middle"] - nodes["held"], nodes["turned"] - nodes["middle"]
+    angle = math.acos(first @ second / np.linalg.norm(first) / np.linalg.norm(second))
+    assert math.degrees(angle) == pytest.approx(0.2, rel=1e-6)
+    assert model.gauge == pytest.approx(2.0 * half_fold_length(TUBE))
+    assert np.linalg.norm(first) == pytest.approx(model.gauge / 2.0 + 1.75 * 0.050)
+
+
+@pytest.mark.parametrize("axis", ["y", "z"])
+@pytest.mark.parametrize("sense", [1, -1])
+def test_positive_rotation_about_the_axis_closes_a_corner(axis, sense):
+    model = Bending(TUBE, STEEL, axis, sense, math.radians(60.0))
+    structure = model.analysis().structure
+    arm = np.subtract(structure.nodes["turned"], structure.nodes["middle"])
+    turned = getattr(structure.supports["turned"].motion, f"r{axis}")
+    assert turned is not None
+    spin = {"y": [0.0, 1.0, 0.0], "z": [0.0, 0.0, 1.0]}[axis]
+    # a turn in the sense moves the far end so that the angle to the first piece grows, or shrinks
+    moved = arm + 1e-3 * sense * np.cross(spin, arm)
+    before, after = (math.acos(v[0] / np.linalg.norm(v)) for v in (arm, moved))
+    assert math.degrees(before) == pytest.approx(60.0)
+    assert (after > before) == (sense > 0)
+
+
+def test_a_tube_is_its_mirror_image_and_a_hat_only_about_z():
+    hat = Hat(width=0.060, depth=0.050, thickness=0.0015, flange=0.020)
+    assert is_mirrored(TUBE, "y")
+    assert is_mirrored(TUBE, "z")
+    assert is_mirrored(hat, "z")
+    assert not is_mirrored(hat, "y")
+
+
+def test_error_is_that_of_the_extrapolated_energy():
+    rotation = np.linspace(0.0, 0.5, 60)
+
+    def curve(size: float) -> LawCurve:
+        energy = 100.0 * rotation * (1.0 + 0.04 * size**1.5)
+        return LawCurve(rotation, np.full(60, 100.0), energy)
+
+    assert energy_error(curve(1.0), curve(1.0 / 1.25), curve(1.0 / 1.5625)) == pytest.approx(0.04, rel=1e-3)
+
+
+def test_a_kept_law_is_found_again_and_another_model_is_not(tmp_path):
+    store, model = LawStore(tmp_path / "laws"), Bending(TUBE, STEEL, sense=-1)
+    assert store.law(model) is None
+    ours = LawCurve(np.array([0.0, 0.2]), np.array([900.0, 500.0]), np.array([0.0, 140.0]))
+    other = LawCurve(np.array([0.0, 0.3]), np.array([800.0, 400.0]), np.array([0.0, 180.0]))
+    law = law_of(model, ours, other, {"mesh": "none"}, 0.02)
+    path = store.keep(model, law)
+    assert store.law(model) == law
+    assert read_law(write_law(law), path.name) == law
+    assert law.points(-1) == ((0.0, 0.2), (900.0, 500.0))
+    assert law.points(1) == ((0.0, 0.3), (800.0, 400.0))
+    assert law.validity.rotation_max == pytest.approx(0.2)
+    assert store.law(Bending(TUBE, STEEL, sense=-1, angle=1.0)) is None
+    assert [file.name for file in (tmp_path / "laws").iterdir()] == [path.name]

@@ -1,0 +1,58 @@
+"""`crumple characterise` prints and keeps the law of a sub-model; what is kept is not solved again."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+from crumple.characterisation import solving
+from crumple.cli.main import app
+from crumple.errors import InputError
+from crumple.hinge import read_law
+
+TUBE = ["characterise", "rectangular_tube 50x25x2.65 mm", "--material", "yield 488 MPa, E 210 GPa"]
+
+
+def invoke(*arguments):
+    return CliRunner().invoke(app, [*TUBE, *arguments], catch_exceptions=False)
+
+
+def test_law_is_solved_once_and_kept(tmp_path, monkeypatch):
+    # a coarse and fast sub-model: what is tested is the way of the law, not its figures
+    monkeypatch.setattr("crumple.characterisation.resolution.Resolution.element_size", lambda *_: 0.012)
+    folder = tmp_path / "kept"
+    first = invoke("--store", str(folder), "--to", "10 deg", "--json", "--threads", "1")
+    assert first.exit_code == 0, first.output
+    content = json.loads(first.output)
+    curve = content["curve"]
+    assert curve["rotation"][0] == 0.0
+    assert curve["rotation"][-1] == pytest.approx(0.1745, rel=0.05)
+    assert len(curve["rotation"]) == len(curve["moment"]) == len(curve["energy"])
+    (file,) = folder.glob("*.law.yaml")
+    law = read_law(file.read_text(encoding="utf-8"), file.name)
+    assert law.points(1) == (tuple(curve["rotation"]), tuple(curve["moment"]))
+    assert dict(law.origin)["method"] == "shell"
+    (picture,) = folder.glob("*.svg")
+    assert "<svg" in picture.read_text(encoding="utf-8")
+
+    monkeypatch.setattr(solving, "solve", lambda *_: pytest.fail("solved again"))
+    again = invoke("--store", str(folder), "--to", "10 deg")
+    assert again.exit_code == 0
+    assert "Plastic rotation" in again.output
+    assert file.name in again.output.replace("\n", "")
+
+
+@pytest.mark.parametrize(
+    ("options", "what"),
+    [
+        (["--angle", "180 deg"], "angle of the corner is out of range"),
+        (["--angle", "0 deg"], "angle of the corner is out of range"),
+        (["--to", "2 deg"], "rotation is out of range"),
+        (["--sense", "up"], "sense is unknown"),
+        (["--axis", "x"], "axis"),
+    ],
+)
+def test_what_cannot_be_is_refused(options, what, tmp_path):
+    with pytest.raises(InputError, match=what):
+        invoke("--store", str(tmp_path / "kept"), *options)
+    assert not (tmp_path / "kept").exists()
