@@ -96,6 +96,7 @@ def changes() -> Numbered:
         edits(["splice", "add"], values=number),
         edits(["set"], values=anything()),
         edits(["drop"], values=st.none()),
+        edits(["copy"], values=number),
         edits(["rename"], values=st.one_of(st.sampled_from(KEYS), st.sampled_from(TEXTS))),
         edits(["repeat", "nest"], values=st.sampled_from([1, 1, 2, 3, 20, 400])),
     )
@@ -109,6 +110,8 @@ def bases() -> tuple[dict[str, Any], ...]:
     texts += re.findall(
         r"```yaml\n(crumple: 1.*?)```", (ROOT / "docs" / "input.md").read_text(encoding="utf-8"), re.S
     )
+    # those of this folder twice: they use more keys than the examples
+    texts += [path.read_text(encoding="utf-8") for path in sorted(folders[-1].glob("*.yaml"))]
     found = [read_text(text).data for text in texts if ".csv" not in text]
     for data in found:
         if "duration" in data.get("analysis", {}):

@@ -109,7 +109,12 @@ def _apply(holder: Any, key: Any, what: str, value: Any, pool: Pool) -> None:
         name = pool.missing(now, value)
         now[name] = pool.value(name, value // 7)
     elif what == "scale":
-        holder[key] = scaled(now, value)
+        holder[key] = (
+            type(now)(scaled(part, value) for part in now) if isinstance(now, list) else scaled(now, value)
+        )
+    elif what == "copy":
+        others = list(holder.values()) if isinstance(holder, dict) else holder
+        holder[key] = listed(others[value % len(others)])
     elif what == "array" and isinstance(now, np.ndarray):
         holder[key] = reshaped(now, value)
     elif what == "set":
