@@ -18,7 +18,8 @@ ROOT = Path(__file__).parents[2]
 PIECES = [
     "crumple: 1", "{", "}", "[", "]", ": ", "- ", "? ", "\n", "\n  ", "# ", "|\n", "> ", "'", '"', "&a ",
     "*a ", "!t ", "%", "---", "...", "<<", "~", ".nan", "1e400", "50 mm", "0", "-1", "true", "é", "\t", "\r",
-    "\u2028", "@", "`", "\0", "²", "\ufeff", "a: !<tag:yaml.org,2002:binary> x",
+    "\u2028", "@", "`", "\0", "²", "\ufeff", "[" * 500, "{a: " * 500, "- " * 500,
+    "a: !<tag:yaml.org,2002:binary> x",
 ]  # fmt: skip
 SCALARS = st.one_of(
     st.sampled_from(
