@@ -207,7 +207,8 @@ def _assert_of_one_run(folder: Path) -> None:
 
 
 def _assert_next_run_succeeds(commands: Commands, verb: Verb, place: Path) -> None:
-    assert commands.run(_asked(verb, place)) == (0, "")
+    code, errors = commands.run(_asked(verb, place))
+    assert code == 0, errors
     out = place / "out"
     _assert_whole(out)
     folders = [out / name for name in verb.within] or [out]
@@ -242,7 +243,7 @@ def test_a_kill_leaves_whole_files_and_the_next_run_succeeds(
             killed += 1
         else:
             # it came to its end before: look for moments within what it took
-            assert (code, errors) == (0, "")
+            assert code == 0, errors
             whole = min(whole, time.monotonic() - begun)
         if killed == kills or killed % 10 == 9:
             with results_folder(out, tmp_path, verb.within):

@@ -17,6 +17,7 @@ from crumple._core.planar.simulation import (
     TreeModel,
     TreeWeld,
 )
+from crumple.cancelling import go_on
 from crumple.errors import InputError, Problem
 from crumple.hinge import HingeRecord
 from crumple.multibody.bodies.actions import applied_loads, driven_freedoms
@@ -79,6 +80,7 @@ def planar_initial_motion(structure: Structure, mechanism: Mechanism) -> Initial
     momentum, impulse = np.zeros((n, 3)), np.zeros((n, 3))
     energy = 0.0
     for part, body, fields in moving_parts(structure, mechanism, structure.initial_velocity):
+        go_on()
         if part.mass == 0.0:
             continue
         velocity, rate = motion_of(fields, part.centre)
@@ -114,11 +116,11 @@ def planar_initial_motion(structure: Structure, mechanism: Mechanism) -> Initial
 
 def _in_plane(mechanism: Mechanism, body: int, vector: Floats, where: str) -> None:
     """Refuse motion across the plane of a part that floats; a held one carries it in its hinges."""
+    if abs(vector @ mechanism.plane.normal) <= ACROSS * float(np.linalg.norm(vector)):
+        return
     while mechanism.links[body].parent != GROUND:
         body = mechanism.links[body].parent
-    if not mechanism.links[body].free:
-        return
-    if abs(vector @ mechanism.plane.normal) > ACROSS * float(np.linalg.norm(vector)):
+    if mechanism.links[body].free:
         normal = ", ".join(f"{value:.3g}" for value in mechanism.plane.normal)
         what = "a floating part moves out of the plane; the multibody engine solves planar motion only"
         todo = "remove the part normal to the plane, or change the hinges' axes"
