@@ -11,7 +11,7 @@ from crumple.analysis import solve
 from crumple.characterisation.bending import Bending
 from crumple.characterisation.curve import LawCurve
 from crumple.characterisation.law import law_of
-from crumple.errors import InputError, Problem
+from crumple.errors import InputError, Problem, Status
 from crumple.hinge.measured.stored import StoredLaw
 from crumple.numeric.arrays import Floats
 from crumple.result import Result
@@ -75,12 +75,14 @@ def characterise(
     progress
         Called with what is being solved and the share done, 0 to 1.
     cancel
-        Asked now and then; True ends with an `InputError`.
+        Asked now and then; True ends with `KeyboardInterrupt`.
 
     Raises
     ------
     InputError
         If the section cannot be meshed, the run ended early, or inertia could not be kept out.
+    KeyboardInterrupt
+        If `cancel` said so.
 
     References
     ----------
@@ -94,7 +96,9 @@ def characterise(
 
         for _ in range(ATTEMPTS):
             result = solve(one.analysis(), "shell", threads, tell, cancel)
-            if result.status.value != "complete":
+            if result.status is Status.CANCELLED:
+                raise KeyboardInterrupt
+            if not result.status.ok:
                 raise InputError(Problem(f"the sub-model ended early: {result.reason}", one.title))
             curve = one.curve(result)
             kinetic = kinetic_share(result, curve)

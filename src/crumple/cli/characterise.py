@@ -95,11 +95,15 @@ def _solved(model: Bending, converge: bool, threads: int | None) -> Characterise
     with stop_on_interrupt() as cancel, progress_bar(model.title) as bar:
 
         def progress(what: str, share: float) -> None:
-            bar.describe(f"{model.title}: {what}")
+            bar.describe(f"{model.title}: {what}, {share:.0%}")
             bar(share)
 
         cores = threads or available_cores()
-        return characterised(model, converge=converge, threads=cores, progress=progress, cancel=cancel)
+        try:
+            return characterised(model, converge=converge, threads=cores, progress=progress, cancel=cancel)
+        except KeyboardInterrupt:
+            typer.echo("Stopped; no law was stored.", err=True)
+            raise typer.Exit(130) from None
 
 
 def _picture(done: Characterised, path: Path) -> None:

@@ -5,8 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from crumple.characterisation import Bending, LawCurve, LawStore
+from crumple.characterisation import Bending, LawCurve, LawStore, characterise
 from crumple.characterisation.law import law_of
+from crumple.characterisation.resolution import Resolution
 from crumple.characterisation.solving import energy_error, is_mirrored
 from crumple.hinge.measured.law_file import read_law, write_law
 from crumple.material import Material
@@ -76,3 +77,8 @@ def test_a_kept_law_is_found_again_and_another_model_is_not(tmp_path):
     assert law.validity.rotation_max == pytest.approx(0.2)
     assert store.law(Bending(TUBE, STEEL, sense=-1, angle=1.0)) is None
     assert [file.name for file in (tmp_path / "laws").iterdir()] == [path.name]
+
+
+def test_a_cancelled_sub_model_gives_no_law():
+    with pytest.raises(KeyboardInterrupt):
+        characterise(Bending(TUBE, STEEL, resolution=Resolution(2.0, 7.0)), cancel=lambda: True)
