@@ -12,7 +12,7 @@ import crumple
 
 FEW, SMALL, LIMIT = 10, 4, 30.0
 """Frames of the short run, most members in one of them, and processor time of each [s]."""
-MANY, MEASURED, MOST_STEPS = 100, 96, 200_000
+MANY, LEAST, MOST_STEPS = 100, 96, 200_000
 """Frames of the slow run, how many of them at least are solved, and most steps of one."""
 
 
@@ -44,10 +44,10 @@ def test_small_frames_are_solved():
 
 @pytest.mark.slow
 def test_a_hundred_frames(tmp_path):
-    """The share that was measured; the aim is 99 %.  What is not solved says why, and its work is bounded."""
+    """At least 96 %, where the aim is 99 %.  What is not solved says why, and its work is bounded."""
     rows = campaign(frame, SEEDS["campaign"], range(MANY), tmp_path / "rows.jsonl", 120.0)
     missed = [row for row in rows if not solved(row)]
     assert all(told(row) for row in missed), table(rows)
-    assert len(rows) - len(missed) >= MEASURED, table(rows)
+    assert len(rows) - len(missed) >= LEAST, table(rows)
     steps = np.array([row.get("steps", 0) for row in rows])
     assert steps.max() < MOST_STEPS, table(rows)
