@@ -70,5 +70,5 @@ def test_steps_end_at_breaks(kernel):
 
 @pytest.mark.parametrize("kernel", KERNELS)
 def test_breaks_out_of_order_are_refused(kernel):
-    with pytest.raises(ValueError, match="breaks must increase"):
+    with pytest.raises(ValueError, match="breaks are finite and increase"):
         wheel(kernel, breaks=(0.5, 0.2))
