@@ -27,8 +27,8 @@ TUBE := $(if $(filter strong,$(AXIS)),out/tube_upright.yaml,examples/01_tube_ben
 # exact versions for every environment but those of `make verify` that test users' ranges; older versions of pip
 # apply PIP_CONSTRAINT to isolated builds too, newer ones (25.3) read a variable of its own
 CONSTRAINTS ?= tools/constraints.txt
-export PIP_CONSTRAINT := $(CONSTRAINTS)
-export PIP_BUILD_CONSTRAINT := $(CONSTRAINTS)
+export PIP_CONSTRAINT := $(abspath $(CONSTRAINTS))
+export PIP_BUILD_CONSTRAINT := $(abspath $(CONSTRAINTS))
 RANGES := build/ranges
 SANITIZED := build/sanitized
 SANITIZERS_address := address,undefined,float-cast-overflow
