@@ -1,6 +1,9 @@
 // The compiled kernels behind crumple._core: one registration function per engine.
 #include <nanobind/nanobind.h>
 
+#include "common/binding.hpp"
+#include "common/records.hpp"
+
 namespace nb = nanobind;
 
 namespace crumple::planar {
@@ -23,6 +26,12 @@ void bind_batch(nb::module_& m);
 
 NB_MODULE(_kernels, m) {
     m.doc() = "Compiled kernels of Crumple; use them through crumple.multibody and crumple.shell.";
+    nb::dict columns;
+    columns["energy"] = crumple::column_names<crumple::EnergyRecord<double>>();
+    columns["hinge"] = crumple::column_names<crumple::ComponentRecord<double>>();
+    columns["hinge_energy"] = crumple::column_names<crumple::HingeEnergyRecord<double>>();
+    columns["summary"] = crumple::column_names<crumple::HingeSummary<double>>();
+    m.attr("record_columns") = columns;
     auto planar = m.def_submodule("planar", "Implicit convex stepper for trees of rigid bodies with plastic hinges.");
     crumple::planar::bind(planar);
     auto spatial = m.def_submodule("spatial", "Implicit convex stepper for rigid bodies in space with plastic hinges.");

@@ -26,10 +26,10 @@ using InNumbers = InOf<std::int64_t, nanobind::ndim<1>>;
 template <class T> using ArrayOf = nanobind::ndarray<nanobind::numpy, T>;
 using Array = ArrayOf<double>;
 
-template <class T = double> ArrayOf<T> to_array(std::vector<T> values, std::initializer_list<std::size_t> shape) {
+template <class T = double> ArrayOf<T> to_array(std::vector<T> values, const std::vector<std::size_t>& shape) {
     auto* kept = new std::vector<T>(std::move(values));
     nanobind::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
-    return ArrayOf<T>(kept->data(), shape, owner);
+    return ArrayOf<T>(kept->data(), shape.size(), shape.data(), owner);
 }
 
 template <class A> auto to_vector(const A& a) {
@@ -37,11 +37,23 @@ template <class A> auto to_vector(const A& a) {
     return std::vector<T>(a.data(), a.data() + a.size());
 }
 
-// columns of a record by their names, all of one shape
-template <class R> nanobind::dict to_dict(const R& record, std::initializer_list<std::size_t> shape) {
-    nanobind::dict d;
-    R::each([&](const char* name, auto column) { d[name] = to_array(record.*column, shape); });
-    return d;
+// All columns of a record, each of this shape, as one array: (columns, *shape), in the order of `column_names`.  An array for each
+// column would cost more than a short run.
+template <class R> Array columns(const R& record, std::initializer_list<std::size_t> shape) {
+    std::vector<std::size_t> whole{0};
+    whole.insert(whole.end(), shape);
+    std::vector<double> values;
+    R::each([&](const char*, auto column) {
+        whole[0]++;
+        values.insert(values.end(), (record.*column).begin(), (record.*column).end());
+    });
+    return to_array(std::move(values), whole);
+}
+
+template <class R> nanobind::list column_names() {
+    nanobind::list names;
+    R::each([&](const char* name, auto) { names.append(name); });
+    return names;
 }
 
 inline void require(bool ok, const char* what) {

@@ -23,9 +23,9 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
     d["w"] = to_array(r.w, {n, dofs});
     d["pose"] = to_array(r.pose, {n, bodies, 3});
     d["velocity"] = to_array(r.velocity, {n, bodies, 3});
-    d["hinge"] = crumple::to_dict(r.hinge, {n, hinges});
-    d["hinge_energy"] = crumple::to_dict(r.hinge_energy, {n, hinges});
-    d["energy"] = crumple::to_dict(r.energy, {n});
+    d["hinge"] = columns(r.hinge, {n, hinges});
+    d["hinge_energy"] = columns(r.hinge_energy, {n, hinges});
+    d["energy"] = columns(r.energy, {n});
     d["drive"] = to_array(r.drive, {n, sim.model().drives.size()});
     d["outcome"] = static_cast<int>(r.outcome);
     d["reason"] = r.reason;
@@ -89,7 +89,7 @@ void bind(nb::module_& m) {
         .def("run", alone(&run), nb::arg("times"), nb::arg("poll") = nb::none())
         .def("step", alone(&step), nb::arg("h"), "One fixed step of length h [s]; False when it did not converge.")
         .def("effective_inertia", alone(&effective_inertia), nb::arg("dof"))
-        .def("summary", alone(+[](const Simulation& s) { return crumple::to_dict(hinge_summary(s), {s.state().hinge.size()}); }))
+        .def("summary", alone(+[](const Simulation& s) { return columns(hinge_summary(s), {s.state().hinge.size()}); }))
         .def_prop_ro("time", alone(+[](const Simulation& s) { return s.state().t; }))
         .def_prop_ro("q", alone(+[](const Simulation& s) { return s.state().q; }))
         .def_prop_ro("w", alone(+[](const Simulation& s) { return s.state().w; }));

@@ -33,10 +33,10 @@ nb::dict to_dict(const EndValues& f, const Model& model, size_t n) {
     d["w"] = to_array(f.w, {n, dofs});
     d["pose"] = to_array(f.pose, {n, bodies, 3});
     d["velocity"] = to_array(f.velocity, {n, bodies, 3});
-    d["hinge"] = crumple::to_dict(f.hinge, {n, hinges});
-    d["hinge_energy"] = crumple::to_dict(f.hinge_energy, {n, hinges});
-    d["summary"] = crumple::to_dict(f.summary, {n, hinges});
-    d["energy"] = crumple::to_dict(f.energy, {n});
+    d["hinge"] = columns(f.hinge, {n, hinges});
+    d["hinge_energy"] = columns(f.hinge_energy, {n, hinges});
+    d["summary"] = columns(f.summary, {n, hinges});
+    d["energy"] = columns(f.energy, {n});
     d["residual"] = to_array(f.residual, {n});
     d["lost"] = to_array(f.lost, {n});
     d["outcome"] = to_array(f.outcome, {n});

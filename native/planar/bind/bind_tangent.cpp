@@ -26,20 +26,29 @@ std::vector<Twist> twists(const In& values, const In& slopes, int bodies, size_t
 }
 
 // values in the first row, derivatives in those that follow
-Array rows(const std::vector<Real>& values, size_t count) {
-    Doubles out;
+void append_rows(Doubles& out, const std::vector<Real>& values, size_t count) {
     for (const Real& x : values) out.push_back(x.v);
     for (size_t k = 0; k < count; k++) {
         for (const Real& x : values) out.push_back(x.d[k]);
     }
+}
+
+Array rows(const std::vector<Real>& values, size_t count) {
+    Doubles out;
+    append_rows(out, values, count);
     return to_array(out, {count + 1, values.size()});
 }
 
-// the same of every column of a record
-template <class R> nb::dict rows_of(const R& record, size_t count) {
-    nb::dict d;
-    R::each([&](const char* name, auto column) { d[name] = rows(record.*column, count); });
-    return d;
+// the same of every column of a record, (columns, count + 1, values)
+template <class R> Array rows_of(const R& record, size_t count) {
+    Doubles out;
+    size_t number = 0, size = 0;
+    R::each([&](const char*, auto column) {
+        append_rows(out, record.*column, count);
+        size = (record.*column).size();
+        number++;
+    });
+    return to_array(out, {number, count + 1, size});
 }
 
 nb::dict solve(Model& given, const std::vector<Model*>& up, const std::vector<Model*>& down, const Doubles& width,

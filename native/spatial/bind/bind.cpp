@@ -268,12 +268,12 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
     d["acceleration"] = to_array(r.acceleration, {n, bodies, 6});
     d["travel"] = to_array(r.travel, {n, bodies, 6});
     d["step"] = to_array(r.step, {n});
-    d["hinge"] = crumple::to_dict(r.hinge, {n, c});
-    d["hinge_energy"] = crumple::to_dict(r.hinge_energy, {n, m.hinges.size()});
+    d["hinge"] = columns(r.hinge, {n, c});
+    d["hinge_energy"] = columns(r.hinge_energy, {n, m.hinges.size()});
     d["joint_force"] = to_array(r.joint_force, {n, m.joints.size(), 6});
     d["obstacle_force"] = to_array(r.obstacle_force, {n, m.contact.obstacles.size(), 3});
-    d["energy"] = crumple::to_dict(r.energy, {n});
-    d["summary"] = crumple::to_dict(sim.summary(), {m.hinges.size()});
+    d["energy"] = columns(r.energy, {n});
+    d["summary"] = columns(sim.summary(), {m.hinges.size()});
     d["peaks"] = to_array(sim.peaks(), {c, 2});
     d["outcome"] = static_cast<int>(r.outcome);
     d["reason"] = r.reason;

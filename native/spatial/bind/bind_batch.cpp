@@ -32,10 +32,10 @@ nb::dict to_dict(const EndValues& f, const Case& of, size_t n) {
     d["centre"] = to_array(f.centre, {n, bodies, 3});
     d["rotation"] = to_array(f.rotation, {n, bodies, 4});
     d["velocity"] = to_array(f.velocity, {n, bodies, 6});
-    d["hinge"] = crumple::to_dict(f.hinge, {n, components});
-    d["hinge_energy"] = crumple::to_dict(f.hinge_energy, {n, hinges});
-    d["summary"] = crumple::to_dict(f.summary, {n, hinges});
-    d["energy"] = crumple::to_dict(f.energy, {n});
+    d["hinge"] = columns(f.hinge, {n, components});
+    d["hinge_energy"] = columns(f.hinge_energy, {n, hinges});
+    d["summary"] = columns(f.summary, {n, hinges});
+    d["energy"] = columns(f.energy, {n});
     d["residual"] = to_array(f.residual, {n});
     d["lost"] = to_array(f.lost, {n});
     d["outcome"] = to_array(f.outcome, {n});

@@ -15,6 +15,25 @@ constexpr double fresh = 0.1;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
+// Eight sums, so that the processor need not wait for one.
+double product(const double* a, const double* b, size_t n) {
+    double part[8] = {};
+    size_t k = 0;
+    for (; k + 8 <= n; k += 8) {
+        for (size_t i = 0; i < 8; i++) part[i] += a[k + i] * b[k + i];
+    }
+    for (; k < n; k++) part[k % 8] += a[k] * b[k];
+    return ((part[0] + part[4]) + (part[1] + part[5])) + ((part[2] + part[6]) + (part[3] + part[7]));
+}
+
+// Takes out of a row its part along a direction of length 1; that part.
+double project(double* row, const double* along, size_t n) {
+    const double part = product(row, along, n);
+    if (part == 0) return 0;
+    for (size_t k = 0; k < n; k++) row[k] -= part * along[k];
+    return part;
+}
+
 }  // namespace
 
 Loops::Loops(const Model& model) : model_(model), branch_(model.bodies.size()) {
@@ -121,28 +140,24 @@ void Loops::equation(size_t j, const JointGeometry& g, int r, double* out) const
     }
 }
 
-// Gram and Schmidt, twice each, the largest remaining row first.
+// Gram and Schmidt, the largest remaining row first; a row that a projection halves is projected once more.
 void Loops::choose(size_t rows) {
     const auto row = [&](size_t i) { return &matrix_[i * columns_]; };
-    const auto product = [&](const double* a, const double* b) {
-        double sum = 0;
-        for (size_t k = 0; k < columns_; k++) sum += a[k] * b[k];
-        return sum;
-    };
     std::vector<size_t> left(rows);
-    for (size_t i = 0; i < rows; i++) left[i] = i;
+    // squared lengths, and those of them that were last summed rather than reduced
+    std::vector<double> length(rows), summed(rows);
+    for (size_t i = 0; i < rows; i++) {
+        left[i] = i;
+        length[i] = summed[i] = product(row(i), row(i), columns_);
+    }
     for (const size_t place : place_) redundant_[place] = 1;
     while (!left.empty()) {
+        // the first of equals, though rounding sets them apart
         size_t best = 0;
-        double largest = -1;
-        for (size_t i = 0; i < left.size(); i++) {
-            const double length = product(row(left[i]), row(left[i]));
-            // the first of equals, though rounding sets them apart
-            if (length > largest * (1 + dependent)) {
-                best = i;
-                largest = length;
-            }
+        for (size_t i = 1; i < left.size(); i++) {
+            if (length[left[i]] > length[left[best]] * (1 + dependent)) best = i;
         }
+        const double largest = length[left[best]];
         if (!(largest > dependent * dependent)) return;
         double* chosen = row(left[best]);
         redundant_[place_[left[best]]] = 0;
@@ -150,10 +165,11 @@ void Loops::choose(size_t rows) {
         const double scale = 1 / std::sqrt(largest);
         for (size_t k = 0; k < columns_; k++) chosen[k] *= scale;
         for (const size_t i : left) {
-            for (int pass = 0; pass < 2; pass++) {
-                const double along = product(row(i), chosen);
-                for (size_t k = 0; k < columns_; k++) row(i)[k] -= along * chosen[k];
-            }
+            const double along = project(row(i), chosen, columns_);
+            length[i] -= along * along;
+            if (length[i] > 0.25 * summed[i]) continue;
+            project(row(i), chosen, columns_);
+            length[i] = summed[i] = product(row(i), row(i), columns_);
         }
     }
 }

@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from crumple._core._kernels import record_columns
 from crumple.numeric.arrays import Floats
 
 Record = TypeVar("Record")
@@ -100,15 +101,20 @@ class HingeSummary:
     fracture_moment: Floats
 
 
+RECORDS: dict[str, type] = {
+    "energy": EnergyRecord,
+    "hinge": ComponentRecord,
+    "hinge_energy": HingeEnergyRecord,
+    "summary": HingeSummary,
+}
+"""Classes of the records in a kernel's answer, by their names there."""
+if {name: [field.name for field in fields(kind)] for name, kind in RECORDS.items()} != record_columns:
+    raise ImportError("the compiled kernels are of another version: build them again")
+
+
 def named(kernel_record: dict[str, Any]) -> dict[str, Any]:
-    """A kernel's answer with its records as the classes of this module."""
-    kinds: dict[str, Callable[..., Any]] = {
-        "energy": EnergyRecord,
-        "hinge": ComponentRecord,
-        "hinge_energy": HingeEnergyRecord,
-        "summary": HingeSummary,
-    }
-    return {key: kinds[key](**value) if key in kinds else value for key, value in kernel_record.items()}
+    """A kernel's answer with its records, arrays (columns, ...) there, as the classes of this module."""
+    return {key: RECORDS[key](*value) if key in RECORDS else value for key, value in kernel_record.items()}
 
 
 def each_array(record: Record, change: Callable[[Any], Any]) -> Record:

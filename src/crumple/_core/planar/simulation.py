@@ -241,7 +241,7 @@ class Simulation:
 
     def summary(self) -> HingeSummary:
         """What every hinge has come to."""
-        return HingeSummary(**self._kernel.summary())
+        return HingeSummary(*self._kernel.summary())
 
     def step(self, time_step: float) -> bool:
         """Take one step of fixed length [s]; False when it did not converge and nothing changed."""

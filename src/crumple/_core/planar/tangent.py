@@ -102,16 +102,13 @@ def solve_tangent(
 
 
 def _joined(parts: Sequence[dict[str, Any]], bodies: int) -> dict[str, Any]:
-    """The values, then all derivatives, of answers that share their values; records in them too."""
+    """The values, then all derivatives, of answers that share their values: (..., 1 + directions, values)."""
     joined: dict[str, Any] = {}
     for name, first in parts[0].items():
-        if isinstance(first, dict):
-            joined[name] = _joined([part[name] for part in parts], bodies)
-            continue
-        rows = np.concatenate([first[:1], *(part[name][1:] for part in parts)])
+        derivatives = [part[name][..., 1:, :] for part in parts]
+        rows = np.concatenate([first[..., :1, :], *derivatives], axis=-2)
         joined[name] = rows.reshape(len(rows), bodies, 3) if name in ("pose", "velocity") else rows
-    if "kinetic" in joined:
-        return {name: rows[:, 0] for name, rows in joined.items()}
+    joined["energy"] = joined["energy"][..., 0]
     return joined
 
 
