@@ -69,10 +69,10 @@ def mingw_headers() -> tuple[str, ...]:
     compiler = shutil.which("x86_64-w64-mingw32-g++")
     if compiler is None:
         return ()
-    told = subprocess.run(
+    search = subprocess.run(
         [compiler, "-E", "-x", "c++", "-v", os.devnull], capture_output=True, text=True, check=True
     ).stderr
-    listed = told.split("#include <...> search starts here:")[1].split("End of search list.")[0]
+    listed = search.split("#include <...> search starts here:")[1].split("End of search list.")[0]
     # not the compiler's own folder: Clang has its own headers of intrinsics
     folders = [line.strip() for line in listed.splitlines() if line.strip()]
     kept = [name for name in folders if not re.search(r"/gcc/[^/]+/[^/]+/include(-fixed)?$", name)]
@@ -206,12 +206,12 @@ def check_older_processors() -> str:
     emulator, program = shutil.which("qemu-x86_64-static"), BUILD / "this_machine" / "kernels.exe"
     if emulator is None or not ON_X86:
         return "skipped: " + ("qemu-x86_64-static not installed" if ON_X86 else "this is another processor")
-    for processor, said in OLDER.items():
+    for processor, message in OLDER.items():
         command = [emulator, "-cpu", processor, str(program)]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if said not in done.stderr:
-            sys.exit(f"{' '.join(command)}: {said!r} expected\n{done.stdout}{done.stderr}")
-    return ", ".join(f"{processor}: {said}" for processor, said in OLDER.items())
+        if message not in done.stderr:
+            sys.exit(f"{' '.join(command)}: {message!r} expected\n{done.stdout}{done.stderr}")
+    return ", ".join(f"{processor}: {message}" for processor, message in OLDER.items())
 
 
 def check_clang_cl() -> str:

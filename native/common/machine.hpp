@@ -10,7 +10,7 @@ long long process_number();
 // Level of the x86-64 instruction set that processor and operating system offer: 1 to 4, 0 on other processors.
 int x86_level();
 
-// Tells the processor that this thread spins.
+// Hint to the processor that this thread waits in a loop.
 inline void pause() {
 #if defined(__x86_64__)
     __asm__ volatile("pause");

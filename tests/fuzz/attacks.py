@@ -24,7 +24,7 @@ LONGEST = 200_000
 """Characters of all messages of a refusal."""
 
 
-def told(problems: list[Problem]) -> str:
+def first_message(problems: list[Problem]) -> str:
     """The first of the problems, without names and numbers; all must say something."""
     assert problems, "a refusal without a problem"
     assert all(problem.what for problem in problems), "a problem without a sentence"
@@ -42,7 +42,7 @@ def refused(call: Callable[[], object]) -> str:
     try:
         call()
     except InputError as error:
-        return told(error.problems)
+        return first_message(error.problems)
     return ""
 
 
@@ -50,7 +50,7 @@ def attack_bytes(content: bytes) -> str:
     """Any bytes as an input file."""
     Path("case.yaml").write_bytes(content)
     problems = check("case.yaml")
-    return told(problems) if problems else ""
+    return first_message(problems) if problems else ""
 
 
 def attack_input(text: str) -> str:
@@ -62,7 +62,7 @@ def attack_shell(text: str) -> str:
     """An input file: mesh it and lower it to shells."""
     Path("case.yaml").write_text(text, encoding="utf-8", errors="surrogatepass")
     problems = check("case.yaml", "shell")
-    return told(problems) if problems else ""
+    return first_message(problems) if problems else ""
 
 
 def attack_solve(text: str) -> str:
@@ -137,7 +137,7 @@ def attack_kernel(payload: tuple[str, Any]) -> str:
 
 
 def attack_self(code: str) -> str:
-    """Python code that crashes or hangs: whether the worker tells it."""
+    """Python code that crashes or hangs: whether the worker reports it."""
     from tests.fuzz.child import limit
 
     exec(code, {"limit": limit})

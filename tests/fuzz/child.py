@@ -50,19 +50,19 @@ def main() -> None:
     if hasattr(signal, "setitimer"):
         faulthandler.register(signal.SIGPROF, chain=True)
     warnings.simplefilter("error")
-    asked, told = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
+    requests, answers = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     # whatever prints does not disturb the answers
     os.dup2(2, 1)
     watch = Watch()
     with tempfile.TemporaryDirectory() as folder, contextlib.suppress(EOFError):
         os.chdir(folder)
         while True:
-            case = receive(asked)
+            case = receive(requests)
             limit(SECONDS, WAITING)
             outcome = attempt(ATTACKS[case.kind], case.payload)
             limit(0.0, 0.0)
             outcome.sites = watch.new()
-            send(told, outcome)
+            send(answers, outcome)
 
 
 if __name__ == "__main__":

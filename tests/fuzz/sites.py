@@ -55,7 +55,7 @@ class Watch:
             frame = frame.f_back  # type: ignore[assignment]
 
     def new(self) -> set[Site]:
-        """Those that were not told before."""
+        """Those that were not reported before."""
         new = self._seen - self._told
         self._told |= new
         return new

@@ -1,10 +1,10 @@
-"""One process that takes cases and survives none of its crashes: a crash, a hang or a lack of memory is told.
+"""A process that runs cases: a crash, a hang or a lack of memory ends it and is reported.
 
     with Worker() as worker:
         outcome = worker.run(Case("input", "crumple: 1"))
 
 The child is `python -m tests.fuzz.child`.  It may use `MEMORY` of address space and `SECONDS` a case; the
-parent starts another one when it ended, and says of which case.
+parent starts another one when it ended, and reports the case that ended it.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ class Outcome:
     detail
         Traceback of a finding.
     sites
-        Source places (file in the package, line) that were part of a refusal and had not been told yet.
+        Source places (file in the package, line) that were part of a refusal and had not been reported before.
     """
 
     accepted: bool = False

@@ -4,7 +4,7 @@
 so every case can be had again by its two numbers. A draw that the checks of the input refuse, or whose
 driven supports rigid parts cannot follow, is drawn again, from the same stream, at most `MOST_DRAWS` times.
 
-Distributions ("one of" is uniform; all choices are independent unless said)
+Distributions ("one of" is uniform; all choices are independent unless stated otherwise)
 
 - space: 60 % in the plane y = 0 (all that moves and loads it too), 40 % in space
 - members: 2 to 15, uniform; a tree grown member by member from a random earlier node

@@ -31,7 +31,7 @@ public:
     };
 
     explicit ObstacleContact(const Sheets& sheets);
-    // Tells the rigid sets, whose touches are taken together; they outlive this.
+    // Sets the rigid bodies, whose contacts are resolved together; they must outlive this object.
     void attach(const std::vector<RigidBody>& bodies, const std::vector<RigidState>& states);
 
     bool any() const { return !model_.empty(); }

@@ -198,7 +198,7 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
         prepare(times.back());
         for (const double t : times) {
             const bool reached = t <= state_.t || advance(t, record, poll);
-            // a run that ends before its time tells where it came to
+            // a run that ends early stores its last state
             if (reached || record.time.empty() || record.time.back() < state_.t) store(record);
             if (!reached) break;
         }

@@ -75,14 +75,14 @@ def characterise(
     progress
         Called with what is being solved and the share done, 0 to 1.
     cancel
-        Asked now and then; True ends with `KeyboardInterrupt`.
+        Called at intervals; if it returns True, the work ends with `KeyboardInterrupt`.
 
     Raises
     ------
     InputError
         If the section cannot be meshed, the run ended early, or inertia could not be kept out.
     KeyboardInterrupt
-        If `cancel` said so.
+        If `cancel` returned True.
 
     References
     ----------
@@ -90,12 +90,12 @@ def characterise(
     """
 
     def solved(one: Bending, what: str) -> tuple[Result, LawCurve, float, Bending]:
-        def tell(share: float) -> None:
+        def report(share: float) -> None:
             if progress is not None:
                 progress(what, share)
 
         for _ in range(ATTEMPTS):
-            result = solve(one.analysis(), "shell", threads, tell, cancel)
+            result = solve(one.analysis(), "shell", threads, report, cancel)
             if result.status is Status.CANCELLED:
                 raise KeyboardInterrupt
             if not result.status.ok:

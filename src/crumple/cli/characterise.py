@@ -165,8 +165,8 @@ def _show(model: Bending, law: Any, path: Path) -> None:
     for key, text in law.origin:
         console.print(f"{key}: {text}", style="dim", markup=False)
     error = law.validity.uncertainty
-    said = "not estimated (--converge)" if error is None else f"{error:.1%} of the energy"
-    console.print(f"Error from the mesh: {said}", markup=False)
+    text = "not estimated (--converge)" if error is None else f"{error:.1%} of the energy"
+    console.print(f"Error from the mesh: {text}", markup=False)
     console.print(
         f"Law file: {path}   use it with `law: {{type: file, file: {path.name}}}`",
         soft_wrap=True,

@@ -74,19 +74,19 @@ class Moment:
 
 @dataclass(frozen=True)
 class LongRun:
-    """What a long run needs beside: where to go on from, where to save itself, who watches.
+    """Options of a long run: restart file to continue from, restart file to write, progress reports, warnings.
 
     Attributes
     ----------
     restart_from
         Restart file of an interrupted run of the same input.
     restart_to
-        Written now and then, when the run is cancelled, and at the end of a run that took long: whoever has
-        put its results on the disk removes it.
+        Written at intervals, when the run is cancelled, and at the end of a long run; the caller removes it
+        after the results are stored.
     watch
         Called about twice a second.
     warn
-        Told at once when a restart file cannot be written; the run goes on.
+        Called with a sentence as soon as a restart file cannot be written; the run continues.
     """
 
     restart_from: Path | None = None
@@ -248,7 +248,7 @@ class Stepping:
         return Status.COMPLETE, ""
 
     def _note(self, at: float, shape: bool) -> bool:
-        """Note the state; False when its energies mean nothing."""
+        """Record the state; False when its energies are not meaningful."""
         self.record.add({"at": np.array(at), **self.sampler.sample(self.state)})
         near = np.abs(picture_times(self.run) - at) <= SAME_TIME * self.run.duration
         if shape or near.any():
@@ -256,7 +256,7 @@ class Stepping:
         return trust.energy_residual(self.record) < RUNAWAY
 
     def _look(self, state: ShellState) -> None:
-        """Tell the caller where the run is, and save it now and then."""
+        """Report progress to the caller, and write the restart file at intervals."""
         now = self.reported = time.perf_counter()
         if self.progress is not None:
             self.progress(min(state.time / self.run.duration, 1.0))

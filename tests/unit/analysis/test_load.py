@@ -163,7 +163,7 @@ def test_a_hinge_that_the_solver_names_is_found_in_its_member(text, tmp_path):
     file.write_text(text)
     refusal = InputError([Problem("idle", where="hinges.root"), Problem("idle", where="hinges.of a support")])
     loaded = load_input(file)
-    # what is told is of the file as it was read
+    # lines are those of the file as it was read
     file.unlink()
     problems = loaded.with_lines(refusal).problems
     assert {problem.where for problem in problems} == {"members", "members.tube.hinges[0]"}

@@ -1,4 +1,4 @@
-"""Nothing computed is lost: folders are locked, files whole, the input read once, defects told."""
+"""Nothing computed is lost: folders are locked, files written completely or not at all, the input read once, defects reported."""
 
 from __future__ import annotations
 

@@ -172,18 +172,18 @@ def tried(call):
     reading, writing = os.pipe()
     child = os.fork()
     if child == 0:
-        told, code = "", 0
+        message, code = "", 0
         try:
             exec(call, globals())
         except Exception as error:
-            told, code = type(error).__name__ + ": " + str(error), 1
-        os.write(writing, told.encode()[:1000])
+            message, code = type(error).__name__ + ": " + str(error), 1
+        os.write(writing, message.encode()[:1000])
         os._exit(code)
     os.close(writing)
     status = os.waitpid(child, 0)[1]
-    told = os.read(reading, 2000).decode()
+    message = os.read(reading, 2000).decode()
     os.close(reading)
-    return os.waitstatus_to_exitcode(status), told
+    return os.waitstatus_to_exitcode(status), message
 print(json.dumps([tried(call) for call in json.load(sys.stdin)]))
 """
 
@@ -208,4 +208,4 @@ def test_what_cannot_be_is_refused_and_crashes_nothing(room: str) -> None:
     assert outcomes.pop(SOUND[room]) == [0, ""]
     # a negative code is the signal of a crash; without an exception it is 0
     assert {call: code for call, (code, _) in outcomes.items() if code != 1} == {}
-    assert [call for call, (_, told) in outcomes.items() if not told.partition(": ")[2]] == []
+    assert [call for call, (_, message) in outcomes.items() if not message.partition(": ")[2]] == []

@@ -321,14 +321,14 @@ def test_hinges_of_a_frame_are_measured_each_in_its_stretch():
 def test_a_restart_file_that_cannot_be_written_is_a_warning_and_the_run_goes_on(
     result, tmp_path, monkeypatch
 ):
-    told = []
+    warnings = []
     monkeypatch.setattr("crumple.shell.stepping.SAVE_EVERY", 0.0)
-    nowhere = LongRun(restart_to=tmp_path / "file" / "restart.npz", warn=told.append)
+    nowhere = LongRun(restart_to=tmp_path / "file" / "restart.npz", warn=warnings.append)
     (tmp_path / "file").write_text("in the way")
     ended = solve_shell(thrown(), run(), long_run=nowhere)
     assert ended.status is Status.COMPLETE
-    assert told[-1].startswith("The restart file")
-    assert told[-1] in ended.warnings
+    assert warnings[-1].startswith("The restart file")
+    assert warnings[-1] in ended.warnings
     assert all(np.array_equal(ended[name], result[name]) for name in result.channels)
 
 

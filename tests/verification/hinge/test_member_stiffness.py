@@ -212,9 +212,9 @@ def test_elastic_energy_that_rigid_hinges_leave_out(kernel, hinges, record_figur
         impulses=[{"node": "top", "impulse": (500.0 * 3.0, 0.0, 0.0)}],
     )
     result = solve_multibody(structure, Run(0.05, 0.001, MultibodySettings(kernel=kernel)))
-    (told,) = [found for text in result.warnings if (found := re.search(r"up to (\S+) J elastically", text))]
+    (match,) = [found for text in result.warnings if (found := re.search(r"up to (\S+) J elastically", text))]
     at_ends = moment * length / (1.4 - 0.1)
     expected = at_ends**2 * length / (6.0 * rigidity())
     name = f"energy that {len(hinges)} rigid hinges leave out, {kernel}"
     # inertia of the column bends the line of moments a little
-    record_figure(name, float(told[1]), expected, 0.01, "J", relative=True)
+    record_figure(name, float(match[1]), expected, 0.01, "J", relative=True)

@@ -26,7 +26,7 @@ def small_frame(seed, index):
     return crumple.Analysis(title=found.title, structure=found.structure, duration=0.01, multibody=settings)
 
 
-def told(row):
+def explained(row):
     """Whether a run that did not complete says why, with finite numbers."""
     return (
         row.get("finite", True)
@@ -38,7 +38,7 @@ def told(row):
 def test_small_frames_are_solved():
     rows = [outcome(small_frame, SEEDS["campaign"], index, LIMIT) for index in range(FEW)]
     missed = [row for row in rows if not solved(row)]
-    assert all(told(row) for row in missed), table(rows)
+    assert all(explained(row) for row in missed), table(rows)
     assert len(missed) <= 1, table(rows)
 
 
@@ -47,7 +47,7 @@ def test_a_hundred_frames(tmp_path):
     """At least 96 %, where the aim is 99 %.  What is not solved says why, and its work is bounded."""
     rows = campaign(frame, SEEDS["campaign"], range(MANY), tmp_path / "rows.jsonl", 120.0)
     missed = [row for row in rows if not solved(row)]
-    assert all(told(row) for row in missed), table(rows)
+    assert all(explained(row) for row in missed), table(rows)
     assert len(rows) - len(missed) >= LEAST, table(rows)
     steps = np.array([row.get("steps", 0) for row in rows])
     assert steps.max() < MOST_STEPS, table(rows)

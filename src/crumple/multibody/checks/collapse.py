@@ -4,10 +4,10 @@ A hinge counts as open from when its plastic rotation passes a threshold: a hund
 rotation of the run, at most half a degree.
 
 Softening makes a collapse ill-posed where several hinges are equally near to their capacity: rounding then
-decides which one opens.  So the run is repeated with capacities changed by 1 %, alternately up and down along
-the structure, at random (always the same), and both the other way round.  A hinge that turns by more than a
-fifth of the largest rotation in one run and by less than a tenth in another says that the mechanism is not
-unique.
+decides which one opens.  So the run is repeated with capacities changed by 1 %: alternately up and down along
+the structure, at random (always the same pattern), and both with the signs reversed.  The mechanism is not
+unique if a hinge rotates by more than a fifth of the largest rotation in one run and by less than a tenth of it
+in another.
 """
 
 from __future__ import annotations

@@ -76,8 +76,8 @@ def shapes_side_by_side(comparison: Comparison, times: Sequence[float]) -> str |
     scale = add_axes(figure, 0, 0, WIDTH, _FOOT)
     draw_scale(scale, view, min(panel / width, tall / height), panel, _FOOT)
     when = ", ".join(picture_time(float(t)) for t in shown)
-    said = f"Deformed shapes, {names[0]} left and {names[1]} right, at {when}."
-    return to_svg(figure, "shapes", said)
+    caption = f"Deformed shapes, {names[0]} left and {names[1]} right, at {when}."
+    return to_svg(figure, "shapes", caption)
 
 
 def _height(pairs: int, times: int, aspect: float) -> float:

@@ -81,11 +81,11 @@ def _most(forces: list[Floats]) -> float:
 
 
 def _caption(panels: list[tuple[str, list[Line]]], number: int) -> str:
-    said = []
+    sentences = []
     for name, lines in panels:
         if name == _RATIO:
             few = f" The {len(lines)} most loaded of {number} entries." if len(lines) < number else ""
-            said.append(
+            sentences.append(
                 "Load over strength, the root of (Fn/Sn)^2 + (Fs/Ss)^2, the largest so far of any spot of "
                 f"each entry: a spot fails at 1.{few}"
             )
@@ -95,7 +95,7 @@ def _caption(panels: list[tuple[str, list[Line]]], number: int) -> str:
                 if len(lines) // 2 < number
                 else ""
             )
-            said.append(
+            sentences.append(
                 f"Largest force across (tension positive) and along the sheets in an intact spot{few}."
             )
-    return f"Spot welds. {' '.join(said)}"
+    return f"Spot welds. {' '.join(sentences)}"

@@ -43,7 +43,7 @@ class Kind(Enum):
 
 @dataclass(frozen=True)
 class End:
-    """One end of a member; ``second`` says which."""
+    """One end of a member: the second if ``second``, else the first."""
 
     member: str
     second: bool

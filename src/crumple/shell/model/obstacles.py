@@ -32,7 +32,7 @@ def obstacles_of(structure: Structure, mesh: Mesh, stage: Stage, begin: float) -
     structure, mesh
         What is computed.
     stage
-        Tells which are there and which are driven.
+        Determines which obstacles are present and which are driven.
     begin
         Time at which the stage starts [s].
     """

@@ -51,7 +51,7 @@ class HingePlace:
     where
         Path in the input, for messages.
     keys
-        All that the input says of its axes.
+        Keys of the input for its components and axes.
     """
 
     name: str

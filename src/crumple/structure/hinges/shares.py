@@ -145,7 +145,7 @@ def _spring(structure: StructureParts, place: HingePlace) -> Spring:
             return "none"
         own = spec.elastic_stiffness != "auto" or law_of(structure, place).elastic_stiffness is not None
     except InputError:
-        # told where the hinge is built
+        # reported when the hinge is built
         return "none"
     return "given" if own else "auto"
 

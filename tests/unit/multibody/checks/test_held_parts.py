@@ -63,5 +63,5 @@ def test_a_ball_that_wedges_what_cannot_slip_ends_the_run():
     assert result.status is Status.STEP_COLLAPSED
     assert "cannot give way" in result.reason
     # its surface meets the round end at the hinge after 55 mm - sqrt(40^2 - 30^2) mm, between two outputs;
-    # the last state that was found is told
+    # the last state that was found is the end of the result
     assert result.time[-1] == pytest.approx((55.0 - 700.0**0.5) / 100.0, abs=1e-4)
