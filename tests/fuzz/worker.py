@@ -56,7 +56,7 @@ class Outcome:
     detail
         Traceback of a finding.
     sites
-        Source places (file in the package, line) that were part of a refusal and had not been reported before.
+        Source places (file in the package, line) of a refusal that had not been reported before.
     """
 
     accepted: bool = False

@@ -66,7 +66,7 @@ def _solved(name: str, file: Path, folder: Path, cancel: Callable[[], bool]) -> 
     except InputError as error:
         first, more = error.problems[0], len(error.problems) - 1
         place = f" ({first.where})" if first.where else ""
-        return Layout(name, reason=f"{first.what}{place}" + (f", and {more} more" if more else ""))
+        return Layout(name, reason=f"{first.what}{place}" + (f", and {more} more problems" if more else ""))
     if not result.time.size:
         return Layout(name, reason=result.reason)
     store(result, source, folder)

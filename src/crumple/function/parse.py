@@ -21,6 +21,7 @@ from typing import Any, ClassVar
 
 from crumple.errors import InputError, Problem
 from crumple.function.time_function import Constant, Stop, Sum, Table, TimeFunction, Transition
+from crumple.text.names import listed
 from crumple.units import parse_quantity, unit_factor
 
 MAX_DEPTH = 8
@@ -182,7 +183,7 @@ def _fields(body: object, needed: tuple[str, ...], optional: tuple[str, ...] = (
     missing = [name for name in needed if name not in body]
     unknown = [str(name)[:40] for name in body if name not in (*needed, *optional)]
     problems = [
-        Problem(f"{what}: {', '.join(names[:8])}", allowed=allowed)
+        Problem(f"{what}: {listed(names, 8)}", allowed=allowed)
         for what, names in (("missing", missing), ("unknown key", unknown))
         if names
     ]

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from crumple.text.names import listed
+
 FORMAT = 2
 """Version of summary.json, histories.csv and the `/crumple` group of result.vtkhdf, written together;
 a reader refuses a newer one.  2: axial components of hinges have names of their own."""
@@ -30,9 +32,8 @@ def former_names_note(names: Iterable[str]) -> str | None:
     former = [name for name in names if present_name(name) != name]
     if not former:
         return None
-    more = f" and {len(former) - 1} more" if len(former) > 1 else ""
     return (
-        f"Deprecated channel names of result format 1 are read under their present names ({former[0]}{more} "
-        f"as {present_name(former[0])}); the next release does not read them. Solve the analysis again, or "
-        "rename the channels."
+        "Deprecated channel names of result format 1 are read under their present names "
+        f"({listed(former, 1)} as {present_name(former[0])}); the next release does not read them. "
+        "Solve the analysis again, or rename the channels."
     )

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from crumple.text.names import listed
 from crumple.units import format_quantity
-
-MOST_NAMED = 6
-"""Times that the warning names one by one."""
 
 
 def missing_pictures(asked: Sequence[float], end: float) -> Iterator[str]:
@@ -22,6 +20,5 @@ def missing_pictures(asked: Sequence[float], end: float) -> Iterator[str]:
     """
     missing = [time for time in sorted(asked) if time > end * (1.0 + 1e-9)]
     if missing:
-        named = ", ".join(format_quantity(time, "s", 4) for time in missing[:MOST_NAMED])
-        more = f" and {len(missing) - MOST_NAMED} more" if len(missing) > MOST_NAMED else ""
-        yield f"The run ended at {format_quantity(end, 's', 4)}: there are no pictures at {named}{more}."
+        named = listed(missing, spell=lambda time: format_quantity(time, "s", 4))
+        yield f"The run ended at {format_quantity(end, 's', 4)}: there are no pictures at {named}."

@@ -74,7 +74,7 @@ class Moment:
 
 @dataclass(frozen=True)
 class LongRun:
-    """Options of a long run: restart file to continue from, restart file to write, progress reports, warnings.
+    """Options of a long run: restart files to read and to write, progress reports, warnings.
 
     Attributes
     ----------

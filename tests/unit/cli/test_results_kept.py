@@ -1,4 +1,4 @@
-"""Nothing computed is lost: folders are locked, files written completely or not at all, the input read once, defects reported."""
+"""Results are kept: folders locked, files complete or absent, the input read once, defects reported."""
 
 from __future__ import annotations
 

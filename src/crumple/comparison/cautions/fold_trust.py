@@ -11,11 +11,10 @@ from crumple.comparison.comparison import Comparison
 from crumple.comparison.measure.metrics import deg, mm
 from crumple.comparison.measure.motion import REACH, HingeMotion, largest_side
 from crumple.structure import PlacedHinge, Structure
+from crumple.text.names import listed
 
 CRUSHED = 0.1
 """Shortening of a fold beyond that of its bend, over its length, from which it is reported."""
-MOST_NAMED = 6
-"""Number of hinges that a sentence names; of further ones it gives the number."""
 BENT = math.radians(1.0)
 """Rotation of a corner [rad] from which it is reported."""
 
@@ -63,12 +62,6 @@ def fold_sentences(
                 f"{hinge.member}, the hinge at {mm(hinge.station)}."
             )
             yield text, abs(away) > largest_side(structure, hinge.member)
-
-
-def listed(names: list[str]) -> str:
-    """Names with commas, the rest of many counted."""
-    more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
-    return ", ".join(names[:MOST_NAMED]) + more
 
 
 def _opened_in_one(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator[tuple[str, bool]]:

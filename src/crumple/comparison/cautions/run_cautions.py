@@ -11,6 +11,7 @@ import numpy as np
 from crumple.comparison.comparison import Comparison
 from crumple.comparison.measure.energy import energy_put_in
 from crumple.comparison.measure.metrics import OPENED_AT, percent
+from crumple.text.names import listed
 
 LEAST_WORK = 0.05
 """Plastic work over the energy input below which a run counts as elastic."""
@@ -21,9 +22,6 @@ AT_END = 0.01
 """Last part of the compared duration: a largest rotation within it counts as that of the end."""
 STILL = 0.02
 """Rate of rotation over the largest one below which a hinge counts as at rest."""
-MOST_NAMED = 4
-"""Number of hinges named in one sentence."""
-
 LEAST_CRUSH = 1e-3
 """Shortening of a hinge [m] from which it is reported."""
 
@@ -113,8 +111,7 @@ def _still_turning(comparison: Comparison) -> Iterator[tuple[str, bool]]:
             if opened and late and rate[-1] > STILL * float(np.abs(rate).max()):
                 names.append(motion.name)
         if names:
-            more = " and others" if len(names) > MOST_NAMED else ""
-            found.append(f"{', '.join(names[:MOST_NAMED])}{more} ({source.name})")
+            found.append(f"{listed(names)} ({source.name})")
     if found:
         end = math.nan if math.isinf(comparison.until) else 1e3 * comparison.until
         yield (

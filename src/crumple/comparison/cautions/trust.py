@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from crumple.comparison.cautions.fold_trust import across_joint, fold_sentences, largest_turn, listed
+from crumple.comparison.cautions.fold_trust import across_joint, fold_sentences, largest_turn
 from crumple.comparison.cautions.run_cautions import run_sentences
 from crumple.comparison.cautions.shortfall import shortfall
 from crumple.comparison.cautions.verdict import SMALL, agreement, verdict
@@ -18,6 +18,7 @@ from crumple.comparison.measure.metrics import deg, mm, percent
 from crumple.hinge import Form
 from crumple.numeric.arrays import Floats
 from crumple.structure import PlacedHinge, Structure, plastic_hinges
+from crumple.text.names import listed
 
 ELASTIC = 0.05
 """Share of elastic energy from which rigid hinges are a caution."""
@@ -162,7 +163,7 @@ def _elastic(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator
     rigid = [name for name, hinge in hinges.items() if hinge.record.form is not Form.ELASTIC_PLASTIC]
     if rigid and share > ELASTIC:
         text += (
-            f". Hinges that are rigid until their capacity is reached ({', '.join(rigid[:4])}) store none "
+            f". Hinges that are rigid until their capacity is reached ({listed(rigid)}) store none "
             f"of it, so the {comparison.candidate.name} rotations lack the elastic part and reach their "
             "peak early"
         )

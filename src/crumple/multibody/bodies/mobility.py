@@ -22,13 +22,12 @@ import numpy as np
 from crumple.cancelling import go_on
 from crumple.multibody.bodies.linkage import GROUND, Connection, Linkage
 from crumple.numeric.arrays import Floats
+from crumple.text.names import listed
 
 NOTHING = 1e-9
 """Singular value over the largest, and share of a motion, below which it is rounding."""
 LARGEST_SYSTEM = 2000
 """Equations, or freedoms, of loops that are decomposed: seconds, and 32 MB."""
-MOST_NAMES = 6
-"""Members or hinges that a sentence names one by one."""
 
 
 @dataclass(frozen=True)
@@ -162,7 +161,7 @@ def notes(linkage: Linkage) -> tuple[str, ...]:
     if free.redundant:
         found.append(
             f"{free.redundant} of the constraints are redundant (in the loops through "
-            f"{listed([names[i] for i in free.loops])}): the motion is unique, the forces across it "
+            f"{listed(names[i] for i in free.loops)}): the motion is unique, the forces across it "
             "are not, and one possible set is given."
         )
     return tuple(found)
@@ -296,10 +295,3 @@ def named_members(names: tuple[str, ...]) -> str:
 
 def _named(one: str, several: str, names: list[str]) -> str:
     return f"{one if len(names) == 1 else several} {listed(names)}"
-
-
-def listed(names: list[str]) -> str:
-    """Names of a sentence; the first of many."""
-    few = len(names) <= MOST_NAMES
-    shown = names if few else [*names[: MOST_NAMES - 1], f"{len(names) - MOST_NAMES + 1} more"]
-    return ", ".join(shown)

@@ -6,14 +6,14 @@ rotation of the run, at most half a degree.
 Softening makes a collapse ill-posed where several hinges are equally near to their capacity: rounding then
 decides which one opens.  So the run is repeated with capacities changed by 1 %: alternately up and down along
 the structure, at random (always the same pattern), and both with the signs reversed.  The mechanism is not
-unique if a hinge rotates by more than a fifth of the largest rotation in one run and by less than a tenth of it
-in another.
+unique if a hinge rotates by more than a fifth of the largest rotation in one run and by less than a tenth in
+another.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -22,6 +22,7 @@ from crumple.hinge import Envelope, HingeRecord
 from crumple.multibody.answer.solved import HingeHistory
 from crumple.result import Opening
 from crumple.structure import PlacedHinge
+from crumple.text.names import listed
 
 OPEN = math.radians(0.5)
 """Largest threshold [rad]: an angle that a test can just measure."""
@@ -31,8 +32,6 @@ CHANGE = 0.01
 """Change of the capacities: less than any law or material is known to."""
 PART = 0.2
 """Share of the largest rotation that makes a hinge part of the mechanism; half of it makes it no part."""
-MOST_NAMES = 6
-"""Hinges that a sentence names one by one."""
 
 
 def collapse_log(hinges: Sequence[HingeHistory], time: np.ndarray) -> tuple[tuple[Opening, ...], float]:
@@ -90,10 +89,10 @@ def not_unique(runs: Sequence[Sequence[HingeHistory]]) -> str | None:
         gained = [name for name, value in run.items() if value > part and base[name] < part / 2.0]
         lost = [name for name, value in run.items() if value < part / 2.0 and base[name] > part]
         if gained and lost:
-            variants.append(f"{_listed(gained)} open{_s(gained)} instead of {_listed(lost)}")
+            variants.append(f"{listed(gained)} open{_s(gained)} instead of {listed(lost)}")
         elif gained or lost:
             names, verb = (gained, "open") if gained else (lost, "stay")
-            variants.append(f"{_listed(names)} {verb}{_s(names)}{'' if gained else ' closed'}")
+            variants.append(f"{listed(names)} {verb}{_s(names)}{'' if gained else ' closed'}")
     if not variants:
         return None
     changes = "; or ".join(dict.fromkeys(variants))
@@ -119,10 +118,3 @@ def _stronger(record: HingeRecord, factor: float) -> HingeRecord:
         for envelope in (record.positive, record.negative)
     )
     return replace(record, positive=positive, negative=negative)
-
-
-def _listed(names: Iterable[str]) -> str:
-    given = list(names)
-    if len(given) > MOST_NAMES:
-        given = [*given[: MOST_NAMES - 1], f"{len(given) - MOST_NAMES + 1} more"]
-    return ", ".join(given)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from crumple.multibody.bodies.dead_centres import CROOKED, DeadCentres, dead_centres
 from crumple.multibody.bodies.linkage import Linkage
-from crumple.multibody.bodies.mobility import listed, too_large
+from crumple.multibody.bodies.mobility import too_large
+from crumple.text.names import listed
 
 
 def infinitesimal(linkage: Linkage) -> str:
@@ -20,7 +21,7 @@ def dead_centre_notes(linkage: Linkage, centres: DeadCentres, *, aside: bool = F
     if centres.held:
         names = dict.fromkeys(linkage.connections[i].name for i, _ in sorted(centres.held))
         found.append(
-            f"The structure can begin to move but not go on at {listed(list(names))} (bars in one line "
+            f"The structure can begin to move but not go on at {listed(names)} (bars in one line "
             "between supports, for example): these are held, and what is given to their motion is lost at "
             "once. Let a support slide, or give members hinges that lengthen ('axial')."
         )
@@ -28,7 +29,7 @@ def dead_centre_notes(linkage: Linkage, centres: DeadCentres, *, aside: bool = F
         names = dict.fromkeys(linkage.connections[i].name for i in sorted(centres.aside))
         found.append(
             "The structure can move in several ways from its start position (equal members side by side, for "
-            f"example), and the loads do not select one: {listed(list(names))} were moved aside by "
+            f"example), and the loads do not select one: {listed(names)} were moved aside by "
             f"{CROOKED:g} of its size, as members are never straight, and it moves in one of the ways."
         )
     return tuple(found)

@@ -8,7 +8,10 @@ from crumple.multibody.bodies.linkage import link
 from crumple.multibody.bodies.obstacle_bodies import member_capsules, touching_pairs
 from crumple.numeric.arrays import Floats
 from crumple.structure import Structure
+from crumple.text.names import listed
 
+MOST_PAIRS = 4
+"""Pairs of members that a sentence names."""
 JOINED = 0.1
 """Share of the radii within which centre lines meet: as in native/spatial/contact/contacts.cpp."""
 LEAST = 1e-6
@@ -70,7 +73,4 @@ def _from_point(point: Floats, segment: tuple[Floats, Floats]) -> float:
 
 
 def _pairs(names: list[tuple[str, str]]) -> str:
-    most = 4
-    shown = [f"{first} and {second}" for first, second in names[:most]]
-    rest = [f"{len(names) - most} more pairs"] if len(names) > most else []
-    return f"Members {', '.join([*shown, *rest])}"
+    return f"Members {listed((f'{first} and {second}' for first, second in names), MOST_PAIRS, '; ')}"

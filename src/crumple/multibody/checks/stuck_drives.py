@@ -13,8 +13,9 @@ import numpy as np
 
 from crumple.multibody.bodies.dead_centres import dead_centres, without
 from crumple.multibody.bodies.linkage import Linkage
-from crumple.multibody.bodies.mobility import NOTHING, listed, loop_system, null_space, tree_of
+from crumple.multibody.bodies.mobility import NOTHING, loop_system, null_space, tree_of
 from crumple.structure import FREEDOMS, Structure
+from crumple.text.names import listed
 
 
 def stuck_drives(structure: Structure, linkage: Linkage) -> tuple[str, ...]:
@@ -63,7 +64,7 @@ def stuck_note(drives: tuple[str, ...]) -> str:
     if not drives:
         return ""
     return (
-        f"The structure cannot follow the driven motion of {listed(list(drives))} from where it stands: "
+        f"The structure cannot follow the driven motion of {listed(drives)} from where it stands: "
         "rigid parts would have to change their length. Give members hinges that lengthen ('axial'), let "
         "another support slide, or move a node of a straight member aside by 0.1 % of its length."
     )

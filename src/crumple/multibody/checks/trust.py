@@ -13,11 +13,12 @@ from crumple.multibody.bodies.mobility import free_parts
 from crumple.multibody.checks.broken import broken_warnings
 from crumple.multibody.checks.elastic_energy import energy_left_out
 from crumple.multibody.checks.held_parts import held_part_warnings
-from crumple.multibody.checks.names import named, shown
+from crumple.multibody.checks.names import named
 from crumple.multibody.checks.overlap import overlap_warnings
 from crumple.multibody.checks.physics import energy_put_in
 from crumple.result import HingeSummary
 from crumple.structure import PlacedHinge, Structure
+from crumple.text.names import listed
 
 LOST_SHARE = 1e-3
 """Share of the given energy that may vanish at the start before a warning."""
@@ -87,7 +88,7 @@ def _carries(structure: Structure, hinges: list[PlacedHinge]) -> str:
     rate = ", raised with the strain rate" if math.isfinite(records[0].rate_reference) else ""
     curve = f"run{'s' if len(hinges) == 1 else ''} on {SOFTENING[records[0].softening_variable]}"
     if len(hinges) > 1:
-        names = shown([hinge.name for hinge in hinges])
+        names = listed(hinge.name for hinge in hinges)
         return f"{len(hinges)} hinges ({names}) are {form.format('their')}{rate}; their curves {curve}."
     (hinge,) = hinges
     first = structure.members[hinge.member].nodes[0]

@@ -15,6 +15,7 @@ from crumple.multibody.bodies.mobility import floating_members, named_members
 from crumple.multibody.bodies.obstacle_bodies import Touching
 from crumple.multibody.run import Run
 from crumple.structure import FREEDOMS, Stage, Structure, Until
+from crumple.text.names import listed
 from crumple.units import format_quantity
 
 Conditions = list[tuple[Until, SpatialUntil]]
@@ -107,8 +108,7 @@ def lost_equilibrium(structure: Structure, stage: Stage, begin: float, lost: flo
                 if largest > 0.0:
                     factor = f"{abs(value) / largest:.4g} of the largest in the stage"
                     loads.append(f"{what} {axis} on {load.node} {format_quantity(value, unit, 4)}, {factor}")
-    shown = [*loads[:MOST_LOADS], *([f"{len(loads) - MOST_LOADS} more loads"] if loads[MOST_LOADS:] else [])]
-    under = "; ".join(shown) or "gravity alone"
+    under = listed(loads, MOST_LOADS, "; ") or "gravity alone"
     return (
         f"Equilibrium ended {format_quantity(since, 's', 4)} into stage {stage.name} ({under}). Later "
         "results only show the direction; to follow the motion use a dynamic stage, or a drive for the load."

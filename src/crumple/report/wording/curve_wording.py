@@ -7,6 +7,7 @@ from pathlib import Path
 
 from crumple.comparison import Comparison, CurveFile
 from crumple.result.format import former_names_note
+from crumple.text.names import listed
 
 MOST_COLUMNS = 8
 """Number of columns listed per file; the table of ratings contains all."""
@@ -17,9 +18,7 @@ def curve_notes(comparison: Comparison) -> list[tuple[str, bool]]:
     found = []
     for curve in comparison.curves:
         notes = list(_columns(comparison, curve))
-        texts = [text for text, _ in notes[:MOST_COLUMNS]]
-        if len(notes) > MOST_COLUMNS:
-            texts.append(f"{len(notes) - MOST_COLUMNS} more")
+        texts = [listed((text for text, _ in notes), MOST_COLUMNS, "; ")] if notes else []
         if curve.left_out:
             texts.append(f"ignored because they have no unit: {', '.join(curve.left_out)}")
         text = f"{curve.name} ({Path(curve.file).name}): {'; '.join(texts)}."

@@ -13,12 +13,11 @@ from crumple.shell.answer.record import Record
 from crumple.shell.model.model import ShellCase
 from crumple.shell.model.welds import in_words
 from crumple.structure import Structure
+from crumple.text.names import listed
 from crumple.units import format_quantity
 
 BROKEN, TIME, NORMAL, SHEAR, USE = range(5)
 """Columns of the stepper's states of spot welds."""
-MOST_NAMED = 6
-"""Failed spots of one entry that a warning names one by one."""
 
 
 def weld_channels(structure: Structure, case: ShellCase, record: Record) -> Iterator[Channel]:
@@ -52,9 +51,8 @@ def weld_warnings(structure: Structure, case: ShellCase, record: Record) -> Iter
         if not broken.size:
             continue
         order = broken[np.argsort(rows[broken, TIME], kind="stable")]
-        listed = "; ".join(_failure(case, rows, numbers, int(i)) for i in order[:MOST_NAMED])
-        more = f"; and {len(order) - MOST_NAMED} more" if len(order) > MOST_NAMED else ""
-        yield f"{len(order)} of {len(numbers)} spot welds {name} failed: {listed}{more}."
+        failures = listed([_failure(case, rows, numbers, int(i)) for i in order], separator="; ")
+        yield f"{len(order)} of {len(numbers)} spot welds {name} failed: {failures}."
 
 
 def _failure(case: ShellCase, rows: Floats, numbers: Integers, i: int) -> str:

@@ -11,9 +11,10 @@ from crumple.material import Material
 from crumple.numeric.arrays import Floats, Integers
 from crumple.shell.mesh.mesh import Mesh
 from crumple.structure import Structure
+from crumple.text.names import listed
 
-MOST_NAMED = 5
-"""Bad elements named in one refusal."""
+MOST_PLACES = 3
+"""Places that one refusal names; their names are long."""
 LEAST_AREA = 1e-6
 """Area of an element over its longest side squared, below which it has none."""
 
@@ -141,11 +142,9 @@ def _check(mesh: Mesh, corner: Floats, side: Floats) -> None:
     )
     todo = "change the element size, or the members that meet there"
     problems = [
-        Problem(
-            what, mesh.place_of(int(element)), "elements with four distinct corners", todo, "analysis.shell"
-        )
+        Problem(what, places, "elements with four distinct corners", todo, "analysis.shell")
         for what, bad in faults
-        for element in np.flatnonzero(bad)[:MOST_NAMED]
+        if (places := listed(np.flatnonzero(bad).tolist(), MOST_PLACES, "; ", mesh.place_of))
     ]
     if problems:
         raise InputError(problems)

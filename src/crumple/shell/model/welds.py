@@ -18,6 +18,7 @@ from crumple.numeric.arrays import Floats, Integers
 from crumple.shell.mesh.mesh import Mesh, Tube
 from crumple.shell.mesh.quality import wall_thickness
 from crumple.structure import SpotWelds, Structure
+from crumple.text.names import listed
 
 LEAST_PARALLEL = np.cos(np.radians(30.0))
 """Cosine of the angle between two walls from which they lie on each other."""
@@ -35,8 +36,8 @@ WIDER = (1.0, 1.5, 2.2)
 """Factors on that radius, of which the first serves that gives enough nodes."""
 LARGEST_WEIGHT = 1.2
 """Sum of the weights' magnitudes above which nodes stand for a place outside them; among them it is 1."""
-MOST_NAMED = 5
-"""Bad spots named in one refusal."""
+MOST_REFUSED = 5
+"""Spots whose refusals are given one by one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,8 +122,14 @@ def spots_of(structure: Structure, mesh: Mesh, taken: Integers) -> tuple[Spot, .
                 spots.append(_spot(mesh, _Asked(name, welds, place), elements, taken))
             except InputError as error:
                 problems += error.problems
+    if rest := problems[MOST_REFUSED:]:
+        entries = listed(dict.fromkeys(problem.where for problem in rest))
+        problems = [
+            *problems[:MOST_REFUSED],
+            Problem(f"and {len(rest)} more spots cannot be tied", where=entries),
+        ]
     if problems:
-        raise InputError(problems[:MOST_NAMED])
+        raise InputError(problems)
     return tuple(spots)
 
 

@@ -13,8 +13,11 @@ from typing import Annotated, Any, Union, get_args, get_origin
 from pydantic import BaseModel, ValidationError
 
 from crumple.errors import Problem
+from crumple.text.names import listed
 
 Place = tuple[str | int, ...]
+MOST_ALLOWED = 12
+"""Allowed names that a message lists."""
 MOST_COMPARED = 50_000
 """Pairs of names that are compared in search of what was meant: half a second's work."""
 LONGEST_SHOWN = 60
@@ -146,12 +149,11 @@ def outside(where: str, station: float, length: float) -> Problem:
 
 
 def one_of(names: Iterable[str]) -> str:
-    """``one of a, b, c``, shortened to twelve."""
-    listed = list(names)
-    if not listed:
+    """``one of a, b, c``, shortened to `MOST_ALLOWED`."""
+    known = list(names)
+    if not known:
         return "none is defined"
-    more = f" and {len(listed) - 12} more" if len(listed) > 12 else ""
-    return ("one of " if len(listed) > 1 else "") + ", ".join(listed[:12]) + more
+    return ("one of " if len(known) > 1 else "") + listed(known, MOST_ALLOWED)
 
 
 def _is_internal(part: str | int) -> bool:
