@@ -1,7 +1,7 @@
-"""Cancelling: long work asks now and then whether to go on, wherever it is.
+"""Cancellation: long computations check at intervals whether to continue, at any depth of calls.
 
-The caller states whom to ask (`asking`); loops that may be long call `go_on`.  Nothing is passed down:
-a solve goes through many rooms, and each thread has its own wish.
+The caller sets the function that decides (`asking`); loops that may be long call `go_on`.  It is not passed
+as an argument: a solve calls many packages, and each thread has a function of its own.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from contextvars import ContextVar
 from crumple.errors import CancelledError
 
 EVERY = 0.05
-"""Wall time between two questions [s]: nobody feels it, and asking costs nothing beside it."""
+"""Wall time between two checks [s]: not noticeable, and long compared with the cost of a check."""
 
 
 class _Asking:
@@ -27,7 +27,7 @@ _asking: ContextVar[_Asking | None] = ContextVar("asking", default=None)
 
 @contextmanager
 def asking(cancel: Callable[[], bool] | None) -> Iterator[None]:
-    """Let `go_on` ask whether to cancel, inside the block."""
+    """Let `go_on` check inside the block whether to cancel."""
     token = _asking.set(None if cancel is None else _Asking(cancel))
     try:
         yield
@@ -36,7 +36,7 @@ def asking(cancel: Callable[[], bool] | None) -> Iterator[None]:
 
 
 def go_on() -> None:
-    """Ask now and then whether the work is still wanted.
+    """Check at intervals whether the work is to continue.
 
     Raises
     ------

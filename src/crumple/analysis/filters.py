@@ -59,7 +59,7 @@ def with_filters(result: Result, outputs: Outputs, interval: float) -> Result:
     if not result.time.size:
         return result
     channels, warnings = dict(result.channels), list(result.warnings)
-    # picture times may lie between the samples: filter the regular samples alone
+    # picture times may lie between the samples: filter only the regular samples
     regular = np.arange(math.floor(result.time[-1] / interval + 1e-9) + 1) * interval
     for name, wanted in outputs.filters.items():
         if regular.size < LEAST_SAMPLES or wanted.channel not in channels:

@@ -53,7 +53,7 @@ _OF_THE_RUN = set(InputFile.model_fields) - set(StructureParts.model_fields)
 
 @dataclass(frozen=True)
 class LoadedInput:
-    """An input file as it was when it was read: this is solved and shown, whatever becomes of the file.
+    """An input file as it was when it was read: this is solved and shown, even if the file changes.
 
     Attributes
     ----------

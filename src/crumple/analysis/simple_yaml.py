@@ -2,9 +2,8 @@
 
 Simple lines are ``key: value`` and ``- value``, indented, where a value is a text on one line, a collection
 in brackets on one line, or the deeper lines that follow.  Comments and quoted texts without escapes may stand
-there too.
-Whatever else a text holds, mistakes included, is left to the full parser: `read_simple` then gives None, and
-what it gives is what the full parser would have given.  A test holds the two against each other.
+there too.  Whatever else a text holds, mistakes included, is left to the full parser: `read_simple` then
+gives None, and what it gives is what the full parser would have given.  A test compares the two.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ Scalar = Callable[[str], Any]
 _PLAIN = r"~|[-+]?\.?[^\W_][\w .+\-*/^()=<>°]*"
 """A text without quotes: no character in it means anything to YAML."""
 _OTHER_LINES = re.compile("[\t\r\x85\u2028\u2029\ufeff]")
-"""Tabs, and line breaks that are not everybody's."""
+"""Tabs, and unusual line breaks."""
 _QUOTED = r"\"[^\"\\]*\"|'[^']*'"
 _KEY = re.compile(rf"({_QUOTED}|[^\W_][\w.\-]*|_[\w.\-]*):(?: +(.*))?")
 _WHOLE = re.compile(rf"{_QUOTED}|~|[-+]?\.?[^\W_][\w .+\-*/^()=<>°,;'\[\]{{}}]*")

@@ -18,7 +18,7 @@ from crumple.section import Axis, Section, half_fold_length
 from crumple.structure import Structure
 
 STUB = 1.75
-"""Length beside the gauge over the largest side of the section: what the rigid ends disturb stays outside."""
+"""Length of each piece outside the gauge over the largest side of the section: room for end effects."""
 KINK = math.radians(0.2)
 """Angle by which the two halves of a straight member meet, so that its fold is in the middle [rad]."""
 OUTPUTS = 400
@@ -46,7 +46,7 @@ class Bending:
     largest
         Plastic rotation at which the law ends [rad].
     length_factor
-        Length of the pieces beside the gauge over the usual one; others give the same law.
+        Length of the pieces outside the gauge over the usual one; others give the same law.
     resolution
         How finely and how slowly it is solved.
 
@@ -75,7 +75,7 @@ class Bending:
 
     @property
     def origin(self) -> dict[str, str]:
-        """What the law file says of the place."""
+        """Entries of the law file on the place."""
         own = {"section": self.section.title, "axis": self.axis}
         if self.angle is None:
             kink = f"kink of {math.degrees(KINK):.2g} deg in the middle"

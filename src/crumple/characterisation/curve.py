@@ -32,7 +32,7 @@ class LawCurve:
     energy
         Plastic work up to each rotation [J], (n,).
     stiffness
-        Elastic stiffness of the place itself, beside that of its members [N m/rad]; None: rigid.
+        Elastic stiffness of the place itself, in addition to that of its members [N m/rad]; None: rigid.
     """
 
     rotation: Floats

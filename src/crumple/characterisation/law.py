@@ -25,7 +25,7 @@ def law_of(
     curve, opposite
         Law in the sense of the model, and in the other sense; None: the section is the same in both.
     facts
-        What the law file says of the run, by key.
+        Entries of the law file on the run, by key.
     error
         Relative error of the energy, estimated on other meshes; None where only one was solved.
 

@@ -80,7 +80,7 @@ def characterise(
     Raises
     ------
     InputError
-        If the section cannot be meshed, the run ended early, or inertia could not be kept out.
+        If the section cannot be meshed, the run ended early, or the kinetic energy stayed too large.
     KeyboardInterrupt
         If `cancel` returned True.
 

@@ -1,7 +1,7 @@
 """A folder of laws: one readable file a law, named by what it was made from.
 
-The name holds the hash of the sub-model's input, so that another section, material, mesh or duration is
-another file.  A file appears whole or not at all; a folder may be copied, shared and kept under version
+The name holds the hash of the sub-model's input, so that a change of section, material, mesh or duration
+gives another file.  A file appears whole or not at all; a folder may be copied, shared and kept under version
 control.
 """
 
@@ -18,7 +18,7 @@ from crumple.hinge.measured.stored import StoredLaw
 from crumple.portable import replacing
 
 METHOD = 1
-"""Number of the way in which sub-models are built and measured: laws of another one are made again."""
+"""Number of the way in which sub-models are built and measured: laws of another method are computed again."""
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 ROTATIONS = (0, 1, 2, 5, 10, 15, 20, 25, 30, 40, 50, 60)
 """Rotations of the table [deg]."""
 SMALLEST, LARGEST = 0.0873, 1.0473
-"""Plastic rotation up to which a law can be had: 5 to 60 degrees [rad], with room for rounding."""
+"""Plastic rotation up to which a law can be requested: 5 to 60 degrees [rad], with room for rounding."""
 STEEPEST = 2.3563
 """Largest angle of a corner: 135 degrees [rad], with room for rounding."""
 

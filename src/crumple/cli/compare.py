@@ -80,9 +80,9 @@ def compare(
         # refused before the folder is made, and before the first mesh is solved
         _refuse_mesh(with_mesh(source.analysis, second_mesh), second_mesh)
     with results_folder(out, file, ("multibody", "shell")) as folder:
-        wish = {"curves": curves, "variants": variants, "second_mesh": second_mesh}
+        options = {"curves": curves, "variants": variants, "second_mesh": second_mesh}
         with stop_on_interrupt() as cancel:
-            found = _solve(source, folder, (threads, restart), cancel, wish)
+            found = _solve(source, folder, (threads, restart), cancel, options)
             shown, pictures = report_input(source), picture_times(source.analysis)
             stored(folder, lambda place: write_comparison(found, shown, place, pictures=pictures), PAGE)
         remove_restart(folder / "shell", found.reference.result)
@@ -98,7 +98,7 @@ def _solve(
     folder: Path,
     how: tuple[int | None, Path | None],
     cancel: Callable[[], bool],
-    wish: Mapping[str, Any],
+    options: Mapping[str, Any],
 ) -> Comparison:
     """Solve everything; each engine's result is on the disk as soon as there is one."""
     from crumple.cli.console.progress import progress_bar
@@ -129,7 +129,7 @@ def _solve(
                 cancel=cancel,
                 long_run=long_run_of(folder / "shell", restart, progress),
                 keep=keep,
-                **wish,
+                **options,
             )
         except InputError as error:
             raise source.with_lines(error) from None

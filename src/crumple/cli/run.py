@@ -58,7 +58,7 @@ def run(
 def _run(
     source: LoadedInput, folder: Path, how: tuple[Fidelity, int | None, Path | None], *, as_json: bool
 ) -> bool:
-    """Solve with every engine that is asked for and report; whether all results can be trusted."""
+    """Solve with every requested solver and report; returns whether all results can be trusted."""
     from crumple.errors import Status
 
     fidelity, threads, restart = how

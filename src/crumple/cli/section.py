@@ -58,8 +58,8 @@ def section(
     if metal is not None:
         _show(console, _strength(shape, metal))
         _show_capacities(console, capacities, force)
-    spoken = [text for capacity in capacities.values() for text in capacity.warnings]
-    for text in dict.fromkeys([*walled.warnings, *spoken]):
+    warnings = [text for capacity in capacities.values() for text in capacity.warnings]
+    for text in dict.fromkeys([*walled.warnings, *warnings]):
         console.print(Text(f"Warning: {text}", style="yellow"))
     for text in assumed:
         console.print(Text(f"Assumed: {text}"))

@@ -34,7 +34,7 @@ def membrane_flow_stress(curve: HardeningCurve, final_strain: float) -> float:
 
     References
     ----------
-    Derived above; the closed form of a power law is that of the project's notes.
+    Derived above.
     Verified in tests/unit/material/test_flow_stress.py.
     """
     strain, weight = _points(final_strain)

@@ -1,4 +1,4 @@
-"""The table of grades: numbers as the standards state them, each with the text in which it was read."""
+"""The table of grades: values of the standards, each with the text in which it was read."""
 
 from __future__ import annotations
 
@@ -23,7 +23,8 @@ RATES: dict[Family, tuple[CowperSymonds | None, CowperSymonds | None]] = {
     Family.STAINLESS_STEEL: (CowperSymonds(100.0, 10.0), CowperSymonds(100.0, 10.0)),
     Family.ALUMINIUM: (CowperSymonds(6500.0, 4.0), CowperSymonds(6500.0, 4.0)),
 }
-"""Pairs at yield and at flow, widely used, no text of theirs read; only mild steel has two pairs."""
+"""Pairs at yield and at flow, widely used; their original sources were not read; only mild steel has two
+pairs."""
 
 
 @dataclass(frozen=True)

@@ -1,9 +1,9 @@
-"""Named grades: what standards ask of a metal at least, for a first model.  Typical, not design values.
+"""Named grades: minimum values of the standards, for a first model.
 
-A standard gives limits that every delivery keeps, so real metal is mostly stronger: a structure is then
-stronger than the model, and its crushing forces are higher.  Where only an upper limit of yield exists (deep
-drawing steel) that is used, with a note.  Every entry gives the source of its numbers; `QUOTED`
-marks those whose text was not seen.
+The values are typical, not design values.  A standard gives limits that every delivery keeps, so real metal
+is mostly stronger; the structure is then stronger than the model, and its crushing forces are higher.  Where
+only an upper limit of yield exists (deep drawing steel) that is used, with a note.  Every entry gives the
+source of its numbers; `QUOTED` marks those whose text was not seen.
 """
 
 from __future__ import annotations

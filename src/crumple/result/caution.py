@@ -1,4 +1,4 @@
-"""A check that a result did not pass: what was checked, what came, what is allowed, and where."""
+"""A check that a result did not pass: what was checked, the value found, the limit, and where."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Caution:
     code
         Short name of the check; formulas and limits are in docs/theory/result_checks.md.
     value, limit
-        What came and what is allowed, in SI units.
+        Value found and limit, in SI units.
     unit
         Of both.
     place

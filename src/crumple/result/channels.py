@@ -1,7 +1,7 @@
 """Every output channel, one line each: name, unit, meaning and which solver gives it.
 
-`python -m crumple.result.channels docs/conventions.md` writes the table of that page again; a test holds the
-page against it.
+`python -m crumple.result.channels docs/conventions.md` writes the table of that page again; a test compares
+the page with it.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What a hinge that shortens along its member did: the figures that engineers ask of a crush zone."""
+"""What a hinge that shortens along its member did: the usual figures of a crush zone."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ _AXIAL = {
     "plastic_rotation": "plastic_travel",
     "moment": "force",
 }
-"""Axial components of hinges had the names of rotational ones in format 1; read in this release alone."""
+"""Axial components of hinges had the names of rotational ones in format 1; read in this release only."""
 _FORMER = re.compile(rf"(hinge\..+\.slip\.[xyz])\.({'|'.join(_AXIAL)})")
 
 

@@ -15,7 +15,7 @@ SUMMARY = "summary.json"
 
 @contextmanager
 def published(folder: Path, last: str = SUMMARY) -> Iterator[Path]:
-    """Give an empty folder; when the block ends well, move every file in it to `folder`.
+    """Give an empty folder; when the block ends without an error, move every file in it to `folder`.
 
     Nothing in `folder` changes until all files are whole on its disk.  Then the file named `last` is taken
     away, the others are replaced, and `last` comes at the end: where it stands, all files are of one run.

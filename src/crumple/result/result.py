@@ -79,7 +79,7 @@ class HingeSummary:
     position
         Where it lies at the start [m], shape (3,).
     fracture_time, fracture_moment
-        When it broke [s], and the moment that it carried until then [N m]; None: it is whole.
+        When it broke [s], and the moment that it carried until then [N m]; None if it did not break.
     """
 
     rotation_max: float
@@ -102,7 +102,7 @@ class HingeSummary:
 
     @property
     def bends(self) -> bool:
-        """Whether it is to be spoken of as a hinge: a crush zone that did not bend is not."""
+        """Whether it is reported as a hinge that bends; a crush zone that did not bend is not."""
         return self.crush is None or self.rotation_max > BENT
 
 
@@ -121,7 +121,7 @@ class Opening:
     energy
         Absorbed until the end [J].
     broke
-        When it broke [s]; None: it is whole.
+        When it broke [s]; None if it did not.
     """
 
     hinge: str

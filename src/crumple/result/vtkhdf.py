@@ -243,7 +243,7 @@ def read_vtkhdf(file: h5py.File) -> Result:
         warnings=(*text["warnings"], *([note] if note else [])),
         assumptions=tuple(text["assumptions"]),
         output_names=tuple(map(present_name, text["output_names"])),
-        # absent from files of before there were any
+        # absent from files of versions that did not have them
         collapse=tuple(Opening(**opening) for opening in text.get("collapse", ())),
         collapse_threshold=text.get("collapse_threshold", 0.0),
         cautions=tuple(Caution(**caution) for caution in text.get("cautions", ())),

@@ -31,7 +31,7 @@ def half_fold_length(section: Section, axis: Axis = "y") -> float:
     The formula was written for square tubes, and read in a public text that quotes it.  Its use for
     rectangles (b taken as the compression flange) and for circular tubes (b taken as the mid-line
     diameter) is an assumption made here.  For the 50x25x2.65 mm tube bent about its weak axis it gives
-    23.1 mm; finite elements saw the fold 21 to 23 mm from the clamp.
+    23.1 mm; finite elements give the fold 21 to 23 mm from the clamp.
 
     References
     ----------

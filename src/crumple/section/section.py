@@ -63,7 +63,7 @@ class Section(Protocol):
         ...
 
     def plastic_section_modulus(self, axis: Axis) -> float:
-        """First moment of the metal about the equal-area axis, taken absolutely [m^3]."""
+        """Sum of the absolute first moments on both sides of the equal-area axis [m^3]."""
         ...
 
     def flange_width(self, axis: Axis) -> float:
@@ -92,7 +92,7 @@ class Section(Protocol):
 
 
 class ByAxis(ABC):
-    """Properties about y and z of what gives them about an axis, so that both can be tabled by name."""
+    """Adds the properties about y and z by name to a section that has them about any axis."""
 
     @abstractmethod
     def second_moment(self, axis: Axis) -> float:
@@ -104,7 +104,7 @@ class ByAxis(ABC):
 
     @abstractmethod
     def plastic_section_modulus(self, axis: Axis) -> float:
-        """First moment of the metal about the equal-area axis, taken absolutely [m^3]."""
+        """Sum of the absolute first moments on both sides of the equal-area axis [m^3]."""
 
     @property
     def second_moment_y(self) -> float:

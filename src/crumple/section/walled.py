@@ -20,7 +20,7 @@ from crumple.section.wall import Wall, Weld
 if TYPE_CHECKING:
     from crumple.material import Material
 
-# Width over thickness of a flat beyond which plate formulas have no tests to stand on.
+# Width over thickness of a flat above which plate formulas are not confirmed by tests.
 SLENDER_HELD, SLENDER_FREE = 500.0, 60.0
 
 
@@ -131,7 +131,7 @@ class WalledSection(ByAxis):
         return self.second_moment(axis) / max(self.extent(axis))
 
     def plastic_section_modulus(self, axis: Axis | float) -> float:
-        """First moment of the metal about the equal-area axis, taken absolutely [m^3], exact."""
+        """Sum of the absolute first moments on both sides of the equal-area axis [m^3], exact."""
         angle, polygons = angle_of(axis), self.centred_polygons
         ones = np.ones(len(polygons))
         level = equal_level(polygons, ones, angle, self.area / 2.0)

@@ -1,7 +1,7 @@
 """Structure to a mesh of thin shells, and the explicit stepper that moves it.
 
 `solve_shell(structure, run)` is the way in; `mesh_of` and `lower` show the mesh and the model that a
-structure becomes, `report_of` what the mesh is like.
+structure becomes, `report_of` the quality of the mesh.
 """
 
 from crumple.shell.mesh.mesh import Mesh, Tube, mesh_of

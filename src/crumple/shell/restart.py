@@ -1,4 +1,4 @@
-"""Restart files: the full state of a run and what it had noted, so that it goes on with the same bits."""
+"""Restart files: full state and record of a run, so that it continues bitwise identically."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ FORMAT = 5
 def fingerprint(
     structure: Structure, settings: ShellSettings, outputs: Outputs, stages: Sequence[Stage], every: float
 ) -> str:
-    """SHA-256 of everything that the bits of a run depend on, but for the machine."""
+    """SHA-256 of everything that determines the results of a run bit for bit, except the machine."""
     parts = [part.model_dump(mode="json") for part in (structure, settings, outputs, *stages)]
     text = json.dumps([parts, every], sort_keys=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()
@@ -38,13 +38,13 @@ class Saved:
     Attributes
     ----------
     record
-        What the run had noted.
+        Record of the run so far.
     seconds
-        Wall time it had spent [s].
+        Wall time of the run so far [s].
     ended
-        Stages that were over.
+        Stages that have ended.
     state, watch
-        Arrays of the stepper and of the conditions of the stage that was under way.
+        Arrays of the stepper and of the conditions of the current stage.
     isa
         Instruction set that wrote it.
     """
@@ -92,7 +92,7 @@ def _sum(arrays: Mapping[str, Floats]) -> str:
 
 
 def unreadable(path: Path, error: Exception) -> InputError:
-    """What is wrong with a file that is no restart file, or no longer one."""
+    """Error for a file that is not a restart file, or is damaged."""
     allowed, todo = "the file that an interrupted run wrote", "give that file, or start from the beginning"
     if not path.exists():
         what = "there is no such restart file"
@@ -124,7 +124,7 @@ def read_restart(path: Path, mark: str, isa: str) -> Saved:
         found = {key: head[key] for key in ("format", "mark", "isa", "seconds")}
         whole = found["format"] != FORMAT or head["sum"] == _sum(arrays)
         ended = tuple(StageSummary(**stage) for stage in head.get("ended", ()))
-    except Exception as error:  # a damaged file can hold anything, and each reader has its own words for it
+    except Exception as error:  # a damaged file can hold anything, and each reader raises its own error
         raise unreadable(path, error) from error
     if not whole or any(values.dtype.kind not in "fiub" for values in arrays.values()):
         raise unreadable(path, ValueError("checksum"))

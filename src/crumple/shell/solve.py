@@ -39,19 +39,20 @@ def solve_shell(
     progress
         Called with the share done, 0 to 1.
     cancel
-        Asked about ten times a second; True ends the run with what it has.
+        Called about ten times a second; if it returns True, the run ends with its results so far.
     long_run
         Restart files and a watcher.
 
     Returns
     -------
     Result
-        Provenance lacks version and input hash; they are the caller's.
+        Its provenance lacks version and input hash; the caller adds them.
 
     Raises
     ------
     InputError
-        If the structure cannot be meshed, a setting does not fit its mesh, or the restart file is another's.
+        If the structure cannot be meshed, a setting does not fit its mesh, or the restart file belongs to
+        another input.
 
     References
     ----------

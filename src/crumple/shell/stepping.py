@@ -108,13 +108,13 @@ def output_times(run: ShellRun, begin: float, duration: float) -> Floats:
 
 
 def picture_times(run: ShellRun) -> Floats:
-    """Times at which shapes are stored [s]: those asked for, else six."""
+    """Times at which shapes are stored [s]: those requested, else six."""
     return np.array(run.outputs.pictures or np.linspace(0.0, run.duration, 6))
 
 
 @dataclass(frozen=True)
 class Hooks:
-    """Clock at the begin [s], and the callbacks during the run."""
+    """Clock at the start [s], and the callbacks during the run."""
 
     begin: float
     progress: Progress | None
@@ -123,7 +123,7 @@ class Hooks:
 
 
 class Stepping:
-    """One run: the moving state, what was noted of it, and the stages that are over."""
+    """One run: the current state, its record, and the stages that have ended."""
 
     def __init__(
         self, structure: Structure, run: ShellRun, case: ShellCase, state: ShellState, hooks: Hooks
@@ -197,7 +197,7 @@ class Stepping:
         return Status.COMPLETE, ""
 
     def _enter(self, stage: Stage, begin: float, number: int) -> None:
-        """Make the state that of a stage: its drives, loads, obstacles, damping and added motion."""
+        """Set the state up for a stage: its drives, loads, obstacles, damping and added motion."""
         if number > 0:
             before = self.state.checkpoint()
             self.state = self._state_of(stage, begin)

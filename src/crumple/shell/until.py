@@ -14,20 +14,20 @@ from crumple.shell.model.model import ShellCase
 from crumple.structure import Stage, Structure, Until
 
 LOOK_STEPS = 5
-"""Steps between two looks: costs little beside them, and overshoots by less than a node's contact lasts."""
+"""Steps between two checks: they cost little, and the stage ends late by less than a node's contact lasts."""
 FORCE_WINDOW = 5e-3
 """Share of a stage's longest duration over which forces are averaged: contact forces are spikes."""
 
 
 class Watch:
-    """Looks at the conditions of one stage.
+    """Checks the conditions of one stage.
 
     Parameters
     ----------
     structure, case
         What is computed.
     stage
-        The stage, and what it waits for.
+        The stage with its conditions.
     state
         Where it starts.
     """

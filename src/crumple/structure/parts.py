@@ -38,7 +38,7 @@ def _by_node(parts: Iterable[tuple[str, Part]]) -> dict[str, list[Part]]:
 
 
 class Kept(dict[tuple[str, str], Any]):
-    """What was worked out of a structure, by kind and name; no part of what it is."""
+    """Data derived from a structure, by kind and name; not part of its description."""
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Kept)
@@ -129,7 +129,7 @@ class StructureParts(Spec):
 
     @cached_property
     def kept(self) -> Kept:
-        """What was worked out of it before."""
+        """Derived data that was computed before."""
         return Kept()
 
     @cached_property
@@ -166,7 +166,7 @@ class StructureParts(Spec):
         ends = dict.fromkeys(node for member in self.members.values() for node in member.nodes)
         points = np.array([self.nodes[node] for node in ends if node in self.nodes], float)
         normal = plane_normal(points, self._turning_and_pushing())
-        # a tuple: kept beside the fields, where an array would spoil the comparison of two structures
+        # a tuple: with a cached array two structures could not be compared
         return None if normal is None else (float(normal[0]), float(normal[1]), float(normal[2]))
 
     def _turning_and_pushing(self) -> Iterator[tuple[Floats, Floats]]:

@@ -65,7 +65,7 @@ def _walls(section: Section) -> list[tuple[Floats, bool]]:
 
 
 def _to_the_edge(section: Section, point: Floats) -> float:
-    """Way along the wall nearest to a point to where it ends or turns [m], on the nearer side."""
+    """Distance along the wall nearest to a point to the nearer of its two ends or bends [m]."""
     best, room = np.inf, 0.0
     for points, closed in _walls(section):
         corners = np.concatenate([points, points[:1]]) if closed else points
@@ -84,7 +84,7 @@ def _to_the_edge(section: Section, point: Floats) -> float:
 
 
 def _straight_on(directions: Floats, length: Floats, at: tuple[int, int], closed: bool) -> float:
-    """Length of the sides that go on from one, on the way of a step, without turning off [m]."""
+    """Length of the sides that continue from one side in a direction without a bend [m]."""
     (i, step), going = at, 0.0
     for number in range(1, len(length)):
         j = i + step * number

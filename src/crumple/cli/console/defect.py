@@ -1,4 +1,4 @@
-"""The last net: an unexpected exception is a defect of Crumple; report it with what to send."""
+"""An unexpected exception is a defect of Crumple: report it, and what to send."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ EXIT_CODE = 3
 
 
 class DefectError(Exception):
-    """An exception that nobody foresaw, its cause, with the folder of the results that were being made."""
+    """An unexpected exception, its cause, with the folder of the results that were being written."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -29,7 +29,7 @@ class DefectError(Exception):
 
 @contextmanager
 def defects_into(folder: Path) -> Iterator[None]:
-    """Note the folder beside exceptions of the block that nobody foresaw."""
+    """Attach the folder to unexpected exceptions of the block."""
     try:
         yield
     except (CrumpleError, OSError, MemoryError, DefectError):
@@ -42,7 +42,7 @@ def defects_into(folder: Path) -> Iterator[None]:
 
 
 def show_defect(error: BaseException, folder: Path | None = None) -> None:
-    """Say on standard error that this is a defect, where its particulars are, and what to send."""
+    """Report the defect on standard error: where its details are, and what to send."""
     text = (
         f"Crumple {__version__}, Python {sys.version}, {SYSTEM}\n"
         f"Command: {' '.join(sys.argv)}\n\n{''.join(traceback.format_exception(error))}"
@@ -57,7 +57,7 @@ def show_defect(error: BaseException, folder: Path | None = None) -> None:
 
 
 def _kept(text: str, folder: Path | None) -> Path | None:
-    """Where the particulars were written: the folder of the results, else one for temporary files."""
+    """Where the details were written: the folder of the results, else one for temporary files."""
     for place in (folder, Path(tempfile.gettempdir())):
         if place is None:
             continue

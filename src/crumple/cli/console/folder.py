@@ -27,13 +27,14 @@ LOCK = ".crumple.lock"
 def results_folder(given: str | Path | None, file: Path, within: tuple[str, ...] = ()) -> Iterator[Path]:
     """Make, try and lock the folder, and folders within it; by default out/ and the input file's name.
 
-    Unfinished files of an interrupted run are removed.  Unforeseen exceptions of the block are wrapped with
+    Unfinished files of an interrupted run are removed.  Unexpected exceptions of the block are wrapped with
     the folder, see `crumple.cli.console.defect`.
 
     Raises
     ------
     InputError
-        If a folder cannot be made or written to, another run writes into it, or something is in the way.
+        If a folder cannot be made or written to, another run writes into it, or a file or folder of another
+        kind has its name.
     """
     if given is not None and not str(given).strip():
         todo = "give a folder; . is the current one"

@@ -22,7 +22,7 @@ STATUS_INTERVAL = 10.0
 
 
 class Bar:
-    """Call it with the fraction done, 0 to 1; without a terminal it writes a line now and then."""
+    """Call it with the fraction done, 0 to 1; without a terminal it writes a line at intervals."""
 
     def __init__(self, title: str) -> None:
         self._title, self._started = title, time.monotonic()

@@ -55,7 +55,7 @@ def long_run_of(folder: Path, restart: Path | None, bar: Bar) -> LongRun:
 
 
 def remove_restart(folder: Path, result: Result) -> None:
-    """Remove the restart file of a run that came to its end and whose results are on the disk."""
+    """Remove the restart file of a run that has ended and whose results are stored."""
     if result.status in (Status.COMPLETE, Status.RESIDUAL_EXCEEDED):
         (folder / RESTART).unlink(missing_ok=True)
 

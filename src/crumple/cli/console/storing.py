@@ -1,4 +1,4 @@
-"""Results on the disk: whole or not at all, and elsewhere where their folder takes them no longer."""
+"""Results on the disk: completely or not at all; in a temporary folder if their own cannot be written."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def store(result: Result, source: LoadedInput, folder: Path) -> None:
         except OSError:
             raise
         except Exception as error:
-            # numbers are kept even where a figure of them shows a defect
+            # results are stored even if drawing them fails
             drawn.append(error)
 
     stored(folder, fill)
@@ -61,7 +61,7 @@ def store(result: Result, source: LoadedInput, folder: Path) -> None:
 
 
 def stored(folder: Path, fill: Callable[[Path], object], last: str = "summary.json") -> None:
-    """Let `fill` write files for a folder; `last` names the one that says that all are there.
+    """Let `fill` write files for a folder; `last` names the one that shows that all are there.
 
     Raises
     ------

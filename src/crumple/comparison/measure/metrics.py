@@ -103,9 +103,9 @@ def rotation_levels(largest: float) -> tuple[float, ...]:
     degrees = math.degrees(largest)
     if not degrees > 0.1:
         return ()
-    wish = degrees / LEVELS
-    power = 10.0 ** math.floor(math.log10(wish))
-    step = min((s * power for s in (*STEPS, 10.0)), key=lambda s: abs(math.log(s / wish)))
+    target = degrees / LEVELS
+    power = 10.0 ** math.floor(math.log10(target))
+    step = min((s * power for s in (*STEPS, 10.0)), key=lambda s: abs(math.log(s / target)))
     return tuple(math.radians(step * k) for k in range(1, int(degrees / step + 1e-9) + 1))
 
 

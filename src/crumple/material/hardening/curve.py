@@ -1,7 +1,7 @@
 """Hardening curves: true stress against plastic strain.
 
-One rule for all: stress(0) is the yield stress, the curve never falls, and beyond the last strain that the
-evidence covers a table is held.
+One rule for all: stress(0) is the yield stress, the curve never falls, and a table keeps its last stress
+beyond its last strain.
 """
 
 from __future__ import annotations

@@ -159,9 +159,9 @@ def _draw_foot(axes: Axes, inches_per_metre: float, panel: float, height: float,
     axes.set_axis_off()
     axes.set_xlim(0, WIDTH)
     axes.set_ylim(0, height)
-    wish = 0.3 * panel / inches_per_metre
-    power = 10.0 ** math.floor(math.log10(wish))
-    length = next(step * power for step in (5.0, 2.0, 1.0) if step * power <= wish)
+    target = 0.3 * panel / inches_per_metre
+    power = 10.0 ** math.floor(math.log10(target))
+    length = next(step * power for step in (5.0, 2.0, 1.0) if step * power <= target)
     inches, y = length * inches_per_metre, 0.1
     axes.plot(
         [0.02, 0.02, 0.02 + inches, 0.02 + inches], [y + 0.04, y, y, y + 0.04], color=MUTED, linewidth=0.8

@@ -125,8 +125,8 @@ def picture_time(time: float) -> str:
 
 def _columns(aspect: float, n: int) -> int:
     """Panels in a row: few when they are flat, many when they are tall."""
-    wish = 2 if aspect > 3.5 else 3 if aspect > 0.8 else 4 if aspect > 0.45 else 6
-    return max(1, min(wish, n))
+    target = 2 if aspect > 3.5 else 3 if aspect > 0.8 else 4 if aspect > 0.45 else 6
+    return max(1, min(target, n))
 
 
 def surface_of(states: States) -> Surface:
@@ -162,7 +162,7 @@ def draw_walls(
     normals *= np.where(np.einsum("ij,ij->i", normals, centres - middle) < 0, -1.0, 1.0)[:, None]
     facing = view.depth(normals)
     flat = view.flat(points)
-    corners: Any = flat[quads]  # an array is taken whole, which is quick; the annotations ask for a list
+    corners: Any = flat[quads]  # an array is taken whole, which is quick; the annotations require a list
     # walls seen edge-on have nothing to fill
     seen = np.flatnonzero(np.abs(facing) > 1e-6)
     order = seen[np.argsort(view.depth(centres[seen]), kind="stable")]
@@ -257,9 +257,9 @@ def draw_scale(axes: Axes, view: View, inches_per_metre: float, panel: float, he
     axes.set_axis_off()
     axes.set_xlim(0, WIDTH)
     axes.set_ylim(0, height)
-    wish = 0.3 * panel / inches_per_metre
-    power = 10.0 ** math.floor(math.log10(wish))
-    length = next(step * power for step in (5.0, 2.0, 1.0) if step * power <= wish)
+    target = 0.3 * panel / inches_per_metre
+    power = 10.0 ** math.floor(math.log10(target))
+    length = next(step * power for step in (5.0, 2.0, 1.0) if step * power <= target)
     inches = length * inches_per_metre
     y = 0.1
     axes.plot(

@@ -76,7 +76,7 @@ class MomentCapacity:
     neutral_axis
         Height of no stress over the centroid at the effective moment [m].
     axis, sense, axial_force
-        As asked: angle from y towards z [rad], +1 or -1, tension positive [N].
+        As requested: angle from y towards z [rad], +1 or -1, tension positive [N].
     warnings
         What the formulas do not cover in this section.
     basis

@@ -159,7 +159,7 @@ def nonnegative_least_squares(matrix: Floats, right: Floats, most: int) -> Float
             trial[free] = np.linalg.solve(block, goal[free])
             if (trial[free] > 0.0).all():
                 break
-            # as far towards the trial as all stay positive; who reaches zero leaves
+            # as far towards the trial as all stay positive; entries that reach zero leave the active set
             falling = free & (trial <= 0.0)
             step = float((x[falling] / np.maximum(x[falling] - trial[falling], 1e-300)).min())
             x = x + step * (trial - x)

@@ -3,7 +3,7 @@
 Cells: the shear flow of a wall is the difference of the stress function (Prandtl's roof) on its two sides,
 zero outside, one height per cell.  No wall passes t sigma_y/sqrt(3).  The torque is twice the volume under
 the roof, so every cell is as high as it can be: its height is the shortest path from outside through the
-walls, each of length t sigma_y/sqrt(3) (a weld has none to lose: a path through it is infinitely long).
+walls, each of length t sigma_y/sqrt(3) (a weld does not yield: a path through it is infinitely long).
 
 Without cells: every wall is a strip with a roof of its own, L t^2/2 sigma_y/sqrt(3).
 

@@ -22,7 +22,7 @@ CHANNEL_NAMES = {"plastic": "dissipated"}
 
 
 def channels_of(structure: Structure, sampler: Sampler, record: Record, outputs: Outputs) -> list[Channel]:
-    """Every channel of the run, at the times of the record; those asked for come last."""
+    """Every channel of the run, at the times of the record; requested ones come last."""
     return [
         *hinge_channels(sampler, record),
         *energy_channels(record),
@@ -162,7 +162,7 @@ def clearance_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
 
 
 def summaries(sampler: Sampler, record: Record) -> dict[str, HingeSummary]:
-    """What every hinge place did."""
+    """Summary of every hinge."""
     found = {}
     for k, zone in enumerate(sampler.case.zones):
         rotation, moment, energy = hinge_history(sampler, record, k, zone)

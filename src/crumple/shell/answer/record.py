@@ -36,7 +36,7 @@ class Sampler:
     case
         What is computed.
     nodes
-        Names of the structure nodes that are followed: those asked for, then ends of distances.
+        Names of the structure nodes that are followed: those requested, then ends of distances.
     rings
         Sections whose rotation is followed: member and ring.
     """
@@ -134,7 +134,7 @@ class Record:
         return np.array(self.rows[name])
 
     def is_like(self, other: Record) -> bool:
-        """Whether it has rows and stored shapes of the same names and forms as another, all rows whole."""
+        """Whether it has rows and stored shapes of the same names and forms as another, all rows complete."""
         if not self.rows:
             return not self.shapes
         mine, theirs = self.to_arrays(), other.to_arrays()

@@ -12,10 +12,11 @@ from crumple.shell.mesh.contour import Contour
 from crumple.structure import ShellSettings, Stage, Structure
 
 FEWEST_STEPS = 10
-"""Steps of a stage below which nothing is resolved: mass scaling to longer steps is a slip of the pen."""
+"""Steps of a stage below which nothing is resolved: mass scaling to longer steps is a mistake in the
+input."""
 MOST_DAMPED = 0.1
-"""Share of the momentum that damping may take in one step: with more nothing moves, and the ledger, of second
-order in it, fails its bound."""
+"""Share of the momentum that damping may take in one step: above it the structure hardly moves, and the
+energy residual, of second order in this share, exceeds its bound."""
 LARGEST_WAVE = 0.25
 """Imperfection over the smallest side of an element up to which no element can be crossed: two neighbours
 move by one each, and at a corner along its diagonal."""

@@ -55,7 +55,7 @@ class Level:
     contour
         All points of the whole section, and the sides that are left.
     of
-        Side of the whole section that each lies on, the first of those that it took up, (k,).
+        Side of the whole section that each lies on, the first of those merged into it, (k,).
     halving
         To the next level.
     """
@@ -136,7 +136,7 @@ def coarse_rings(stations: Floats, size: float, most: int = 1) -> Levels:
     size
         Fine size [m].
     most
-        Halvings that the section bears.
+        Largest number of halvings of the section.
     """
     length = np.diff(stations) / size * (1.0 + 1e-9)
     between = np.minimum(np.concatenate([length[:1], length]), np.concatenate([length, length[-1:]]))

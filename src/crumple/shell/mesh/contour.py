@@ -20,7 +20,8 @@ from crumple.shell.mesh.walls import walled_contour
 __all__ = ["Contour", "Floats", "Integers", "contour_of", "outline_points"]
 
 SHARP_TURN = np.radians(25.0)
-"""Turn between two chords from which a corner is a corner; arcs of outlines turn by 11.25 degrees a chord."""
+"""Angle between two chords from which their common point is a corner; arcs of outlines turn by 11.25 degrees
+a chord."""
 UNEQUAL_CHORDS = 1.5
 """Ratio of neighbouring chords from which one is a wall and the other part of a bend."""
 LEAST_AROUND_CIRCLE = 8
@@ -35,7 +36,7 @@ def contour_of(section: Section, size: float) -> Contour:
     section
         A tube, or walls.
     size
-        Wished length of a side [m].
+        Target length of a side [m].
     """
     if isinstance(section, WalledSection):
         return walled_contour(section, size)
@@ -53,7 +54,7 @@ def outline_points(section: Section, size: float) -> Floats:
     section
         Closed.
     size
-        Wished length of a side [m].
+        Target length of a side [m].
 
     Returns
     -------

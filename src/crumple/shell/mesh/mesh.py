@@ -18,7 +18,7 @@ from crumple.shell.mesh.stations import Sizes, Zone, stations
 from crumple.structure import Frame, Outputs, ShellSettings, Structure, member_hinge_places
 
 MOST_ELEMENTS = 5_000_000
-"""Elements of one mesh; more is a slip of the pen and would fill the memory."""
+"""Elements of one mesh; more is a mistake in the input and would fill the memory."""
 FINE_SIDES = 2.0
 """Reach of the fine mesh where none is given, over the largest side of the section: folds lie within one."""
 
@@ -142,7 +142,7 @@ def mesh_of(structure: Structure, settings: ShellSettings, outputs: Outputs | No
     settings
         Sizes.
     outputs
-        Stations at which rings shall lie.
+        Requests for stations at which rings must lie.
 
     Raises
     ------
@@ -198,7 +198,7 @@ def _halved(settings: ShellSettings, contour: Contour, at: Floats) -> Levels:
 def _fine_zones(
     structure: Structure, member: str, settings: ShellSettings, joints: dict[str, Joint], ends: Zone
 ) -> list[Zone]:
-    """Stretches with fine elements: at held and joined ends, at hinge places, and where asked."""
+    """Stretches with fine elements: at held and joined ends, at hinge places, and where requested."""
     if settings.fine_size is None:
         return []
     reach = settings.fine_length

@@ -12,9 +12,7 @@ from crumple.numeric.arrays import Floats, Integers
 
 SHORTEST_BEND = 0.3
 """Length of a bend over the element size below which it is drawn as a sharp corner: a shorter side would cost
-more than three times the time steps, and a bend that small has next to no length to fold in."""
-MOST_SIDES = 100_000
-"""Elements along a wall of a section."""
+more than three times the time steps, and a bend that small has almost no length to fold in."""
 MOST_SIDES = 100_000
 """Elements along a wall of a section."""
 ONE_SIDE = 1.2

@@ -21,7 +21,7 @@ LEAST_AREA = 1e-6
 
 @dataclass(frozen=True)
 class MeshReport:
-    """What a mesh is like.
+    """Size, quality and time step of a mesh.
 
     Attributes
     ----------
@@ -100,7 +100,7 @@ def report_of(structure: Structure, mesh: Mesh) -> MeshReport:
     corner = mesh.position[mesh.quads]
     side = np.linalg.norm(np.roll(corner, -1, axis=1) - corner, axis=2)
     three = mesh.triangles
-    # a triangle's side between its third corner and that again is none
+    # a triangle repeats its third corner: there is no side between
     side[three, 2] = side[three, 1]
     _check(mesh, corner, side)
     pair = np.stack([side[:, 0] + side[:, 2], side[:, 1] + side[:, 3]])

@@ -1,8 +1,8 @@
-"""Where the rings of nodes lie along a member: fine where asked, growing smoothly elsewhere.
+"""Where the rings of nodes lie along a member: fine where requested, growing smoothly elsewhere.
 
-The wished length h(s) of an element is `fine` inside the fine zones and grows with the distance d from the
+The target length h(s) of an element is `fine` inside the fine zones and grows with the distance d from the
 nearest one, h = min(coarse, fine + ln(growth) d), which makes each element longer than its neighbour by at
-most the growth.  Between fixed places (ends, zone ends, asked stations) lie n = round(integral ds / h)
+most the growth.  Between fixed places (ends, zone ends, requested stations) lie n = round(integral ds / h)
 elements, at equal steps of that integral.
 """
 
@@ -23,26 +23,27 @@ Zone = tuple[float, float]
 MOST_RINGS = 1_000_000
 """Elements along a member."""
 TOO_NEAR = 0.5
-"""Share of the wished length below which two fixed places are one: a sliver would rule the time step."""
+"""Share of the target length below which two fixed places are one: a very short element would determine the
+time step."""
 SAMPLES_PER_ELEMENT = 8
 """Points per finest element at which the integral of 1/h is taken."""
 
 
 @dataclass(frozen=True)
 class Sizes:
-    """Wished lengths [m]: far from and inside the fine zones; and how fast they change (growth > 1)."""
+    """Target lengths [m]: far from and inside the fine zones; and how fast they change (growth > 1)."""
 
     coarse: float
     fine: float
     growth: float
 
     def at(self, s: Floats, zones: Sequence[Zone]) -> Floats:
-        """Wished length at stations [m], (n,)."""
+        """Target length at stations [m], (n,)."""
         if not zones:
             return np.full(s.shape, self.coarse)
         distance = np.min([np.maximum(np.maximum(a - s, s - b), 0.0) for a, b in zones], axis=0)
-        wished: Floats = np.minimum(self.coarse, self.fine + math.log(self.growth) * distance)
-        return wished
+        target: Floats = np.minimum(self.coarse, self.fine + math.log(self.growth) * distance)
+        return target
 
 
 def stations(ends: Zone, asked: Iterable[float], zones: Sequence[Zone], sizes: Sizes) -> Floats:
@@ -57,7 +58,7 @@ def stations(ends: Zone, asked: Iterable[float], zones: Sequence[Zone], sizes: S
     zones
         Fine stretches [m].
     sizes
-        Wished lengths.
+        Target lengths.
 
     Returns
     -------
@@ -84,7 +85,7 @@ def _merged(zones: Sequence[Zone]) -> list[Zone]:
 
 
 def _fixed_places(ends: Zone, asked: Iterable[float], zones: Sequence[Zone], sizes: Sizes) -> list[float]:
-    """Places that get a ring: the ends, then asked stations, then ends of zones, if far enough apart."""
+    """Places that get a ring: the ends, then requested stations, then ends of zones, if far enough apart."""
     kept = list(ends)
     for place in [*asked, *(end for zone in zones for end in zone)]:
         if not ends[0] < place < ends[1]:

@@ -27,7 +27,7 @@ def walled_contour(section: WalledSection, size: float) -> Contour:
     section
         Walls and lines of spot welds.
     size
-        Wished length of a side [m].
+        Target length of a side [m].
     """
     skeleton = section.skeleton
     node = list(skeleton.nodes)

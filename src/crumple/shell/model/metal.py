@@ -39,7 +39,7 @@ def _table(curve: HardeningCurve) -> tuple[Floats, Floats]:
 
 
 def in_words(material: Material) -> str:
-    """What the elements take the metal for."""
+    """Description of the metal as the elements use it."""
     law = material.flow_rate or material.yield_rate
     plastic = "along its hardening curve"
     if material.hardening is None:

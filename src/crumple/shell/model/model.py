@@ -45,7 +45,7 @@ class ShellCase:
     Attributes
     ----------
     mesh, report
-        Nodes and elements, and what they are like.
+        Nodes and elements, and their quality.
     bodies
         Rigid bodies in the order of the model's rigid sets.
     start
@@ -57,7 +57,7 @@ class ShellCase:
     welds
         Described spot welds, in the order of the model's.
     spaces
-        Whose clearances are asked for.
+        Spaces whose clearances are requested.
     model
         What the stepper takes in the first stage.
     """

@@ -21,11 +21,11 @@ INSIDE = 1e-6
 
 
 LEAST_REBOUND = 0.01
-"""Restitution that counts as none: less would take ever stronger dampers."""
+"""Restitution that counts as none: smaller values would need ever stronger damping."""
 
 
 def obstacles_of(structure: Structure, mesh: Mesh, stage: Stage, begin: float) -> Iterator[RigidObstacle]:
-    """Every obstacle in the order of the structure, those that this stage lacks too.
+    """Every obstacle in the order of the structure, including those absent in this stage.
 
     Parameters
     ----------

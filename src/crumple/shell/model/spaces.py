@@ -56,7 +56,7 @@ class Space:
 
 
 def spaces_of(structure: Structure, mesh: Mesh, outputs: Outputs | None) -> tuple[Space, ...]:
-    """Every space whose clearance is asked for."""
+    """Every space whose clearance is requested."""
     asked = outputs.clearances if outputs is not None else {}
     return tuple(_space(structure, mesh, name, clearance) for name, clearance in asked.items())
 

@@ -35,7 +35,8 @@ Five at a node would push it against its neighbours and drive the hourglass."""
 WIDER = (1.0, 1.5, 2.2)
 """Factors on that radius, of which the first serves that gives enough nodes."""
 LARGEST_WEIGHT = 1.2
-"""Sum of the weights' magnitudes above which nodes stand for a place outside them; among them it is 1."""
+"""Sum of the weights' magnitudes above which a place lies outside its nodes; for a place between them it is
+1."""
 MOST_REFUSED = 5
 """Spots whose refusals are given one by one."""
 
@@ -108,7 +109,7 @@ def spots_of(structure: Structure, mesh: Mesh, taken: Integers) -> tuple[Spot, .
     structure, mesh
         What is computed.
     taken
-        Nodes that a clamp or a rigid body holds: they can bear no tie.
+        Nodes that a clamp or a rigid body holds: they cannot be tied.
 
     Raises
     ------

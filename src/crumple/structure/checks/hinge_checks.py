@@ -29,7 +29,8 @@ def place_problems(structure: StructureParts, known: Mapping[str, Names]) -> Ite
             where[place.name].append(place.where)
             if not -APART * length <= place.station <= length * (1.0 + APART):
                 yield outside(f"{place.where}.at", place.station, length)
-        # one message for the many hinges between equal bars, and for those of a wish for many members
+        # one message for the many hinges between equal bars, and for those that one `auto` puts into many
+        # members
         for place in {(place.where, place.axis): place for place in places}.values():
             found = [problem for problem in _law_problems(structure, place) if problem not in reported]
             reported.update(found)

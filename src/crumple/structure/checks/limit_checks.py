@@ -1,7 +1,7 @@
-"""How much there may be of anything: counts, held against their limits before anything is built.
+"""Limits on the number of parts of each kind, checked before anything is built.
 
-The limits are stated in docs/input.md.  Each is far above what a design model needs, and low enough that
-what it bounds fits the memory and a check takes seconds.
+The limits are stated in docs/input.md.  Each is far above what a design model needs, and low enough that the
+model fits into memory and a check takes seconds.
 """
 
 from __future__ import annotations

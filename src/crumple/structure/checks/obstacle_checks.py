@@ -18,7 +18,7 @@ from crumple.structure.schema.problems import Names, unknown
 JUMP = 1e-12
 """Prescribed displacement [m] or rotation [rad] at the start that is still rounding."""
 ALONG = np.linspace(0.0, 1.0, 201)
-"""Places along a member that are held against an obstacle."""
+"""Places along a member at which its gap to an obstacle is checked, over the length."""
 INSIDE = 1e-6
 """Depth [m] of a node in an obstacle that is still rounding."""
 
@@ -56,7 +56,7 @@ def _members_inside(
             continue
         ends = structure.members[name].nodes
         first, second = (np.asarray(structure.nodes[node], float) for node in ends)
-        # a gap changes by no more than the way
+        # between two points the gap changes at most by their distance
         if sum(of_node[node] for node in ends) - float(np.linalg.norm(second - first)) >= -2.0 * INSIDE:
             continue
         gaps = gap(obstacle, first + ALONG[:, None] * (second - first))
@@ -96,7 +96,7 @@ def stage_problems(
     stages
         In their order.
     structure
-        That they happen to.
+        Structure of the run.
     defined
         Names per kind that exist even if their parts are missing here.
     """

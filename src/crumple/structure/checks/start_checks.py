@@ -30,8 +30,8 @@ def swallowed(
 ) -> Iterator[Problem]:
     """Impulses, and velocities of nodes that are named, along freedoms that a support holds or drives.
 
-    A field of members or of the whole structure may reach a support: what it loses there is a warning of the
-    run, since the part that is held follows from the rest.
+    A field of members or of the whole structure may include a supported node: the run warns about the energy
+    lost there, since the motion of the held part follows from the rest.
 
     Parameters
     ----------

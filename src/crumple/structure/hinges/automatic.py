@@ -20,7 +20,7 @@ from crumple.structure.parts import StructureParts
 
 
 def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
-    """Hinges of a member beside those between its bars: given one by one, or put where folds can form."""
+    """Hinges of a member besides those between its bars: given one by one, or put where folds can form."""
     asked = automatic_of(structure, member)
     if asked is None:
         return structure.members[member].given_hinges
@@ -37,7 +37,7 @@ def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
 
 
 def automatic_of(structure: StructureParts, member: str) -> AutomaticHinges | None:
-    """What is asked for a member: its own wish, else the structure's where it has no hinges of its own."""
+    """Automatic hinges of a member: its own setting, else the structure's if it has no hinges of its own."""
     spec = structure.members[member]
     if isinstance(spec.hinges, AutomaticHinges):
         return spec.hinges
@@ -54,7 +54,7 @@ def where_automatic(structure: StructureParts, member: str) -> str | None:
 
 
 def any_automatic(structure: StructureParts) -> bool:
-    """Whether hinges of any member find their places by themselves."""
+    """Whether any member has automatic hinges."""
     return any(automatic_of(structure, member) is not None for member in structure.members)
 
 
@@ -70,7 +70,7 @@ def automatic_stations(
     axes
         Bending axes of the candidates: the longest of their folds counts.
     spacing
-        Largest distance between candidates [m]; None: at the ends alone.
+        Largest distance between candidates [m]; None: only at the ends.
     """
     section, length = structure.section_of(member), structure.frame_of(member).length
     half = max(half_fold_length(section, axis) for axis in axes)

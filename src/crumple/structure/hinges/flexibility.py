@@ -10,8 +10,8 @@ lengths w_i as weights.  It is exact for every linear moment if
     sum w_i x_i^k = int x^k dx       for k = 0, 1, 2,
 
 and so are all deflections of the ends (Castigliano).  Of all weights that fulfil this, those nearest to the
-tributary lengths t_i are taken, w_i = t_i p(x_i) with a quadratic p.  Where one would be negative or next to
-nothing, elastic joints are added as further points.  Limits and proof: docs/theory/member_stiffness.md.
+tributary lengths t_i are taken, w_i = t_i p(x_i) with a quadratic p.  Where one would be negative or very
+small, elastic joints are added as further points.  Limits and proof: docs/theory/member_stiffness.md.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ Stretches = tuple[tuple[float, float], ...]
 
 LEAST = 0.1
 """Smallest share of its tributary length that a hinge gets: below it, the spring would be ten times as stiff
-as its surroundings and its vibration would rule the time steps."""
+as its surroundings and its vibration would determine the time steps."""
 MOST = 1.4
 """Largest length of a hinge over its tributary one where a free end leaves one condition: a bar cut in two
 equal parts needs 4/3."""
@@ -39,11 +39,11 @@ PLACES = 24
 """Joints are sought at multiples of the flexible length over this, and no nearer to
 hinges and ends."""
 MOST_JOINTS = 2
-"""Joints that suffice beside at least one hinge, wherever it is."""
+"""Number of joints that is sufficient with at least one hinge, wherever it is."""
 FLOOR = 0.05
-"""Least tributary length over the mean: a hinge between rigid parts still is a point."""
+"""Least tributary length over the mean: a hinge between rigid parts gets at least this."""
 KEPT = 4096
-"""Bars kept; equal members of a frame, and the runs of a study, share one answer."""
+"""Bars whose shares are cached; equal members of a frame, and the runs of a study, share one answer."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class Flexibility:
     lengths
         One for each hinge [m].
     joints
-        Station and length [m] of the elastic joints that are needed beside the hinges.
+        Station and length [m] of the elastic joints that are needed in addition to the hinges.
     """
 
     lengths: tuple[float, ...]
@@ -187,7 +187,7 @@ class _Bar:
         return self.total / PLACES * (1.0 - 1e-6)
 
     def _candidates(self, points: Floats, number: int) -> list[float]:
-        """Places for joints, away from hinges and ends; for one beside one hinge also what suits it."""
+        """Places for joints, away from hinges and ends; for one joint and one hinge also the exact one."""
         places = []
         gone = 0.0
         for a, b in self.flexible:

@@ -45,12 +45,12 @@ from crumple.structure.parts import StructureParts
 from crumple.structure.remembered import remembered
 
 ANY = HingeShares({"y": 1.0, "z": 1.0})
-"""Lengths of no member: for what does not depend on them."""
+"""Shares for results that do not depend on the length of a member."""
 NEARER = np.sqrt(0.5)
 """Cosine of 45 degrees: of two axes across a member the nearer one is within it."""
 FIRM = 100.0
-"""Moment that an elastic joint carries over the largest capacity of its member's hinges: no blow bends a
-member so far, and tolerances that count with the largest capacity stay small."""
+"""Capacity of an elastic joint over the largest capacity of its member's hinges: no impact reaches it, and
+tolerances relative to the largest capacity stay small."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +67,7 @@ class PlacedHinge:
         Unit vector of its axis at the start, global, shape (3,); rotation is right-handed about it,
         second side relative to first.
     tributary_length
-        Length of member [m] whose elastic bending about its axis it stands for; 0 where others do.
+        Length of member [m] whose elastic bending about its axis it represents; 0 if other hinges do.
     law
         Formula with source and range.
     record
@@ -128,7 +128,7 @@ def plastic_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
 
 
 def shares_left_out(structure: StructureParts) -> dict[str, dict[Axis, AxisShares]]:
-    """Shares, by member and bending axis, that hinges would have where all are rigid, were they elastic."""
+    """Shares that rigid hinges would have if they were elastic, by member and bending axis."""
     free = moment_free_ends(structure)
     found: dict[str, dict[Axis, AxisShares]] = {}
     for member in structure.members:
@@ -194,7 +194,7 @@ def _bending(
     rigidity = structure.flexural_rigidity(place.member, place.axis)
     law = law_of(structure, place)
     record = _record(law, spec, rigidity)
-    # the length alone differs along a chain, and only the elastic form looks at it
+    # hinges of a chain differ only in length, which only the elastic form uses
     by_length = spec.elastic_stiffness == "auto" and law.elastic_stiffness is None
     if record.form is Form.ELASTIC_PLASTIC and by_length:
         stiffness = hinge.tributary_stiffness(rigidity, share.bending[place.axis])

@@ -66,7 +66,7 @@ class HingePlace:
 def hinge_places(structure: StructureParts) -> tuple[HingePlace, ...]:
     """Every hinge of a sound structure, member by member, along each member.
 
-    The structure's members must have nodes that exist and are apart; everything else is not looked at.
+    The structure's members must have nodes that exist and are apart; nothing else is checked.
     """
     return tuple(place for member in structure.members for place in member_hinge_places(structure, member))
 

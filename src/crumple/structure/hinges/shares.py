@@ -1,4 +1,4 @@
-"""What the hinges of a member stand for of its elastic flexibility, axis by axis, and its elastic joints."""
+"""Elastic flexibility that each hinge of a member represents, axis by axis, and its elastic joints."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class AxisShares:
     lengths
         By hinge [m]; one that takes no part has none.
     joints
-        Station and length [m] of the elastic joints that the member needs beside them.
+        Station and length [m] of the elastic joints that the member needs in addition.
     elastic
         Whether the model has these joints: whether a hinge takes its stiffness from the member.
     rigid
@@ -110,7 +110,7 @@ def axes_of(place: HingePlace) -> tuple[Axis, ...]:
 
 
 def about_axis(place: HingePlace, axis: Axis) -> HingePlace:
-    """A hinge as its law about one of its bending axes sees it."""
+    """The hinge with the law of one of its bending axes."""
     return place if axis == place.axis else replace(place, axis=axis, law=place.keys.law_about(axis))
 
 
@@ -154,8 +154,9 @@ def moment_free_ends(structure: StructureParts) -> Callable[[str], tuple[bool, b
     """For a member: whether its first and second end carry no bending moment.
 
     An end is free where no other member is joined rigidly, no support holds or drives a rotation, and no
-    rotary inertia and no moment acts, or where a spherical joint is.  Of a member that spot welds join to
-    another nothing is known, and parts of it cannot move against each other: it counts as free at both ends.
+    rotary inertia and no moment acts, or where a spherical joint is.  A member that spot welds join to
+    another counts as free at both ends: its end moments are not known, and its parts cannot move relative to
+    each other.
     """
     freed = {(joint.member, joint.node) for joint in structure.joints.values() if joint.type == "spherical"}
     joined = Counter(

@@ -1,8 +1,8 @@
 """What every section of a description has in common.
 
 Walls may be of other metals than the member: by the name of a material of the structure, or described in
-place.  A section is therefore built with the structure's materials; without them only its geometry is looked
-at.
+place.  A section is therefore built with the structure's materials; without them only its geometry is
+available.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ class AnySection(Spec):
 
 @remembered(256)
 def _built(spec: AnySection, known: tuple[tuple[str, MaterialSpec], ...] | None) -> Section:
-    """One object per description: what it has worked out stays with it."""
+    """One object per description, so that its computed properties are reused."""
     materials = dict(known or ())
 
     def metal(reference: MaterialReference | None) -> Material | None:

@@ -83,7 +83,7 @@ class LawKeys(Registered):
     rate: Annotated[Literal["on", "off"], BeforeValidator(_on_or_off)] = "on"
     """Whether the material's strain-rate law raises the capacity."""
     viscous_damping: NonNegativeRotationalDamping = 0.0
-    """Rotational damper beside the hinge."""
+    """Rotational damper in parallel with the hinge."""
     bound: Literal["nominal", "lower", "upper"] = "nominal"
     """Nominal law, or the lower or upper bound of its band."""
 

@@ -131,7 +131,7 @@ class MaterialSpec(Spec):
 
 @remembered(256)
 def _made(spec: MaterialSpec, name: str) -> material.Material:
-    """One object per description: every part of the lowering asks for it."""
+    """One object per description, shared by all parts of the lowering."""
     return material.Material(
         name=name,
         youngs_modulus=spec.youngs_modulus,

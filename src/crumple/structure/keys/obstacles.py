@@ -69,7 +69,7 @@ class Obstacle(Spec):
     guide: Direction | None = None
     """Direction in which the mass moves; without it that of `velocity`, or across a plane."""
     velocity: tuple[Velocity, Velocity, Velocity] = (0.0, 0.0, 0.0)
-    """Velocity at the start of a mass; of an obstacle without mass for good."""
+    """Initial velocity of the mass; without `mass` the constant velocity of the obstacle."""
     motion: Travel = Travel()
     """Prescribed displacement of the obstacle."""
     turning: Turning | None = None

@@ -76,7 +76,7 @@ class Outputs(Spec):
     section_rotations: Named[SectionRotation] = FrozenMapping()
     """Relative rotations between two sections of a member, by channel name."""
     section_forces: Named[SectionForce] = FrozenMapping()
-    """Forces and moments in sections of members, by name; multibody runs alone."""
+    """Forces and moments in sections of members, by name; multibody runs only."""
     distances: Named[Distance] = FrozenMapping()
     """Changes of distances of nodes, by channel name, negative if they come nearer."""
     clearances: Named[Clearance] = FrozenMapping()

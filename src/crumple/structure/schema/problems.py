@@ -105,20 +105,20 @@ def shown(value: object) -> str:
 
 
 class Names(frozenset[str]):
-    """Names that are defined, against which many others are held: a refusal does not sort them again."""
+    """Defined names with which many others are compared; the list for messages is sorted only once."""
 
     @cached_property
     def listed(self) -> str:
-        """Them as an allowed value."""
+        """The names as the text of what is allowed."""
         return one_of(sorted(self))
 
     @cached_property
     def _left(self) -> list[int]:
-        """Comparisons that suggestions may still cost."""
+        """Number of comparisons left for suggestions."""
         return [MOST_COMPARED]
 
     def suggestion(self, name: str) -> str:
-        """Like the function, but empty once suggestions have cost enough."""
+        """Like the function, but empty once the number of comparisons is used up."""
         if self._left[0] < len(self):
             return ""
         self._left[0] -= len(self)

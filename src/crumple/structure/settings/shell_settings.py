@@ -60,12 +60,13 @@ class ShellSettings(Spec):
     weld_pitch: PositiveLength | None = None
     """Distance of the spots along lines of spot welds; without it every node of a line is tied."""
     imperfection: NonNegativeLength = 0.0
-    """Largest distance by which nodes of walls lie beside their place, each by another one: without any, a
-    perfect mesh under axial load folds as no real tube does."""
+    """Largest pseudo-random shift of each wall node across its wall: without it, a perfect mesh under axial
+    load folds unlike any real tube."""
     thickness_points: Annotated[int, Field(ge=1, le=10, strict=True)] = 5
     """Points through the thickness."""
     thickness_rule: Literal["gauss", "lobatto"] = "gauss"
-    """Where they lie; Gauss is exact for higher powers, Lobatto (2 or more) has points on the surfaces."""
+    """Rule that places them; Gauss is exact for higher powers, Lobatto (2 or more) has points on the
+    surfaces."""
     element: Literal["belytschko-tsay", "stabilised"] = "belytschko-tsay"
     """Quadrilateral with one point: held by hourglass coefficients, or by the metal's own stiffness."""
     thickness_update: Switch = "on"
@@ -78,8 +79,8 @@ class ShellSettings(Spec):
     """Bending terms of elements whose corners do not lie in one plane: needed for twisted members; costs a
     fifth of the time."""
     drill_stiffness: DrillStiffness = 0.01
-    """With the warping correction: what holds a corner's turning about the wall's normal, over shear modulus
-    times volume."""
+    """With the warping correction: stiffness against rotation of a corner about the wall's normal, over shear
+    modulus times volume."""
     safety_factor: SafetyFactor = 0.9
     """Share of the stable time step that is used."""
     mass_scaling: PositiveTime | None = None
