@@ -148,6 +148,20 @@ def test_bad_elements_are_refused_by_name(spoil, what):
     assert "member tube" in str(caught.value)
 
 
+def test_bad_elements_of_one_kind_are_one_problem():
+    mesh = mesh_of(cantilever(), COARSE)
+    position = mesh.position.copy()
+    # the nodes of a ring drawn together: elements on both sides have two corners at one place
+    ring = mesh.tubes["tube"].nodes[5]
+    position[ring] = position[ring].mean(axis=0)
+    with pytest.raises(InputError) as caught:
+        report_of(cantilever(), dataclasses.replace(mesh, position=position))
+    found = [problem for problem in caught.value.problems if problem.what.startswith("two corners")]
+    assert len(found) == 1
+    assert found[0].came.count("member tube, ") == 3
+    assert found[0].came.endswith(f"; and {2 * len(ring) - 3} more")
+
+
 def test_place_of_an_element_in_words():
     mesh = mesh_of(cantilever(), COARSE)
     tube = mesh.tubes["tube"]

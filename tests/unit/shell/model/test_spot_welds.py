@@ -103,6 +103,15 @@ def test_a_spot_that_finds_no_two_walls_is_refused_by_its_place(given, words):
     assert caught.value.problems[0].where == "spot_welds.spot"
 
 
+def test_of_many_spots_that_are_refused_the_first_are_described_and_the_others_counted():
+    points = tuple((0.06 + 0.002 * i, 0.0, 0.02) for i in range(8))
+    with pytest.raises(InputError) as caught:
+        lower(crossing(points=points), SETTINGS)
+    assert len(caught.value.problems) == 6
+    last = caught.value.problems[-1]
+    assert (last.what, last.where) == ("and 3 more spots cannot be tied", "spot_welds.spot")
+
+
 def test_nodes_of_a_clamp_take_no_part():
     """A spot one element from a clamp, whose circle reaches it."""
     case = lower(
