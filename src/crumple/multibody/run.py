@@ -69,7 +69,7 @@ def step_bounds(run: Run, *, ends_only: bool) -> tuple[float, int]:
 def poll_of(
     duration: float, share: tuple[float, float], progress: Progress | None, cancel: Cancel | None
 ) -> Callable[[float], bool]:
-    """What a kernel asks now and then: passes the share done on, and answers whether to go on."""
+    """Callback of a kernel: passes the share done on, and returns whether to continue."""
     since, until = share
 
     def poll(reached: float) -> bool:

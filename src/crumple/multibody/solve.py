@@ -49,12 +49,12 @@ def solve_multibody(
     progress
         Called with the share done, 0 to 1.
     cancel
-        Asked now and then; True ends the run with what it has.
+        Called at intervals; if it returns True, the run ends with its results so far.
 
     Returns
     -------
     Result
-        Provenance holds the settings alone; version and input hash are the caller's.
+        Its provenance holds the settings only; the caller adds version and input hash.
 
     Raises
     ------

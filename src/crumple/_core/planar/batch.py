@@ -58,9 +58,9 @@ def solve_many(
     *,
     poll: Callable[[float], bool] | None = None,
 ) -> TreeEndValues:
-    """Solve every variant up to time ``end`` [s], with the very bits of a `Simulation` of it alone.
+    """Solve every variant up to time ``end`` [s], bitwise as a single `Simulation` of it.
 
-    ``poll(share)`` is asked now and then with the share done and returns False to cancel; variants that were
+    ``poll(share)`` is called at intervals with the share done and returns False to cancel; variants that were
     not begun then have the outcome CANCELLED.
     """
     out = _kernels.planar.solve_many(

@@ -77,9 +77,9 @@ def solve_many(
     poll: Callable[[float], bool] | None = None,
     led: bool = False,
 ) -> SpatialEndValues:
-    """Solve every variant through its stages, with the very bits of a `SpatialSimulation` of it alone.
+    """Solve every variant through its stages, bitwise as a single `SpatialSimulation` of it.
 
-    ``poll(share)`` is asked now and then with the share done and returns False to cancel; variants that were
+    ``poll(share)`` is called at intervals with the share done and returns False to cancel; variants that were
     not begun then have the outcome CANCELLED.
 
     `led`: the first variant alone is solved so.  The others take its steps, and in place of every solution of

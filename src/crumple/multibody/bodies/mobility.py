@@ -89,7 +89,7 @@ def mobility(linkage: Linkage, *, locked: bool = False) -> Mobility:
     width = len(tree.owner)
     blocks = [_loop_rows(linkage, tree, width, closing, own) for closing, own in tree.loops]
     system = np.concatenate([rows for rows, _ in blocks]) if blocks else np.zeros((0, width))
-    # what lies on no loop moves by itself
+    # a connection on no loop moves independently
     coupled = np.flatnonzero(np.any(system != 0.0, axis=0))
     null, redundant = null_space(system[:, coupled])
     moves = np.ones(width, bool)
