@@ -64,19 +64,36 @@ class Target:
         return [name for name in (self.compiler[0], *self.needs) if shutil.which(name) is None]
 
 
+def mingw() -> str:
+    """MinGW's compiler: the one with the threads of C++ where a system has two."""
+    name = "x86_64-w64-mingw32-g++"
+    return f"{name}-posix" if shutil.which(f"{name}-posix") else name
+
+
 def mingw_headers() -> tuple[str, ...]:
     """Folders of the C++ library and the C headers for Windows, as its own compiler names them."""
-    compiler = shutil.which("x86_64-w64-mingw32-g++")
+    compiler = shutil.which(mingw())
     if compiler is None:
         return ()
-    search = subprocess.run(
+    report = subprocess.run(
         [compiler, "-E", "-x", "c++", "-v", os.devnull], capture_output=True, text=True, check=True
     ).stderr
-    listed = search.split("#include <...> search starts here:")[1].split("End of search list.")[0]
+    listed = report.split("#include <...> search starts here:")[1].split("End of search list.")[0]
     # not the compiler's own folder: Clang has its own headers of intrinsics
     folders = [line.strip() for line in listed.splitlines() if line.strip()]
     kept = [name for name in folders if not re.search(r"/gcc/[^/]+/[^/]+/include(-fixed)?$", name)]
     return tuple(word for name in kept for word in ("-isystem", name))
+
+
+def mingw_libraries() -> tuple[str, ...]:
+    """Folder of the C++ library for Windows that belongs to these headers."""
+    compiler = shutil.which(mingw())
+    if compiler is None:
+        return ()
+    library = subprocess.run(
+        [compiler, "-print-libgcc-file-name"], capture_output=True, text=True, check=True
+    ).stdout
+    return (f"-L{Path(library.strip()).parent}",)
 
 
 def wine() -> str:
@@ -91,14 +108,13 @@ def targets() -> list[Target]:
     headers = mingw_headers()
     windows = ("clang++", "--target=x86_64-w64-windows-gnu", *headers)
     msvc = ("clang++", "--target=x86_64-pc-windows-msvc", *LIKE_GCC, *headers)
-    mingw = ("x86_64-w64-mingw32-g++",)
     whole = ("-static", "-pthread")
     return [
         Target("this machine", own, x86),
         Target("Clang", ("clang++",), x86),
         Target("arm64", ("aarch64-linux-gnu-g++",), ("generic",), run=("qemu-aarch64-static",), link=whole),
-        Target("Windows", windows, X86, mingw, run=(wine(),), link=whole),
-        Target("MSVC's binary interface", msvc, X86, mingw, run=None),
+        Target("Windows", windows, X86, (mingw(),), run=(wine(),), link=(*mingw_libraries(), *whole)),
+        Target("MSVC's binary interface", msvc, X86, (mingw(),), run=None),
     ]
 
 
@@ -178,7 +194,11 @@ def compiled(target: Target) -> list[str]:
 def linked(target: Target, objects: list[str]) -> str:
     """Link the objects; the program."""
     program = str(Path(objects[0]).with_name("kernels.exe"))
-    subprocess.run([*target.compiler, *objects, *target.link, "-o", program], check=True)
+    command = [*target.compiler, *objects, *target.link, "-o", program]
+    # MinGW's linker warns that GCC's and Clang's type information differ in size
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"{target.name}: {done.stderr}")
     return program
 
 
@@ -227,6 +247,8 @@ def check_clang_cl() -> str:
         "-###",
         "/c",
         *given,
+        # a path that starts with a slash would be an option
+        "--",
         str(PROGRAM),
     ]
     done = subprocess.run(command, capture_output=True, text=True, check=True)

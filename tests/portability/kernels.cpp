@@ -44,7 +44,7 @@ void planar() {
     Body bar;
     bar.centre = {length, 0.0};
     bar.mass = mass;
-    Model model{Tree({bar}), {constant_hinge()}, {}, {}, {}, {}, {}, {0.0}, length};
+    Model model{Tree({bar}), {constant_hinge()}, {}, {}, {}, {}, {}, {0.0}, length, {}};
     Settings settings;
     settings.accuracy = accuracy;
     Simulation run(model, settings);
