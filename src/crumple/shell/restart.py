@@ -78,7 +78,7 @@ def write_restart(path: Path, saved: Saved, mark: str) -> None:
     head = {"format": FORMAT, "mark": mark, "isa": saved.isa, "seconds": saved.seconds, "sum": _sum(arrays)}
     text = json.dumps({**head, "ended": [asdict(stage) for stage in saved.ended]})
     with replacing(path) as temporary, temporary.open("wb") as file:
-        np.savez(file, allow_pickle=False, head=np.frombuffer(text.encode(), dtype=np.uint8), **arrays)
+        np.savez(file, head=np.frombuffer(text.encode(), dtype=np.uint8), **arrays)
 
 
 def _sum(arrays: Mapping[str, Floats]) -> str:

@@ -33,7 +33,7 @@ def response(channel_class, frequency, time_step=TIME_STEP, standard="SAE J211")
     filtered = cfc(np.sin(2 * np.pi * frequency * t), time_step, channel_class, standard=standard)
     middle = slice(n // 4, 3 * n // 4)
     basis = np.stack([np.sin(2 * np.pi * frequency * t), np.cos(2 * np.pi * frequency * t)], axis=1)
-    a, b = np.linalg.lstsq(basis[middle], filtered[middle])[0]
+    a, b = np.linalg.lstsq(basis[middle], filtered[middle], rcond=None)[0]
     return math.hypot(a, b), math.atan2(b, a)
 
 
