@@ -281,8 +281,11 @@ void Contacts::commit(double h, bool from_rest, const Row* rows, const double* i
     for (size_t i = 0; i < active_.size(); i++) {
         const Active& c = active_[i];
         const double *p = impulse + 3 * i, *w0 = rate0 + 3 * i, *w1 = rate + 3 * i;
-        state.dissipated += p[0] * (w0[0] + w1[0]) / 2;
-        state.friction += p[1] * (w0[1] + w1[1]) / 2 + p[2] * (w0[2] + w1[2]) / 2;
+        // friction acts against the slip at the end of the step: where an impact reverses the slip, its mean work would be negative,
+        // and belongs to the impact
+        const double slid = p[1] * (w0[1] + w1[1]) / 2 + p[2] * (w0[2] + w1[2]) / 2;
+        state.friction += std::max(slid, 0.0);
+        state.dissipated += p[0] * (w0[0] + w1[0]) / 2 + std::min(slid, 0.0);
         if (p[0] == 0) continue;
         state.held.push_back({c.key, -p[0] / h});
         push(i, h, rows + 3 * i, p, state);

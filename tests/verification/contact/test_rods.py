@@ -55,6 +55,36 @@ def test_oblique_impact_of_a_rod(degrees, restitution, record_figure):
     assert record.residual < MAX_RESIDUAL
 
 
+def test_impact_that_reverses_the_slip(record_figure):
+    """The end of the rod slides forward, and backward after the impact; friction acts against the later slip.
+
+    With the arm (x, z) from centre to contact, impulses N and F = mu N, and end of approach:
+    N (1/m + x^2/I) - x z F/I = v, slip after: s + F (1/m + z^2/I) - x z N/I < 0.
+    """
+    slope, speed, slip, mass, friction, radius = math.radians(45.0), 3.0, 1.5, 4.0, 0.1, 0.05
+    first, second = inclined_rod(slope, 0.03, radius)
+    body = rod(first, second, mass=mass)
+    run = simulation(
+        [body],
+        [rod_shape(0, first, second)],
+        [plane(friction=friction)],
+        [[0, 0, 0, slip, 0, -speed]],
+        NO_GRAVITY,
+    )
+    record = run.run(np.array([0.0, 0.012]))
+    x, z, inertia = -math.cos(slope) / 2, -math.sin(slope) / 2 - radius, body.inertia[1, 1]
+    normal = speed / (1 / mass + x * x / inertia - x * z * friction / inertia)
+    after = slip + friction * normal * (1 / mass + z * z / inertia) - x * z * normal / inertia
+    assert -slip < after < 0.0
+    record_figure(
+        "slip reversed, normal impulse", mass * (record.velocity[1, 0, 5] + speed), normal, 1e-3, "N s"
+    )
+    lost = normal * speed / 2 - friction * normal * (slip + after) / 2
+    together = record.energy.contact[-1] + record.energy.friction[-1]
+    record_figure("slip reversed, energy lost", together, lost, 1e-3, "J", relative=True)
+    assert record.energy.friction[-1] >= 0.0
+
+
 def test_rod_falls_over_on_a_smooth_plane(record_figure):
     """Its centre falls straight down: energy gives the spin at every angle.
 
