@@ -192,8 +192,7 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
 void Simulation::run_to_end(const std::vector<double>& times, const std::function<bool(double)>& poll, Record& record) {
     make_ready();
     const double duration = times.back() - state_.t;
-    duration_ = duration;
-    mark_ = state_.t;
+    advance_.begin(state_.t, duration, stepper_.solves());
     // the rotation that the strongest hinge would need for all energy: what counts as large before anything has turned
     double strongest = 0;
     for (const HingeState& h : state_.hinge) strongest = std::max(strongest, value(h.capacity));

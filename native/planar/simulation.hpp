@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/advance.hpp"
 #include "common/records.hpp"
 #include "common/unresolved.hpp"
 #include "planar/stepper.hpp"
@@ -100,8 +101,7 @@ private:
     double negligible_speed_ = 0;              // where loads or drives act: moves bodies by less than what counts as large in the run
     double step_tolerance_;  // of the error measure
     double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, work_max_ = 0, residual_max_ = 0, negligible_energy_ = 0;
-    double duration_ = 0, mark_ = 0;  // of the run [s]; time at which it has advanced again
-    int attempts_ = 0;                // steps, rejected ones too, since it last had
+    Advance advance_;
     std::int64_t poll_at_ = 0;  // work at which `poll` is asked next
     bool ready_ = false;
 };

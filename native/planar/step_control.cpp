@@ -17,9 +17,6 @@ namespace {
 constexpr double loosest_share = 1e-3;
 
 constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
-// Steps in a row, rejected ones too, that advance a run by less than a share of its time and end it.
-constexpr int most_attempts = 10'000;
-constexpr double advance_share = 1e-3;
 
 // length and error of a step that was made
 struct Attempt {
@@ -83,13 +80,9 @@ bool Simulation::step_twice(double h, bool again) {
 }
 
 bool Simulation::stalled(Record& record) {
-    if (state_.t >= mark_) {
-        mark_ = state_.t + advance_share * duration_;
-        attempts_ = 0;
-    }
-    if (++attempts_ <= most_attempts) return false;
+    record.reason = advance_.stalled(state_.t, stepper_.solves());
+    if (record.reason.empty()) return false;
     record.outcome = Outcome::stalled;
-    record.reason = "10000 steps in a row advanced the run by less than 0.1 % of its time";
     return true;
 }
 
@@ -129,6 +122,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
                                        settings_.maximum_step);
         if (e > 1 && !smallest) {
             record.rejected++;
+            advance_.count(solved ? Attempted::inexact : Attempted::unsolved);
             rejected = solved ? Attempt{h, e} : Attempt{};
             h_ = std::min(next, 0.7 * h);
             if (h_ < settings_.minimum_step) h_ = settings_.minimum_step;
@@ -145,6 +139,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
             unseen_ = std::max(unseen_, seen.unresolved * settings_.accuracy * std::max(speed_, large_speed_));
         }
         record.steps++;
+        advance_.count(Attempted::taken);
         watch(record);
         set_critical_damping(false);
     }

@@ -154,8 +154,7 @@ void Simulation::show_first_moments() {
 // what counts as large, and as rounding, in a run to the given time
 void Simulation::prepare(double end) {
     const double duration = end - state_.t;
-    duration_ = duration;
-    mark_ = state_.t;
+    advance_.begin(state_.t, duration, stepper_.solves());
     // the rotation that the strongest hinge would need for all energy: what counts as large before anything has turned
     double strongest = 0;
     for (size_t j = 0; j < model_.hinges.size(); j++) {

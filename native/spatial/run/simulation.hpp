@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/advance.hpp"
 #include "common/records.hpp"
 #include "common/unresolved.hpp"
 #include "spatial/step/stepper.hpp"
@@ -109,6 +110,8 @@ private:
     void set_critical_damping(const std::vector<bool>& which);
     bool cancelled(Record& record, const std::function<bool(double)>& poll);
     bool stalled(Record& record);
+    void reject(Record& record, Attempted what);
+    void accept(Record& record);
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
     bool solve(double h);
     bool failed(double e, bool smallest, Record& record) const;
@@ -153,8 +156,7 @@ private:
     double largest_energy_ = 0;       // kinetic, of the structure
     double overshot_ = 0;             // by the condition that last shortened a step; NaN for none
     int strikes_ = 0;                 // impacts in a row
-    double duration_ = 0, mark_ = 0;  // of the run [s]; time at which it has advanced again
-    int attempts_ = 0;                // steps, rejected ones too, since it last had
+    Advance advance_;
     int lost_ = 0;                    // steps of a quasi-static stage out of equilibrium, since this state:
     State held_;
     std::vector<Vec3> stored_impulse_;  // on every obstacle when last stored, and when that was

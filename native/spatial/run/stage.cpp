@@ -18,21 +18,13 @@ constexpr int most_lost = 1000;
 constexpr double unheld_share = 0.999;
 // A condition that ends a stage is met to this share of its value.
 constexpr double met = 1e-4;
-// Steps in a row, rejected ones too, that advance a run by less than a share of its time and end it: a whole run then takes at
-// most ten million, and one that goes on so does not come to an end.
-constexpr int most_attempts = 10'000;
-constexpr double advance_share = 1e-3;
 
 }  // namespace
 
 bool Simulation::stalled(Record& record) {
-    if (state_.t >= mark_) {
-        mark_ = state_.t + advance_share * duration_;
-        attempts_ = 0;
-    }
-    if (++attempts_ <= most_attempts) return false;
+    record.reason = advance_.stalled(state_.t, stepper_.solves());
+    if (record.reason.empty()) return false;
     record.outcome = Outcome::stalled;
-    record.reason = "10000 steps in a row advanced the run by less than 0.1 % of its time";
     return true;
 }
 

@@ -85,6 +85,7 @@ bool Simulation::strike(Record& record) {
         return false;
     }
     record.steps++;
+    advance_.count(Attempted::impact);
     watch(record);
     if (++strikes_ <= most_strikes) return true;
     record.outcome = Outcome::step_collapsed;
@@ -116,6 +117,16 @@ bool Simulation::cancelled(Record& record, const std::function<bool(double)>& po
     return true;
 }
 
+void Simulation::reject(Record& record, Attempted what) {
+    record.rejected++;
+    advance_.count(what);
+}
+
+void Simulation::accept(Record& record) {
+    record.steps++;
+    advance_.count(Attempted::taken);
+}
+
 bool Simulation::advance(double target, Record& record, const std::function<bool(double)>& poll) {
     while (state_.t < target) {
         if (cancelled(record, poll) || stalled(record)) return false;
@@ -131,7 +142,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
         const bool last = h == left, cut = last || h < wanted || longest < h_ || landing_ > 0;
         const bool solved = solve(h);
         if (solved && closing_ > 0 && h > shortest_landing * settings_.minimum_step) {
-            record.rejected++;
+            reject(record, Attempted::closing);
             landing_ = std::max(closing_, settings_.minimum_step);
             continue;
         }
@@ -142,7 +153,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
         const double next = std::clamp(h * std::clamp(factor, shrink_limit, growth_limit), settings_.minimum_step,
                                        settings_.maximum_step);
         if (e > 1 && !smallest) {
-            record.rejected++;
+            reject(record, solved ? Attempted::inexact : Attempted::unsolved);
             h_ = std::max(std::min(next, 0.7 * h), settings_.minimum_step);
             landing_ = 0;
             continue;
@@ -150,6 +161,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
         int which = -1;
         const double share = share_of_step(state_, fine_, &which);
         if (share < 1 && !smallest && !jumps(which)) {
+            advance_.count(Attempted::inexact);
             h_ = std::max(share * h, settings_.minimum_step);
             landing_ = 0;
             continue;
@@ -164,7 +176,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
         if (seen.unresolved > 0 && (rested || resting())) {
             unseen_ = std::max(unseen_, seen.unresolved * settings_.accuracy * std::max(speed_, large_speed_));
         }
-        record.steps++;
+        accept(record);
         overshot_ = NAN;
         watch(record);
         strikes_ = 0;
