@@ -1,11 +1,11 @@
 """A campaign of random frames: `python tests/benchmark/random_frames.py --number 1000 --out
 out/frames.jsonl`.
 
-Every case runs in a process of its own, two at a time, and adds a line to the file: its status and reason,
-energy residual, steps, linear solves, processor time, and whether any number of the answer is not finite.
-Cases that are in the file already are not run again, so a campaign that was stopped goes on.  A case that
-takes longer than the limit is stopped and counts as failed ("time limit").  At the end a table of outcomes,
-and the cases that did not complete.
+Every case runs in a process of its own, two at a time unless `--processes` states another number, and adds a
+line to the file: its status and reason, energy residual, steps, linear solves, processor time, and whether any
+number of the answer is not finite.  Cases that are in the file already are not run again, so a campaign that
+was stopped goes on.  A case that takes longer than the limit is stopped and counts as failed ("time limit").
+At the end a table of outcomes, and the cases that did not complete.
 """
 
 from __future__ import annotations
@@ -92,13 +92,15 @@ def guarded(frame: Frame, seed: int, index: int, limit: float) -> Row:
     return row
 
 
-def campaign(frame: Frame, seed: int, indices: Iterable[int], out: Path, limit: float) -> list[Row]:
+def campaign(
+    frame: Frame, seed: int, indices: Iterable[int], out: Path, limit: float, processes: int = 2
+) -> list[Row]:
     """Run what the file does not hold yet; all rows of the indices."""
     rows = {row["index"]: row for row in _stored(out) if row["seed"] == seed}
     wanted = list(indices)
     todo = [index for index in wanted if index not in rows]
     out.parent.mkdir(parents=True, exist_ok=True)
-    with ThreadPoolExecutor(2) as pool, out.open("a", encoding="utf-8") as file:
+    with ThreadPoolExecutor(processes) as pool, out.open("a", encoding="utf-8") as file:
         for row in pool.map(lambda index: guarded(frame, seed, index, limit), todo):
             rows[row["index"]] = row
             file.write(json.dumps(row) + "\n")
@@ -148,11 +150,13 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--seed", default="campaign", help="a name in SEEDS, or a number")
     parser.add_argument("--limit", type=float, default=60.0, help="processor time of a case [s]")
+    parser.add_argument("--processes", type=int, default=2, help="cases at a time")
     parser.add_argument("--out", type=Path, default=Path("out/random_frames.jsonl"))
     given = parser.parse_args()
     seed = random_frames.SEEDS.get(given.seed) or int(given.seed)
     indices = range(given.first, given.first + given.number)
-    print(table(campaign(random_frames.frame, seed, indices, given.out, given.limit)))
+    rows = campaign(random_frames.frame, seed, indices, given.out, given.limit, given.processes)
+    print(table(rows))
 
 
 if __name__ == "__main__":
