@@ -13,7 +13,7 @@ from pydantic import BaseModel, ValidationError
 from crumple.analysis.analysis import DEFAULT_INTERVALS, Analysis, Settings, Title, run_problems
 from crumple.analysis.filters import filter_problems
 from crumple.analysis.reading import Document, read_file, read_text
-from crumple.analysis.solve import solve
+from crumple.analysis.solve import solved_alone
 from crumple.errors import InputError, Problem
 from crumple.structure import (
     Outputs,
@@ -80,7 +80,7 @@ class LoadedInput:
         """What a solver refuses of the analysis; it starts, but takes no step beyond the first."""
         begun: list[float] = []
         try:
-            solve(self.analysis, fidelity, progress=begun.append, cancel=lambda: bool(begun))
+            solved_alone(self.analysis, fidelity, progress=begun.append, cancel=lambda: bool(begun))
         except InputError as error:
             return self.with_lines(error).problems
         return []
@@ -176,9 +176,7 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
     # everything was checked above, with lines
     return Analysis.model_validate(
         {
-            "structure": Structure.model_construct(
-                **{key: getattr(whole, key) for key in Structure.model_fields}
-            ),
+            "structure": Structure.of_sound_parts(whole),
             "duration": whole.analysis.total_duration,
             "title": whole.title,
             "stages": whole.analysis.stages,

@@ -50,6 +50,7 @@ class SimpleText:
         self._scalar, self._deepest = scalar, deepest
         self._next = 0
         self._lines: list[tuple[int, int, str]] = []
+        self._values: dict[str, Any] = {}
         self._text = text.replace("\r\n", "\n")
         self.lines: dict[Place, int] = {}
         self.stopped = 0
@@ -194,7 +195,11 @@ class SimpleText:
         return at
 
     def _text_value(self, text: str) -> Any:
-        return text[1:-1] if text[0] in "\"'" else self._scalar(text.rstrip(" "))
+        # most texts of a large file are repeated: names, units and zeros
+        if text not in self._values:
+            quoted = text[0] in "\"'"
+            self._values[text] = text[1:-1] if quoted else self._scalar(text.rstrip(" "))
+        return self._values[text]
 
 
 def _bare(key: str) -> str:

@@ -63,22 +63,7 @@ def solve(
     InputError
         If the fidelity is unknown or the solver cannot take the structure.
     """
-    if not isinstance(analysis, Analysis):
-        allowed, todo = "an Analysis", "load an input file, or build an Analysis"
-        raise InputError(Problem("an analysis is needed", type(analysis).__name__, allowed, todo, "analysis"))
-    if fidelity not in FIDELITIES:
-        allowed = ", ".join(FIDELITIES)
-        raise InputError(Problem("unknown fidelity", fidelity, allowed, "choose one of these", "fidelity"))
-    if threads < 1:
-        raise InputError(
-            Problem("the number of threads is below 1", str(threads), "at least 1", "", "threads")
-        )
-    _refuse_unsolved(analysis, fidelity)
-    if fidelity == "shell":
-        solved = _shell(analysis, threads, progress, cancel, long_run)
-    else:
-        solved = _multibody(analysis, progress, cancel)
-    result = with_filters(solved, analysis.outputs, analysis.output_interval)
+    result = solved_alone(analysis, fidelity, threads, progress, cancel, long_run=long_run)
     plain = canonical(analysis)
     settings = {**plain[fidelity], **result.provenance.settings}
     provenance = replace(
@@ -94,6 +79,34 @@ def solve(
         total = format_quantity(analysis.duration, "s", 3)
         reason = f"stopped on request; the last output is at {reached} of {total}"
     return replace(result, provenance=provenance, reason=reason)
+
+
+def solved_alone(
+    analysis: Analysis,
+    fidelity: str,
+    threads: int = 1,
+    progress: Callable[[float], None] | None = None,
+    cancel: Callable[[], bool] | None = None,
+    *,
+    long_run: LongRun | None = None,
+) -> Result:
+    """`solve` without what the result says of its input: for a solver that is only to look at it."""
+    if not isinstance(analysis, Analysis):
+        allowed, todo = "an Analysis", "load an input file, or build an Analysis"
+        raise InputError(Problem("an analysis is needed", type(analysis).__name__, allowed, todo, "analysis"))
+    if fidelity not in FIDELITIES:
+        allowed = ", ".join(FIDELITIES)
+        raise InputError(Problem("unknown fidelity", fidelity, allowed, "choose one of these", "fidelity"))
+    if threads < 1:
+        raise InputError(
+            Problem("the number of threads is below 1", str(threads), "at least 1", "", "threads")
+        )
+    _refuse_unsolved(analysis, fidelity)
+    if fidelity == "shell":
+        solved = _shell(analysis, threads, progress, cancel, long_run)
+    else:
+        solved = _multibody(analysis, progress, cancel)
+    return with_filters(solved, analysis.outputs, analysis.output_interval)
 
 
 def _refuse_unsolved(analysis: Analysis, fidelity: str) -> None:

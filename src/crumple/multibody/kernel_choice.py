@@ -11,10 +11,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from crumple.errors import InputError, Problem
-from crumple.multibody.bodies.assembly import assemble
 from crumple.multibody.bodies.dead_centres import dead_centres
 from crumple.multibody.bodies.linkage import GROUND, Linkage, link
-from crumple.multibody.bodies.mobility import mobility, too_large
+from crumple.multibody.bodies.mobility import floating_bodies, mobility, too_large
 from crumple.multibody.planar.plane import PARALLEL, plane_of
 from crumple.multibody.run import Run
 from crumple.numeric.arrays import Floats
@@ -73,12 +72,12 @@ def _reasons(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run) ->
     yield from (f"there are {what}" for what, part in given.items() if part)
     if any(hinge.spatial is not None for hinge in hinges):
         yield "there are hinges with several components, or that break"
-    directions = [hinge.direction for hinge in hinges]
-    if any(np.linalg.norm(np.cross(directions[0], other)) > PARALLEL for other in directions[1:]):
+    directions = np.array([hinge.direction for hinge in hinges]).reshape(-1, 3)
+    if np.any(np.linalg.norm(np.cross(directions[:1], directions), axis=1) > PARALLEL):
         yield "hinges turn about axes that are not parallel"
-    if _hangs_on_clamps(structure, hinges):
-        return
     linkage = link(structure, hinges)
+    if _hangs_on_clamps(structure, linkage):
+        return
     loops = len(linkage.connections) - len(linkage.bodies)
     if loops > MOST_LOOPS:
         yield f"there are {loops} closed loops"
@@ -100,20 +99,12 @@ def _reasons(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run) ->
         yield "a floating structure is not symmetric to the plane across the hinges"
 
 
-def _hangs_on_clamps(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> bool:
-    """Whether hinges alone join every part to clamps, without loops: the commonest case, and quick to see."""
+def _hangs_on_clamps(structure: Structure, linkage: Linkage) -> bool:
+    """Whether hinges alone join every body to clamps, without loops: the commonest case, and quick to see."""
     if any(len(support.held) < len(FREEDOMS) for support in structure.supports.values()):
         return False
-    assembly = assemble(structure, hinges)
-    ground = assembly.new()
-    for support in structure.supports.values():
-        assembly.join(ground, assembly.node[support.node])
-    for cut in assembly.moving_cuts():
-        # a cut within what is joined already closes a loop
-        if assembly.root(cut.first) == assembly.root(cut.second):
-            return False
-        assembly.join(cut.first, cut.second)
-    return all(assembly.root(i) == assembly.root(ground) for i in range(ground))
+    # as many connections as bodies, and all of them reached: a tree that hangs on the ground
+    return len(linkage.connections) == len(linkage.bodies) and not floating_bodies(linkage)
 
 
 def _leaning(structure: Structure, normal: Floats) -> str | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from functools import cached_property
-from typing import Any, TypeVar, cast
+from typing import TypeVar
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from crumple.structure.keys.motion import InitialVelocity, Support
 from crumple.structure.keys.obstacles import MemberContact, ObstacleSpec
 from crumple.structure.keys.section import SectionSpec
 from crumple.structure.keys.spot_welds import SpotWelds
+from crumple.structure.remembered import Kept
 from crumple.structure.schema.mapping import FrozenMapping
 from crumple.structure.schema.spec import Named, Spec
 
@@ -35,18 +36,6 @@ def _by_node(parts: Iterable[tuple[str, Part]]) -> dict[str, list[Part]]:
     for node, part in parts:
         found.setdefault(node, []).append(part)
     return found
-
-
-class Kept(dict[tuple[str, str], Any]):
-    """Data derived from a structure, by kind and name; not part of its description."""
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Kept)
-
-    __hash__ = None
-
-    def __reduce__(self) -> tuple[type[Kept], tuple[()]]:
-        return (Kept, ())
 
 
 class StructureParts(Spec):
@@ -91,15 +80,21 @@ class StructureParts(Spec):
 
     def section_of(self, member: str) -> Section:
         """Cross-section of a member."""
-        return self.sections[self.members[member].section].section(self.materials)
+        name = self.members[member].section
+        return self.kept.once("section", name, lambda: self.sections[name].section(self.materials))
 
     def material_of(self, member: str) -> Material:
         """Material of a member."""
         name = self.members[member].material
-        return self.materials[name].material(name)
+        return self.kept.once("material", name, lambda: self.materials[name].material(name))
 
     def flexural_rigidity(self, member: str, axis: Axis) -> float:
         """Bending stiffness E I of a member about a section axis [N m^2], walls of other metals by theirs."""
+        spec = self.members[member]
+        made_of = (spec.section, spec.material, axis)
+        return self.kept.once("rigidity", made_of, lambda: self._flexural_rigidity(member, axis))
+
+    def _flexural_rigidity(self, member: str, axis: Axis) -> float:
         section, material = self.section_of(member), self.material_of(member)
         if any(wall.material is not None for wall in getattr(section, "walls", ())):
             from crumple.section import walls_of  # noqa: PLC0415  (tubes need none of it)
@@ -120,12 +115,12 @@ class StructureParts(Spec):
 
     def frame_of(self, member: str) -> Frame:
         """Origin, axes and length of a member at the start."""
-        frame = self.kept.get(("frame", member))
-        if frame is None:
-            spec = self.members[member]
-            first, second = (self.nodes[name] for name in spec.nodes)
-            self.kept["frame", member] = frame = frame_of(first, second, up=spec.up, roll=spec.roll)
-        return cast(Frame, frame)
+        return self.kept.once("frame", member, lambda: self._frame_of(member))
+
+    def _frame_of(self, member: str) -> Frame:
+        spec = self.members[member]
+        first, second = (self.nodes[name] for name in spec.nodes)
+        return frame_of(first, second, up=spec.up, roll=spec.roll)
 
     @cached_property
     def kept(self) -> Kept:

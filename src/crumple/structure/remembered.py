@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from functools import lru_cache
-from typing import ParamSpec, TypeVar, cast
+from typing import Any, ParamSpec, TypeVar, cast
+from weakref import WeakValueDictionary
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -24,7 +25,35 @@ def remembered(size: int) -> Callable[[Callable[P, T]], Callable[P, T]]:
     return keep
 
 
+class Kept(dict[tuple[str, Hashable], Any]):
+    """Data derived from a structure, by kind and name, until `forget`; not part of its description."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        _structures[id(self)] = self
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Kept)
+
+    __hash__ = None
+
+    def __reduce__(self) -> tuple[type[Kept], tuple[()]]:
+        return (Kept, ())
+
+    def once(self, kind: str, name: Hashable, compute: Callable[[], T]) -> T:
+        """Data of a kind and name; computed when first needed."""
+        found = self.get((kind, name))
+        if found is None:
+            self[kind, name] = found = compute()
+        return cast(T, found)
+
+
+_structures: WeakValueDictionary[int, Kept] = WeakValueDictionary()
+
+
 def forget() -> None:
     """Clear all caches, so that a timed solution starts without cached objects."""
     for clear in _forgetting:
         clear()
+    for kept in list(_structures.values()):
+        kept.clear()

@@ -12,6 +12,14 @@ from crumple.structure.schema.spec import raise_all
 class Structure(StructureParts):
     """Consistent parts: every name exists, every member has a length, everything is connected."""
 
+    @classmethod
+    def of_sound_parts(cls, parts: StructureParts) -> Structure:
+        """Structure of parts that were checked together, with what was worked out of them."""
+        structure = cls.model_construct(**{key: getattr(parts, key) for key in cls.model_fields})
+        # a cached property: as if the structure itself had been asked
+        structure.__dict__["kept"] = parts.kept
+        return structure
+
     @model_validator(mode="after")
     def _sound(self, info: ValidationInfo) -> Structure:
         """Refuse what cannot be solved, every problem at once; a file's reader has done so, with lines."""

@@ -31,12 +31,14 @@ def refuse_pictures(structure: Structure, pictures: int) -> None:
         Naming the member that takes the most points.
     """
     points = {}
-    for name in structure.members:
-        outline, length = structure.section_of(name).outline(), structure.frame_of(name).length
-        rings = length / (LONGEST_QUAD * float(np.ptp(outline, axis=0).max())) + len(
-            member_hinge_places(structure, name)
-        )
-        points[name] = len(outline) * (rings + 2.0)
+    shapes: dict[str, tuple[int, float]] = {}
+    for name, member in structure.members.items():
+        if member.section not in shapes:
+            outline = structure.section_of(name).outline()
+            shapes[member.section] = len(outline), float(np.ptp(outline, axis=0).max())
+        around, side = shapes[member.section]
+        rings = structure.frame_of(name).length / (LONGEST_QUAD * side)
+        points[name] = around * (rings + len(member_hinge_places(structure, name)) + 2.0)
     total = pictures * sum(points.values())
     if total > MOST_POINTS:
         most = max(points, key=lambda name: points[name])

@@ -8,6 +8,8 @@ that is held in all six freedoms belongs to the ground.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -17,6 +19,7 @@ from crumple.multibody.bodies.rigid import RigidMass
 from crumple.numeric.arrays import Floats
 from crumple.structure import FREEDOMS, Joint, PlacedHinge, Structure, placed_hinges
 from crumple.structure.geometry import cross
+from crumple.structure.hinges.hinges import OWN_HINGES
 
 GROUND = -1
 FREEDOM = {"x": 3, "y": 4, "z": 5}
@@ -99,6 +102,11 @@ class Linkage:
     part_mass: dict[int, RigidMass]
     ground_parts: frozenset[int]
 
+    @cached_property
+    def trees(self) -> dict[bool, Any]:
+        """Its spanning trees as `mobility` found them, by whether hinges are locked."""
+        return {}
+
     @property
     def hinges(self) -> tuple[PlacedHinge, ...]:
         """Hinges in the order of their connections."""
@@ -120,7 +128,14 @@ def link(structure: Structure, hinges: tuple[PlacedHinge, ...] | None = None) ->
     InputError
         If a hinge or joint joins a part with itself, or two held parts.
     """
-    hinges = placed_hinges(structure) if hinges is None else hinges
+    placed = placed_hinges(structure) if hinges is None else hinges
+    # other hinges at the same places, as studies have them, are linked anew
+    if placed is not structure.kept.get(OWN_HINGES):
+        return _link(structure, placed)
+    return structure.kept.once("linkage", "", lambda: _link(structure, placed))
+
+
+def _link(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Linkage:
     assembly = assemble(structure, hinges)
     cuts, masses = assembly.moving_cuts(), assembly.masses()
     held = _held(structure)

@@ -14,8 +14,9 @@ unique.  This is the count at the start: straight structures may gain or lose mo
 from __future__ import annotations
 
 from collections import defaultdict, deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -55,16 +56,55 @@ class Mobility:
     loops: tuple[int, ...]
 
 
+class Columns:
+    """Twists of free freedoms, each worked out when it is asked for: off the loops of a chain none is.
+
+    Parameters
+    ----------
+    linkage
+        Whose connections have the freedoms.
+    """
+
+    def __init__(self, linkage: Linkage) -> None:
+        self._linkage = linkage
+        self._freedoms: list[tuple[int, int]] = []
+        self._found: dict[int, Floats] = {}
+
+    @cached_property
+    def _scale(self) -> tuple[Floats, float]:
+        return scale_of(self._linkage)
+
+    def add(self, owner: int, freedoms: Sequence[int]) -> list[int]:
+        """Numbers of further freedoms of a connection, or of the ground for those of a floating body."""
+        first = len(self._freedoms)
+        self._freedoms += [(owner, freedom) for freedom in freedoms]
+        return list(range(first, len(self._freedoms)))
+
+    def __getitem__(self, k: int) -> Floats:
+        if k not in self._found:
+            owner, freedom = self._freedoms[k]
+            connections = self._linkage.connections
+            self._found[k] = (
+                np.eye(6)[freedom] if owner == GROUND else _twist(connections[owner], freedom, *self._scale)
+            )
+        return self._found[k]
+
+
 @dataclass
 class Tree:
     """Spanning tree: twists of the free freedoms, and from where every body is reached."""
 
-    columns: list[Floats] = field(default_factory=list)
+    columns: Columns
     owner: list[int] = field(default_factory=list)
     inboard: dict[int, tuple[int, int, list[int], float]] = field(default_factory=dict)
     """By body: the body before it, the connection (-1: floating), its freedoms, and their sign."""
     loops: list[tuple[int, list[int]]] = field(default_factory=list)
     """Connections beyond the tree, and their freedoms."""
+
+    def freedoms(self, owner: int, free: Sequence[int]) -> list[int]:
+        """Numbers of further free freedoms."""
+        self.owner += [owner] * len(free)
+        return self.columns.add(owner, free)
 
     def path(self, body: int) -> Iterator[tuple[int, list[int], float]]:
         """Connections from a body to the ground."""
@@ -184,31 +224,42 @@ def free_parts(linkage: Linkage) -> tuple[str, ...]:
     )
 
 
-def floating_members(linkage: Linkage) -> tuple[str, ...]:
-    """Members that nothing connects with the ground, in the structure's order."""
+def floating_bodies(linkage: Linkage) -> set[int]:
+    """Bodies that nothing connects with the ground."""
     beside: dict[int, list[int]] = defaultdict(list)
     for connection in linkage.connections:
         beside[connection.first].append(connection.second)
         beside[connection.second].append(connection.first)
     held, queue = {GROUND}, deque([GROUND])
     while queue:
+        go_on()
         reached = set(beside[queue.popleft()]) - held
         held |= reached
         queue.extend(reached)
-    return tuple(name for name, pieces in linkage.pieces.items() if not {p.body for p in pieces} & held)
+    return set(range(len(linkage.bodies))) - held
+
+
+def floating_members(linkage: Linkage) -> tuple[str, ...]:
+    """Members that nothing connects with the ground, in the structure's order."""
+    floating = floating_bodies(linkage)
+    return tuple(name for name, pieces in linkage.pieces.items() if {p.body for p in pieces} <= floating)
 
 
 def tree_of(linkage: Linkage, locked: bool = False) -> Tree:
     """Breadth first from the ground; what it does not reach floats."""
-    centre, length = scale_of(linkage)
-    tree = Tree()
+    if locked not in linkage.trees:
+        linkage.trees[locked] = _tree_of(linkage, locked)
+    tree: Tree = linkage.trees[locked]
+    return tree
+
+
+def _tree_of(linkage: Linkage, locked: bool) -> Tree:
+    tree = Tree(Columns(linkage))
     own: list[list[int]] = []
     edges: dict[int, list[int]] = defaultdict(list)
     for i, connection in enumerate(linkage.connections):
         free = () if locked and connection.hinge is not None else connection.free
-        own.append(list(range(len(tree.columns), len(tree.columns) + len(free))))
-        tree.columns += [_twist(connection, freedom, centre, length) for freedom in free]
-        tree.owner += [i] * len(free)
+        own.append(tree.freedoms(i, free) if free else [])
         edges[connection.first].append(i)
         edges[connection.second].append(i)
     used: set[int] = set()
@@ -216,10 +267,7 @@ def tree_of(linkage: Linkage, locked: bool = False) -> Tree:
         if start in tree.inboard:
             continue
         if start != GROUND:
-            floating = list(range(len(tree.columns), len(tree.columns) + 6))
-            tree.columns += list(np.eye(6))
-            tree.owner += [GROUND] * 6
-            tree.inboard[start] = (GROUND, GROUND, floating, 1.0)
+            tree.inboard[start] = (GROUND, GROUND, tree.freedoms(GROUND, range(6)), 1.0)
         queue = deque([start])
         while queue:
             go_on()

@@ -110,18 +110,11 @@ def plane_of(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Plane:
         todo, where = "write kernel: auto", f"members.{several.member}.hinges"
         raise InputError(Problem(what, "", "hinges that bend about one axis in the plane", todo, where))
     if hinges:
+        directions = np.array([hinge.direction for hinge in hinges])
         normal = hinges[0].direction
-        for hinge in hinges[1:]:
-            if np.linalg.norm(cross(normal, hinge.direction)) > PARALLEL:
-                raise InputError(
-                    Problem(
-                        "hinges turn about different axes; the multibody engine solves planar motion only",
-                        f"{hinges[0].name}: {_text(normal)}, {hinge.name}: {_text(hinge.direction)}",
-                        "hinges whose axes are all parallel",
-                        "set axis, up or roll of the members so that their hinges' axes are parallel",
-                        f"members.{hinge.member}.hinges",
-                    )
-                )
+        crossing = np.linalg.norm(np.cross(directions[:1], directions), axis=1) > PARALLEL
+        if np.any(crossing):
+            raise _crossing(hinges[0], hinges[int(np.argmax(crossing))])
     else:
         axes = [field.axis for field in structure.initial_velocity if field.axis and field.rotation]
         normal = np.asarray(axes[0] if axes else (0.0, 1.0, 0.0), float)
@@ -133,6 +126,18 @@ def plane_of(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Plane:
     first = first - (first @ normal) * normal
     first /= math.hypot(*first)
     return Plane(normal, first, cross(normal, first))
+
+
+def _crossing(first: PlacedHinge, other: PlacedHinge) -> InputError:
+    return InputError(
+        Problem(
+            "hinges turn about different axes; the multibody engine solves planar motion only",
+            f"{first.name}: {_text(first.direction)}, {other.name}: {_text(other.direction)}",
+            "hinges whose axes are all parallel",
+            "set axis, up or roll of the members so that their hinges' axes are parallel",
+            f"members.{other.member}.hinges",
+        )
+    )
 
 
 def _text(vector: Floats) -> str:

@@ -64,15 +64,23 @@ def inertia_problems(structure: StructureParts, known: Mapping[str, Names]) -> I
                 yield Problem(what, where=f"{place.where}.at", todo=todo)
 
 
-def sound_members(structure: StructureParts) -> Iterator[str]:
+def sound_members(structure: StructureParts) -> tuple[str, ...]:
     """Members whose nodes, section and materials are there, and whose hinges name no other node."""
+    return structure.kept.once("sound members", "", lambda: tuple(_sound_members(structure)))
+
+
+def _sound_members(structure: StructureParts) -> Iterator[str]:
+    whole = {
+        name
+        for name, section in structure.sections.items()
+        if set(section.named_materials().values()) <= set(structure.materials)
+    }
     for name, member in structure.members.items():
         named = [hinge.at for hinge in member.given_hinges if isinstance(hinge.at, str)]
         if (
             structure.has_line(name)
-            and member.section in structure.sections
+            and member.section in whole
             and member.material in structure.materials
-            and set(structure.sections[member.section].named_materials().values()) <= set(structure.materials)
             and all(node in member.nodes for node in named)
         ):
             yield name

@@ -52,6 +52,9 @@ FIRM = 100.0
 """Capacity of an elastic joint over the largest capacity of its member's hinges: no impact reaches it, and
 tolerances relative to the largest capacity stay small."""
 
+OWN_HINGES = ("placed hinges", "")
+"""Where a structure keeps what `placed_hinges` found."""
+
 
 @dataclass(frozen=True, eq=False)
 class PlacedHinge:
@@ -100,6 +103,10 @@ def placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
     InputError
         With every law that does not fit its section.
     """
+    return structure.kept.once(*OWN_HINGES, lambda: _placed_hinges(structure))
+
+
+def _placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
     by_member: dict[str, list[HingePlace]] = defaultdict(list)
     problems: list[Problem] = []
     placed: list[PlacedHinge] = []

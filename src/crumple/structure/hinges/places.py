@@ -73,10 +73,7 @@ def hinge_places(structure: StructureParts) -> tuple[HingePlace, ...]:
 
 def member_hinge_places(structure: StructureParts, member: str) -> list[HingePlace]:
     """Hinges of one member by increasing station."""
-    found: list[HingePlace] | None = structure.kept.get(("hinges", member))
-    if found is None:
-        structure.kept["hinges", member] = found = _hinge_places(structure, member)
-    return found
+    return structure.kept.once("hinges", member, lambda: _hinge_places(structure, member))
 
 
 def _hinge_places(structure: StructureParts, member: str) -> list[HingePlace]:
@@ -159,8 +156,22 @@ def law_of(structure: StructureParts, place: HingePlace) -> HingeLaw:
     InputError
         If the law does not fit the section.
     """
-    section, material = structure.section_of(place.member), structure.material_of(place.member)
-    return _law(section, material, place.axis, law_spec(structure, place))
+
+    def build() -> HingeLaw:
+        section, material = structure.section_of(place.member), structure.material_of(place.member)
+        return _law(section, material, place.axis, law_spec(structure, place))
+
+    return (
+        build()
+        if (alike := alike_law(structure, place)) is None
+        else structure.kept.once("law", alike, build)
+    )
+
+
+def alike_law(structure: StructureParts, place: HingePlace) -> tuple[str, str, Axis, str] | None:
+    """Section, material, axis and name of a law, shared by all hinges that have them; None without a name."""
+    spec = structure.members[place.member]
+    return (spec.section, spec.material, place.axis, place.law) if isinstance(place.law, str) else None
 
 
 # a law is a pure function of these four: the hinges of a chain and the runs of a study share it

@@ -88,7 +88,7 @@ def member_shares(
 
     axial = along(lambda place: place.keys.axial is not None)
     twist = along(lambda place: "x" in (place.keys.axes or ()))
-    nearest = along(lambda place: True)
+    nearest = along(lambda place: True) if len(places) > 1 else {places[0].name: length}
     return [
         HingeShares(
             {
@@ -98,7 +98,7 @@ def member_shares(
             },
             axial.get(place.name, 1.0),
             twist.get(place.name, 1.0),
-            length if len(places) == 1 else nearest[place.name],
+            nearest[place.name],
         )
         for place in places
     ], found
