@@ -2,7 +2,7 @@
 out/frames.jsonl`.
 
 Every case runs in a process of its own, two at a time unless `--processes` states another number, and adds a
-line to the file: its status and reason, energy residual, steps, linear solves, processor time, and whether any
+line to the file: its status and reason, energy residual, steps, linear solves, processor time, and whether a
 number of the answer is not finite.  Cases that are in the file already are not run again, so a campaign that
 was stopped goes on.  A case that takes longer than the limit is stopped and counts as failed ("time limit").
 At the end a table of outcomes, and the cases that did not complete.
