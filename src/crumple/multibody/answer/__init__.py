@@ -1,1 +1,1 @@
-"""From a run of a kernel to named channels, shapes and summaries."""
+"""Named channels, shapes and summaries from what a kernel has recorded."""

@@ -1,4 +1,4 @@
-"""What hinges that can shorten along their members did, in the words of axial crushing."""
+"""Axial crushing of hinges that can shorten along their members: crush length, forces and energy."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from crumple.structure import Structure
 
 
 def crush_of(structure: Structure, history: HingeHistory) -> CrushSummary | None:
-    """Figures of crushing of one hinge; None if it cannot shorten along its member."""
+    """Crushing figures of one hinge; None if it cannot shorten along its member."""
     spatial = history.hinge.spatial
     if spatial is None or Freedom.AXIAL not in spatial.freedoms:
         return None
@@ -31,6 +31,6 @@ def crush_of(structure: Structure, history: HingeHistory) -> CrushSummary | None
 def with_crush(
     structure: Structure, histories: Iterable[HingeHistory], summaries: Mapping[str, HingeSummary]
 ) -> dict[str, HingeSummary]:
-    """Summaries of hinges with the figures of crushing where there are any."""
+    """Add the figures of axial crushing to the summaries of hinges that can shorten."""
     crushes = {history.hinge.name: crush_of(structure, history) for history in histories}
     return {name: replace(summary, crush=crushes.get(name)) for name, summary in summaries.items()}

@@ -1,4 +1,4 @@
-"""Where runs ended, as named quantities: the channels of a history whose rows are runs in place of times."""
+"""Final values of runs as named quantities: the channels of a history, with a row for each run."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ OF_NODES = ("displacement", "rotation")
 
 
 class Ends(Rows, Protocol):
-    """Where runs ended: the last row of each."""
+    """Final values of runs: the last row of the record of each."""
 
     @property
     def summary(self) -> HingeSummary:
-        """What hinges came to, (runs, hinges)."""
+        """Summaries of the hinges, (runs, hinges)."""
 
 
 class Ended(Protocol):
-    """What was solved, as its end values are read."""
+    """A structure with its bodies and hinges, as needed to interpret final values."""
 
     @property
     def structure(self) -> Structure:
-        """What is solved."""
+        """The structure."""
 
     @property
     def hinges(self) -> Sequence[RecordedHinge]:
@@ -41,18 +41,18 @@ class Ended(Protocol):
 
     @property
     def touched(self) -> bool:
-        """Whether members or obstacles can touch."""
+        """Whether members or obstacles can come into contact."""
 
     @property
     def slowed(self) -> bool:
         """Whether a stage is quasi-static."""
 
     def end_poses(self, ends: Any) -> Poses:
-        """Where bodies are; no row follows from the one before."""
+        """Final positions of the bodies; rows are independent runs."""
 
 
 def end_quantities(case: Ended, ends: Ends, outputs: Outputs) -> dict[str, Floats]:
-    """Named quantities of runs that share a case, (n,) each."""
+    """Named final quantities of runs that share a case, (n,) each."""
     found: dict[str, Floats] = {}
     for k, hinge, columns in hinge_columns(case.hinges, ends):
         found |= {
@@ -68,7 +68,7 @@ def end_quantities(case: Ended, ends: Ends, outputs: Outputs) -> dict[str, Float
 
 
 def _places(structure: Structure, poses: Poses, outputs: Outputs) -> dict[str, Floats]:
-    """What outputs ask of nodes, sections, distances and clearances, (n,) each."""
+    """Requested outputs of nodes, sections, distances and clearances, (n,) each."""
     found = {
         channel.name: channel.values
         for name in outputs.nodes

@@ -38,7 +38,7 @@ from crumple.structure import Outputs, SectionForce, Structure
 
 @dataclass(frozen=True, eq=False)
 class Wrench:
-    """Force [N], moment about a point [N m] and that point [m], global axes, (n, 3) each."""
+    """Force [N], moment about a point [N m] and that point [m], in global axes, (n, 3) each."""
 
     force: Floats
     moment: Floats
@@ -49,12 +49,12 @@ class Wrench:
         return self.moment + np.cross(self.point - point, self.force)
 
     def opposite(self) -> Wrench:
-        """What acts back."""
+        """The reaction: the same with opposite sign."""
         return Wrench(-self.force, -self.moment, self.point)
 
 
 def on_second(poses: SpatialHistory, number: int) -> Wrench:
-    """What a connection exerts on its second body, about its place on the first."""
+    """Force and moment that a connection exerts on its second body, about its place on the first."""
     connection = poses.linkage.connections[number]
     half = vector_quaternion(poses.relative(connection.first, connection.second) / 2.0)
     middle = product(poses.quaternion(connection.first), half)
@@ -65,7 +65,7 @@ def on_second(poses: SpatialHistory, number: int) -> Wrench:
 
 
 def force_channels(structure: Structure, poses: SpatialHistory, local_time: Floats) -> Iterator[Channel]:
-    """What second sides exert on first ones, nodes on members, and the structure on its supports.
+    """Channels of the forces on second sides of connections, of nodes on members, and on supports.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def force_channels(structure: Structure, poses: SpatialHistory, local_time: Floa
 def section_force_channels(
     structure: Structure, poses: SpatialHistory, outputs: Outputs
 ) -> Iterator[Channel]:
-    """Force and moment in sections, in the member's carried axes, and their use of the capacity."""
+    """Force and moment in sections, in axes that move with the member, and their use of the capacity."""
     middle = _midway(poses) if outputs.section_forces else poses
     for name, asked in outputs.section_forces.items():
         force, moment = _in_section(structure, middle, asked)
@@ -130,7 +130,7 @@ def check_sections(structure: Structure, linkage: Linkage, outputs: Outputs) -> 
 
 
 def _midway(poses: SpatialHistory) -> SpatialHistory:
-    """The bodies in the middle of the last step before every output."""
+    """Bodies in the middle of the last step before every output."""
     record = poses.record
     turn, way = np.split(record.travel / 2.0, 2, axis=2)
     rotation = product(vector_quaternion(-turn), record.rotation)
@@ -138,7 +138,7 @@ def _midway(poses: SpatialHistory) -> SpatialHistory:
 
 
 def _in_section(structure: Structure, poses: SpatialHistory, asked: SectionForce) -> tuple[Floats, Floats]:
-    """What the second side exerts on the first, (n, 3) each in the member's carried axes."""
+    """Force and moment of the second side on the first, (n, 3) each, in axes that move with the member."""
     linkage, frame = poses.linkage, structure.frame_of(asked.member)
     piece = piece_at(linkage.pieces, asked.member, asked.at)
     closing = _closing(linkage, piece)
@@ -194,7 +194,7 @@ def _momentum(inertia: Floats, quaternion: Floats, spin: Floats) -> Floats:
 
 
 def _closing(linkage: Linkage, piece: Piece) -> tuple[Literal["start", "end"], int] | None:
-    """The connection at an end of a piece from which its sections follow, and at which end it is."""
+    """The connection at an end of a piece from which its section forces follow, and that end (0 or 1)."""
     pieces = linkage.pieces[piece.member]
     for i, connection in enumerate(linkage.connections):
         hinge = connection.hinge
@@ -213,7 +213,7 @@ def _closing(linkage: Linkage, piece: Piece) -> tuple[Literal["start", "end"], i
 
 
 def _clamps(structure: Structure, linkage: Linkage) -> Iterator[tuple[str, str]]:
-    """Supports that clamp a node alone on its rigid part, and the node."""
+    """Supports that clamp a node which is alone on its rigid part, with that node."""
     held: dict[str, list[str]] = {}
     for name, support in structure.supports.items():
         if linkage.node_part[support.node] in linkage.ground_parts:
@@ -225,7 +225,7 @@ def _clamps(structure: Structure, linkage: Linkage) -> Iterator[tuple[str, str]]
 
 
 def _on_clamp(structure: Structure, poses: SpatialHistory, node: str, local_time: Floats) -> Wrench:
-    """What a rigid part of the ground exerts on the support of its one clamped node, about the node."""
+    """Force and moment of a rigid part of the ground on the support of its one clamped node, about it."""
     linkage, part = poses.linkage, poses.linkage.node_part[node]
     place = np.asarray(structure.nodes[node], float)
     force, moment = np.zeros((poses.rows, 3)), np.zeros((poses.rows, 3))

@@ -1,4 +1,4 @@
-"""What hinges did and where the energy went, from the records of either kernel."""
+"""Histories of hinges and the energy ledger, from the records of either kernel."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class RecordedHinge:
     sign: float = 1.0
 
     def columns(self, record: ComponentRecord) -> list[Floats]:
-        """Its part of every column, (n, components) each, in the hinge's own sense."""
+        """Columns of this hinge in each record, (n, components), in the hinge's own sense."""
         span = slice(self.first, self.first + len(self.free))
         sign = self.sign
         signed = [record.rotation, record.rate, record.plastic, record.moment]
@@ -79,7 +79,7 @@ def hinge_columns(
 
 
 def _named(parts: list[Floats], free: tuple[int, ...]) -> dict[str, Floats]:
-    """Columns of one hinge: plain for one rotation; else the lengths of its rotations, and components."""
+    """Columns of one hinge: values of one rotation; else the lengths of its rotations, and components."""
     of_turning = list(zip(TURNING, parts, strict=True))
     if len(free) == 1 and free[0] >= 3:
         return {name: np.ascontiguousarray(values[:, 0]) for name, values in of_turning}
@@ -98,7 +98,7 @@ def _named(parts: list[Floats], free: tuple[int, ...]) -> dict[str, Floats]:
 def hinge_histories(
     hinges: Sequence[RecordedHinge], rows: Rows, summary: HingeSummary
 ) -> Iterator[HingeHistory]:
-    """What every plastic hinge did, in the kernel's order."""
+    """Histories of all plastic hinges, in the kernel's order."""
     for k, hinge, columns in hinge_columns(hinges, rows):
         broke = float(summary.fracture_time[k])
         yield HingeHistory(

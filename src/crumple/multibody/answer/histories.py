@@ -1,4 +1,4 @@
-"""From a kernel's run to named channels and summaries."""
+"""Named channels and summaries from a kernel's run."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def node_channels(
 def node_motion(
     structure: Structure, poses: Poses, name: str, time: Floats | None = None
 ) -> Iterator[Channel]:
-    """The same of one node; no acceleration where rows have no `time`, (n,)."""
+    """The same for one node; without acceleration if the rows have no `time`, (n,)."""
     body = poses.node_body[name]
     start = np.asarray(structure.nodes[name], float)
     place, velocity = poses.place(body, start)
@@ -60,7 +60,7 @@ def node_motion(
 
 
 def section_channels(structure: Structure, poses: Poses, outputs: Outputs) -> Iterator[Channel]:
-    """Rotation of one station of a member against another, about the member's axis across the plane."""
+    """Rotation of one station of a member relative to another, about the member's axis across the plane."""
     for name, asked in outputs.section_rotations.items():
         frame = structure.frame_of(asked.member)
         ends = [piece_at(poses.pieces, asked.member, station).body for station in (asked.start, asked.end)]
@@ -74,7 +74,7 @@ def section_channels(structure: Structure, poses: Poses, outputs: Outputs) -> It
 
 
 def distance_channels(structure: Structure, poses: Poses, outputs: Outputs) -> Iterator[Channel]:
-    """Change of the distance between two nodes: negative where they come nearer."""
+    """Change of the distance between two nodes; negative if they approach each other."""
     for name, asked in outputs.distances.items():
         ends = [np.asarray(structure.nodes[node], float) for node in (asked.start, asked.end)]
         nodes = zip((asked.start, asked.end), ends, strict=True)
@@ -84,7 +84,7 @@ def distance_channels(structure: Structure, poses: Poses, outputs: Outputs) -> I
 
 
 def clearance_channels(structure: Structure, poses: Poses, outputs: Outputs) -> Iterator[Channel]:
-    """Least distance between a space that moves with a member and the others, negative inside."""
+    """Smallest distance between a space that moves with a member and the other members; negative inside."""
     for name, asked in outputs.clearances.items():
         middle = structure.frame_of(asked.moves_with).length / 2.0
         carrier = piece_at(poses.pieces, asked.moves_with, middle).body
@@ -101,7 +101,7 @@ def clearance_channels(structure: Structure, poses: Poses, outputs: Outputs) -> 
 
 
 def gravity_channels(structure: Structure, poses: Poses) -> Iterator[Channel]:
-    """Work that gravity has done since the start; none without gravity."""
+    """Work of gravity since the start; empty without gravity."""
     gravity = np.asarray(structure.gravity, float)
     if not gravity.any():
         return
@@ -118,7 +118,7 @@ def gravity_channels(structure: Structure, poses: Poses) -> Iterator[Channel]:
 
 
 def summaries(hinges: Iterable[HingeHistory], errors: Floats | None = None) -> dict[str, HingeSummary]:
-    """What every hinge did.
+    """Summaries of all hinges.
 
     Parameters
     ----------

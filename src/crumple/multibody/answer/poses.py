@@ -1,4 +1,4 @@
-"""Where the bodies of a solved structure are: one set of questions to the record of either kernel."""
+"""Positions and velocities of the bodies of a solved structure: one interface to both kernels' records."""
 
 from __future__ import annotations
 
@@ -30,19 +30,19 @@ class Poses(Protocol):
 
     @property
     def rows(self) -> int:
-        """How many rows."""
+        """Number of rows."""
 
     @property
     def pieces(self) -> Mapping[str, tuple[Piece, ...]]:
-        """Pieces of members."""
+        """Pieces of members, by member."""
 
     @property
     def node_body(self) -> Mapping[str, int]:
-        """Bodies of nodes."""
+        """Body of each node."""
 
     @property
     def normal(self) -> Floats | None:
-        """Unit vector across the plane in which all move, (3,); None in space."""
+        """Unit vector normal to the plane of motion, (3,); None in space."""
 
     def place(self, body: int, point: Floats) -> tuple[Floats, Floats]:
         """Position [m] and velocity [m/s] of a point of a body, given at the start, (n, 3) each."""
@@ -177,7 +177,7 @@ SpatialHistory = SpatialPoses[SpatialRecord]
 
 @dataclass(frozen=True, eq=False)
 class SpatialEndPoses(SpatialPoses[SpatialEndValues]):
-    """Motion at the ends of runs.
+    """Final positions and velocities of runs.
 
     No row follows another, so rotation vectors are the shortest; and every row has its own centres of mass at
     the start.
@@ -203,7 +203,7 @@ class SpatialEndPoses(SpatialPoses[SpatialEndValues]):
 
 
 def piece_at(pieces: Mapping[str, tuple[Piece, ...]], member: str, station: float) -> Piece:
-    """Piece that holds a station [m] of a member; at a cut the one before it, at the end the last."""
+    """Piece that contains a station [m] of a member; at a cut the one before it, at the end the last."""
     *inner, last = pieces[member]
     return next((piece for piece in inner if station <= piece.end and station < last.end), last)
 
@@ -213,6 +213,6 @@ def _still(rows: int, vector: Floats) -> tuple[Floats, Floats]:
 
 
 def _rotated(vector: Floats, angle: Floats) -> Floats:
-    """A plane vector (2,) turned by every angle (n,): (n, 2)."""
+    """A plane vector (2,) rotated by every angle (n,): (n, 2)."""
     c, s = np.cos(angle), np.sin(angle)
     return np.stack([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]], axis=1)

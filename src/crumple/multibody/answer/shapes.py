@@ -1,4 +1,4 @@
-"""Deformed shapes: the walls of every member as quadrilaterals, carried by the rigid bodies."""
+"""Deformed shapes: the walls of every member as quadrilaterals that move with the rigid bodies."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from crumple.result import States
 from crumple.structure import Structure, member_hinge_places
 
 MOST_POINTS = 20_000_000
-"""Points in all pictures of a run: 0.5 GB."""
+"""Largest number of points in all pictures of a run: 0.5 GB."""
 LONGEST_QUAD = 2.0
 """Length of a quadrilateral over the section's largest side: smooth enough to draw, few enough to store."""
 
 
 def refuse_pictures(structure: Structure, pictures: int) -> None:
-    """Refuse shapes that would fill the memory, before anything is built or solved.
+    """Refuse shapes that would exceed the memory, before anything is built or solved.
 
     Raises
     ------
@@ -51,7 +51,7 @@ def refuse_pictures(structure: Structure, pictures: int) -> None:
 
 
 def states_of(structure: Structure, poses: Poses, output_times: Floats, times: Floats) -> States:
-    """Shapes at those of the given times [s] that the run reached; a time is taken at the nearest output."""
+    """Shapes at those of the given times [s] that the run reached, each at the nearest output."""
     reached = times[times <= output_times[-1] * (1 + 1e-12)]
     rows = np.searchsorted((output_times[1:] + output_times[:-1]) / 2.0, reached)
     points, moved, quads, member, station, contour = [], [], [], [], [], []
@@ -84,7 +84,7 @@ def states_of(structure: Structure, poses: Poses, output_times: Floats, times: F
 
 
 def _stations(pieces: tuple[Piece, ...], side: float) -> Floats:
-    """Stations along a member: every cut, and pieces divided evenly."""
+    """Stations along a member: at every cut, and evenly within its pieces."""
     found = [0.0]
     for piece in pieces:
         number = max(1, int(np.ceil((piece.end - piece.start) / (LONGEST_QUAD * side))))
@@ -99,7 +99,7 @@ def _tube_quads(rings: int, around: int) -> Integers:
 
 
 def _meeting(poses: Poses, member: str, station: float) -> tuple[int, int]:
-    """Bodies that carry a station of a member: one twice, or the two that a hinge there joins."""
+    """Bodies to which a station of a member belongs: one twice, or the two that a hinge joins there."""
     pieces = poses.pieces[member]
     first = bisect_left(pieces, station, key=lambda piece: piece.end)
     last = bisect_right(pieces, station, key=lambda piece: piece.start) - 1

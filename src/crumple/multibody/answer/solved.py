@@ -1,4 +1,4 @@
-"""Result of a run of a kernel before it is reported: the same for both kernels."""
+"""Result of a run of a kernel before it is reported; the same for both kernels."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Poll = Callable[[float], bool]
 
 @dataclass(frozen=True, eq=False)
 class HingeHistory:
-    """What one hinge did.
+    """History of one hinge.
 
     Attributes
     ----------
@@ -110,11 +110,11 @@ class Solved:
 
 
 class Solver(Protocol):
-    """A structure lowered for one kernel."""
+    """A structure prepared for one kernel."""
 
     @property
     def kernel(self) -> str:
-        """Its name: ``tree`` or ``spatial``."""
+        """Name of the kernel: ``tree`` or ``spatial``."""
 
     @property
     def moving(self) -> bool:
@@ -126,10 +126,10 @@ class Solver(Protocol):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Sentences about how the structure begins to move."""
+        """Sentences about the mobility of the structure at the start."""
 
     def with_hinges(self, hinges: tuple[PlacedHinge, ...]) -> Solver:
-        """The same with other hinges at the same places."""
+        """The same model with other hinges at the same places."""
 
     def run(self, accuracy: float, poll: Poll | None, *, ends_only: bool = False) -> Solved:
-        """Step at an accuracy, recording at the run's output times or at the ends of its stages alone."""
+        """Solve with an accuracy, and record at the run's output times or only at the ends of its stages."""

@@ -1,1 +1,1 @@
-"""From a structure to rigid bodies, joints and what moves them."""
+"""Rigid bodies, joints, loads and initial motion of a structure."""

@@ -1,4 +1,4 @@
-"""What acts on the bodies: loads and driven supports, sampled over a time; the same for both kernels."""
+"""Loads and driven supports, sampled over time; the same for both kernels."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class AppliedLoad:
 
 @dataclass(frozen=True, eq=False)
 class DrivenFreedom:
-    """A freedom of a support's node that moves as prescribed: displacement and rate over time."""
+    """A freedom of a support's node with prescribed motion: displacement and rate over time."""
 
     support: str
     node: str
@@ -38,7 +38,7 @@ class DrivenFreedom:
 def applied_loads(
     structure: Structure, node_body: Mapping[str, int], duration: float
 ) -> Iterator[AppliedLoad]:
-    """Loads on what can move: of every node forces, then moments."""
+    """Loads on nodes that can move: for every node forces, then moments."""
     for load in structure.loads:
         body = node_body[load.node]
         if body == GROUND:
@@ -50,7 +50,7 @@ def applied_loads(
 
 
 def driven_freedoms(structure: Structure, duration: float) -> Iterator[DrivenFreedom]:
-    """Driven freedoms of all supports, in their order."""
+    """Driven freedoms of all supports, in the order of the supports."""
     for name, support in structure.supports.items():
         for freedom, function in support.driven.items():
             yield DrivenFreedom(name, support.node, freedom, *sampled_motion(function, duration))

@@ -1,4 +1,4 @@
-"""Members cut at their hinges, and what stays together: rigid parts, whatever joins them afterwards."""
+"""Members cut at their hinges, and the rigid parts that result: all pieces that are joined rigidly."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Cut:
 
 @dataclass
 class Assembly:
-    """Pieces and nodes while they are joined: each has a number, and `root` gives its rigid part."""
+    """Pieces and nodes while they are being joined: each has a number, and `root` gives its rigid part."""
 
     structure: Structure
     parent: list[int] = field(default_factory=list)
@@ -46,23 +46,23 @@ class Assembly:
     cuts: list[Cut] = field(default_factory=list)
 
     def new(self) -> int:
-        """Number of a piece that nothing is joined to yet."""
+        """Number of a new piece that is not yet joined to anything."""
         self.parent.append(len(self.parent))
         return len(self.parent) - 1
 
     def root(self, i: int) -> int:
-        """The rigid part that a piece belongs to."""
+        """The rigid part to which a piece belongs."""
         while self.parent[i] != i:
             self.parent[i] = self.parent[self.parent[i]]
             i = self.parent[i]
         return i
 
     def join(self, a: int, b: int) -> None:
-        """Make one rigid part of two."""
+        """Join two rigid parts into one."""
         self.parent[self.root(b)] = self.root(a)
 
     def masses(self) -> dict[int, RigidMass]:
-        """Mass of every rigid part that has a piece or a lump."""
+        """Mass of every rigid part that has a piece or a lumped mass."""
         parts: dict[int, list[RigidMass]] = defaultdict(list)
         for name, cuts in self.pieces.items():
             go_on()
@@ -73,7 +73,7 @@ class Assembly:
         return {part: combined(of) for part, of in parts.items()}
 
     def moving_cuts(self) -> list[Cut]:
-        """Cuts between rigid parts.
+        """Cuts between different rigid parts.
 
         Raises
         ------
@@ -90,7 +90,7 @@ class Assembly:
 
 
 def assemble(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Assembly:
-    """Cut members at their hinges, and join what meets rigidly at the nodes and at spot welds."""
+    """Cut members at their hinges, and join the pieces that meet rigidly at nodes and spot welds."""
     assembly = Assembly(structure)
     assembly.node = {node: assembly.new() for node in structure.nodes}
     jointed = {(joint.node, joint.member): name for name, joint in structure.joints.items()}
@@ -119,7 +119,7 @@ def assemble(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Assembly:
 
 
 def _refuse_beside(structure: Structure, name: str, place: NDArray[np.float64]) -> None:
-    """Refuse a spot [m] farther from a member's outline, or its ends, than both walls are thick."""
+    """Refuse a spot weld [m] farther from a member's outline, or from its ends, than both walls are thick."""
     members = structure.spot_welds[name].members
     both = sum(structure.section_of(member).thickness for member in members)
     for member in members:
@@ -139,19 +139,19 @@ def _refuse_beside(structure: Structure, name: str, place: NDArray[np.float64]) 
 
 
 def _piece_at(assembly: Assembly, member: str, place: NDArray[np.float64]) -> int:
-    """Number of the piece of a member beside a place [m]."""
+    """Number of the piece of a member nearest to a place [m]."""
     frame = assembly.structure.frame_of(member)
     station = float((place - frame.origin) @ frame.x)
     return next((i for _, end, i in assembly.pieces[member] if station < end), assembly.pieces[member][-1][2])
 
 
 def joint_of(structure: Structure, cut: Cut) -> Joint | None:
-    """The joint of a cut, None for a hinge."""
+    """The joint of a cut; None for a hinge."""
     return None if cut.joint is None else structure.joints[cut.joint]
 
 
 def idle(structure: Structure, hinge: PlacedHinge | None, joint: str | None) -> InputError:
-    """What is wrong with a hinge or joint both sides of which move as one, or not at all."""
+    """Reason why a hinge or joint has no effect: its sides move as one, or not at all."""
     if hinge is not None:
         came = f"hinge {hinge.name} of member {hinge.member}"
         what = "this hinge are fixed or rigidly connected elsewhere, so it cannot rotate"

@@ -124,7 +124,7 @@ def _freedom(linkage: Linkage, tree: Tree, column: int) -> Freedom:
 
 
 def without(linkage: Linkage, held: frozenset[Freedom]) -> Linkage:
-    """A linkage without its held freedoms."""
+    """A linkage without the freedoms that are held."""
     connections = [
         replace(c, free=tuple(freedom for freedom in c.free if (i, freedom) not in held))
         for i, c in enumerate(linkage.connections)
@@ -133,7 +133,7 @@ def without(linkage: Linkage, held: frozenset[Freedom]) -> Linkage:
 
 
 def _crooked(linkage: Linkage) -> dict[int, tuple[Floats, Floats]]:
-    """Places and axes that make out of a crossing of ways one way each, or a place that is rigid."""
+    """Change places and axes so that only one of the motions that cross at a dead centre is left, or none."""
     if not (problem := _problem(linkage)):
         return {}
     tree, motions, forms = problem
@@ -156,7 +156,7 @@ def _crooked(linkage: Linkage) -> dict[int, tuple[Floats, Floats]]:
 
 
 def _leaning(axes: Floats, lean: Floats) -> Floats:
-    """Axes, as rows, turned a little about a vector; as they are for none."""
+    """Axes, as rows, rotated by a small angle about a vector; unchanged if there is none."""
     if not np.any(lean):
         return axes
     x, y, z = CROOKED * lean / np.linalg.norm(lean)
@@ -190,7 +190,7 @@ def _forms(linkage: Linkage, tree: Tree, motions: Floats, stresses: Floats) -> F
 
 
 def _along(linkage: Linkage, tree: Tree, closing: int, own: list[int]) -> list[tuple[int, int, float]]:
-    """Connection, freedom and sign of the motions around a loop, in their order."""
+    """Connection, freedom and sign of the motions around a loop, in the order of the loop."""
     connection = linkage.connections[closing]
     first, second = list(tree.path(connection.first)), list(tree.path(connection.second))
     while first and second and first[-1][0] == second[-1][0]:
@@ -206,7 +206,7 @@ def _along(linkage: Linkage, tree: Tree, closing: int, own: list[int]) -> list[t
 
 
 def _part(linkage: Linkage, tree: Tree, owner: int, column: int) -> tuple[int, int]:
-    """Connection, and which of its motions a freedom belongs to: one after the other, from its first body."""
+    """Connection of a freedom, and the motion of that connection to which it belongs."""
     if owner == GROUND or linkage.connections[owner].hinge is not None:
         return owner, 0
     connection, (_, freedom) = linkage.connections[owner], _freedom(linkage, tree, column)
@@ -251,7 +251,7 @@ def _kernel_of_definite(forms: Floats) -> Floats | None:
 
 
 def _zeros(forms: Floats) -> Floats:
-    """Zeros of indefinite forms from as many random motions as there are, and some more, (m, motions)."""
+    """Zeros of indefinite forms, from a few more random motions than there are motions, (m, motions)."""
     count = forms.shape[1]
     if np.abs(forms).max(initial=0.0) <= DEFINITE:
         return np.eye(count)

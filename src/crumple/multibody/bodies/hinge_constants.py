@@ -1,4 +1,4 @@
-"""Hinge records as the kernels take them."""
+"""Constants of hinges in the form that the kernels take."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ SOFTENING = {SofteningVariable.PEAK: 0, SofteningVariable.ROTATION: 1, Softening
 
 
 def hinge_constants(record: HingeRecord, sign: float = 1.0) -> dict[str, Any]:
-    """What `HingeConstants` holds of a record; a joint that turns the other way swaps the senses."""
+    """Values of `HingeConstants`; for a joint that counts the other way the senses are exchanged."""
     senses = ((record.positive, record.stop_positive), (record.negative, record.stop_negative))
     (positive, stop_positive), (negative, stop_negative) = senses if sign > 0.0 else senses[::-1]
     return {
@@ -28,7 +28,7 @@ def hinge_constants(record: HingeRecord, sign: float = 1.0) -> dict[str, Any]:
 
 
 def _stop(stop: Stop | None) -> tuple[float, ...]:
-    """Rotation, stiffness, exponent, damping, penetration; empty for none."""
+    """Rotation, stiffness, exponent, damping, penetration; empty without a stop."""
     if stop is None:
         return ()
     return (stop.rotation, stop.stiffness, stop.exponent, stop.damping, stop.full_damping_penetration)

@@ -1,4 +1,4 @@
-"""Motion at the start: velocity fields gathered as momentum of the rigid bodies, and impulses on them."""
+"""Motion at the start: velocity fields, as momentum of the rigid bodies, and impulses on them."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from crumple.structure import InitialVelocity, NodalImpulse, Structure
 from crumple.structure.geometry import cross
 
 FASTEST = 1e5
-"""Speed [m/s] that an impulse may give a part before joints slow it."""
+"""Speed [m/s] up to which an impulse may accelerate a part before joints slow it down."""
 
 
 class Parts(Protocol):
-    """Bodies of a structure: where every piece of a member and every node went."""
+    """Bodies of a structure: the body of every piece of a member and of every node."""
 
     @property
     def pieces(self) -> Mapping[str, tuple[Piece, ...]]:
@@ -56,7 +56,7 @@ class InitialMotion:
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """Where bodies in space are.
+    """Positions of the bodies in space.
 
     Attributes
     ----------
@@ -70,11 +70,11 @@ class Placed:
     quaternion: Floats | None
 
     def turned(self, body: int, vector: Floats) -> Floats:
-        """What a vector, (3,), or the rows of a matrix have become that go with a body."""
+        """A vector, (3,), or the rows of a matrix, rotated with a body."""
         return vector if self.quaternion is None else turned(self.quaternion[body], vector)
 
     def tensor(self, body: int, tensor: Floats) -> Floats:
-        """What a symmetric tensor, (3, 3), has become that goes with a body."""
+        """A symmetric tensor, (3, 3), rotated with a body."""
         return tensor if self.quaternion is None else self.turned(body, self.turned(body, tensor).T)
 
 
@@ -123,7 +123,7 @@ def spatial_initial_motion(
 
 
 def refuse_speeding(velocity: Floats, impulse: Floats, mass: Floats) -> None:
-    """Refuse impulses that throw a part so fast that its motion would never be followed to the end."""
+    """Refuse impulses that accelerate a part so much that its motion could not be followed to the end."""
     speed = np.linalg.norm(velocity + impulse / mass[:, None], axis=1)
     if speed.size and float(speed.max()) > FASTEST:
         part = float(mass[speed.argmax()])
@@ -154,7 +154,7 @@ def moving_parts(
 
 
 def motion_of(fields: Sequence[InitialVelocity], point: Floats) -> tuple[Floats, Floats]:
-    """Velocity [m/s] at a point and angular velocity [rad/s] of fields together, (3,) each."""
+    """Velocity [m/s] at a point and angular velocity [rad/s] of the sum of several fields, (3,) each."""
     velocity, rate = np.zeros(3), np.zeros(3)
     for field in fields:
         turn = _rate_of(field)

@@ -1,4 +1,4 @@
-"""From a structure to rigid bodies and what connects them, in space: a graph, with as many loops as it has.
+"""Rigid bodies in space and what connects them, from a structure: a graph with any number of loops.
 
 Members are cut at their hinges; what stays together is one body.  A connection lies at every hinge, at every
 joint between a member's end and its node, and at every node that a support holds in part or drives.  A node
@@ -25,12 +25,12 @@ GROUND = -1
 FREEDOM = {"x": 3, "y": 4, "z": 5}
 """Relative freedom of a hinge's bending axis: the rotation about it."""
 THIN = 1e-12
-"""Smallest principal moment of inertia over the largest below which a body cannot be turned about an axis."""
+"""Smallest ratio of principal moments of inertia for which a body resists rotation about every axis."""
 
 
 @dataclass(frozen=True, eq=False)
 class Connection:
-    """What joins two bodies at a place.
+    """A connection of two bodies at a place.
 
     Attributes
     ----------
@@ -69,7 +69,7 @@ class Connection:
 
     @property
     def held(self) -> tuple[bool, bool, bool, bool, bool, bool]:
-        """Whether each of the six relative freedoms is held."""
+        """Which of the six relative freedoms are held."""
         x, y, z, rx, ry, rz = (i not in self.free for i in range(6))
         return x, y, z, rx, ry, rz
 
@@ -104,7 +104,7 @@ class Linkage:
 
     @cached_property
     def trees(self) -> dict[bool, Any]:
-        """Its spanning trees as `mobility` found them, by whether hinges are locked."""
+        """Spanning trees found by `mobility`, by whether hinges are locked."""
         return {}
 
     @property
@@ -129,7 +129,7 @@ def link(structure: Structure, hinges: tuple[PlacedHinge, ...] | None = None) ->
         If a hinge or joint joins a part with itself, or two held parts.
     """
     placed = placed_hinges(structure) if hinges is None else hinges
-    # other hinges at the same places, as studies have them, are linked anew
+    # studies place other hinges at the same places; these are linked anew
     if placed is not structure.kept.get(OWN_HINGES):
         return _link(structure, placed)
     return structure.kept.once("linkage", "", lambda: _link(structure, placed))
@@ -168,7 +168,7 @@ def _link(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Linkage:
 
 
 def hinge_axes(structure: Structure, hinge: PlacedHinge) -> Floats:
-    """Axes of a hinge as rows, (3, 3): along the member, and its bending axes, the hinge's own exactly."""
+    """Axes of a hinge as rows, (3, 3): along the member, and its two bending axes."""
     x = structure.frame_of(hinge.member).x
     if hinge.axis == "y":
         return np.array([x, hinge.direction, cross(x, hinge.direction)])
@@ -176,7 +176,7 @@ def hinge_axes(structure: Structure, hinge: PlacedHinge) -> Floats:
 
 
 def _held(structure: Structure) -> dict[str, set[str]]:
-    """Freedoms that supports hold of every supported node, driven ones left out."""
+    """Freedoms that supports hold, for every supported node, without the driven ones."""
     held: dict[str, set[str]] = {}
     for support in structure.supports.values():
         held.setdefault(support.node, set()).update(support.held)
@@ -205,7 +205,7 @@ def _cut_connection(structure: Structure, cut: Cut, body: dict[int, int]) -> Con
 
 
 def joint_axes(joint: Joint) -> Floats:
-    """Right-handed axes of a joint as rows, (3, 3), as its `free` counts them."""
+    """Right-handed axes of a joint as rows, (3, 3), in the order in which its `free` counts them."""
     if joint.axis is None:
         return np.eye(3)
     x = np.asarray(joint.axis, float) / np.linalg.norm(joint.axis)
@@ -220,7 +220,7 @@ def joint_axes(joint: Joint) -> Floats:
 
 
 def _supports(assembly: Assembly, body: dict[int, int], held: dict[str, set[str]]) -> list[Connection]:
-    """One connection for every support that does not clamp its node; what it drives it holds as well."""
+    """One connection for every support that does not clamp its node; driven freedoms count as held."""
     found = []
     for name, support in assembly.structure.supports.items():
         part = assembly.root(assembly.node[support.node])
@@ -236,7 +236,7 @@ def _supports(assembly: Assembly, body: dict[int, int], held: dict[str, set[str]
 
 
 def check_inertia(linkage: Linkage) -> None:
-    """Refuse bodies without mass, or that nothing resists turning about some axis.
+    """Refuse bodies without mass, or without inertia about some axis.
 
     Raises
     ------
@@ -257,7 +257,7 @@ def check_inertia(linkage: Linkage) -> None:
 
 
 def described(linkage: Linkage, body: int) -> tuple[str, str]:
-    """What a body is, and a path in the input where it is made."""
+    """What a body consists of, and a path of the input where it is defined."""
     for name, pieces in linkage.pieces.items():
         for piece in pieces:
             if piece.body == body:

@@ -1,4 +1,4 @@
-"""What of a linkage can move at the start, and what is held more than once.
+"""The motions that a linkage allows at the start, and the constraints that are redundant.
 
 Every connection leaves some relative motion: a twist of the second body against the first for each free
 freedom, written about one point for all.  A spanning tree from the ground carries every body; each
@@ -26,14 +26,14 @@ from crumple.numeric.arrays import Floats
 from crumple.text.names import listed
 
 NOTHING = 1e-9
-"""Singular value over the largest, and share of a motion, below which it is rounding."""
+"""Singular value relative to the largest, and share of a motion, below which it is rounding."""
 LARGEST_SYSTEM = 2000
-"""Equations, or freedoms, of loops that are decomposed: seconds, and 32 MB."""
+"""Largest number of equations, or freedoms, of loops for a dense decomposition: seconds, and 32 MB."""
 
 
 @dataclass(frozen=True)
 class Mobility:
-    """What can move.
+    """Mobility of a linkage.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class Mobility:
 
 
 class Columns:
-    """Twists of free freedoms, each worked out when it is asked for: off the loops of a chain none is.
+    """Twists of free freedoms, each computed when it is needed; off the loops of a chain none is.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ class Columns:
 
 @dataclass
 class Tree:
-    """Spanning tree: twists of the free freedoms, and from where every body is reached."""
+    """Spanning tree: twists of the free freedoms, and the connection through which every body is reached."""
 
     columns: Columns
     owner: list[int] = field(default_factory=list)
@@ -135,7 +135,7 @@ def mobility(linkage: Linkage, *, locked: bool = False) -> Mobility:
     moves = np.ones(width, bool)
     moves[coupled] = np.any(np.abs(null) > NOTHING, axis=0)
     bodies: set[int] = set()
-    # every body comes after the one that it is reached from
+    # every body comes after the one from which it is reached
     for body, (before, _, own, _) in tree.inboard.items():
         if before in bodies or moves[own].any():
             bodies.add(body)
@@ -189,7 +189,7 @@ def free_twists(linkage: Linkage, points: Floats, *, locked: bool = False) -> Fl
 
 
 def notes(linkage: Linkage) -> tuple[str, ...]:
-    """Sentences about parts that nothing holds, hinges that cannot turn, and constraints held twice."""
+    """Sentences about parts that are not held, hinges that cannot rotate, and redundant constraints."""
     if too_large(linkage):
         return ("The structure is too large to count what is free, locked or held twice.",)
     found = list(free_parts(linkage))
@@ -208,7 +208,7 @@ def notes(linkage: Linkage) -> tuple[str, ...]:
 
 
 def free_parts(linkage: Linkage) -> tuple[str, ...]:
-    """A sentence about what can move without any hinge turning; none where all is held."""
+    """A sentence about parts that can move without rotation of any hinge; empty if all is held."""
     rigid = mobility(linkage, locked=True)
     if not rigid.motions:
         return ()
@@ -225,7 +225,7 @@ def free_parts(linkage: Linkage) -> tuple[str, ...]:
 
 
 def floating_bodies(linkage: Linkage) -> set[int]:
-    """Bodies that nothing connects with the ground."""
+    """Bodies that are not connected with the ground."""
     beside: dict[int, list[int]] = defaultdict(list)
     for connection in linkage.connections:
         beside[connection.first].append(connection.second)
@@ -240,13 +240,13 @@ def floating_bodies(linkage: Linkage) -> set[int]:
 
 
 def floating_members(linkage: Linkage) -> tuple[str, ...]:
-    """Members that nothing connects with the ground, in the structure's order."""
+    """Members that are not connected with the ground, in the structure's order."""
     floating = floating_bodies(linkage)
     return tuple(name for name, pieces in linkage.pieces.items() if {p.body for p in pieces} <= floating)
 
 
 def tree_of(linkage: Linkage, locked: bool = False) -> Tree:
-    """Breadth first from the ground; what it does not reach floats."""
+    """Breadth-first tree from the ground; bodies that it does not reach are floating."""
     if locked not in linkage.trees:
         linkage.trees[locked] = _tree_of(linkage, locked)
     tree: Tree = linkage.trees[locked]
@@ -320,14 +320,14 @@ def _twist(connection: Connection, freedom: int, centre: Floats, length: float) 
 
 
 def scale_of(linkage: Linkage) -> tuple[Floats, float]:
-    """Common point and length of a linkage."""
+    """Common reference point and length of a linkage."""
     places = np.array([c.position for c in linkage.connections] + [b.centre for b in linkage.bodies])
     centre = places.mean(axis=0)
     return centre, float(np.linalg.norm(places - centre, axis=1).max()) or 1.0
 
 
 def null_space(system: Floats) -> tuple[Floats, int]:
-    """Orthonormal vectors that a system sends to zero, and how many of its rows depend on the others."""
+    """Orthonormal basis of a system's null space, and the number of its redundant rows."""
     if not len(system):
         return np.zeros((0, system.shape[1])), 0
     _, sizes, vectors = np.linalg.svd(system)
@@ -337,7 +337,7 @@ def null_space(system: Floats) -> tuple[Floats, int]:
 
 
 def named_members(names: tuple[str, ...]) -> str:
-    """Members of a sentence."""
+    """Members as part of a sentence."""
     return _named("member", "members", list(names))
 
 

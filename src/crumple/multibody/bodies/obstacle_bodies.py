@@ -1,4 +1,4 @@
-"""Obstacles and members that touch, as the spatial kernel takes them.
+"""Obstacles and members that can come into contact, for the spatial kernel.
 
 A fixed obstacle is part of the ground.  One with a mass is a body that slides along its guide, a driven one a
 body whose every freedom is held and some are driven.  Members touch with capsules: segments with a radius.  A
@@ -39,12 +39,12 @@ but the work of its drive; far smaller ones would cost digits."""
 MOST_PAIRS = 1_000_000
 """Pairs of bars that may touch each other; the kernel looks at each."""
 ROUND = 1.1
-"""Ratio of the sides of a section up to which one row of capsules stands for it."""
+"""Ratio of the sides of a section up to which one row of capsules represents it."""
 
 
 @dataclass(frozen=True, eq=False)
 class Touching:
-    """A model with its obstacles, and whose its further parts are.
+    """A model with its obstacles, and the owners of its further parts.
 
     Attributes
     ----------
@@ -192,7 +192,7 @@ def member_capsules(
     for name, pieces in of_member.items():
         frame, nodes = structure.frame_of(name), structure.members[name].nodes
         places, radius = _rows(structure.section_of(name).outer_outline())
-        # the round end of a capsule ends with the member where that is free, and rounds the corner elsewhere
+        # the round end of a capsule coincides with a free end of the member, and rounds a corner
         inset = [radius if ends[node] == 1 else 0.0 for node in nodes]
         for piece in pieces:
             if (piece.body == GROUND) is not held:
@@ -224,7 +224,7 @@ def _rows(outline: Floats) -> tuple[Floats, float]:
 def touching_pairs(
     structure: Structure, capsules: list[SpatialCapsule], member: list[str]
 ) -> Iterator[tuple[int, int]]:
-    """Capsules of members that share no node, on different bodies."""
+    """Pairs of capsules that can come into contact: of members without a common node, on different bodies."""
     if len(capsules) * (len(capsules) - 1) // 2 > MOST_PAIRS:
         what, allowed = (
             f"{len(capsules)} bars are too many to touch each other",

@@ -1,4 +1,4 @@
-"""Rigid pieces of members and lumps: mass, centre and inertia in space, and how they add up."""
+"""Rigid pieces of members and lumped masses: mass, centre of mass and inertia in space, and their sums."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class RigidMass:
 
 
 def combined(parts: list[RigidMass]) -> RigidMass:
-    """One rigid body of several (parallel axes)."""
+    """One rigid body made of several (parallel axis theorem)."""
     mass = sum(part.mass for part in parts)
     if mass == 0.0:
         return RigidMass(0.0, np.zeros(3), sum((part.inertia for part in parts), np.zeros((3, 3))))
@@ -52,7 +52,7 @@ def piece_mass(structure: Structure, member: str, start: float, end: float) -> R
     return _bar(structure.frame_of(member), structure.section_of(member), material.density, start, end)
 
 
-# asked for by every stage of lowering
+# needed by every stage of lowering
 @remembered(4096)
 def _bar(frame: Frame, section: Section, density: float, start: float, end: float) -> RigidMass:
     length = end - start
@@ -66,6 +66,6 @@ def _bar(frame: Frame, section: Section, density: float, start: float, end: floa
 
 
 def lump_mass(structure: Structure, mass: Mass) -> RigidMass:
-    """Mass of a lump at its centre."""
+    """Mass properties of a lumped mass at its centre."""
     centre = np.asarray(structure.nodes[mass.node], float) + np.asarray(mass.offset)
     return RigidMass(mass.mass, centre, np.diag(mass.rotary_inertia))

@@ -1,4 +1,4 @@
-"""Functions of time as the kernels take them: piecewise linear, with a bounded error, and where steps end.
+"""Functions of time as the kernels take them: piecewise linear, with a bounded error, and the ends of steps.
 
 A structure is lowered many times with the same functions; each is sampled once.
 """
@@ -15,7 +15,7 @@ from crumple.numeric.arrays import Floats
 from crumple.structure import Structure
 
 SAMPLING = 1e-7
-"""Error of a sampled function of time, relative to its largest value; far below any accuracy asked for."""
+"""Error of a sampled function of time, relative to its largest value; far below any accuracy used."""
 DRIVE_SAMPLING = 1e-8
 """The same for driven motion, whose rate is sampled: its pieces then add up to the motion within 1e-6."""
 KINK = 0.01
@@ -26,7 +26,7 @@ SMOOTH = 1e-6
 BRIEF = 1e-9
 """Time in which a driven rate passes a kink, relative to the duration."""
 FUNCTIONS = 512
-"""Sampled functions that are kept."""
+"""Largest number of sampled functions that are kept."""
 
 
 @lru_cache(maxsize=FUNCTIONS)
@@ -45,7 +45,7 @@ def sampled_motion(function: TimeFunction, duration: float) -> tuple[Floats, Flo
     # the rate just before each sample that makes its piece end where the motion does; at a kink it differs
     before = 2.0 * np.diff(values) / steps - rates[:-1]
     jumps = np.abs(before - rates[1:]) / max(float(np.abs(rates).max()), 1e-300)
-    # the run ends with the motion, whatever would follow
+    # the run ends with the motion; values after its end do not matter
     rates[-1], jumps[-1] = before[-1], 0.0
     kinks = np.flatnonzero(jumps > SMOOTH)
     if kinks.size > MAX_BREAKS:
@@ -85,6 +85,6 @@ def _functions(structure: Structure) -> Iterator[TimeFunction]:
 
 
 def _fixed(array: Floats) -> Floats:
-    """An array that is shared and must not be written to."""
+    """An array that is shared and must not be changed."""
     array.setflags(write=False)
     return array
