@@ -1,4 +1,4 @@
-"""Which kernel solves a structure: the planar tree where it is exact and fast, else the spatial one.
+"""Choice of the kernel: the planar tree where it is exact and fast, else the spatial one.
 
 The tree kernel solves parallel hinges in the plane across them.  That is exact if nothing leads out of the
 plane, or if the hinges and supports carry everything across it.
@@ -20,13 +20,13 @@ from crumple.numeric.arrays import Floats
 from crumple.structure import FREEDOMS, PlacedHinge, Structure, across_plane, placed_hinges
 
 MOST_LOOPS = 8
-"""Closed loops up to which the tree kernel is used: its cost grows with their square."""
+"""Number of closed loops up to which the tree kernel is used: its cost grows with their square."""
 LOPSIDED = 1e-6
 """Product of inertia, and distance of centres from one plane, below which they are rounding (relative)."""
 
 
 def why_spatial(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run) -> str | None:
-    """Reason for which the spatial kernel must solve a structure; None where the tree kernel does.
+    """Reason why the spatial kernel must solve a structure; None if the tree kernel can.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def why_spatial(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run)
 
 
 def refuse_spatial(structure: Structure, run: Run) -> None:
-    """Refuse what only the spatial kernel solves, where the planar one alone can serve.
+    """Refuse what only the spatial kernel can solve, if the planar kernel is required.
 
     Raises
     ------
@@ -61,7 +61,7 @@ def refuse_spatial(structure: Structure, run: Run) -> None:
 
 
 def _reasons(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run) -> Iterator[str]:
-    """Reasons, the cheapest to find first."""
+    """Reasons for the spatial kernel, the cheapest to determine first."""
     given = {
         "joints": structure.joints,
         "obstacles": structure.obstacles,
@@ -100,15 +100,15 @@ def _reasons(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run) ->
 
 
 def _hangs_on_clamps(structure: Structure, linkage: Linkage) -> bool:
-    """Whether hinges alone join every body to clamps, without loops: the commonest case, and quick to see."""
+    """Whether every body is connected to clamps by hinges only, without loops: the most frequent case."""
     if any(len(support.held) < len(FREEDOMS) for support in structure.supports.values()):
         return False
-    # as many connections as bodies, and all of them reached: a tree that hangs on the ground
+    # as many connections as bodies, and all of them reached: a tree fixed to the ground
     return len(linkage.connections) == len(linkage.bodies) and not floating_bodies(linkage)
 
 
 def _leaning(structure: Structure, normal: Floats) -> str | None:
-    """Path of a support that holds some directions, of which one lies neither in the plane nor across it."""
+    """Path of a support that holds some directions, one of which is neither in the plane nor normal to it."""
     for name, support in structure.supports.items():
         for kind in (FREEDOMS[:3], FREEDOMS[3:]):
             held = [freedom for freedom in kind if freedom in (*support.held, *support.driven)]
@@ -119,7 +119,7 @@ def _leaning(structure: Structure, normal: Floats) -> str | None:
 
 
 def _lopsided(linkage: Linkage, normal: Floats) -> bool:
-    """Whether moving in the plane would turn bodies out of it: centres apart, or products of inertia."""
+    """Whether motion in the plane would rotate bodies out of it: unequal centres or products of inertia."""
     centres = np.array([body.centre for body in linkage.bodies])
     spread = np.ptp(centres @ normal) > LOPSIDED * max(float(np.ptp(centres, axis=0).max()), 1e-3)
     return bool(spread) or any(

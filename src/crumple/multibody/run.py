@@ -1,4 +1,4 @@
-"""Settings of a run, and what both kernels' runs have in common: output times, progress, status."""
+"""Settings of a run, and what the runs of both kernels share: output times, progress, status."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def poll_of(
 
 
 def refuse_unbegun(outcome: Outcome, time: Floats) -> None:
-    """Raise where a run was cancelled before its first output: there is nothing to make a result of.
+    """Raise if a run was cancelled before its first output, so that there is no result.
 
     Raises
     ------
@@ -93,7 +93,7 @@ def refuse_unbegun(outcome: Outcome, time: Floats) -> None:
 
 
 def outcome_status(outcome: Outcome, reason: str, residual: float, bound: float) -> tuple[Status, str]:
-    """Status and reason of a run, its energy residual held against its bound."""
+    """Status and reason of a run; its energy residual is compared with the allowed one."""
     status = STATUS[outcome]
     if status.ok and residual > bound:
         return Status.RESIDUAL_EXCEEDED, f"energy residual {residual:.2e} above its bound {bound:.2e}"

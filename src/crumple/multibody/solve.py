@@ -95,7 +95,7 @@ def solve_multibody(
 
 
 def _errors(rough: Solved, solved: Solved) -> Floats:
-    """Error of every hinge's rotation [rad]: how far the rough run is from the answer, and what neither saw.
+    """Error of every hinge's rotation [rad]: difference of the coarse run to the answer, and unresolved loads.
 
     Rotations go with the square of the speed that makes them, so a share of the speed is twice that of a
     rotation.
@@ -113,7 +113,7 @@ def _final(hinge: HingeHistory) -> float:
 
 
 def solver_of(structure: Structure, run: Run) -> Solver:
-    """The structure lowered for the kernel that suits it, or that the settings name."""
+    """The structure prepared for the kernel that suits it, or that the settings name."""
     hinges = placed_hinges(structure)
     if why_spatial(structure, hinges, run) is None:
         return TreeSolver(structure, run, hinges)
@@ -123,7 +123,7 @@ def solver_of(structure: Structure, run: Run) -> Solver:
 def _doubt(
     structure: Structure, run: Run, solver: Solver, rough: Solved, cancel: Cancel | None
 ) -> str | None:
-    """A warning where a small change of the capacities folds the structure elsewhere."""
+    """A warning if the structure folds elsewhere after a small change of the capacities."""
     asked = run.settings.mechanism_check
     n_plastic = sum(hinge.plastic for hinge in solver.hinges)
     if asked == "off" or (asked == "auto" and not any_automatic(structure)) or n_plastic < 2:
@@ -216,7 +216,7 @@ def _settings(run: Run, solver: Solver, solved: Solved) -> dict[str, float | int
 
 
 def _nothing_solved(run: Run, reason: str, seconds: float) -> Result:
-    """What a run is that was cancelled before its first step: no histories, no hinges, no shapes."""
+    """Result of a run that was cancelled before its first step: no histories, no hinges, no shapes."""
     return Result(
         status=Status.CANCELLED,
         reason=reason,

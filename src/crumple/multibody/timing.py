@@ -1,4 +1,4 @@
-"""How long a solve takes when it is repeated, and how long its stepping alone."""
+"""Time of a solve when it is repeated, and of its time integration alone."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from crumple.multibody.solve import solver_of
 from crumple.structure import Structure
 
 REPEATS = 20
-"""Runs of which the fastest counts: the first one warms caches, and others may be interrupted."""
+"""Number of runs of which the fastest counts: the first one fills caches, and others may be interrupted."""
 LONG = 1.0
-"""Time spent on repeats [s] after which there are no more."""
+"""Time spent on repeats [s] after which no further one is started."""
 
 
 def least_seconds(once: Callable[[], float]) -> float:
-    """Least of several wall times [s]; ``once`` does the work and returns its wall time."""
+    """Shortest of several wall times [s]; ``once`` does the work and returns its wall time."""
     found: list[float] = []
     while not found or (len(found) < REPEATS and sum(found) < LONG):
         found.append(once())
@@ -24,7 +24,7 @@ def least_seconds(once: Callable[[], float]) -> float:
 
 
 def stepping_seconds(structure: Structure, run: Run) -> float | None:
-    """Wall time of one run of the stepper with its outputs [s], fastest of several; None if it fails.
+    """Wall time of the time integration alone, with its outputs [s], fastest of several; None if it fails.
 
     Parameters
     ----------

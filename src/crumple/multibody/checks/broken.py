@@ -14,7 +14,7 @@ SHOWN = 6
 
 
 def broken_warnings(hinges: Iterable[HingeHistory]) -> list[str]:
-    """A sentence for each of the first hinges that broke, one for all others, one on what that means.
+    """A sentence for each of the first hinges that broke, one for all others, and one on the consequences.
 
     Parameters
     ----------

@@ -27,11 +27,11 @@ from crumple.text.names import listed
 OPEN = math.radians(0.5)
 """Largest threshold [rad]: an angle that a test can just measure."""
 OPEN_SHARE = 0.01
-"""Threshold over the largest plastic rotation, where all stay small."""
+"""Threshold relative to the largest plastic rotation, if all rotations are small."""
 CHANGE = 0.01
-"""Change of the capacities: less than any law or material is known to."""
+"""Change of the capacities: less than the uncertainty of any law or material."""
 PART = 0.2
-"""Share of the largest rotation that makes a hinge part of the mechanism; half of it makes it no part."""
+"""Share of the largest rotation from which a hinge is part of the mechanism; below half of it, it is not."""
 
 
 def collapse_log(hinges: Sequence[HingeHistory], time: np.ndarray) -> tuple[tuple[Opening, ...], float]:
@@ -64,7 +64,7 @@ def collapse_log(hinges: Sequence[HingeHistory], time: np.ndarray) -> tuple[tupl
 
 
 def changed_capacities(hinges: tuple[PlacedHinge, ...]) -> Iterator[tuple[PlacedHinge, ...]]:
-    """Hinges with capacities 1 % up and down: alternately along the structure, at random, and the opposites.
+    """Hinges with capacities 1 % up and down: alternately along the structure, at random, and both reversed.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ def changed_capacities(hinges: tuple[PlacedHinge, ...]) -> Iterator[tuple[Placed
 
 
 def not_unique(runs: Sequence[Sequence[HingeHistory]]) -> str | None:
-    """A warning where runs with changed capacities fold elsewhere; the first run is the unchanged one."""
+    """A warning if runs with changed capacities fold elsewhere; the first run is the unchanged one."""
     turned = [{h.hinge.name: float(np.abs(h.values("plastic_rotation")[-1])) for h in run} for run in runs]
     largest = max((value for run in turned for value in run.values()), default=0.0)
     part = PART * largest
@@ -100,7 +100,7 @@ def not_unique(runs: Sequence[Sequence[HingeHistory]]) -> str | None:
 
 
 def _s(names: list[str]) -> str:
-    """Ending of the verb that goes with some names."""
+    """Ending of the verb that follows one or several names."""
     return "s" if len(names) == 1 else ""
 
 

@@ -24,11 +24,11 @@ from crumple.section import plastic_interaction
 from crumple.structure import Structure
 
 ALONG = np.cos(np.radians(30.0))
-"""Cosine of the angle between a blow and a member's axis from which it counts as bending, not crushing."""
+"""Cosine of the angle between a blow and a member's axis below which it counts as bending, not crushing."""
 
 
 def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> Iterator[Caution]:
-    """Every member that would fold along its axis, and cannot in this model.
+    """A caution for every member that would fold along its axis, and cannot in this model.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> 
 
 
 def _at_hinges(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:
-    """Members and the largest axial compression [N] that stays for two outputs."""
+    """Members and the largest axial compression [N] that persists for two outputs."""
     poses = solved.poses
     if not isinstance(poses, SpatialPoses):
         return
@@ -90,7 +90,7 @@ def _blows(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:
         force = np.column_stack([channels[f"obstacle.{name}.force.{axis}"] for axis in "xyz"])
         if len(force) < 2:
             continue
-        # the first is of one shortest step, no mean
+        # the first value is that of one shortest step, not a mean
         strongest = force[1 + int(np.argmax(np.linalg.norm(force[1:], axis=1)))]
         for member in structure.members:
             along = abs(float(strongest @ structure.frame_of(member).x))
@@ -99,7 +99,7 @@ def _blows(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:
 
 
 def _folding(structure: Structure, member: str) -> tuple[str, float]:
-    """The axial law that takes a member's section, and its peak [N]; no name: the squash load."""
+    """The axial law that applies to a member's section, and its peak [N]; without a name: the squash load."""
     section, material = structure.section_of(member), structure.material_of(member)
     for name in axial_law_types():
         try:

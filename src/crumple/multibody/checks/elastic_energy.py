@@ -1,4 +1,4 @@
-"""Energy that members between rigid hinges could store elastically: what the rigid form leaves out.
+"""Energy that members between rigid hinges could store elastically, which the rigid form neglects.
 
 With the lengths l_i that its hinges stand for, and those of the elastic joints that its elastic form would
 have beside them, a member stores
@@ -49,13 +49,13 @@ def energy_left_out(structure: Structure, histories: Sequence[HingeHistory]) -> 
             for station, length in shares.joints:
                 square = square + length * _between(stations, moments, station) ** 2
             energy = energy + square / (2.0 * structure.flexural_rigidity(member, axis))
-        # the first moments are those of a blow, of one shortest step, and no elastic member follows them
+        # the first moments are those of an impact, within one shortest step, which no elastic member follows
         total += float(energy[1:].max() if energy.size > 1 else energy.max())
     return total
 
 
 def _between(stations: Floats, moments: Floats, station: float) -> Floats:
-    """Moment at a station, (n,), between those of hinges, (k, n), at increasing stations."""
+    """Moment at a station, (n,), interpolated between those of hinges, (k, n), at increasing stations."""
     at = float(np.interp(station, stations, np.arange(len(stations))))
     before = int(at)
     after = min(before + 1, len(stations) - 1)

@@ -21,16 +21,16 @@ from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereO
 from crumple.units import format_quantity
 
 DEPTH = 1e-6
-"""Depth [m] up to which an obstacle only touches."""
+"""Depth [m] up to which an obstacle counts as touching only."""
 LONG = 1e3
-"""Half-length [m] that stands for a cylinder without ends."""
+"""Half-length [m] used for a cylinder without ends."""
 
 
 def held_part_warnings(structure: Structure, solved: Solved) -> list[str]:
-    """A sentence for every moving obstacle that passes through held parts while it presses something."""
+    """A sentence for every moving obstacle that passes through held parts while it presses on other parts."""
     channels = {channel.name: channel.values for channel in solved.further}
     found = []
-    # what presses against it may end the run as soon as the surfaces meet
+    # pressing on it may end the run as soon as the surfaces meet
     deepest = np.full(len(solved.time), -DEPTH)
     if solved.outcome is not Outcome.COMPLETE:
         deepest[-1] = DEPTH
@@ -62,7 +62,7 @@ def held_part_warnings(structure: Structure, solved: Solved) -> list[str]:
 
 
 def _gaps(obstacle: Obstacle, travel: Floats, capsule: SpatialCapsule) -> Iterator[float]:
-    """Distance of the surfaces [m] at every output; nothing of a plane with an edge."""
+    """Distance of the surfaces [m] at every output; none for a plane with an edge."""
     ends = np.asarray(capsule.first, float), np.asarray(capsule.second, float)
     if isinstance(obstacle, PlaneObstacle):
         if obstacle.edge is None:

@@ -9,14 +9,14 @@ from crumple.text.names import listed
 
 
 def infinitesimal(linkage: Linkage) -> str:
-    """What of a linkage is at a dead centre at the start; empty where nothing is."""
+    """The parts of a linkage that are at a dead centre at the start; empty if there are none."""
     if too_large(linkage):
         return ""
     return " ".join(dead_centre_notes(linkage, dead_centres(linkage)))
 
 
 def dead_centre_notes(linkage: Linkage, centres: DeadCentres, *, aside: bool = False) -> tuple[str, ...]:
-    """Sentences about what is held, and what a run has moved aside."""
+    """Sentences about what is held at a dead centre, and what a run has moved aside."""
     found = []
     if centres.held:
         names = dict.fromkeys(linkage.connections[i].name for i, _ in sorted(centres.held))

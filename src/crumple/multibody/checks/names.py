@@ -1,4 +1,4 @@
-"""Subject of a sentence about one or several things."""
+"""The subject of a sentence about one or several things."""
 
 from __future__ import annotations
 

@@ -13,13 +13,13 @@ from crumple.text.names import listed
 MOST_PAIRS = 4
 """Pairs of members that a sentence names."""
 JOINED = 0.1
-"""Share of the radii within which centre lines meet: as in native/spatial/contact/contacts.cpp."""
+"""Share of the radii within which centre lines count as meeting; see native/spatial/contact/contacts.cpp."""
 LEAST = 1e-6
 """Overlap [m] that is rounding of the input."""
 
 
 def overlap_warnings(structure: Structure) -> tuple[str, ...]:
-    """A sentence for members that overlap, and one for those that cross and so never touch."""
+    """A sentence for members that overlap, and one for those that cross and therefore never touch."""
     if structure.member_contact is None:
         return ()
     deepest: dict[tuple[str, str], float] = {}
@@ -51,7 +51,7 @@ def overlap_warnings(structure: Structure) -> tuple[str, ...]:
 
 
 def segment_distance(first: tuple[Floats, Floats], second: tuple[Floats, Floats]) -> float:
-    """Least distance of two segments [m]: inside both, or from an end of one to the other."""
+    """Smallest distance of two segments [m]: inside both, or from an end of one to the other."""
     a, b = (np.asarray(end[1], float) - end[0] for end in (first, second))
     between = np.asarray(second[0], float) - first[0]
     normal = np.cross(a, b)

@@ -37,9 +37,9 @@ FAST = 4.0
 """Speed of a node over the reference speed.  A light part struck by a heavy one at most doubles its speed, a
 lever doubles that again."""
 IMPACT = 0.1
-"""Energy lost in rigid impacts over the energy input, from which a warning is given."""
+"""Energy lost in rigid impacts relative to the energy input, above which a warning is given."""
 STRUCK = 0.5
-"""The same share from which the blow itself, a mean between outputs, is held against what folds a member."""
+"""The same share, above which the mean force of the impact is compared with the force that folds a member."""
 
 
 def energy_put_in(solved: Solved) -> float:
@@ -49,7 +49,7 @@ def energy_put_in(solved: Solved) -> float:
 
 
 def physics_cautions(structure: Structure, solved: Solved) -> tuple[Caution, ...]:
-    """Every check of a multibody run that failed.
+    """Cautions of all checks that a multibody run did not pass.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def physics_cautions(structure: Structure, solved: Solved) -> tuple[Caution, ...
 
 
 def falling_energies(solved: Solved, total: float) -> Iterator[Caution]:
-    """Energies that only rise, and fell: of every hinge, of friction."""
+    """Energies that can only increase and decreased: those dissipated by hinges and by friction."""
     rising = {f"hinge {history.hinge.name}": history.values("energy") for history in solved.hinges}
     rising |= {name: solved.energy[name] for name in ("friction",) if name in solved.energy}
     for place, values in rising.items():
@@ -92,13 +92,13 @@ def falling_energies(solved: Solved, total: float) -> Iterator[Caution]:
 
 
 def largest_fall(values: Floats) -> float:
-    """Largest fall of a history below what it had reached, with zero before its start."""
+    """Largest fall of a history below its earlier maximum, with zero before its start."""
     reached = np.maximum.accumulate(np.concatenate([[0.0], values]))
     return float((reached[1:] - values).max())
 
 
 def rebounds(structure: Structure, solved: Solved) -> Iterator[Caution]:
-    """Masses that come back from an impact without restitution with energy that nothing gives them."""
+    """Masses that rebound from an impact without restitution with energy that has no source."""
     kinetic = float(solved.energy["kinetic"][0])
     given = float(np.abs(solved.energy["external_work"]).max()) + float(solved.energy["elastic"].max())
     channels = {channel.name: channel.values for channel in solved.further}
@@ -127,7 +127,7 @@ def rebounds(structure: Structure, solved: Solved) -> Iterator[Caution]:
 
 
 def tensions(structure: Structure, solved: Solved) -> Iterator[Caution]:
-    """Members pulled beyond yield of the whole section for two outputs in a row that cannot lengthen."""
+    """Members that cannot lengthen and are in tension beyond yield of the whole section for two outputs."""
     pulled: dict[str, float] = {}
     for member, force in axial_tensions(structure, solved):
         pulled[member] = max(force, pulled.get(member, 0.0))
@@ -147,7 +147,7 @@ def tensions(structure: Structure, solved: Solved) -> Iterator[Caution]:
 
 
 def axial_tensions(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:
-    """Members and the largest axial tension [N] at a hinge without axial slip that stays for two outputs."""
+    """Members and the largest axial tension [N], persisting for two outputs, at a hinge without axial slip."""
     poses = solved.poses
     if not isinstance(poses, SpatialPoses):
         return
@@ -191,7 +191,7 @@ def fast_nodes(structure: Structure, solved: Solved, total: float) -> Iterator[C
 
 
 def node_speeds(structure: Structure, solved: Solved) -> Mapping[str, Floats]:
-    """Speed of every node over time [m/s], (n,)."""
+    """Speed of every node at the output times [m/s], (n,)."""
     poses = solved.poses
     return {
         node: np.linalg.norm(poses.place(poses.node_body[node], np.asarray(position, float))[1], axis=1)
@@ -201,7 +201,7 @@ def node_speeds(structure: Structure, solved: Solved) -> Mapping[str, Floats]:
 
 
 def moving_mass(structure: Structure, solved: Solved) -> float:
-    """Mass of everything that is not part of the ground [kg]."""
+    """Mass of all parts that are not held by the ground [kg]."""
     poses = solved.poses
     pieces = sum(
         piece_mass(structure, member, piece.start, piece.end).mass
@@ -214,7 +214,7 @@ def moving_mass(structure: Structure, solved: Solved) -> float:
 
 
 def impact_losses(solved: Solved, total: float) -> Iterator[Caution]:
-    """Energy that impacts between rigid bodies took."""
+    """Energy that was lost in impacts between rigid bodies."""
     lost = _lost_in_impacts(solved)
     if lost > IMPACT * total:
         yield Caution(
@@ -234,7 +234,7 @@ def _lost_in_impacts(solved: Solved) -> float:
 
 
 def jammed_folds(solved: Solved) -> Iterator[Caution]:
-    """Hinges turned beyond the rotation at which the walls of the fold touch."""
+    """Hinges with rotations beyond that at which the walls of the fold touch."""
     beyond: dict[float, list[HingeHistory]] = {}
     for history in solved.hinges:
         jams = history.hinge.law.jamming_angle
@@ -254,7 +254,7 @@ def jammed_folds(solved: Solved) -> Iterator[Caution]:
 
 
 def closed_crush_zones(structure: Structure, solved: Solved) -> Iterator[Caution]:
-    """Members that crushed until all their folds were closed: the stop of the stroke carries the force."""
+    """Members that were crushed until all folds were closed: the stop of the stroke carries the force."""
     for history in solved.hinges:
         crush = crush_of(structure, history)
         if crush is None or crush.stroke is None or not crush.bottomed_out:
@@ -272,5 +272,5 @@ def closed_crush_zones(structure: Structure, solved: Solved) -> Iterator[Caution
 
 
 def _span(values: list[float]) -> str:
-    """The one value of all, or the smallest and the largest."""
+    """The common value, or the smallest and the largest."""
     return " to ".join(dict.fromkeys(f"{value:.3g}" for value in (min(values), max(values))))

@@ -1,4 +1,4 @@
-"""Driven supports that the structure cannot follow from where it stands.
+"""Driven supports that the structure cannot follow from its position at the start.
 
 With all driven freedoms released the linkage moves in the null space N of its loops' equations, less what is
 at a dead centre.  A driven freedom that does not move in it is held by the rigid parts themselves: a bar
@@ -19,7 +19,7 @@ from crumple.text.names import listed
 
 
 def stuck_drives(structure: Structure, linkage: Linkage) -> tuple[str, ...]:
-    """Driven freedoms that nothing can follow at the start, as "support freedom".
+    """Driven freedoms that the structure cannot follow at the start, as "support freedom".
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def stuck_drives(structure: Structure, linkage: Linkage) -> tuple[str, ...]:
 
 
 def stuck_note(drives: tuple[str, ...]) -> str:
-    """A sentence about them; empty for none."""
+    """A sentence about these freedoms; empty for none."""
     if not drives:
         return ""
     return (

@@ -21,17 +21,17 @@ from crumple.structure import PlacedHinge, Structure
 from crumple.text.names import listed
 
 LOST_SHARE = 1e-3
-"""Share of the given energy that may vanish at the start before a warning."""
+"""Share of the energy input that may be lost at the start before a warning is given."""
 ELASTIC_SHARE = 0.05
-"""Share of elastic energy above which rigid bars are worth a warning: as large as the laws' own scatter."""
+"""Share of elastic energy above which rigid bars need a warning: as large as the laws' own scatter."""
 ERROR_SHARE = 0.01
-"""Estimated error of a rotation over the largest rotation above which an engineer must know."""
+"""Estimated error of a rotation relative to the largest rotation above which a warning is given."""
 SMALL_ERROR = 1e-5
 """Estimated error [rad] that is negligible, however small the rotations are."""
 SLOW_SHARE = 0.05
-"""Energy taken out of the motion over that in the structure above which a stage is not quasi-static."""
+"""Energy removed from the motion over that in the structure above which a stage is not quasi-static."""
 OFF_AXIS = 0.5
-"""Angle [deg] between a hinge's axis and the plane's normal above which the bending across it counts."""
+"""Angle [deg] between a hinge's axis and the normal of the plane above which bending across counts."""
 SOFTENING = {
     SofteningVariable.PEAK: "the largest plastic rotation of both senses (bent back, it stays weak)",
     SofteningVariable.ROTATION: "the present plastic rotation (bent back, it regains its strength)",
@@ -76,7 +76,7 @@ def assumptions(structure: Structure, solver: Solver) -> tuple[str, ...]:
 
 
 def _carries(structure: Structure, hinges: list[PlacedHinge]) -> str:
-    """What hinges of one kind resist: one with its place, several together."""
+    """What hinges of one kind resist: one with its place, or several together."""
     records = [hinge.record for hinge in hinges]
     form = {
         Form.SET_VALUED: "rigid until {} capacity is reached",
@@ -97,7 +97,7 @@ def _carries(structure: Structure, hinges: list[PlacedHinge]) -> str:
 
 
 def _span(values: list[float], digits: int = 4) -> str:
-    """The one value of all, or the smallest and the largest."""
+    """The common value, or the smallest and the largest."""
     ends = dict.fromkeys(f"{value:.{digits}g}" for value in (min(values), max(values)))
     return " to ".join(ends)
 
@@ -115,7 +115,7 @@ def _contact(structure: Structure) -> str:
 def warnings(
     structure: Structure, hinges: dict[str, HingeSummary], solved: Solved, notes: tuple[str, ...] = ()
 ) -> tuple[str, ...]:
-    """Sentences that must be read before believing the result; `notes` where motion is lost as it begins."""
+    """Sentences to be read before the result is used; `notes` if motion is lost at the start."""
     found: list[str] = []
     placed = [history.hinge for history in solved.hinges]
     largest = max((summary.rotation_max for summary in hinges.values()), default=0.0)
@@ -159,12 +159,12 @@ def warnings(
 
 
 def _share(part: float) -> str:
-    """A fraction of the energy input, in words if it is larger than the whole."""
+    """A fraction of the energy input, in words if it exceeds the input."""
     return f"{part:.0%} of the energy input" if part <= 1.0 else "more than the energy input"
 
 
 def _slowed(solved: Solved) -> list[str]:
-    """Motion that quasi-static stages found, or that snaps set free, where it is much of the energy."""
+    """Warning about motion in quasi-static stages, or from snap-through, if its energy is large."""
     taken = float(solved.energy.get("damping", np.zeros(1))[-1])
     stored = float(solved.energy["dissipated"][-1] + solved.energy["elastic"][-1])
     if taken <= SLOW_SHARE * stored:
@@ -177,17 +177,17 @@ def _slowed(solved: Solved) -> list[str]:
 
 
 def _bends_both_ways(hinge: PlacedHinge) -> bool:
-    """Whether it turns about both section axes, so that nothing that bends it is carried rigidly."""
+    """Whether a hinge can rotate about both section axes, so that no bending is carried rigidly."""
     return hinge.spatial is not None and {Freedom.Y, Freedom.Z} <= set(hinge.spatial.freedoms)
 
 
 def _of_hinge(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -> list[str]:
-    """Sentences about one hinge; those that many hinges share read the same, with a field for their turns."""
+    """Sentences about one hinge; those of many hinges are equal but for a field for the rotations."""
     law = hinge.law
     found = [text.replace("{", "{{").replace("}", "}}") for text in law.validity.warnings]
     turned = "turned by {turned} deg"
     jammed = law.jamming_angle is not None and summary.rotation_max > law.jamming_angle
-    # a closed fold is a caution of its own
+    # a closed fold has a caution of its own
     if not jammed and summary.rotation_max > law.validity.rotation_max:
         valid = math.degrees(law.validity.rotation_max)
         basis = law.validity.basis.replace("{", "{{").replace("}", "}}")
@@ -204,7 +204,7 @@ def _of_hinge(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -
 
 
 def _inaccurate(hinges: dict[str, HingeSummary], largest: float) -> list[str]:
-    """One sentence for all rotations whose estimated error matters."""
+    """One sentence for all rotations with a large estimated error."""
     errors = [summary.rotation_error or 0.0 for summary in hinges.values() if summary.bends]
     worst, number = max(errors, default=0.0), sum(error > ERROR_SHARE * largest for error in errors)
     if worst <= max(ERROR_SHARE * largest, SMALL_ERROR):

@@ -17,13 +17,13 @@ from crumple.numeric.arrays import Floats
 from crumple.structure import Stage, Structure
 
 ROUNDING = 1e-9
-"""Power over the largest that the same force could have, below which it is none."""
+"""Power relative to the largest possible power of the same force, below which it is zero."""
 SAMPLES = 1001
-"""Times in a stage at which its loads are looked at."""
+"""Number of times in a stage at which its loads are evaluated."""
 
 
 def unheld_notes(structure: Structure, linkage: Linkage, stages: tuple[Stage, ...]) -> tuple[str, ...]:
-    """A sentence for every quasi-static stage in which loads or gravity find nothing to resist them.
+    """A sentence for every quasi-static stage in which nothing resists some loads or gravity.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def unheld_notes(structure: Structure, linkage: Linkage, stages: tuple[Stage, ..
 
 
 def _moving(structure: Structure, linkage: Linkage, stage: Stage) -> Iterator[str]:
-    """Loads that have power in a motion without any hinge turning."""
+    """Loads that do work in a motion without rotation of any hinge."""
     centres = np.array([body.centre for body in linkage.bodies]).reshape(-1, 3)
     masses = np.array([body.mass for body in linkage.bodies])
     if any(structure.gravity):
@@ -72,7 +72,7 @@ def _moving(structure: Structure, linkage: Linkage, stage: Stage) -> Iterator[st
 
 
 def _powerful(velocities: Floats, forces: Floats) -> bool:
-    """Whether forces (b, 3) have power in any motion (motions, b, 3)."""
+    """Whether forces (b, 3) do work in any motion (motions, b, 3)."""
     power = np.abs(np.einsum("kbi,bi->k", velocities, forces))
     most = np.einsum("kb,b->k", np.linalg.norm(velocities, axis=2), np.linalg.norm(forces, axis=1))
     return bool(np.any(power > ROUNDING * np.maximum(most, np.finfo(float).tiny)))

@@ -1,4 +1,4 @@
-"""A structure as the planar kernel's case; mass and momentum of its bodies in a form linear in masses."""
+"""A structure in the form of the planar kernel; mass and momentum of its bodies, linear in the masses."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from crumple.structure import Structure
 
 @dataclass(frozen=True, eq=False)
 class PlanarCase:
-    """A structure, the mechanism that it becomes, and its arrays; see `Case`."""
+    """A structure, its mechanism, and the arrays of the planar kernel; see `Case`."""
 
     structure: Structure
     mechanism: Mechanism
@@ -68,7 +68,7 @@ class PlanarCase:
 
     @property
     def reference_points(self) -> Floats:
-        """See `Case`: the joints, from where the kernel counts centres."""
+        """See `Case`: the joints, from which the kernel counts centres."""
         return np.zeros((len(self.mechanism.bodies), 2))
 
     def raw_mass(self, about: Floats) -> Floats:
@@ -115,7 +115,7 @@ class PlanarCase:
 
 
 def recorded_hinges(mechanism: Mechanism) -> tuple[RecordedHinge, ...]:
-    """Hinges in the kernel's order, a component each."""
+    """Hinges in the kernel's order, one component each."""
     return tuple(
         RecordedHinge(hinge, (FREEDOM[hinge.axis],), k, sign)
         for k, (_, hinge, sign) in enumerate(hinge_links(mechanism.links))

@@ -1,4 +1,4 @@
-"""From the bodies and connections of a structure to a tree in a plane, as the planar kernel takes it.
+"""From the bodies and connections of a structure to a tree in a plane, for the planar kernel.
 
 The linkage is the one that both kernels are lowered from.  In the plane a body that holds a clamped node is
 the ground.  The graph of bodies and hinges is walked breadth first from the ground (a structure that floats
@@ -122,14 +122,14 @@ def lower(structure: Structure, hinges: tuple[PlacedHinge, ...] | None = None) -
 
 @dataclass
 class _Graph:
-    """Bodies of a linkage as they move in the plane: what supports clamp there is the ground."""
+    """Bodies of a linkage as they move in the plane: those that supports clamp there belong to the ground."""
 
     clamped: set[int]
     pinned: list[tuple[int, str]]
     """Bodies and their nodes that supports pin, in the order of the nodes."""
     edges: dict[int, list[Edge]]
     heaviest: list[int]
-    """Bodies with mass, the heaviest first, of equal ones that of the first member."""
+    """Bodies with mass, the heaviest first; of equal ones the one of the first member."""
 
     def body(self, number: int) -> int:
         """The body that moves in the plane."""
@@ -221,7 +221,7 @@ def _walk(structure: Structure, linkage: Linkage, plane: Plane) -> Mechanism:
 
 
 def _part(whole: RigidMass, parts: int) -> RigidMass:
-    """Share of a body that is cut; a part of the ground never moves, so that any mass serves there."""
+    """Share of a body that is cut; parts of the ground never move, so their mass has no effect."""
     return RigidMass(whole.mass / parts, whole.centre, whole.inertia / parts)
 
 

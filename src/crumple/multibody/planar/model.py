@@ -69,13 +69,13 @@ def tree_model(structure: Structure, mechanism: Mechanism, duration: float) -> T
 
 
 def tree_hinge(record: HingeRecord, dof: int, sign: float = 1.0) -> TreeHinge:
-    """A record as the kernel takes it; a joint that turns the other way swaps the senses."""
+    """A record for the kernel; for a joint that rotates in the opposite sense the senses are exchanged."""
     form, softening = FORMS[record.form], SOFTENING[record.softening_variable]
     return TreeHinge(dof=dof, form=form, softening=softening, **hinge_constants(record, sign))
 
 
 def planar_initial_motion(structure: Structure, mechanism: Mechanism) -> InitialMotion:
-    """Velocities and impulses at the start, gathered as momentum of every body."""
+    """Velocities and impulses at the start, as momentum of every body."""
     plane, n = mechanism.plane, len(mechanism.bodies)
     momentum, impulse = np.zeros((n, 3)), np.zeros((n, 3))
     energy = 0.0
@@ -115,7 +115,7 @@ def planar_initial_motion(structure: Structure, mechanism: Mechanism) -> Initial
 
 
 def _in_plane(mechanism: Mechanism, body: int, vector: Floats, where: str) -> None:
-    """Refuse motion across the plane of a part that floats; a held one carries it in its hinges."""
+    """Refuse motion across the plane of a floating part; hinges carry it in a part that is held."""
     if abs(vector @ mechanism.plane.normal) <= ACROSS * float(np.linalg.norm(vector)):
         return
     while mechanism.links[body].parent != GROUND:
@@ -155,7 +155,7 @@ def _drives(structure: Structure, mechanism: Mechanism, duration: float) -> Iter
 
 
 def _holds(structure: Structure, mechanism: Mechanism) -> Iterator[TreeHold]:
-    """Held freedoms of nodes that no clamp and no pin joint holds already."""
+    """Held freedoms of nodes that are not yet held by a clamp or a pin joint."""
     plane = mechanism.plane
     for support in structure.supports.values():
         body = mechanism.node_body[support.node]
@@ -170,7 +170,7 @@ def _holds(structure: Structure, mechanism: Mechanism) -> Iterator[TreeHold]:
 
 
 def _welds(mechanism: Mechanism) -> Iterator[TreeWeld]:
-    """Parts of cut bodies, each held to its body where it hangs: at its own joint."""
+    """Parts of cut bodies, each welded to its body at its own joint."""
     flat = mechanism.plane.flat
     for part, whole in mechanism.welds:
         joint = mechanism.links[part].position

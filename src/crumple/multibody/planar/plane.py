@@ -1,4 +1,4 @@
-"""The plane in which a mechanism moves, and what its supports hold there.
+"""The plane in which a mechanism moves, and the freedoms that its supports hold there.
 
 Hinges with parallel axes move every body parallel to one plane, wherever in space the bodies lie: forces
 and constraints across it are carried by the hinges.  So the mechanism is solved exactly in that plane.
@@ -24,7 +24,7 @@ PARALLEL = 1e-6
 
 @dataclass(frozen=True)
 class Held:
-    """What supports hold of one node in the plane: rows are directions (rotation, x, y)."""
+    """Freedoms of one node that supports hold in the plane: rows are directions (rotation, x, y)."""
 
     rows: tuple[tuple[float, float, float], ...]
 
@@ -80,14 +80,14 @@ class Plane:
         return flat[..., :1] * self.first + flat[..., 1:] * self.second
 
     def row(self, freedom: str) -> tuple[float, float, float]:
-        """Direction (rotation, x, y) of a global freedom in the plane; zero where it lies across it."""
+        """Direction (rotation, x, y) of a global freedom in the plane; zero if it is normal to the plane."""
         turn, i = divmod(FREEDOMS.index(freedom), 3)
         across = float(self.normal[i])
         row = (across, 0.0, 0.0) if turn else (0.0, float(self.first[i]), float(self.second[i]))
         return tuple(value if abs(value) > PARALLEL else 0.0 for value in row)  # type: ignore[return-value]
 
     def held(self, structure: Structure, node: str) -> Held:
-        """What supports hold of a node, driven freedoms left out."""
+        """Freedoms of a node that supports hold, without driven freedoms."""
         rows = [self.row(freedom) for support in _of(structure, node) for freedom in support.held]
         return Held(tuple(row for row in rows if any(row)))
 
@@ -97,7 +97,7 @@ def _of(structure: Structure, node: str) -> list[Support]:
 
 
 def plane_of(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Plane:
-    """Plane of motion: across the hinges' axes, or without hinges across the initial rotation's axis.
+    """Plane of motion: normal to the hinges' axes, or without hinges to the axis of the initial rotation.
 
     Raises
     ------
@@ -119,7 +119,7 @@ def plane_of(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Plane:
         axes = [field.axis for field in structure.initial_velocity if field.axis and field.rotation]
         normal = np.asarray(axes[0] if axes else (0.0, 1.0, 0.0), float)
     normal = normal / math.hypot(*normal)
-    # the sense of the normal is that of the global axis it is nearest to, so rotations read as one expects
+    # the normal has the sense of the nearest global axis, so that rotations have the expected sign
     if normal[np.argmax(np.abs(normal))] < 0.0:
         normal = -normal
     first = np.eye(3)[(int(np.argmax(np.abs(normal))) + 1) % 3]

@@ -1,4 +1,4 @@
-"""A structure in a plane: the tree kernel's run."""
+"""Solution of a structure in a plane by the tree kernel."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from crumple.structure import PlacedHinge, Structure
 
 
 class TreeSolver:
-    """A mechanism with parallel hinges, ready to step.
+    """A mechanism with parallel hinges, ready for time integration.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A structure as the spatial kernel's case; mass and momentum of its bodies in a form linear in masses."""
+"""A structure in the form of the spatial kernel; mass and momentum of its bodies, linear in the masses."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from crumple.structure import Stage, Structure
 
 @dataclass(frozen=True, eq=False)
 class SpatialCase:
-    """A structure, the linkage that it becomes, and what the kernel gets; see `Case`.
+    """A structure, its linkage, and the data of the kernel; see `Case`.
 
     Attributes
     ----------
@@ -83,7 +83,7 @@ class SpatialCase:
 
     @property
     def topology(self) -> tuple[object, ...]:
-        """What must be the same for two models to be variants of each other."""
+        """A description of the topology: equal for two models that are variants of each other."""
         model = self.model
         joints = tuple((joint.first, joint.second, joint.held) for joint in model.joints)
         hinges = tuple(tuple(part.freedom for part in hinge.components) for hinge in model.hinges)
@@ -192,7 +192,7 @@ def spatial_case(structure: Structure, run: Run) -> SpatialCase:
 
 
 def _refuse_later_motion(stages: Sequence[Stage]) -> None:
-    """Refuse motion of a later stage that depends on where the bodies have come to by then."""
+    """Refuse motion of a later stage that depends on the positions of the bodies at that time."""
     for i, stage in enumerate(stages[1:], 1):
         partly = any(
             f.rotation or f.nodes is not None or f.members is not None for f in stage.initial_velocity
@@ -206,7 +206,7 @@ def _refuse_later_motion(stages: Sequence[Stage]) -> None:
 
 
 def kernel_stage(structure: Structure, linkage: Linkage, touching: Touching, stage: Stage) -> SpatialStage:
-    """What acts in a stage, and what ends it, by the kernel's indices."""
+    """Loads, drives and obstacles of a stage, and the conditions that end it, by the kernel's indices."""
     names = list(structure.obstacles)
     drives = obstacles = None
     if stage.drive is not None:

@@ -1,4 +1,4 @@
-"""How the spatial kernel leaves dead centres: further joints hold what cannot go on."""
+"""Departure from dead centres in the spatial kernel: further joints hold the motions that cannot go on."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from crumple.multibody.bodies.linkage import Linkage
 def off_dead_centres(
     model: SpatialModel, linkage: Linkage, centres: DeadCentres, *, aside: bool = False
 ) -> tuple[SpatialModel, dict[int, int]]:
-    """A model that begins to move only where it can go on.
+    """A model that begins to move only in ways in which it can go on.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def off_dead_centres(
 def with_held_moments(
     record: SpatialRecord, linkage: Linkage, model: SpatialModel, holding: dict[int, int]
 ) -> SpatialRecord:
-    """A record in which hinges at dead centres carry the moments that hold them there, up to their capacity.
+    """A record in which hinges at dead centres carry the moments that hold them, up to their capacity.
 
     The forces of their joints contain all that holds them, so that forces in sections balance.
 

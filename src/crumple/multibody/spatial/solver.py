@@ -1,4 +1,4 @@
-"""A structure in space: the spatial kernel's run, stage by stage."""
+"""Solution of a structure in space by the spatial kernel, stage by stage."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ COUNTS = ("steps", "rejected", "forced", "solves")
 
 
 class SpatialSolver:
-    """Bodies and connections in space, ready to step.
+    """Bodies and connections in space, ready for time integration.
 
     Parameters
     ----------
@@ -120,7 +120,7 @@ class SpatialSolver:
         model, settings = self._touching.model, self._run.settings
         longest, least_parts = step_bounds(self._run, ends_only=ends_only)
         if not ends_only:
-            # error control alone lets hinges that lock within a step err by twice the accuracy
+            # with error control alone, hinges that lock within a step would err by twice the accuracy
             longest = min(longest, self._run.every / 2)
         simulation = SpatialSimulation(
             model, accuracy, settings.minimum_time_step, longest, parts=least_parts
@@ -141,14 +141,14 @@ class SpatialSolver:
                 refuse_unbegun(records[0].outcome, records[0].time)
             conditions = kernel_conditions(self._structure, self.linkage, self._touching, stage)
             ended = end_reason(stage, conditions, records[-1])
-            # a stage that was cancelled at once has no output
+            # a stage that was cancelled at its beginning has no output
             reached = float(records[-1].time[-1]) if len(records[-1].time) else begin
             stages.append(StageSummary(stage.name, begin, reached, ended))
             if records[-1].outcome is not Outcome.COMPLETE:
                 break
         record = with_held_moments(_joined(records), self.linkage, model, self._holding)
         if self._stages[0].kind == "quasi-static":
-            # nothing pushes yet; the kernel shows the jump of a drive that starts with a rate
+            # no impulse acts yet; the kernel reports the jump of a drive that starts with a velocity
             record.joint_force[0] = 0.0
         if record.outcome in (Outcome.UNHELD, Outcome.LIMIT_LOAD):
             stage, begin = self._stages[len(stages) - 1], stages[-1].start
@@ -168,7 +168,7 @@ class SpatialSolver:
     def _begin(
         self, simulation: SpatialSimulation, stage: Stage, before: SpatialRecord | None
     ) -> tuple[float, float]:
-        """Start a stage; energy of the motion that is added, and what of it the joints took [J]."""
+        """Start a stage; energy of the added motion, and the part of it that was lost in the joints [J]."""
         parts = (self._structure, self.linkage, self._touching, stage)
         lowered = kernel_stage(*parts)
         simulation.stage(
@@ -235,13 +235,13 @@ class SpatialSolver:
 
 
 def _stage_times(grid: Floats, begin: float, end: float) -> Floats:
-    """Output times of a stage: the grid's within it, and its end."""
+    """Output times of a stage: those of the grid within it, and its end."""
     inside = grid[(grid > begin * (1 + 1e-12)) & (grid < end * (1 - 1e-12))]
     return np.concatenate([[0.0] if begin == 0.0 else [], inside, [end]])
 
 
 def _joined(records: list[SpatialRecord]) -> SpatialRecord:
-    """One record of several stages, each going on where the one before it ended."""
+    """One record of several stages, each of which continues the one before."""
     if len(records) == 1:
         return records[0]
     histories: dict[str, Any] = {

@@ -1,4 +1,4 @@
-"""Stages as the spatial kernel takes them: what acts in each, and what ends it."""
+"""Stages for the spatial kernel: the loads, drives and obstacles of each, and the conditions that end it."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from crumple.text.names import listed
 from crumple.units import format_quantity
 
 Conditions = list[tuple[Until, SpatialUntil]]
-"""What the input asks for, and what the kernel looks at: a path ends a stage in either sense."""
+"""Conditions of the input and of the kernel: a displacement ends a stage in either sense."""
 
 
 SAMPLES = 1001
-"""Times in a stage at which its loads are looked at."""
+"""Number of times in a stage at which its loads are evaluated."""
 MOST_LOADS = 3
-"""Number of loads in a sentence."""
+"""Largest number of loads in a sentence."""
 
 
 def stages_of(structure: Structure, run: Run) -> tuple[Stage, ...]:
@@ -42,7 +42,7 @@ def stages_of(structure: Structure, run: Run) -> tuple[Stage, ...]:
 
 
 def refuse_floating(structure: Structure, linkage: Linkage, stages: tuple[Stage, ...]) -> None:
-    """Refuse quasi-static stages in which a part floats and has nothing to rest against while it is pushed.
+    """Refuse quasi-static stages in which a pushed part floats and has nothing to rest against.
 
     Without inertia a floating part needs two things that press on it: two obstacles, or an obstacle and a
     load, its weight or another member.
@@ -65,7 +65,7 @@ def refuse_floating(structure: Structure, linkage: Linkage, stages: tuple[Stage,
 
 
 def kernel_conditions(structure: Structure, linkage: Linkage, touching: Touching, stage: Stage) -> Conditions:
-    """Conditions of a stage, each as the kernel looks at it."""
+    """Conditions of a stage, each in the form that the kernel evaluates."""
     return [
         (until, condition)
         for until in stage.until
@@ -74,7 +74,7 @@ def kernel_conditions(structure: Structure, linkage: Linkage, touching: Touching
 
 
 def end_reason(stage: Stage, conditions: Conditions, record: SpatialRecord) -> str:
-    """What ended a stage, in words."""
+    """Reason for the end of a stage, as a sentence."""
     if math.isfinite(record.lost_time):
         return f"loss of equilibrium at {format_quantity(record.lost_time, 's', 4)}"
     if record.ended_by < 0:
@@ -87,7 +87,7 @@ def end_reason(stage: Stage, conditions: Conditions, record: SpatialRecord) -> s
 
 
 def lost_equilibrium(structure: Structure, stage: Stage, begin: float, lost: float) -> str:
-    """Where a quasi-static stage lost its equilibrium, and under which loads.
+    """Time and loads at which a quasi-static stage lost its equilibrium, as a sentence.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""How many variants of a structure are solved in one call, whichever kernel solves them."""
+"""Solution of many variants of a structure in one call, for both kernels."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ EndValues = TreeEndValues | SpatialEndValues
 
 
 class Case(Ended, Protocol):
-    """A structure as one of the kernels takes it."""
+    """A structure in the form of one of the kernels."""
 
     @property
     def model(self) -> Any:
@@ -37,11 +37,11 @@ class Case(Ended, Protocol):
 
     @property
     def kernel_case(self) -> Any:
-        """What the kernel's batch takes."""
+        """The kernel's own object for its batches."""
 
     @property
     def topology(self) -> tuple[object, ...]:
-        """What must be the same for two cases to be variants of each other."""
+        """A description of the topology: equal for two cases that are variants of each other."""
 
     @property
     def velocity(self) -> Floats:
@@ -57,7 +57,7 @@ class Case(Ended, Protocol):
 
     @property
     def reference_points(self) -> Floats:
-        """A fixed place of every body, from which `raw_mass` counts."""
+        """A fixed place of every body, about which `raw_mass` is taken."""
 
     def raw_mass(self, about: Floats) -> Floats:
         """Mass, moments and momenta of every body about a fixed place, linear in masses, (bodies, k)."""
@@ -81,7 +81,7 @@ class Batch(ABC):
 
     @abstractmethod
     def case(self, structure: Structure, *, moved: bool = False) -> Case:
-        """Lower a structure; `moved`: its nodes are not where those of the one that was asked about are."""
+        """Lower a structure; `moved`: its nodes are not at the places of the original structure's."""
 
     @abstractmethod
     def solve_many(self, variants: Variants[Any], threads: int, poll: Poll | None, led: bool) -> EndValues:
@@ -97,7 +97,7 @@ class Batch(ABC):
         *,
         led: bool = False,
     ) -> EndValues:
-        """Solve variants, (n,), of which quick parameters have `values` and each has one of the cases.
+        """Solve variants, (n,), with `values` of the quick parameters, each with one of the cases.
 
         `led`: all but the first follow the first one's steps, see the spatial kernel's `solve_many`.
         """
@@ -112,7 +112,7 @@ class Batch(ABC):
     def _variants(
         self, values: Mapping[str, Floats], cases: Sequence[Case], case_of: Integers
     ) -> Variants[Any]:
-        """The kernel's arrays: what each case has, with masses and factors."""
+        """The kernel's arrays: those of each variant's case, with masses and factors applied."""
         count, base = case_of.size, cases[0]
         one = np.ones(count)
         velocity = np.stack([case.velocity for case in cases])[case_of]
@@ -139,7 +139,7 @@ class Batch(ABC):
         return Variants(kernel_cases, case_of, velocity, impulse, scale, loads, bodies, gravity)
 
     def _per_kilogram(self, case: Case, name: str) -> Floats:
-        """What one more kilogram of a lump adds to mass, moments and momentum, which are linear in it."""
+        """Mass, moments and momentum that one more kilogram of a lump adds; these are linear in it."""
         more = self.case(changed(case.structure, {name: value_at(case.structure, name) + 1.0}))
         about = case.reference_points
         step: Floats = more.raw_mass(about) - case.raw_mass(about)
@@ -147,7 +147,7 @@ class Batch(ABC):
 
 
 class PlanarBatch(Batch):
-    """By the planar kernel."""
+    """Batches of the planar kernel."""
 
     def case(self, structure: Structure, *, moved: bool = False) -> Case:
         """See `Batch`."""
@@ -163,10 +163,10 @@ class PlanarBatch(Batch):
 
 
 class SpatialBatch(Batch):
-    """By the spatial kernel."""
+    """Batches of the spatial kernel."""
 
     def case(self, structure: Structure, *, moved: bool = False) -> Case:
-        """See `Batch`; what lies in a plane moves in space all the same."""
+        """See `Batch`; a structure that lies in a plane can still move in space."""
         return spatial_case(structure, self.run)
 
     def solve_many(self, variants: Variants[Any], threads: int, poll: Poll | None, led: bool) -> EndValues:

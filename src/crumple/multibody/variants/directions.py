@@ -1,4 +1,4 @@
-"""Derivatives of where a planar run ends: exact ones, carried along with the run."""
+"""Exact derivatives of the final quantities of a planar run, integrated along with the run."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ are smooth functions, so the error goes with its square; far smaller, rounding w
 def planar_ends(
     batch: Batch, structure: Structure, steps: Mapping[str, float | None], poll: Poll | None
 ) -> MovedEnds:
-    """Where a planar run ends, and where along each parameter's direction.
+    """Final values of a planar run, and their derivatives along each parameter's direction.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def planar_ends(
     )
 
     def along(case: PlanarCase, k: int, distance: float) -> dict[str, float]:
-        """End values with the case and the end of the motion moved along a direction."""
+        """End values of a run whose case and initial motion vary along a direction."""
         moved = each_array(tangent.ends, lambda rows: rows[:1] + distance * rows[1 + k : 2 + k])
         return _quantities(case, moved, run.outputs)
 
@@ -127,7 +127,7 @@ def _scaled(base: PlanarCase, name: str) -> Callable[[float], PlanarCase] | None
 
 
 def _at_places_of(base: PlanarCase, case: PlanarCase) -> PlanarCase:
-    """A case whose capacities are its laws' own at the places at which the base's are sampled.
+    """A case whose laws are sampled at the same places as those of the base case.
 
     Were its own samples taken, the difference of two samplings' errors would be divided by a small step.
     """

@@ -1,4 +1,4 @@
-"""Parameters of a structure: paths of its input, and factors on what it has."""
+"""Parameters of a structure: paths of its input, and factors on its quantities."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from crumple.numeric.arrays import Floats
 from crumple.structure import Structure, value_at
 
 FACTORS = ("initial_velocity", "impulses", "loads", "gravity")
-"""Beside these, ``hinges.NAME.capacity``."""
+"""In addition: ``hinges.NAME.capacity``."""
 
 
 def quick(name: str) -> bool:
@@ -18,13 +18,13 @@ def quick(name: str) -> bool:
 
 
 def is_factor(name: str) -> bool:
-    """Whether a parameter multiplies what the structure has."""
+    """Whether a parameter is a factor on a quantity of the structure."""
     head, *rest = name.split(".")
     return (not rest and head in FACTORS) or head == "hinges"
 
 
 def masses_of(values: Mapping[str, Floats]) -> dict[str, Floats]:
-    """Those of the parameters that are masses of lumps."""
+    """The parameters that are lumped masses."""
     return {name: column for name, column in values.items() if _is_mass(name)}
 
 

@@ -1,4 +1,4 @@
-"""Derivatives of where a run in space ends: runs close above and below it that take its steps.
+"""Derivatives of the final quantities of a run in space, from runs close above and below that take its steps.
 
 Every parameter gives two variants, moved either way by a small step, which follow the run of the structure
 itself (`solve_many` with a leader).  Half their difference over the step is the derivative.
@@ -27,9 +27,9 @@ RELATIVE_STEP = 1e-5
 """By this share of its value a parameter is moved either way.  Ten times more, and hinges of followers pass
 kinks that the leader does not; a hundred times less, and rounding shows."""
 SMOOTH = 1e3
-"""Largest change of a coefficient of a surface over the relative step; beyond it the fit is another one."""
+"""Largest change of a surface coefficient over the parameter's step; above it the fit has changed."""
 SHORTER, MOST_TRIES = 0.3, 5
-"""A step in which the number of samples of a law changes is made shorter, and how often."""
+"""Number of times that a step is shortened if the number of samples of a law changes in it."""
 
 
 @dataclass
@@ -39,7 +39,7 @@ class _Rows:
     cases: list[Case]
     case_of: list[int] = field(default_factory=lambda: [0])
     moved: list[tuple[str, float]] = field(default_factory=list)
-    """Of every row but the first: a factor and its value, or no name."""
+    """For every row but the first: a factor and its value, or no name."""
     widths: list[float] = field(default_factory=list)
 
     def add(self, case: int, name: str = "", value: float = 1.0) -> None:
@@ -51,7 +51,7 @@ class _Rows:
 def spatial_ends(
     batch: Batch, structure: Structure, steps: Mapping[str, float | None], poll: Poll | None
 ) -> MovedEnds:
-    """Where a run in space ends, and where its followers with each parameter moved.
+    """Final values of a run in space, and of its followers with each parameter changed.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def spatial_ends(
 
 
 def _refuse_events(structure: Structure, run: Run) -> None:
-    """Refuse what ties the steps of a run to when something happens."""
+    """Refuse what makes the steps of a run depend on the time of an event."""
     why = None
     if structure.obstacles or structure.member_contact is not None:
         why = "contact: the time of an impact moves with the parameter, and velocities jump there"
@@ -128,7 +128,7 @@ def _move(batch: Batch, base: Case, rows: _Rows, name: str, step: float | None) 
 
 
 def _alike(base: SpatialModel, moved: SpatialModel) -> bool:
-    """Whether curves have as many samples and surfaces are fitted alike, so that they move smoothly."""
+    """Whether curves have equally many samples and surfaces the same fit, so that both change smoothly."""
     if _sizes(base) != _sizes(moved):
         return False
     pairs = zip(base.hinges, moved.hinges, strict=True)
@@ -147,7 +147,7 @@ def _sizes(model: SpatialModel) -> tuple[object, ...]:
 
 
 def _values(rows: _Rows) -> dict[str, Floats]:
-    """Factors row by row: 1 but in the rows that move them."""
+    """Factors row by row: 1 except in the rows that change them."""
     values: dict[str, Floats] = {}
     for row, (name, value) in enumerate(rows.moved, start=1):
         if not name:

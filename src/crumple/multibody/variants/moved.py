@@ -1,4 +1,4 @@
-"""A parameter moved either way: steps, cases above and below its value, and slopes of what follows."""
+"""A parameter changed in both directions: steps, cases above and below its value, and slopes."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Moved:
 
 @dataclass(frozen=True, eq=False)
 class MovedEnds:
-    """Where a run ended, and where with each of its parameters moved.
+    """Final values of a run, and of runs with each of its parameters changed.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class MovedEnds:
 
 
 def step_of(base: Case, name: str, step: float | None, share: float) -> float:
-    """By how much a path of the input is moved either way: as given, or a share of its value.
+    """Step by which a path of the input is changed in both directions: as given, or a share of its value.
 
     Raises
     ------

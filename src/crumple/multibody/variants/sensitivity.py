@@ -1,4 +1,4 @@
-"""How final quantities answer to small changes of parameters: derivatives carried along with one run."""
+"""Derivatives of final quantities with respect to parameters, integrated along with one run."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def sensitivities(
     parameters: str | Sequence[str] | Mapping[str, float],
     cancel: Cancel | None = None,
 ) -> Sensitivities:
-    """Derivatives of where a run ends.
+    """Derivatives of the final quantities of a run.
 
     Parameters
     ----------

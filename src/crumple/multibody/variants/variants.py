@@ -1,4 +1,4 @@
-"""Many variants of one structure in one call: a table of where each of them ended.
+"""Many variants of one structure in one call: a table of the final values of each.
 
 A parameter is a path in the input (``materials.steel.yield_stress``, ``sections.tube.thickness``,
 ``masses.payload.mass``) with one value per variant, or one of the factors ``initial_velocity``, ``impulses``,
@@ -48,7 +48,7 @@ REASONS = {
 
 @dataclass(frozen=True, eq=False)
 class VariantTable:
-    """Where every variant ended; n rows.
+    """Final values of every variant; n rows.
 
     Attributes
     ----------
@@ -156,7 +156,7 @@ def _table(
 def _columns(
     structure: Structure, hinges: Sequence[str], parameters: Mapping[str, ArrayLike]
 ) -> dict[str, Floats]:
-    """One array per parameter, all as long."""
+    """One array per parameter, all of the same length."""
     values = {name: _column(name, given) for name, given in parameters.items()}
     count = max((column.size for column in values.values()), default=0)
     problems = []
@@ -184,7 +184,7 @@ def _column(name: str, given: ArrayLike) -> Floats:
 def _cases(
     batch: Batch, structure: Structure, values: Mapping[str, Floats], base: Case
 ) -> tuple[list[Case], NDArray[np.int64], dict[int, str]]:
-    """A case for every distinct combination of slow parameters, which one each variant has, and refusals."""
+    """A case for every distinct combination of slow parameters, the case of each variant, and refusals."""
     count = len(next(iter(values.values())))
     slow = [name for name in values if not quick(name)]
     if not slow:
@@ -246,7 +246,7 @@ def _quantities(
         rows = order[bounds[i] : bounds[i + 1]]
         if rows.size == 0:
             continue
-        # a run that failed may have gone anywhere
+        # the values of a failed run have no meaning
         with np.errstate(all="ignore"):
             named = batch.quantities(case, part_of(ends, rows))
         for name, column in named.items():
