@@ -1,1 +1,1 @@
-"""The compiled kernels behind a typed Python face; used by the solvers alone."""
+"""Typed interface of the compiled kernels; used by the solvers only."""

@@ -1,4 +1,4 @@
-"""Constants of one component of a hinge, as both multibody kernels take them (native/hinge/hinge.hpp)."""
+"""Constants of one component of a hinge for both multibody kernels (native/hinge/hinge.hpp)."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from crumple.numeric.arrays import Floats
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class HingeConstants:
-    """Curves (rotation or travel, moment or force) in both senses, and the rest.
+    """Constants of a component: curves (rotation or travel, moment or force) in both senses, and the others.
 
     A stop is (place, stiffness, exponent, damping, penetration): empty for none, damping NaN for critical.
     """
@@ -29,7 +29,7 @@ class HingeConstants:
     stop_negative: tuple[float, ...] = ()
 
     def constants(self) -> dict[str, Any]:
-        """As the kernels take them."""
+        """The constants in the form that the kernels take."""
         return {
             "positive_rotation": _list(self.positive[0]),
             "positive_moment": _list(self.positive[1]),

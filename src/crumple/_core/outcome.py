@@ -1,4 +1,4 @@
-"""How a run of a multibody kernel ended."""
+"""Outcome of a run of a multibody kernel."""
 
 from __future__ import annotations
 

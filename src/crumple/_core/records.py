@@ -1,4 +1,4 @@
-"""What runs of both multibody kernels record, by name; the columns of native/common/records.hpp.
+"""Records of runs of both multibody kernels, by name; the columns of native/common/records.hpp.
 
 A column has one row for every output time, or, where many runs are solved together, for every run.
 """
@@ -19,7 +19,7 @@ Record = TypeVar("Record")
 
 @dataclass(frozen=True, eq=False)
 class EnergyRecord:
-    """Energies of the whole model [J], (n,) each; a kernel's columns are zero for what it does not have.
+    """Energies of the whole model [J], (n,) each; zero in columns that do not apply to a kernel.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class ComponentRecord:
 
 @dataclass(frozen=True, eq=False)
 class HingeSummary:
-    """What every hinge came to by the end of a run, (hinges,) each; of many runs (runs, hinges).
+    """Summary of every hinge at the end of a run, (hinges,) each; of many runs (runs, hinges).
 
     Attributes
     ----------
@@ -118,7 +118,7 @@ def named(kernel_record: dict[str, Any]) -> dict[str, Any]:
 
 
 def each_array(record: Record, change: Callable[[Any], Any]) -> Record:
-    """A record with every array changed, those of the records in it too."""
+    """A record with every array changed, including those of the records in it."""
     changed = {}
     for field in fields(record):  # type: ignore[arg-type]
         value = getattr(record, field.name)
@@ -130,7 +130,7 @@ def each_array(record: Record, change: Callable[[Any], Any]) -> Record:
 
 
 def joined(parts: Sequence[Any]) -> Any:
-    """Arrays, or records of arrays alone, one after the other."""
+    """Concatenation of arrays, or of records that contain arrays only."""
     if isinstance(parts[0], np.ndarray):
         return np.concatenate(parts)
     columns = {

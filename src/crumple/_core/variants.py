@@ -1,4 +1,4 @@
-"""What varies from run to run of a batch, and how a kernel takes it: the same for both multibody kernels."""
+"""Differences between the runs of a batch, for both multibody kernels."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Column = Floats | None
 
 @dataclass(frozen=True, eq=False)
 class Variants(Generic[Case]):
-    """What varies from variant to variant, n rows; None leaves the case's own.
+    """Values that differ from variant to variant, n rows; None for the case's own values.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class Variants(Generic[Case]):
     gravity: Floats | None = None
 
     def numbers(self) -> NDArray[np.int64]:
-        """Which of the cases, as the kernels take it."""
+        """Number of the case of each variant, as the kernels take it."""
         return np.ascontiguousarray(self.case_of, dtype=np.int64)
 
     def columns(self) -> tuple[Column, Column, Column, Column, Column, Column]:

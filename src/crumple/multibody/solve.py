@@ -95,7 +95,7 @@ def solve_multibody(
 
 
 def _errors(rough: Solved, solved: Solved) -> Floats:
-    """Error of every hinge's rotation [rad]: difference of the coarse run to the answer, and unresolved loads.
+    """Error of every hinge's rotation [rad]: difference of the coarse run, and unresolved loads.
 
     Rotations go with the square of the speed that makes them, so a share of the speed is twice that of a
     rotation.

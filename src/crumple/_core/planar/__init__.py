@@ -1,1 +1,1 @@
-"""Typed face of the planar kernel."""
+"""Typed interface of the planar kernel."""

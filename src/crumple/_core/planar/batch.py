@@ -1,4 +1,4 @@
-"""Typed face of the batch: many variants of a planar tree in one call, on several threads."""
+"""Typed interface of the batch: many variants of a planar tree in one call, on several threads."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from crumple.numeric.arrays import Floats
 
 @dataclass(frozen=True, eq=False)
 class TreeEnds(TreeRows):
-    """Where runs end: the last row of each, and what their hinges came to, (n, hinges)."""
+    """Final values of runs: the last row of each record, and the summaries of the hinges, (n, hinges)."""
 
     summary: HingeSummary
 
 
 @dataclass(frozen=True, eq=False)
 class TreeEndValues(TreeEnds):
-    """Where every variant ended, n rows; zeros where it was refused or never begun.
+    """Final values of every variant, n rows; zeros in rows that were refused or not begun.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ def solve_many(
     *,
     poll: Callable[[float], bool] | None = None,
 ) -> TreeEndValues:
-    """Solve every variant up to time ``end`` [s], bitwise as a single `Simulation` of it.
+    """Solve every variant up to time ``end`` [s], bit for bit as a `Simulation` of it.
 
     ``poll(share)`` is called at intervals with the share done and returns False to cancel; variants that were
     not begun then have the outcome CANCELLED.

@@ -1,4 +1,4 @@
-"""Typed face of the multibody kernel: a tree of rigid bodies in the plane, as plain arrays.
+"""Typed interface of the planar kernel: a tree of rigid bodies in the plane, as plain arrays.
 
 Every body hangs on one inboard joint; parents come before children.  Twists and directions are
 (rotation, x, y); a body's frame has its origin at the inboard joint and is aligned with the world at
@@ -22,7 +22,7 @@ from crumple._core.records import ComponentRecord, EnergyRecord, HingeEnergyReco
 from crumple.numeric.arrays import Floats
 
 MINIMUM_STEP = 1e-9
-"""Smallest step [s]; rates that jump are passed in one such step."""
+"""Smallest step [s]; jumps of the velocity are passed in one such step."""
 
 
 class JointKind(IntEnum):
@@ -62,7 +62,7 @@ class TreeHinge(HingeConstants):
     capacity_scale: float = 1.0
 
     def as_dict(self) -> dict[str, Any]:
-        """As the kernel takes it."""
+        """The hinge in the form that the kernel takes."""
         own = {"dof": self.dof, "form": self.form, "softening": self.softening}
         return own | {"capacity_scale": self.capacity_scale} | self.constants()
 
@@ -122,7 +122,7 @@ class TreeModel:
     welds: tuple[TreeWeld, ...] = ()
     gravity: tuple[float, float] = (0.0, 0.0)
     length: float = 1.0
-    """Turns translations of free bodies into angles for the error measure [m]."""
+    """Length [m] that converts translations of free bodies to angles in the error measure."""
     breaks: Floats = field(default_factory=lambda: np.empty(0))
     """Times [s] at which steps end: jumps and kinks of loads and drives, increasing, (n,)."""
 
@@ -134,7 +134,7 @@ class TreeModel:
 
 @dataclass(frozen=True, eq=False)
 class TreeRows:
-    """Where a tree is: one of n rows for every output time, or for every run.
+    """Positions of a tree in n rows, for every output time or for every run.
 
     Attributes
     ----------
@@ -156,7 +156,7 @@ class TreeRows:
 
     @property
     def rows(self) -> int:
-        """How many."""
+        """Number of rows."""
         return len(self.q)
 
 
@@ -181,7 +181,7 @@ class TreeRecord(TreeRows):
     reason: str
     residual: float
     unseen: float
-    """Speed that loads and drives may have given or taken unseen within steps, over the largest speed."""
+    """Speed that loads and drives may have added or removed unresolved within steps, over the largest speed."""
     steps: int
     rejected: int
     forced: int
@@ -240,7 +240,7 @@ class Simulation:
         return TreeRecord(**named(out) | {"outcome": Outcome(out["outcome"]), "summary": self.summary()})
 
     def summary(self) -> HingeSummary:
-        """What every hinge has come to."""
+        """Summary of every hinge at the present time."""
         return HingeSummary(*self._kernel.summary())
 
     def step(self, time_step: float) -> bool:
@@ -268,7 +268,7 @@ class Simulation:
 
 
 def kernel_model(model: TreeModel, kind: Callable[..., Any] | None = None) -> Any:
-    """The compiled form of a model, plain or of another arithmetic; any number of runs share it."""
+    """The compiled form of a model, in plain or another arithmetic; any number of runs share it."""
     return (kind or _kernels.planar.Model)(
         np.array([b.parent for b in model.bodies], dtype=np.int64),
         np.array([b.joint for b in model.bodies], dtype=np.int64),

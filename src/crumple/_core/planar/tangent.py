@@ -1,4 +1,4 @@
-"""Typed face of a run with derivatives of where it ends along directions in the space of parameters."""
+"""Typed interface of a run with derivatives of its final values along directions of the parameters."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from crumple.numeric.arrays import Floats
 
 @dataclass(frozen=True, eq=False)
 class TreeDirection:
-    """A parameter moved either way: models and motions at the start with it above and below its value.
+    """A parameter changed in both directions: models and initial motions above and below its value.
 
     The curves of the hinges must have the same places in all three models.
     """
@@ -31,12 +31,12 @@ class TreeDirection:
     impulse_up: Floats
     impulse_down: Floats
     width: float
-    """Parameter above less parameter below."""
+    """Difference of the parameter's values above and below."""
 
 
 @dataclass(frozen=True, eq=False)
 class TreeTangent:
-    """Where a run ended, and the derivatives of that: row 0 the values, row 1 + k those along direction k.
+    """Final values of a run and their derivatives: row 0 the values, row 1 + k those along direction k.
 
     Attributes
     ----------
@@ -66,7 +66,7 @@ def solve_tangent(
     maximum_step: float = math.inf,
     poll: Callable[[float], bool] | None = None,
 ) -> TreeTangent:
-    """Run a model to time ``end`` [s] in the very steps of a plain run, with derivatives along directions.
+    """Run a model to time ``end`` [s] in the same steps as a plain run, with derivatives along directions.
 
     Directions are taken a few at a time, each time with the whole run.
     """

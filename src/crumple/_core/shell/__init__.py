@@ -1,1 +1,1 @@
-"""Typed face of the shell kernel."""
+"""Typed interface of the shell kernel."""

@@ -100,7 +100,7 @@ def _add_sets(core: Any, model: ShellModel) -> None:
 
 
 def _walls_nodes(model: ShellModel) -> Indices:
-    """Nodes that belong to an element: the others have no wall that could touch."""
+    """Nodes that belong to an element: others have no wall that could come into contact."""
     return _indices(np.unique(model.elements))
 
 

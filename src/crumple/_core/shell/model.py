@@ -1,4 +1,4 @@
-"""What the shell engine computes: a frozen model of plain arrays, SI units, world axes, indices from 0."""
+"""Model of the shell engine: plain arrays that do not change, SI units, world axes, indices from 0."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ _INFINITY = float("inf")
 
 
 class Hourglass(Enum):
-    """How the modes that one-point integration cannot see are held."""
+    """How the modes that one-point integration does not resist are controlled."""
 
     STIFFNESS = "stiffness"
     VISCOUS = "viscous"
 
 
 class Element(Enum):
-    """How a quadrilateral of one point holds the modes that the point does not see."""
+    """How a quadrilateral with one point resists the modes that have no strain at the point."""
 
     BELYTSCHKO_TSAY = "belytschko-tsay"
     STABILISED = "stabilised"
@@ -125,7 +125,7 @@ class RigidSet:
 
 @dataclass(frozen=True)
 class SpotWeld:
-    """Tie of two sheets between means of their nodes, which fails by the force that it carries.
+    """Tie of two sheets between means of their nodes, which fails at a limit of its force.
 
     Attributes
     ----------
@@ -167,7 +167,7 @@ class PrescribedVelocity:
 
 
 class Shape(Enum):
-    """Solid that an obstacle is: half space, its part behind an edge, capsule, endless cylinder, ball."""
+    """Shape of an obstacle: half space, half space behind an edge, capsule, endless cylinder, sphere."""
 
     PLANE = 0
     EDGE = 1
@@ -178,7 +178,7 @@ class Shape(Enum):
 
 @dataclass(frozen=True)
 class RigidObstacle:
-    """Rigid solid that nodes can touch.
+    """Rigid obstacle with which nodes can come into contact.
 
     Attributes
     ----------
@@ -236,7 +236,7 @@ class Cut:
 
 @dataclass(frozen=True)
 class ShellSettings:
-    """Choices of the method.
+    """Settings of the method.
 
     Attributes
     ----------
@@ -289,7 +289,7 @@ class ShellSettings:
 
 @dataclass(frozen=True)
 class ShellModel:
-    """Everything that stays the same during a run; SI units, world axes, indices from 0.
+    """Everything that does not change during a run; SI units, world axes, indices from 0.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Typed face of the compiled shell engine: a frozen model of plain arrays, and the state that advances it."""
+"""Typed interface of the compiled shell engine: a model that does not change, and the state that advances."""
 
 from __future__ import annotations
 
@@ -46,9 +46,9 @@ __all__ = [
 ]
 
 _SLOTS: Mapping[str, int] = kernel.slots
-# Wall time after which a running advance() comes back to look for cancellation and to report progress [s].
+# Wall time after which advance() returns to check for cancellation and to report progress [s].
 _LOOK_EVERY = 0.1
-# Point quantities by their place in the state, see native/shell/simd/layout.hpp.
+# Integration-point quantities by their place in the state, see native/shell/simd/layout.hpp.
 _POINT_SLOTS = {"stress_x": 0, "stress_y": 1, "stress_xy": 2, "plastic_strain": 3}
 # How the core reports the end of a run, see End in native/shell/run/simulation.hpp.
 _REACHED, _NOT_FINITE, _COLLAPSED, _TORN, _INVERTED = 1, 2, 3, 4, 5
@@ -61,7 +61,7 @@ _ENDS = {
 
 
 class ShellState:
-    """The moving state of a model.
+    """The changing state of a model.
 
     Parameters
     ----------
@@ -140,12 +140,12 @@ class ShellState:
 
     @property
     def time(self) -> float:
-        """[s]."""
+        """Time reached [s]."""
         return float(self._core.time)
 
     @property
     def time_step(self) -> float:
-        """Step to come [s]."""
+        """Length of the next step [s]."""
         return float(self._core.step)
 
     @property
@@ -155,7 +155,7 @@ class ShellState:
 
     @property
     def steps(self) -> int:
-        """Steps made."""
+        """Number of steps so far."""
         return int(self._core.steps)
 
     @property
@@ -180,17 +180,17 @@ class ShellState:
 
     @property
     def touching_nodes(self) -> int:
-        """Nodes with a contact force now."""
+        """Number of nodes with a contact force at present."""
         return int(self._core.touching_nodes)
 
     @property
     def contact_searches(self) -> int:
-        """Searches for contact so far."""
+        """Number of contact searches so far."""
         return int(self._core.contact_searches)
 
     @property
     def position(self) -> Floats:
-        """Nodes now [m], (n, 3)."""
+        """Present position of the nodes [m], (n, 3)."""
         return _array(self._core.positions())
 
     @property
@@ -222,7 +222,7 @@ class ShellState:
         return _array(self._core.element_slot(_SLOTS[name]))
 
     def point_field(self, name: str) -> Floats:
-        """Per element and thickness point, (m, points).
+        """Per element and integration point through the thickness, (m, points).
 
         Names: stress_x, stress_y, stress_xy [Pa] in the element's axes; plastic_strain.
         """
@@ -258,7 +258,7 @@ class ShellState:
 
     @property
     def external_work(self) -> float:
-        """Work from outside so far [J], as in `energies` but at less cost."""
+        """External work so far [J], as in `energies` but at less cost."""
         return float(self._core.external_work())
 
     @property
@@ -267,27 +267,27 @@ class ShellState:
         return _array(self._core.node_forces())
 
     def deform(self, position: Floats, velocity: Floats, spin: Floats, dt: float) -> Floats:
-        """Run the elements over ``dt`` [s] to a given position, without stepping; internal_forces."""
+        """Move the nodes to a given position within ``dt`` [s] without time integration; internal_forces."""
         self._core.deform(floats(position), floats(velocity), floats(spin), dt)
         return self.internal_forces
 
     def checkpoint(self) -> dict[str, Floats]:
-        """Full state as named arrays, fit for np.savez; a restored run gives the same bits.
+        """Full state as named arrays that np.savez can store; a restored run gives the same bits.
 
         It fits the instruction set that made it: the layout depends on its lanes.
         """
         return {name: _array(values) for name, values in self._core.save().items()}
 
     def add_motion(self, velocity: Floats, spin: Floats) -> None:
-        """Add velocities [m/s] and angular velocities [rad/s], (n, 3) each, but to what is held or driven."""
+        """Add velocities [m/s] and angular velocities [rad/s], (n, 3) each, except to what is held or driven."""
         self._core.add_motion(floats(velocity), floats(spin))
 
     def stop(self) -> None:
-        """End all motion; its energy counts as damped."""
+        """Set all velocities to zero; their energy counts as damped."""
         self._core.stop()
 
     def restore(self, saved: Mapping[str, Floats], *, of_stage_before: bool = False) -> None:
-        """Go back to a checkpoint of the same model.
+        """Return to a checkpoint of the same model.
 
         Parameters
         ----------

@@ -1,1 +1,1 @@
-"""Typed face of the spatial kernel."""
+"""Typed interface of the spatial kernel."""

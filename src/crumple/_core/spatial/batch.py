@@ -1,4 +1,4 @@
-"""Typed face of the spatial batch: many variants of a spatial model in one call, on several threads."""
+"""Typed interface of the spatial batch: many variants of a spatial model in one call, on several threads."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from crumple.numeric.arrays import Floats
 
 @dataclass(frozen=True, eq=False)
 class SpatialStage:
-    """A stage of a run: duration [s], and the rest as `SpatialSimulation.stage` takes it."""
+    """A stage of a run: duration [s], and the arguments of `SpatialSimulation.stage`."""
 
     duration: float
     quasi_static: bool = False
@@ -38,7 +38,7 @@ class StagedModel:
 
 @dataclass(frozen=True, eq=False)
 class SpatialEndValues(SpatialRows):
-    """Where every variant ended, n rows; zeros where it was refused or never begun.
+    """Final values of every variant, n rows; zeros in rows that were refused or not begun.
 
     Attributes
     ----------
@@ -77,7 +77,7 @@ def solve_many(
     poll: Callable[[float], bool] | None = None,
     led: bool = False,
 ) -> SpatialEndValues:
-    """Solve every variant through its stages, bitwise as a single `SpatialSimulation` of it.
+    """Solve every variant through its stages, bit for bit as a `SpatialSimulation` of it.
 
     ``poll(share)`` is called at intervals with the share done and returns False to cancel; variants that were
     not begun then have the outcome CANCELLED.
@@ -102,7 +102,7 @@ def solve_many(
 
 
 def kernel_case(case: StagedModel) -> _kernels._Spatial.Case:
-    """A case as the kernel holds it."""
+    """A case in the kernel's own form."""
     model = case.model
     kernel = _kernels.spatial.Case(as_dict(model))
     for stage in case.stages:

@@ -90,7 +90,7 @@ def spherical(first: int, second: int, position: ArrayLike, axes: ArrayLike | No
 def universal(
     first: int, second: int, position: ArrayLike, first_axis: ArrayLike, second_axis: ArrayLike
 ) -> SpatialJoint:
-    """Turns about an axis (local y) of the first body and one (local z) of the second, at right angles."""
+    """Rotation about an axis (local y) of the first body and one (local z) of the second, at right angles."""
     y, z = (np.asarray(a, float) / np.linalg.norm(a) for a in (first_axis, second_axis))
     axes = np.array([np.cross(y, z), y, z])
     held = (True, True, True, True, False, False)
@@ -114,7 +114,7 @@ def planar(first: int, second: int, position: ArrayLike, normal: ArrayLike) -> S
 
 @dataclass(frozen=True, eq=False)
 class SpatialComponent(HingeConstants):
-    """One component of a hinge: a relative freedom of its joint, and what resists in it."""
+    """One component of a hinge: a relative freedom of its joint, and its resistance."""
 
     freedom: int
 
@@ -207,7 +207,7 @@ class ObstacleKind(IntEnum):
 
 @dataclass(frozen=True, eq=False)
 class SpatialObstacle:
-    """Solid on a body (-1: the ground; driven and guided obstacles are bodies with a joint to the ground).
+    """Rigid solid on a body (-1: the ground; driven and guided obstacles are bodies joined to the ground).
 
     Attributes
     ----------
@@ -249,7 +249,7 @@ class SpatialCapsule:
 
 @dataclass(frozen=True, eq=False)
 class SpatialContact:
-    """Contact of capsules with one another: pairs of capsule indices that may touch."""
+    """Contact between capsules: pairs of capsule indices that can come into contact."""
 
     pairs: tuple[tuple[int, int], ...] = ()
     friction: float = 0.0
@@ -271,7 +271,7 @@ class SpatialModel:
     contact: SpatialContact = SpatialContact()
     gravity: tuple[float, float, float] = (0.0, 0.0, 0.0)
     length: float = 1.0
-    """Turns displacements into angles for the error measure [m]."""
+    """Length [m] that converts displacements to angles in the error measure."""
     breaks: Floats = field(default_factory=lambda: np.empty(0))
     """Times [s] after the start of every stage at which steps end: jumps and kinks of loads and drives,
     (n,)."""

@@ -1,4 +1,4 @@
-"""Typed face of the spatial kernel: one run of a `SpatialModel`, in stages."""
+"""Typed interface of the spatial kernel: one run of a `SpatialModel`, in stages."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ from crumple._core.spatial.model import (
 from crumple.numeric.arrays import Floats
 
 MINIMUM_STEP = 1e-9
-"""Smallest step [s]; rates that jump are passed in one such step."""
+"""Smallest step [s]; jumps of the velocity are passed in one such step."""
 
 
 class Until(IntEnum):
-    """What ends a stage when it reaches a value."""
+    """Quantity that ends a stage when it reaches a value."""
 
     FORCE = 0
     """Magnitude of the resultant contact force on an obstacle [N]."""
@@ -69,7 +69,7 @@ class SpatialUntil:
 
 @dataclass(frozen=True, eq=False)
 class SpatialRows:
-    """Where bodies in space are: one of n rows for every output time, or for every run; b bodies.
+    """Positions of bodies in space in n rows, for every output time or for every run; b bodies.
 
     Attributes
     ----------
@@ -90,7 +90,7 @@ class SpatialRows:
 
     @property
     def rows(self) -> int:
-        """How many."""
+        """Number of rows."""
         return len(self.centre)
 
 
@@ -140,7 +140,7 @@ class SpatialRecord(SpatialRows):
     stuck_body: int
     residual: float
     unseen: float
-    """Speed that loads and drives may have given or taken unseen within steps, over the largest speed."""
+    """Speed that loads and drives may have added or removed unresolved within steps, over the largest speed."""
     steps: int
     rejected: int
     forced: int
@@ -197,7 +197,7 @@ class SpatialSimulation:
         obstacles: Sequence[int] | None = None,
         until: Sequence[SpatialUntil] = (),
     ) -> None:
-        """Begin a stage: functions of time count from now.
+        """Begin a stage: functions of time start at the present time.
 
         Parameters
         ----------
@@ -242,7 +242,7 @@ class SpatialSimulation:
 
 
 def as_dict(model: SpatialModel) -> dict[str, Any]:
-    """As the kernel takes it."""
+    """An object in the form that the kernel takes."""
     return {
         "mass": np.array([body.mass for body in model.bodies], float),
         "inertia": _stack([body.inertia for body in model.bodies], (3, 3)),

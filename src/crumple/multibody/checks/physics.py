@@ -147,7 +147,7 @@ def tensions(structure: Structure, solved: Solved) -> Iterator[Caution]:
 
 
 def axial_tensions(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:
-    """Members and the largest axial tension [N], persisting for two outputs, at a hinge without axial slip."""
+    """Members and the largest axial tension [N] that persists for two outputs at a hinge without slip."""
     poses = solved.poses
     if not isinstance(poses, SpatialPoses):
         return
