@@ -21,7 +21,7 @@ from crumple.errors import InputError, Problem
 from crumple.material import CowperSymonds, Material, RateLaw
 
 FOLDS_PER_HINGE = 3.0
-"""Folds that share the rotation; more would lower the strain rate in proportion."""
+"""Number of folds that share the rotation; more would lower the strain rate in proportion."""
 FOLD_WIDTH = 2.5
 """Width of a fold in wall thicknesses; folds are 2 to 3 thicknesses wide."""
 

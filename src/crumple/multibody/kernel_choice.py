@@ -31,7 +31,7 @@ def why_spatial(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run)
     Parameters
     ----------
     structure, hinges
-        What is solved.
+        The structure and its hinges.
     run
         Settings, stages and outputs.
 

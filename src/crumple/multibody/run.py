@@ -86,7 +86,7 @@ def refuse_unbegun(outcome: Outcome, time: Floats) -> None:
     Raises
     ------
     CancelledError
-        Then.
+        If there is no output yet.
     """
     if outcome is Outcome.CANCELLED and len(time) <= 1:
         raise CancelledError("cancelled before the first output: nothing was kept")

@@ -181,7 +181,7 @@ class TreeRecord(TreeRows):
     reason: str
     residual: float
     unseen: float
-    """Speed that loads and drives may have added or removed unresolved within steps, over the largest speed."""
+    """Speed that loads and drives may have changed unresolved within steps, over the largest speed."""
     steps: int
     rejected: int
     forced: int

@@ -279,7 +279,7 @@ class ShellState:
         return {name: _array(values) for name, values in self._core.save().items()}
 
     def add_motion(self, velocity: Floats, spin: Floats) -> None:
-        """Add velocities [m/s] and angular velocities [rad/s], (n, 3) each, except to what is held or driven."""
+        """Add velocities [m/s] and angular velocities [rad/s], (n, 3) each; not to held or driven nodes."""
         self._core.add_motion(floats(velocity), floats(spin))
 
     def stop(self) -> None:

@@ -47,7 +47,7 @@ class SpatialEndValues(SpatialRows):
     start
         Centres of mass at the start, (n, bodies, 3).
     summary
-        What the hinges of each variant came to, (n, hinges).
+        Summaries of the hinges of each variant, (n, hinges).
     residual
         Largest energy residual of its stages, (n,).
     lost

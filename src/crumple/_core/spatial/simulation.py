@@ -140,7 +140,7 @@ class SpatialRecord(SpatialRows):
     stuck_body: int
     residual: float
     unseen: float
-    """Speed that loads and drives may have added or removed unresolved within steps, over the largest speed."""
+    """Speed that loads and drives may have changed unresolved within steps, over the largest speed."""
     steps: int
     rejected: int
     forced: int

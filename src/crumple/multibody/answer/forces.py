@@ -70,7 +70,7 @@ def force_channels(structure: Structure, poses: SpatialHistory, local_time: Floa
     Parameters
     ----------
     structure, poses
-        What was solved.
+        The structure and the positions of its bodies.
     local_time
         Time since the start of the stage [s], (n,), in which loads are given.
     """

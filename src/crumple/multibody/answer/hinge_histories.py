@@ -44,7 +44,7 @@ class RecordedHinge:
     Attributes
     ----------
     hinge
-        Which it is.
+        The plastic hinge.
     free
         Relative freedom of each component: 0 to 2 along, 3 to 5 about the hinge's axes.
     first

@@ -119,7 +119,7 @@ def link(structure: Structure, hinges: tuple[PlacedHinge, ...] | None = None) ->
     Parameters
     ----------
     structure
-        Sound.
+        A structure that passed its checks.
     hinges
         Its hinges; None: as `placed_hinges` gives them.
 

@@ -72,7 +72,7 @@ def with_obstacles(
     Parameters
     ----------
     structure, linkage
-        What is solved.
+        The structure, and its bodies and connections.
     model
         Without obstacles.
     owners

@@ -33,7 +33,7 @@ def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> 
     Parameters
     ----------
     structure, solved
-        What was solved, and how it went.  Without forces, from the planar kernel, there are none.
+        The structure and the result of its run.  The planar kernel gives no forces, and so no cautions.
     struck
         Whether impacts took most of the energy.
     """

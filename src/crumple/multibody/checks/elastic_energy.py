@@ -28,7 +28,7 @@ def energy_left_out(structure: Structure, histories: Sequence[HingeHistory]) -> 
     Parameters
     ----------
     structure, histories
-        What was solved, and what its plastic hinges did.
+        The structure, and the histories of its plastic hinges.
 
     References
     ----------

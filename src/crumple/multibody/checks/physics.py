@@ -54,7 +54,7 @@ def physics_cautions(structure: Structure, solved: Solved) -> tuple[Caution, ...
     Parameters
     ----------
     structure, solved
-        What was solved, and how it went.
+        The structure and the result of its run.
     """
     if len(solved.time) < 2:
         return ()

@@ -28,7 +28,7 @@ def unheld_notes(structure: Structure, linkage: Linkage, stages: tuple[Stage, ..
     Parameters
     ----------
     structure, linkage
-        Sound, and what it is made of.
+        A structure that passed its checks, and its bodies and connections.
     stages
         Of the analysis.  Those with obstacles or contact of members may find rest there and are left out.
     """

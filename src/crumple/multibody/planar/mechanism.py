@@ -104,7 +104,7 @@ def lower(structure: Structure, hinges: tuple[PlacedHinge, ...] | None = None) -
     Parameters
     ----------
     structure
-        Sound.
+        A structure that passed its checks.
     hinges
         Its hinges; None: as `placed_hinges` gives them.
 

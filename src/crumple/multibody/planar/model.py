@@ -39,7 +39,7 @@ def tree_model(structure: Structure, mechanism: Mechanism, duration: float) -> T
     Parameters
     ----------
     structure, mechanism
-        What is solved.
+        The structure and its mechanism.
     duration
         Functions of time are sampled over it [s].
     """

@@ -23,7 +23,7 @@ class TreeSolver:
     Parameters
     ----------
     structure, run
-        What is solved, and how long with which outputs.
+        The structure, and duration, settings and outputs of the run.
     hinges
         The structure's.
 

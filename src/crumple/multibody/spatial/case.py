@@ -32,7 +32,7 @@ class SpatialCase:
     Attributes
     ----------
     structure, linkage, touching
-        What is solved, its bodies and connections, and those of its obstacles.
+        The structure, its bodies and connections, and those of its obstacles.
     case
         Model and stages.
     velocity, impulse

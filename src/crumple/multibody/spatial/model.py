@@ -41,7 +41,7 @@ def spatial_model(structure: Structure, linkage: Linkage, duration: float) -> Sp
     Parameters
     ----------
     structure, linkage
-        What is solved.
+        The structure, and its bodies and connections.
     duration
         Functions of time are sampled over it [s].
     """

@@ -53,7 +53,7 @@ class SpatialSolver:
     Parameters
     ----------
     structure, run
-        What is solved, and how long with which outputs and stages.
+        The structure, and duration, settings and outputs of the run.
     hinges
         The structure's.
 

@@ -92,7 +92,7 @@ def lost_equilibrium(structure: Structure, stage: Stage, begin: float, lost: flo
     Parameters
     ----------
     structure, stage
-        What was solved, and the stage that lost it.
+        The structure, and the stage in which equilibrium was lost.
     begin, lost
         When the stage began, and when its equilibrium ended [s].
     """

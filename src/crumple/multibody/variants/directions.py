@@ -33,7 +33,7 @@ def planar_ends(
     Parameters
     ----------
     batch, structure
-        What is solved.
+        The structure and the batch that solves it.
     steps
         Parameters, each with the step [SI] by which it is moved, or None for a share of its value.
     poll

@@ -49,7 +49,7 @@ def sensitivities(
     Parameters
     ----------
     structure, run
-        What is solved; the quantities are those of `solve_variants`.
+        The structure; the quantities are those of `solve_variants`.
     parameters
         Paths and factors as in `solve_variants`, or one of them; as a mapping, with the step [SI] by which
         each is moved to see how the model's arrays follow it, needed where its value is zero.
