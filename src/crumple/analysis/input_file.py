@@ -17,6 +17,7 @@ from crumple.analysis.solve import solved_alone
 from crumple.errors import InputError, Problem
 from crumple.structure import (
     Outputs,
+    StoredLaws,
     Structure,
     hinge_places,
     history_problems,
@@ -24,6 +25,7 @@ from crumple.structure import (
     problems_in,
     shell_problems,
     stage_problems,
+    with_used_laws,
 )
 from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import Place, path_of, placed_problems, shown
@@ -75,6 +77,18 @@ class LoadedInput:
         problems = [_where_written(problem, structure) for problem in error.problems]
         placed = [(path_of(problem.where), problem) for problem in problems]
         return InputError(_placed(placed, self.document, str(self.path)))
+
+    def with_laws(self, store: Path) -> LoadedInput:
+        """The input with the laws of a store, a folder or a file, in place of those it names.
+
+        Raises
+        ------
+        InputError
+            If there is no such store, or one of its laws cannot be read.
+        """
+        structure = self.analysis.structure.model_copy(update={"laws": StoredLaws.read(store)})
+        analysis = self.analysis.model_copy(update={"structure": with_used_laws(structure)})
+        return replace(self, analysis=analysis)
 
     def refusals(self, fidelity: str = "multibody") -> list[Problem]:
         """What a solver refuses of the analysis; it starts, but takes no step beyond the first."""
@@ -176,7 +190,7 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
     # everything was checked above, with lines
     return Analysis.model_validate(
         {
-            "structure": Structure.of_sound_parts(whole),
+            "structure": with_used_laws(Structure.of_sound_parts(whole)),
             "duration": whole.analysis.total_duration,
             "title": whole.title,
             "stages": whole.analysis.stages,

@@ -25,6 +25,7 @@ from crumple.structure.keys.member import Place
 from crumple.structure.keys.time_function import FunctionOf
 from crumple.structure.schema.registered import Registered
 from crumple.structure.schema.spec import Name
+from crumple.structure.settings.stored_laws import StoredLaws
 
 BEGIN = "<!-- written by `python -m crumple.analysis.reference docs/input.md`: begin -->"
 END = "<!-- end -->"
@@ -210,7 +211,7 @@ def _value_without_unit(plain: Any) -> str:
     if origin in {Union, UnionType}:
         choices = [choice for choice in arguments if choice is not type(None)]
         return " or ".join(dict.fromkeys(_value(_untagged(choice)) for choice in choices))
-    return {str: "text", bool: "`true` or `false`", int: "whole number"}[plain]
+    return {str: "text", bool: "`true` or `false`", int: "whole number", StoredLaws: "text"}[plain]
 
 
 def _untagged(kind: Any) -> Any:

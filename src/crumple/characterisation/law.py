@@ -7,6 +7,7 @@ import math
 from crumple.characterisation.bending import Bending
 from crumple.characterisation.curve import LawCurve
 from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
+from crumple.hinge.measured.place_hash import PLACE, place_hash
 from crumple.hinge.measured.stored import StoredCurve, StoredLaw
 from crumple.version import __version__
 
@@ -41,6 +42,7 @@ def law_of(
     origin = {
         "method": "shell",
         **model.origin,
+        PLACE: place_hash(model.section, material, model.axis, model.angle),
         "material": f"E {material.youngs_modulus / 1e9:g} GPa, yield {material.yield_stress / 1e6:g} MPa",
         "made_by": f"crumple {__version__}, crumple characterise",
         **facts,

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from crumple.cli.console.laws import Freeze, Laws, law_lines, with_store
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -63,6 +65,8 @@ def compare(
             show_default=False,
         ),
     ] = None,
+    laws: Laws = None,
+    freeze_laws: Freeze = None,
 ) -> None:
     """Solve with both engines and compare. Writes multibody/, shell/ and report.html to a folder."""
     from crumple.analysis import load_input
@@ -74,7 +78,7 @@ def compare(
     from crumple.portable import stop_on_interrupt
     from crumple.report import write_comparison
 
-    source = load_input(file)
+    source = with_store(load_input(file), laws, freeze_laws)
     curves = curves_of(curve or [], pair or [])
     if second_mesh is not None:
         # refused before the folder is made, and before the first mesh is solved
@@ -86,7 +90,7 @@ def compare(
             shown, pictures = report_input(source), picture_times(source.analysis)
             stored(folder, lambda place: write_comparison(found, shown, place, pictures=pictures), PAGE)
         remove_restart(folder / "shell", found.reference.result)
-        _show(found, folder)
+        _show(found, folder, source)
         if (folder / "shell" / RESTART).exists():
             typer.echo(f"Continue with the same command and --restart {folder / 'shell' / RESTART}")
     if not all(s.result.status.ok for s in (found.candidate, found.reference)):
@@ -164,7 +168,7 @@ def _crush_lines(found: Comparison) -> Iterator[str]:
         yield f"Member {escape(crush.member)} is crushed by {figures[0]} and {figures[1]}"
 
 
-def _show(found: Comparison, folder: Path) -> None:
+def _show(found: Comparison, folder: Path, source: LoadedInput) -> None:
     """Print the verdict, a table of hinges, cautions, times, and where the files are."""
     import math
 
@@ -203,6 +207,8 @@ def _show(found: Comparison, folder: Path) -> None:
         console.print(line)
     if len(found.hinges) > MOST_HINGES:
         console.print(f"{MOST_HINGES} of {len(found.hinges)} hinges, those with the largest absorbed energy")
+    for line in law_lines(found.candidate.result, source):
+        console.print(Text(line), soft_wrap=True)
     times = [
         f"{format_quantity(source.result.solve_seconds, 's', 3)} ({source.with_threads})"
         for source in (found.candidate, found.reference)

@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
+from crumple.cli.console.laws import Freeze, Laws, law_lines, with_store, write_frozen
 
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from crumple.analysis import LoadedInput
     from crumple.report import Layout
 
 PAGE = "report.html"
@@ -20,6 +23,8 @@ def layouts(
     *,
     out: Annotated[str, typer.Option(metavar="FOLDER", help="Folder for the results.")] = "out/layouts",
     title: Annotated[str, typer.Option(help="Title of the page.")] = "Layouts",
+    laws: Laws = None,
+    freeze_laws: Freeze = None,
 ) -> None:
     """Solve several layouts as multibody models and compare them. A layout that fails has a row."""
     from crumple.cli.console.folder import results_folder
@@ -31,15 +36,19 @@ def layouts(
     names = _names(files)
     with results_folder(out, files[0], tuple(names)) as folder:
         found: list[Layout] = []
+        sources: dict[str, LoadedInput] = {}
         with stop_on_interrupt() as cancel:
             with progress_bar("solving") as progress:
                 for i, (name, file) in enumerate(zip(names, files, strict=True)):
-                    found.append(_solved(name, file, folder / name, cancel))
+                    found.append(_solved(name, file, folder / name, cancel, (laws, sources)))
                     progress((i + 1) / len(files))
                     if cancel():
                         break
             stored(folder, lambda place: write_layouts(found, title, place), PAGE)
         _show(found, folder)
+        _show_laws(found, sources)
+        if freeze_laws is not None:
+            write_frozen(list(sources.values()), freeze_laws)
     if not all(layout.result is not None and layout.result.status.ok for layout in found):
         raise typer.Exit(1)
 
@@ -53,15 +62,25 @@ def _names(files: list[Path]) -> list[str]:
     ]
 
 
-def _solved(name: str, file: Path, folder: Path, cancel: Callable[[], bool]) -> Layout:
-    """One layout: read, solved and written to its folder; if it is refused, the reason is kept."""
+def _solved(
+    name: str,
+    file: Path,
+    folder: Path,
+    cancel: Callable[[], bool],
+    used: tuple[Path | None, dict[str, LoadedInput]],
+) -> Layout:
+    """One layout: read, solved and written to its folder; if it is refused, the reason is kept.
+
+    `used`: store of laws, and the inputs that were read, to which this one is added.
+    """
     from crumple.analysis import load_input, solve
     from crumple.cli.console.storing import store
     from crumple.errors import InputError
     from crumple.report import Layout
 
     try:
-        source = load_input(file)
+        source = with_store(load_input(file), used[0])
+        used[1][name] = source
         result = solve(source.analysis, cancel=cancel)
     except InputError as error:
         first, more = error.problems[0], len(error.problems) - 1
@@ -72,6 +91,18 @@ def _solved(name: str, file: Path, folder: Path, cancel: Callable[[], bool]) -> 
     store(result, source, folder)
     analysis = source.analysis
     return Layout(name, analysis.title, analysis.structure.mass_of_members, result)
+
+
+def _show_laws(found: list[Layout], sources: Mapping[str, LoadedInput]) -> None:
+    """Print the origins of the laws of all layouts, each once."""
+    lines = [
+        line
+        for layout in found
+        if layout.result is not None
+        for line in law_lines(layout.result, sources[layout.name])
+    ]
+    for line in dict.fromkeys(lines):
+        typer.echo(line)
 
 
 def _show(found: list[Layout], folder: Path) -> None:

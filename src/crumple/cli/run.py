@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from crumple.cli.console.fidelity import Fidelity
+from crumple.cli.console.laws import Freeze, Laws, law_lines, with_store
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -38,13 +39,15 @@ def run(
         Path | None,
         typer.Option(help="Continue from the restart file of an interrupted shell run.", show_default=False),
     ] = None,
+    laws: Laws = None,
+    freeze_laws: Freeze = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print summary.json instead of the table.")] = False,
 ) -> None:
     """Solve an input file and report. Writes summary, histories, shapes, figures and a page to a folder."""
     from crumple.analysis import load_input
     from crumple.cli.console.folder import results_folder
 
-    source = load_input(file)
+    source = with_store(load_input(file), laws, freeze_laws)
     if restart is not None and fidelity is not Fidelity.SHELL:
         raise typer.BadParameter("only shell runs have restart files", param_hint="--restart")
     both = fidelity is Fidelity.BOTH
@@ -70,7 +73,7 @@ def _run(
         if as_json:
             summaries[one.value] = _summary(result)
         else:
-            _show(result, place)
+            _show(result, place, source)
             _show_restart(source.path, place)
         if result.status is Status.CANCELLED:
             # a user who stops the first run does not want the second one
@@ -134,7 +137,7 @@ def _show_restart(file: Path, folder: Path) -> None:
         )
 
 
-def _show(result: Result, folder: Path) -> None:
+def _show(result: Result, folder: Path, source: LoadedInput) -> None:
     """Print the table of hinges, the values of the whole run, the warnings, and the paths of the files."""
     from rich.console import Console
     from rich.text import Text
@@ -160,6 +163,8 @@ def _show(result: Result, folder: Path) -> None:
         console.print(
             f"At most {MOST_HINGES} of {len(result.hinges)} hinges, those with the largest absorbed energy"
         )
+    for line in law_lines(result, source):
+        console.print(Text(line), soft_wrap=True)
     console.print(
         f"Energy residual {result.energy_residual:.2g} of the energy input; "
         f"solved in {format_quantity(result.solve_seconds, 's', 3)}"

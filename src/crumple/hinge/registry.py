@@ -72,10 +72,20 @@ BENDING: Registry[LawType] = Registry(
         "circular": "crumple.hinge.bending.circular:CircularLaw",
         "folded_profile": "crumple.hinge.bending.folded_profile:FoldedProfileLaw",
         "file": "crumple.hinge.measured.file_law:FileLaw",
+        "estimate": "crumple.hinge.bending.estimate:EstimatedLaw",
+        "auto": "crumple.hinge.bending.estimate:AutoLaw",
     },
 )
-DEFAULT_BENDING = {"rectangular_tube": "kecman"}
-"""Default law of a hinge, by the kind of its section."""
+AUTO = "auto"
+"""Type of a hinge without a law: its stored law, else a formula, else an estimate."""
+DEFAULT_BENDING = {
+    "rectangular_tube": "kecman",
+    "circular_tube": "circular",
+    "channel": "folded_profile",
+    "hat": "folded_profile",
+    "closed_hat": "folded_profile",
+}
+"""Formula of a hinge without a law, by the kind of its section."""
 AXIAL: Registry[AxialLawType] = Registry(
     "axial law",
     {
@@ -113,7 +123,8 @@ def fitting_laws(
     """Laws that follow from section and material alone, by name, and why others of that kind do not apply."""
     laws, refused = {}, {}
     for name, law in law_types().items():
-        if needs_curve(name):
+        # auto is one of the others, and the estimate is for sections that have none
+        if needs_curve(name) or name in {AUTO, "estimate"}:
             continue
         try:
             laws[name] = law.of(section, material, axis)

@@ -32,7 +32,7 @@ from crumple.multibody.run import CHECK_FACTOR, Cancel, Progress, Run, outcome_s
 from crumple.multibody.spatial.solver import SpatialSolver
 from crumple.numeric.arrays import Floats
 from crumple.result import Provenance, Result, missing_pictures, sentences
-from crumple.structure import Structure, any_automatic, placed_hinges
+from crumple.structure import Structure, any_automatic, law_uses, placed_hinges
 
 
 def solve_multibody(
@@ -171,7 +171,7 @@ def _result(
         *gravity_channels(structure, solved.poses),
     ]
     channels += [*solved.further, *wanted]
-    hinges = with_crush(structure, solved.hinges, summaries(solved.hinges, errors))
+    hinges = with_crush(structure, solved.hinges, summaries(solved.hinges, errors, law_uses(structure)))
     openings, threshold = collapse_log(solved.hinges, solved.time)
     return Result(
         status=status,

@@ -9,6 +9,7 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from crumple.hinge.law_use import INPUT
 from crumple.portable import write_text
 
 if TYPE_CHECKING:
@@ -210,7 +211,7 @@ def _render(
         stage_table=wording.stage_table(result),
         output_table=wording.output_table(result),
         fall_table=wording.fall_table(result),
-        law_table=wording.law_table(result),
+        law_table=wording.law_table(result, source.name or INPUT),
         assumptions=result.assumptions,
         provenance_table=_provenance(result, wording.Table),
         input_text=text[:MAX_INPUT],

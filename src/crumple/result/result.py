@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crumple.errors import InputError, Problem, Status
+from crumple.hinge.law_use import LawUse
 from crumple.numeric.arrays import Floats, Integers
 from crumple.result.caution import Caution
 from crumple.result.crush import BENT, CrushSummary
@@ -97,6 +98,8 @@ class HingeSummary:
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     fracture_time: float | None = None
     fracture_moment: float | None = None
+    law_use: LawUse | None = None
+    """Where its law comes from; None where it was measured."""
     crush: CrushSummary | None = None
     """Of a hinge that can shorten along its member; None for all others."""
 

@@ -72,6 +72,7 @@ def summary(result: Result) -> dict[str, Any]:
 def _of_hinge(hinge: HingeSummary) -> dict[str, Any]:
     """Figures of one hinge; of one that can shorten along its member also those of crushing."""
     figures = {key: getattr(hinge, key) for key in _HINGE_KEYS}
+    figures["law_use"] = None if hinge.law_use is None else asdict(hinge.law_use)
     return figures if hinge.crush is None else {**figures, "crush": asdict(hinge.crush)}
 
 

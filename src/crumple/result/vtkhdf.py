@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crumple.errors import Status
+from crumple.hinge.law_use import LawUse
 from crumple.result.caution import Caution
 from crumple.result.crush import CrushSummary
 from crumple.result.format import FORMAT, former_names_note, present_name
@@ -222,10 +223,12 @@ def read_vtkhdf(file: h5py.File) -> Result:
     hinges = {}
     for index, (name, hinge) in enumerate(text["hinges"].items()):
         envelope = {key: dataset[...] for key, dataset in group["envelopes"][str(index)].items()}
-        crush = hinge.pop("crush", None)
+        # results of earlier versions have none
+        crush, use = hinge.pop("crush", None), hinge.pop("law_use", None)
         hinges[name] = HingeSummary(
             **{**hinge, "position": tuple(hinge["position"]), "envelope": envelope},
             crush=None if crush is None else CrushSummary(**crush),
+            law_use=None if use is None else LawUse(**use),
         )
     return Result(
         status=Status[text["status"]],

@@ -19,8 +19,9 @@ from crumple.structure.checks.checks import output_problems, problems_in, shell_
 from crumple.structure.checks.limit_checks import history_problems
 from crumple.structure.checks.obstacle_checks import gap, stage_problems
 from crumple.structure.geometry import Frame, frame_of
-from crumple.structure.hinges.automatic import any_automatic
+from crumple.structure.hinges.asked import any_automatic
 from crumple.structure.hinges.hinges import PlacedHinge, placed_hinges, plastic_hinges, shares_left_out
+from crumple.structure.hinges.law_use import law_uses, used_texts, with_used_laws
 from crumple.structure.hinges.places import HingePlace, hinge_places, member_hinge_places
 from crumple.structure.keys.joint import Joint
 from crumple.structure.keys.law import LawKeys, Regularisation, Stops
@@ -45,6 +46,7 @@ from crumple.structure.keys.walls import WallSectionSpec, WallSpec, WeldSpec
 from crumple.structure.schema.mapping import FrozenMapping
 from crumple.structure.settings.multibody_settings import MultibodySettings
 from crumple.structure.settings.shell_settings import FinePlace, ShellSettings
+from crumple.structure.settings.stored_laws import StoredLaws
 from crumple.structure.structure import Structure
 
 __all__ = [
@@ -85,6 +87,7 @@ __all__ = [
     "SpotWelds",
     "Stage",
     "Stops",
+    "StoredLaws",
     "Stretch",
     "Structure",
     "Support",
@@ -101,6 +104,7 @@ __all__ = [
     "gap",
     "hinge_places",
     "history_problems",
+    "law_uses",
     "member_hinge_places",
     "output_problems",
     "placed_hinges",
@@ -110,5 +114,7 @@ __all__ = [
     "shares_left_out",
     "shell_problems",
     "stage_problems",
+    "used_texts",
     "value_at",
+    "with_used_laws",
 ]

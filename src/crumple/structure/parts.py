@@ -26,6 +26,7 @@ from crumple.structure.keys.spot_welds import SpotWelds
 from crumple.structure.remembered import Kept
 from crumple.structure.schema.mapping import FrozenMapping
 from crumple.structure.schema.spec import Named, Spec
+from crumple.structure.settings.stored_laws import LawsOrFolder
 
 Part = TypeVar("Part")
 
@@ -60,6 +61,9 @@ class StructureParts(Spec):
     """`auto`: candidate hinges, wherever a fold can form, in every member that has no hinges of its own."""
     hinge_laws: Named[LawKeys] = FrozenMapping()
     """Hinge laws by name."""
+    laws: LawsOrFolder | None = None
+    """Store of laws from shells, a folder or a file: hinges without a law use those of their section and
+    material, and mitred corners their own."""
     supports: Named[Support] = FrozenMapping()
     """Supports by name."""
     masses: Named[Mass] = FrozenMapping()

@@ -11,8 +11,10 @@ TUBE = RectangularTube(0.05, 0.025, 0.002)
 
 def test_laws_are_found_by_the_files_of_their_folder():
     assert list(law_types()) == [
+        "auto",
         "circular",
         "constant",
+        "estimate",
         "file",
         "folded_profile",
         "kecman",

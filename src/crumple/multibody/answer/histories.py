@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
+from crumple.hinge.law_use import LawUse
 from crumple.multibody.answer.poses import Poses, piece_at
 from crumple.multibody.answer.solved import HingeHistory, Solved
 from crumple.multibody.bodies.rigid import lump_mass, piece_mass
@@ -117,7 +118,9 @@ def gravity_channels(structure: Structure, poses: Poses) -> Iterator[Channel]:
     yield channel("energy.gravity", np.asarray(work, float))
 
 
-def summaries(hinges: Iterable[HingeHistory], errors: Floats | None = None) -> dict[str, HingeSummary]:
+def summaries(
+    hinges: Iterable[HingeHistory], errors: Floats | None = None, uses: Mapping[str, LawUse] | None = None
+) -> dict[str, HingeSummary]:
     """Summaries of all hinges.
 
     Parameters
@@ -126,6 +129,8 @@ def summaries(hinges: Iterable[HingeHistory], errors: Floats | None = None) -> d
         Histories.
     errors
         Estimated error of each largest rotation [rad], (hinges,), or None.
+    uses
+        Where the laws come from, by hinge.
     """
     found = {}
     for k, history in enumerate(hinges):
@@ -149,5 +154,6 @@ def summaries(hinges: Iterable[HingeHistory], errors: Floats | None = None) -> d
             validity_basis=law.validity.basis,
             envelope={"rotation": rotation, "positive": positive, "negative": negative},
             position=tuple(float(value) for value in hinge.position),  # type: ignore[arg-type]
+            law_use=(uses or {}).get(hinge.name),
         )
     return found

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from crumple.hinge.law_use import INPUT
 from crumple.report.drawing.scales import display_unit, output_groups
 from crumple.result import HingeSummary, Result
 from crumple.units import format_quantity
@@ -299,21 +300,31 @@ def fall_table(result: Result) -> Table:
     return Table("Energy of the fall.", ("Energy", f"{unit}", "of M g Δh"), named)
 
 
-def law_table(result: Result) -> Table:
-    """Law, source and range of every hinge, and whether the run stayed inside; equal rows are merged."""
+def law_table(result: Result, file: str = INPUT) -> Table:
+    """Law, origin, source and range of every hinge, and whether the run stayed inside; equal rows are merged.
+
+    Parameters
+    ----------
+    result
+        Of any run.
+    file
+        Name of the input file, for the commands that give better laws.
+    """
     groups: dict[tuple[str, ...], list[str]] = {}
     for name, hinge in result.hinges.items():
         if not hinge.law:
             continue  # measured, not computed by a law
         law = f"{hinge.law} ({hinge.form})" if hinge.form else hinge.law
-        groups.setdefault((law, hinge.source, hinge.validity_basis, _range(hinge)), []).append(name)
+        use = "—" if hinge.law_use is None else hinge.law_use.sentence(file)
+        groups.setdefault((law, use, hinge.source, hinge.validity_basis, _range(hinge)), []).append(name)
     rows = []
-    for (law, source, basis, limit), names in groups.items():
+    for (law, use, source, basis, limit), names in groups.items():
         reached = f"{degrees(max(result.hinges[name].rotation_max for name in names))}°"
         inside = "no" if any(outside_range(result, name) for name in names) else "yes"
-        rows.append((", ".join(names), law, source, basis, limit or "—", reached, inside if limit else "—"))
-    heads = ("Hinge", "Law and form", "Source", "Range supported by", "up to", "Reached", "Inside")
-    return Table("Hinge laws, their sources and ranges of validity.", heads, rows, frozenset({1, 2, 3}))
+        inside = inside if limit else "—"
+        rows.append((", ".join(names), law, use, source, basis, limit or "—", reached, inside))
+    heads = ("Hinge", "Law and form", "Origin", "Source", "Range supported by", "up to", "Reached", "Inside")
+    return Table("Hinge laws, their sources and ranges of validity.", heads, rows, frozenset({1, 2, 3, 4}))
 
 
 def _range(hinge: HingeSummary) -> str:

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from crumple.errors import Problem
-from crumple.structure.hinges.automatic import automatic_of
+from crumple.structure.hinges.asked import automatic_of
 from crumple.structure.keys.outputs import Outputs
 from crumple.structure.keys.spot_welds import MOST_SPOTS
 from crumple.structure.parts import StructureParts

@@ -4,6 +4,8 @@ Bending moments are largest where something holds, joins or loads a member, and 
 all sit on nodes: so a candidate lies at each end of a member, half a fold length inside, unless nothing there
 can carry a moment.  Distributed inertia and long spans also bend members in between: `spacing` puts further
 candidates there.  A candidate that is never loaded to its capacity stays rigid, and changes nothing.
+
+A corner whose law is stored has one hinge at its node in place of the candidates in its zone.
 """
 
 from __future__ import annotations
@@ -14,8 +16,10 @@ import numpy as np
 
 from crumple.section import Axis, half_fold_length
 from crumple.structure.bending import bending_axis, planar
+from crumple.structure.hinges.asked import automatic_of
+from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
 from crumple.structure.keys.hinge_axes import HingeAxes
-from crumple.structure.keys.member import AutomaticHinges, Hinge
+from crumple.structure.keys.member import Hinge
 from crumple.structure.parts import StructureParts
 
 
@@ -31,31 +35,12 @@ def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
     axes = (keys["axis"],) if keys["axis"] else tuple(axis for axis in keys["axes"] if axis != "x")
     stations = automatic_stations(structure, member, axes, asked.spacing)
     parts = structure.members[member].rigid_parts(structure.frame_of(member).length)
+    parts = (*parts, *corner_zones(structure, member))
     stations = {name: at for name, at in stations.items() if not any(a <= at <= b for a, b in parts)}
     # names of members and nodes were checked; two of them together may be longer than a name that is given
-    return tuple(Hinge.model_construct(name=name, at=station, **keys) for name, station in stations.items())
-
-
-def automatic_of(structure: StructureParts, member: str) -> AutomaticHinges | None:
-    """Automatic hinges of a member: its own setting, else the structure's if it has no hinges of its own."""
-    spec = structure.members[member]
-    if isinstance(spec.hinges, AutomaticHinges):
-        return spec.hinges
-    own = spec.hinges or spec.bars.number > 1
-    return None if own else structure.hinges
-
-
-def where_automatic(structure: StructureParts, member: str) -> str | None:
-    """Path of what `automatic_of` finds for a member; None where its hinges are given one by one."""
-    if automatic_of(structure, member) is None:
-        return None
-    own = isinstance(structure.members[member].hinges, AutomaticHinges)
-    return f"members.{member}.hinges" if own else "hinges"
-
-
-def any_automatic(structure: StructureParts) -> bool:
-    """Whether any member has automatic hinges."""
-    return any(automatic_of(structure, member) is not None for member in structure.members)
+    found = [Hinge.model_construct(name=name, at=station, **keys) for name, station in stations.items()]
+    found += corner_hinges(structure, member, keys)
+    return tuple(sorted(found, key=lambda hinge: float(hinge.at)))
 
 
 def automatic_stations(

@@ -9,14 +9,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from crumple import hinge
-from crumple.errors import InputError, Problem
 from crumple.hinge import HingeLaw
-from crumple.hinge.registry import BENDING, DEFAULT_BENDING
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section, half_fold_length
 from crumple.structure.bending import bending_axis
-from crumple.structure.hinges.automatic import hinges_of, where_automatic
+from crumple.structure.hinges.asked import where_automatic
+from crumple.structure.hinges.automatic import hinges_of
+from crumple.structure.hinges.law_choice import automatic_law, chosen_law, plain_law
 from crumple.structure.keys.hinge_axes import HingeAxes
 from crumple.structure.keys.law import LawKeys, LawReference
 from crumple.structure.keys.member import Hinge
@@ -122,30 +122,15 @@ def holds_rotation(structure: StructureParts, node: str, direction: Floats) -> b
 
 
 def law_spec(structure: StructureParts, place: HingePlace) -> LawKeys:
-    """Law that a hinge refers to.
-
-    Raises
-    ------
-    InputError
-        If it names none and its section has no default.
-    """
-    reference = place.law
-    if reference is None:
-        kind = structure.section_of(place.member).kind
-        if kind not in DEFAULT_BENDING:
-            what, todo = f"a hinge in a {kind} needs a law", "add 'law'"
-            allowed = "a name in hinge_laws, or " + ", ".join(BENDING)
-            raise InputError(Problem(what, "", allowed, todo))
-        reference = DEFAULT_BENDING[kind]
-    if not isinstance(reference, str):
-        return reference
-    return structure.hinge_laws[reference] if reference in structure.hinge_laws else _plain_law(reference)
-
-
-# the same for every hinge of a chain
-@remembered(MADE)
-def _plain_law(kind: str) -> LawKeys:
-    return LawKeys(type=kind)
+    """Law that a hinge refers to: the one it names, else a stored one, a formula, or an estimate."""
+    asked = automatic_law(structure, place.law)
+    if asked is not None:
+        return chosen_law(structure, place.member, place.axis, asked)
+    assert place.law is not None
+    if not isinstance(place.law, str):
+        return place.law
+    named = structure.hinge_laws.get(place.law)
+    return plain_law(place.law) if named is None else named
 
 
 def law_of(structure: StructureParts, place: HingePlace) -> HingeLaw:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Literal, get_args
 
 from crumple.errors import InputError
+from crumple.hinge.measured.library import is_of_corner
 from crumple.section import Axis
 from crumple.structure.hinges.flexibility import flexibility, tributary_lengths
 from crumple.structure.hinges.places import HingePlace, law_of, law_spec
@@ -121,7 +122,8 @@ def _about(
     bar: tuple[float, tuple[tuple[float, float], ...], tuple[bool, bool]],
 ) -> AxisShares | None:
     """Shares about an axis: of the elastic hinges, or of all where none is elastic."""
-    own = [place for place in places if axis in axes_of(place)]
+    # the spring of a corner adds to the flexibility of the members
+    own = [place for place in places if axis in axes_of(place) and not _of_corner(structure, place, axis)]
     if not own:
         return None
     seen: dict[int, Spring] = {}
@@ -136,6 +138,15 @@ def _about(
     shared = flexibility(tuple(place.station for place in points), *bar)
     lengths = {place.name: length for place, length in zip(points, shared.lengths, strict=True)}
     return AxisShares(lengths, shared.joints, "auto" in springs, not elastic)
+
+
+def _of_corner(structure: StructureParts, place: HingePlace, axis: Axis) -> bool:
+    about = about_axis(place, axis)
+    try:
+        return law_spec(structure, about).type == "file" and is_of_corner(law_of(structure, about))
+    except InputError:
+        # reported when the hinge is built
+        return False
 
 
 def _spring(structure: StructureParts, place: HingePlace) -> Spring:

@@ -112,7 +112,7 @@ def test_law_table_joins_hinges_with_one_law():
     hinges = {name: replace(hinge, validity_rotation=0.3) for name, hinge in result.hinges.items()}
     (row,) = law_table(replace(result, hinges=hinges)).rows
     assert row[0] == "h0, h1, h2, h3"
-    assert row[4:] == ("17.19°", "28.65°", "no")
+    assert row[5:] == ("17.19°", "28.65°", "no")
 
 
 def vector_result():

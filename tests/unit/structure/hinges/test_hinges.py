@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from crumple.errors import InputError
 from crumple.hinge import Form, Freedom, SofteningVariable
 from crumple.section import half_fold_length
 from crumple.structure import Structure, hinge_places, placed_hinges, plastic_hinges, shares_left_out
@@ -228,9 +227,8 @@ def test_the_rate_law_can_be_switched_off(keys):
     assert np.isinf(placed(keys)[0].record.rate_reference)
 
 
-def test_a_section_without_a_default_needs_a_law(keys):
+def test_a_hinge_without_a_law_has_the_formula_of_its_shape(keys):
     keys["members"]["arm"]["section"] = "pipe"
-    with pytest.raises(InputError, match="a hinge in a circular_tube needs a law"):
-        Structure(**keys)
+    assert placed(keys)[0].law.name == "circular"
     keys["members"]["arm"]["hinges"][0]["law"] = "constant"
     assert len(hinge_places(Structure(**keys))) == 1

@@ -1,0 +1,85 @@
+"""Stores of hinge laws on the command line: which one is used, what it gave, and the file that freezes it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from crumple.analysis import LoadedInput
+    from crumple.result import HingeSummary, Result
+
+MOST_NAMES = 4
+"""Names of hinges with one law that are listed; the files contain all."""
+
+Laws = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FOLDER",
+        help="Store of hinge laws from shells: a folder of `crumple characterise`, or a file of "
+        "--freeze-laws. Hinges without a law of their own use it.",
+        show_default=False,
+    ),
+]
+Freeze = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        help="Write the stored laws that were used, with the hashes of all laws, to one file for --laws.",
+        show_default=False,
+    ),
+]
+
+
+def with_store(source: LoadedInput, laws: Path | None, freeze: Path | None = None) -> LoadedInput:
+    """The input with the laws of a store; `freeze` names the file that they are written to."""
+    used = source if laws is None else source.with_laws(laws)
+    if freeze is not None:
+        write_frozen([used], freeze)
+    return used
+
+
+def write_frozen(sources: list[LoadedInput], file: Path) -> None:
+    """Write the stored laws that inputs use to one file; its head lists the law of every hinge."""
+    from crumple.errors import InputError, Problem
+    from crumple.hinge.measured.library import frozen
+    from crumple.portable import replacing
+    from crumple.structure import law_uses, used_texts
+    from crumple.version import __version__
+
+    texts: set[str] = set()
+    notes = [f"Crumple {__version__}; formulas are not written, their hashes show whether they are the same."]
+    for source in sources:
+        structure = source.analysis.structure
+        texts |= set(used_texts(structure))
+        for name, use in law_uses(structure).items():
+            notes.append(f"{source.path.name}: hinge {name}: {use.origin} {use.content}")
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        with replacing(file) as part:
+            part.write_text(frozen(texts, notes), encoding="utf-8")
+    except OSError as error:
+        raise InputError(Problem(f"the laws cannot be written: {error.strerror}", str(file))) from None
+
+
+def law_lines(result: Result, source: LoadedInput) -> Iterator[str]:
+    """Store that was used, and the origin of every law; hinges with one law in one line."""
+    store = source.analysis.structure.laws
+    if store is not None:
+        yield f"Store of laws: {store.name}, {len(store.texts)} used"
+    for sentence, names in grouped(result.hinges, str(source.path)).items():
+        shown = ", ".join(names[:MOST_NAMES])
+        more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
+        yield f"Law of {shown}{more}: {sentence}"
+
+
+def grouped(hinges: Mapping[str, HingeSummary], file: str) -> dict[str, list[str]]:
+    """Names of hinges by the sentence on the origin of their law."""
+    found: dict[str, list[str]] = {}
+    for name, hinge in hinges.items():
+        if hinge.law_use is not None:
+            found.setdefault(hinge.law_use.sentence(file), []).append(name)
+    return found

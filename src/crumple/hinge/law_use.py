@@ -1,0 +1,45 @@
+"""Where the law of a hinge comes from, for people: the user, a store, a formula, or an estimate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+Origin = Literal["user", "stored", "formula", "estimate"]
+INPUT = "INPUT"
+"""Stands for the name of the input file in a command: a structure does not know it."""
+
+
+@dataclass(frozen=True)
+class LawUse:
+    """Origin of a hinge's law.
+
+    Attributes
+    ----------
+    origin
+        ``user``: the input names it; ``stored``: found in the store of laws; ``formula``: of the section's
+        shape; ``estimate``: nothing backs it.
+    content
+        Hash of the law, 16 hexadecimal digits: of the law file, or of the sampled curves.
+    band
+        Relative half-width of the band of the law [-]; None: not known.
+    command
+        Command that gives a better law, with `INPUT` for the input file; empty: there is none.
+    """
+
+    origin: Origin
+    content: str
+    band: float | None = None
+    command: str = ""
+
+    def sentence(self, file: str = INPUT) -> str:
+        """Origin, band and hash in a few words, with the command for an input file."""
+        words = {
+            "user": "given in the input",
+            "stored": "stored, from shells",
+            "formula": "formula",
+            "estimate": "estimate without evidence",
+        }
+        band = "band not known" if self.band is None else f"band ±{100.0 * self.band:.2g} %"
+        better = f"; better: {self.command.replace(INPUT, file)}" if self.command else ""
+        return f"{words[self.origin]}, {band}, {self.content}{better}"

@@ -1,0 +1,183 @@
+"""Mitred corners: nodes at which two members of one section meet rigidly at an angle, and nothing else.
+
+A corner has a law of its own (crumple characterise --angle): its walls may fold at a smaller moment than
+those of a straight member.  The section must lie in the same way to the plane of the corner in both members,
+as it does in the sub-model, where the second piece is the first one turned about the normal of the plane.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from crumple.hinge.measured.place_hash import place_hash
+from crumple.numeric.arrays import Floats
+from crumple.section import Axis, half_fold_length
+from crumple.structure.parts import StructureParts
+
+LEAST, STEEPEST = math.radians(5.0), math.radians(135.0)
+"""Angles of corners that have a sub-model."""
+ALONG = 1e-4
+"""Component of a unit vector below which it does not point along another."""
+ALIKE = 1e-6
+"""Distance of the points of two outlines, over the section's largest side, below which they are one."""
+
+
+@dataclass(frozen=True)
+class Corner:
+    """A mitred corner of two members.
+
+    Attributes
+    ----------
+    node
+        At which they meet.
+    first, second
+        The members, in the order of the structure.
+    axis
+        Axis of the section, in the first member, that is normal to the corner's plane.
+    angle
+        Angle between their axes, 0 in line [rad].
+    sense
+        +1 if a positive rotation of a hinge in the first member about that axis closes the corner, else -1.
+    """
+
+    node: str
+    first: str
+    second: str
+    axis: Axis
+    angle: float
+    sense: int
+
+    def place(self, structure: StructureParts) -> str:
+        """Hash of the place, by which a store knows its law."""
+        section, material = structure.section_of(self.first), structure.material_of(self.first)
+        return place_hash(section, material, self.axis, self.angle)
+
+    def zone(self, structure: StructureParts) -> float:
+        """Distance from the node within which its law stands for all folds [m]: one side and half a fold."""
+        section = structure.section_of(self.first)
+        side = float(np.ptp(section.outer_outline(), axis=0).max())
+        return side + half_fold_length(section, self.axis)
+
+
+def corners(structure: StructureParts) -> Mapping[str, Corner]:
+    """Corners that have a sub-model, by node."""
+    return structure.kept.once("corners", "", lambda: _corners(structure)[0])
+
+
+def untreated(structure: StructureParts) -> Mapping[str, str]:
+    """Nodes at which members meet at an angle that have no sub-model, and why."""
+    return structure.kept.once("untreated corners", "", lambda: _corners(structure)[1])
+
+
+def _corners(structure: StructureParts) -> tuple[dict[str, Corner], dict[str, str]]:
+    found, reasons = {}, {}
+    for node, members in structure.members_at.items():
+        if len(members) < 2 or not all(structure.has_line(name) for name in members):
+            continue
+        answer = _corner(structure, node, members)
+        if isinstance(answer, Corner):
+            found[node] = answer
+        elif answer:
+            reasons[node] = answer
+    return found, reasons
+
+
+def _corner(structure: StructureParts, node: str, members: list[str]) -> Corner | str:
+    """Corner at a node, or the reason why there is none; an empty one where members only meet in line."""
+    if len(members) > 2:
+        return f"{len(members)} members meet"
+    first, second = sorted(members, key=list(structure.members).index)
+    arriving, leaving = -_leaving(structure, first, node), _leaving(structure, second, node)
+    angle = math.acos(float(np.clip(arriving @ leaving, -1.0, 1.0)))
+    if angle < LEAST:
+        return ""
+    reason = next(_reasons(structure, node, (first, second), angle), None)
+    if reason is not None:
+        return reason
+    normal = np.cross(arriving, leaving)
+    normal /= np.linalg.norm(normal)
+    axis = _axis_along(structure, first, normal)
+    if axis is None:
+        return "no axis of the section is normal to the corner's plane (out of plane)"
+    reference = _modelled(structure, first, axis)
+    directions = ((first, arriving), (second, leaving))
+    if not all(_same_points(_outline(structure, *one, normal), reference) for one in directions):
+        return "the section does not lie in the same way to the corner's plane in both members"
+    ends_here = structure.members[first].nodes[1] == node
+    along_normal = float(structure.frame_of(first).axis(axis) @ normal) > 0.0
+    return Corner(node, first, second, axis, angle, 1 if along_normal == ends_here else -1)
+
+
+def _reasons(structure: StructureParts, node: str, members: tuple[str, str], angle: float) -> Iterator[str]:
+    """Why two members that meet at an angle are no mitred corner of one section."""
+    one, other = (structure.members[name] for name in members)
+    sections = [structure.section_of(name) for name in members]
+    materials = [structure.material_of(name) for name in members]
+    if any(joint.member in members for joint in structure.joints_at.get(node, ())):
+        yield "the members are joined by a joint"
+    if angle > STEEPEST * (1.0 + 1e-9):
+        yield f"the angle is {math.degrees(angle):.0f} deg, above {math.degrees(STEEPEST):.0f} deg"
+    if sections[0] != sections[1]:
+        yield f"the sections {one.section} and {other.section} differ"
+    if replace(materials[0], name="") != replace(materials[1], name=""):
+        yield f"the materials {one.material} and {other.material} differ"
+    if _held(structure, node):
+        yield "a support holds its rotation"
+    if any(_rigid_at(structure, name, node) for name in members):
+        yield "a member is rigid there"
+
+
+def _leaving(structure: StructureParts, member: str, node: str) -> Floats:
+    """Unit vector of a member away from one of its nodes."""
+    along = structure.frame_of(member).x
+    return along if structure.members[member].nodes[0] == node else -along
+
+
+def _held(structure: StructureParts, node: str) -> bool:
+    """Whether a support holds or drives any rotation of the node."""
+    return any(
+        freedom[0] == "r"
+        for _, support in structure.supports_at.get(node, ())
+        for freedom in (*support.held, *support.driven)
+    )
+
+
+def _rigid_at(structure: StructureParts, member: str, node: str) -> bool:
+    length = structure.frame_of(member).length
+    station = 0.0 if structure.members[member].nodes[0] == node else length
+    parts = structure.members[member].rigid_parts(length)
+    return any(a <= station * (1.0 + 1e-12) and station <= b * (1.0 + 1e-12) for a, b in parts)
+
+
+def _axis_along(structure: StructureParts, member: str, normal: Floats) -> Axis | None:
+    frame = structure.frame_of(member)
+    for axis in ("y", "z"):
+        if abs(float(frame.axis(axis) @ normal)) > 1.0 - ALONG:
+            return axis
+    if structure.section_of(member).kind == "circular_tube":
+        return "y"
+    return None
+
+
+def _outline(structure: StructureParts, member: str, along: Floats, normal: Floats) -> Floats:
+    """Mid-line of a member's section seen along the corner: along its normal, and outwards in its plane."""
+    frame, points = structure.frame_of(member), structure.section_of(member).outline()
+    across = np.cross(normal, along)
+    in_space = points[:, :1] * frame.y + points[:, 1:] * frame.z
+    return np.stack([in_space @ normal, in_space @ across], axis=1)
+
+
+def _modelled(structure: StructureParts, member: str, axis: Axis) -> Floats:
+    """The same in the sub-model, whose first piece lies along x with the section's axes as y and z."""
+    y, z = structure.section_of(member).outline().T
+    return np.stack([y, -z] if axis == "y" else [z, y], axis=1)
+
+
+def _same_points(one: Floats, other: Floats) -> bool:
+    apart = np.linalg.norm(one[:, None] - other[None, :], axis=2)
+    size = float(np.ptp(one, axis=0).max())
+    return bool(max(apart.min(axis=0).max(), apart.min(axis=1).max()) < ALIKE * size)

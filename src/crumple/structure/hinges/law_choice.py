@@ -1,0 +1,74 @@
+"""Which law a hinge has that names none, or `auto`: a stored one, else a formula, else an estimate."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from crumple.hinge.bending.estimate import formula_or_estimate
+from crumple.hinge.measured.library import by_place
+from crumple.hinge.measured.place_hash import place_hash
+from crumple.hinge.registry import AUTO
+from crumple.section import Axis
+from crumple.structure.keys.law import LawKeys, LawReference
+from crumple.structure.parts import StructureParts
+from crumple.structure.remembered import remembered
+
+KEPT = 1024
+"""Laws that a process keeps."""
+
+
+def automatic_law(structure: StructureParts, reference: LawReference | None) -> LawKeys | None:
+    """Keys of a law that is chosen automatically; None for a law that the input names itself."""
+    if isinstance(reference, str):
+        named = structure.hinge_laws.get(reference)
+        reference = named if named is not None else None if reference == AUTO else plain_law(reference)
+    if reference is None:
+        return plain_law(AUTO)
+    return reference if reference.type == AUTO else None
+
+
+def chosen_law(structure: StructureParts, member: str, axis: Axis, asked: LawKeys) -> LawKeys:
+    """Law of a hinge in a straight member about an axis.
+
+    Parameters
+    ----------
+    structure, member, axis
+        The hinge; its section and material must exist.
+    asked
+        Law of type `auto`: its further keys, as form and bound, are those of the law that is found.
+    """
+    spec = structure.members[member]
+
+    def choose() -> LawKeys:
+        section, material = structure.section_of(member), structure.material_of(member)
+        text = stored_text(structure, place_hash(section, material, axis)) if structure.laws else None
+        if text is not None:
+            return with_type(asked, "file", text=text)
+        kind = formula_or_estimate(section, material, axis)
+        return plain_law(kind) if asked == plain_law(AUTO) else with_type(asked, kind)
+
+    return structure.kept.once("chosen law", (spec.section, spec.material, axis, asked), choose)
+
+
+def stored_text(structure: StructureParts, place: str) -> str | None:
+    """Text of the law that the structure's store has for a place."""
+    return stored_texts(structure).get(place)
+
+
+def stored_texts(structure: StructureParts) -> Mapping[str, str]:
+    """Texts of the laws of the structure's store, by place."""
+    store = structure.laws
+    return {} if store is None else structure.kept.once("stored laws", "", lambda: by_place(store.texts))
+
+
+def with_type(asked: LawKeys, kind: str, **own: str) -> LawKeys:
+    """Keys of a law of another type, with those that every law has."""
+    common = {key: getattr(asked, key) for key in LawKeys.model_fields if key in asked.model_fields_set}
+    return LawKeys(**{**common, **own, "type": kind})
+
+
+# the same for every hinge of a chain
+@remembered(KEPT)
+def plain_law(kind: str) -> LawKeys:
+    """A law of a type with its defaults."""
+    return LawKeys(type=kind)

@@ -1,0 +1,139 @@
+"""Where the law of each hinge comes from, for people: the user, a store, a formula, or an estimate."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TypeVar
+
+from crumple.errors import InputError
+from crumple.hinge import HingeLaw, HingeRecord
+from crumple.hinge.law_use import INPUT, LawUse, Origin
+from crumple.hinge.measured.library import place_of
+from crumple.hinge.measured.place_hash import LENGTH, content_hash
+from crumple.hinge.measured.stored import StoredLaw
+from crumple.structure.hinges.corner_laws import corner_laws, corner_name
+from crumple.structure.hinges.corners import corners
+from crumple.structure.hinges.hinges import plastic_hinges
+from crumple.structure.hinges.law_choice import automatic_law, stored_texts
+from crumple.structure.hinges.places import HingePlace, hinge_places, law_of
+from crumple.structure.hinges.shares import about_axis, axes_of
+from crumple.structure.parts import StructureParts
+
+Parts = TypeVar("Parts", bound=StructureParts)
+
+AT_END = 1e-6
+"""Distance of a hinge from its member's end, over the member's length, that is rounding."""
+
+
+def law_uses(structure: StructureParts) -> Mapping[str, LawUse]:
+    """Origin of the law of every plastic hinge, by name."""
+    return structure.kept.once("law uses", "", lambda: _law_uses(structure))
+
+
+def _law_uses(structure: StructureParts) -> dict[str, LawUse]:
+    places = {place.name: place for place in hinge_places(structure)}
+    return {
+        hinge.name: law_use(structure, places[hinge.name], hinge.law, hinge.record)
+        for hinge in plastic_hinges(structure)
+    }
+
+
+def used_texts(structure: StructureParts) -> tuple[str, ...]:
+    """Texts of the stored laws that the hinges of a structure have, sorted."""
+    if structure.laws is None:
+        return ()
+    found = set()
+    for place in hinge_places(structure):
+        for axis in axes_of(place):
+            about = about_axis(place, axis)
+            text = stored_text_of(structure, about, law_of(structure, about))
+            found |= set() if text is None else {text}
+    return tuple(sorted(found))
+
+
+def with_used_laws(structure: Parts) -> Parts:
+    """The structure with a store of the laws that its hinges use; the other laws do not affect it."""
+    if structure.laws is None:
+        return structure
+    used = used_texts(structure)
+    if used == structure.laws.texts:
+        return structure
+    return structure.model_copy(update={"laws": replace(structure.laws, texts=used)})
+
+
+def law_use(structure: StructureParts, place: HingePlace, law: HingeLaw, record: HingeRecord) -> LawUse:
+    """Origin of the law of a hinge.
+
+    Parameters
+    ----------
+    structure, place
+        The hinge.
+    law, record
+        Its law, and the record that the solver has.
+    """
+    text = stored_text_of(structure, place, law)
+    origin: Origin = "stored"
+    if text is None:
+        named = is_named_law(structure, place)
+        origin = "user" if named else "estimate" if law.name == "estimate" else "formula"
+    band = law.validity.uncertainty
+    content = content_hash(text) if text is not None else _hash_of_record(law, record)
+    better = (
+        "" if origin == "user" or (origin == "stored" and band is not None) else _command(structure, place)
+    )
+    if origin == "stored" and better:
+        better += " --converge"
+    return LawUse(origin, content, band, better)
+
+
+def stored_text_of(structure: StructureParts, place: HingePlace, law: HingeLaw) -> str | None:
+    """Text of the stored law that a hinge has; None if its law is not from the store."""
+    if structure.laws is None or not isinstance(law, StoredLaw) or is_named_law(structure, place):
+        return None
+    own = place_of(law)
+    return None if own is None else stored_texts(structure).get(own)
+
+
+def is_named_law(structure: StructureParts, place: HingePlace) -> bool:
+    """Whether the input names the law of a hinge; that of a corner from the store stands in no input."""
+    if automatic_law(structure, place.law) is not None:
+        return False
+    return place.name not in {corner_name(node) for node in corner_laws(structure)}
+
+
+def _command(structure: StructureParts, place: HingePlace) -> str:
+    """Command that characterises the place."""
+    spec = structure.members[place.member]
+    words = ["crumple", "characterise", f"{INPUT}:{spec.section}", "--material", f"{INPUT}:{spec.material}"]
+    if place.axis != "y":
+        words += ["--axis", place.axis]
+    corner = _corner_near(structure, place)
+    if corner is not None:
+        words += ["--angle", f"'{math.degrees(corner):.6g} deg'"]
+    return " ".join(words)
+
+
+def _corner_near(structure: StructureParts, place: HingePlace) -> float | None:
+    """Angle of the corner in whose zone a hinge lies [rad]."""
+    try:
+        found = corners(structure)
+    except InputError:
+        return None
+    length = structure.frame_of(place.member).length
+    for node, station in zip(structure.members[place.member].nodes, (0.0, length), strict=True):
+        corner = found.get(node)
+        if corner is not None and abs(place.station - station) <= corner.zone(structure) + AT_END * length:
+            return corner.angle
+    return None
+
+
+def _hash_of_record(law: HingeLaw, record: HingeRecord) -> str:
+    """Hash of the name and the sampled curves of a law."""
+    found = hashlib.sha256(law.name.encode())
+    for curve in (record.positive, record.negative):
+        found.update(curve.rotation.astype("<f8").tobytes())
+        found.update(curve.moment.astype("<f8").tobytes())
+    return found.hexdigest()[:LENGTH]

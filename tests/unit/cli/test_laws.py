@@ -1,0 +1,55 @@
+"""Stores of laws on the command line: used, frozen, and the same answer from the frozen file."""
+
+import json
+import math
+from pathlib import Path
+
+from tests.support.stored_laws import law_text, store_of
+from typer.testing import CliRunner
+
+from crumple.analysis import load
+from crumple.cli.main import app
+from crumple.hinge.measured.place_hash import place_hash
+
+FRAME = Path("examples/12_l_frame.yaml")
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, [str(argument) for argument in arguments])
+
+
+def corner_store(tmp_path):
+    whole = load(FRAME).structure
+    place = place_hash(whole.section_of("post"), whole.material_of("post"), "y", math.pi / 2)
+    unused = law_text("0" * 16)
+    return store_of(
+        tmp_path / "laws", law_text(place, 800.0, 600.0, corner="90 deg", stiffness=6e4, reach=1.5), unused
+    )
+
+
+def test_a_store_is_used_where_it_is_named_and_frozen_with_the_same_answer(tmp_path):
+    store, frozen = corner_store(tmp_path), tmp_path / "used.yaml"
+    first = run("run", FRAME, "--laws", store, "--freeze-laws", frozen, "--out", tmp_path / "a")
+    assert first.exit_code == 0, first.output
+    assert f"Store of laws: {store}, 1 used" in first.output
+    assert "Law of corner-corner: stored" in first.output
+    assert frozen.read_text(encoding="utf-8").count("crumple_law: 1") == 1
+    assert run("run", FRAME, "--laws", frozen, "--out", tmp_path / "b").exit_code == 0
+    histories = [(tmp_path / name / "histories.csv").read_bytes() for name in "ab"]
+    assert histories[0] == histories[1]
+    summary = json.loads((tmp_path / "a" / "summary.json").read_text(encoding="utf-8"))
+    uses = {name: hinge["law_use"]["origin"] for name, hinge in summary["hinges"].items()}
+    assert uses == {"post-foot": "formula", "corner-corner": "stored"}
+
+
+def test_layouts_use_and_freeze_stores_too(tmp_path):
+    store, frozen = corner_store(tmp_path), tmp_path / "used.yaml"
+    found = run("layouts", FRAME, "--laws", store, "--freeze-laws", frozen, "--out", tmp_path / "out")
+    assert found.exit_code == 0, found.output
+    assert "hinge corner-corner: stored" in frozen.read_text(encoding="utf-8")
+
+
+def test_a_store_that_is_not_there_is_refused(tmp_path):
+    found = run("run", FRAME, "--laws", tmp_path / "none", "--out", tmp_path / "a")
+    assert found.exit_code != 0
+    assert not (tmp_path / "a").exists()

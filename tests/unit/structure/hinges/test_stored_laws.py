@@ -1,0 +1,165 @@
+"""Laws of a store in a structure: in members, at corners numbered either way, and what is reported."""
+
+import math
+
+import numpy as np
+import pytest
+from tests.support.multibody.frames import STEEL, TUBE, member
+from tests.support.stored_laws import law_text, store_of
+
+from crumple.hinge.measured.place_hash import place_hash
+from crumple.material import Material
+from crumple.section import RectangularTube, half_fold_length
+from crumple.structure import Structure, law_uses, placed_hinges, used_texts, with_used_laws
+from crumple.structure.hinges.corners import corners, untreated
+
+METAL = Material("any name", 210e9, 0.3, 7850.0, 488e6)
+SECTION = RectangularTube(0.050, 0.025, 0.00265)
+MEMBER, CORNER = place_hash(SECTION, METAL), place_hash(SECTION, METAL, "y", math.pi / 2)
+STRAIGHT = law_text(MEMBER, 900.0, 800.0)
+CLOSING, OPENING = 400.0, 300.0
+MITRE = law_text(CORNER, CLOSING, OPENING, corner="90 deg", stiffness=6e4)
+NODES = {"a": (0.0, 0.0, 0.0), "b": (0.0, 0.0, 0.5), "c": (0.5, 0.0, 0.5)}
+CLAMP = {"clamp": {"node": "a", "fix": "all"}}
+HALF = half_fold_length(SECTION, "y")
+PLAIN = {"section": "tube", "material": "steel"}
+DOWN = [{"nodes": ["c"], "translation": (0.0, 0.0, -3.0)}]
+
+
+def frame(members=None, **parts):
+    given = {
+        "materials": {"steel": STEEL},
+        "sections": {"tube": TUBE},
+        "nodes": NODES,
+        "members": members or {"post": {"nodes": ("a", "b"), **PLAIN}, "arm": {"nodes": ("b", "c"), **PLAIN}},
+        "supports": CLAMP,
+        "hinges": "auto",
+        "initial_velocity": DOWN,
+        "masses": {"tip": {"node": "c", "mass": 10.0}},
+    }
+    return Structure(**given | parts)
+
+
+def stored(tmp_path, *texts):
+    return str(store_of(tmp_path / "laws", *texts))
+
+
+def test_without_a_store_nothing_changes(tmp_path):
+    plain = frame()
+    empty = frame(laws=stored(tmp_path))
+    assert [h.name for h in placed_hinges(plain)] == [h.name for h in placed_hinges(empty)]
+    assert all(h.law.name == "kecman" for h in placed_hinges(empty))
+    assert {use.origin for use in law_uses(plain).values()} == {"formula"}
+
+
+def test_members_use_the_law_of_their_section_and_a_corner_its_own(tmp_path):
+    whole = frame(laws=stored(tmp_path, STRAIGHT, MITRE))
+    foot, corner = placed_hinges(whole)
+    assert (foot.name, foot.station) == ("post-a", pytest.approx(HALF))
+    assert float(foot.law.moment_capacity(0.1)) == 900.0
+    assert (corner.name, corner.member, corner.station) == ("corner-b", "post", 0.5)
+    assert corner.record.form.value == "elastic-plastic"
+    assert corner.record.elastic_stiffness == 6e4
+    uses = law_uses(whole)
+    assert [uses[name].origin for name in ("post-a", "corner-b")] == ["stored", "stored"]
+    assert uses["corner-b"].command.endswith("--angle '90 deg' --converge")
+
+
+@pytest.mark.parametrize("turned", [(), ("post",), ("arm",), ("post", "arm")])
+@pytest.mark.parametrize("first", ["post", "arm"])
+def test_the_corner_closes_with_its_closing_moment_however_members_are_numbered(tmp_path, turned, first):
+    """The arm pushed down closes the corner: seen from the hinge, either sense of its axis may do so."""
+    ends = {"post": ("a", "b"), "arm": ("b", "c")}
+    names = sorted(ends, key=lambda name: name != first)
+    members = {name: {"nodes": ends[name][:: -1 if name in turned else 1], **PLAIN} for name in names}
+    whole = frame(members, laws=stored(tmp_path, MITRE))
+    corner = next(h for h in placed_hinges(whole) if h.name == "corner-b")
+    assert corner.member == first
+    # rotation of the arm relative to the post about global y closes; the hinge turns its second side
+    second_is_arm = (first == "post") == (members[first]["nodes"][1] == "b")
+    if first == "arm":
+        second_is_arm = members["arm"]["nodes"][0] == "b"
+    sense = int(np.sign(corner.direction[1])) * (1 if second_is_arm else -1)
+    assert float(corner.law.moment_capacity(0.1, sense)) == CLOSING
+    assert float(corner.law.moment_capacity(0.1, -sense)) == OPENING
+
+
+def test_candidates_outside_the_zone_of_the_corner_stay(tmp_path):
+    whole = frame(laws=stored(tmp_path, MITRE), hinges={"spacing": 0.05})
+    zone = 0.050 + HALF
+    stations = [h.station for h in placed_hinges(whole) if h.member == "arm"]
+    assert stations
+    assert min(stations) > zone
+    without = [h.station for h in placed_hinges(frame(hinges={"spacing": 0.05})) if h.member == "arm"]
+    assert stations == [station for station in without if station > zone]
+
+
+def test_hinges_with_laws_of_their_own_keep_them(tmp_path):
+    whole = frame(laws=stored(tmp_path, STRAIGHT, MITRE), hinges={"law": "kecman"})
+    assert {h.law.name for h in placed_hinges(whole)} == {"kecman"}
+    assert {use.origin for use in law_uses(whole).values()} == {"user"}
+    assert used_texts(whole) == ()
+
+
+def test_in_space_the_corner_law_acts_in_its_plane_alone(tmp_path):
+    aside = [{"nodes": ["c"], "translation": (0.0, 1.0, -3.0)}]
+    whole = frame(laws=stored(tmp_path, MITRE), initial_velocity=aside)
+    corner = next(h for h in placed_hinges(whole) if h.name == "corner-b")
+    moments = {c.freedom.name: float(c.record.positive.moment[0]) for c in corner.spatial.components}
+    assert moments["Y"] in (CLOSING, OPENING)
+    assert moments["Z"] > 1000.0
+    assert all(c.record.form.value == "set-valued" for c in corner.spatial.components)
+
+
+def test_the_spring_of_a_corner_adds_to_the_flexibility_of_its_members(tmp_path):
+    """Elastic members share their own length among their own hinges, with or without the corner."""
+    elastic = {"law": {"type": "auto", "form": "elastic-plastic"}}
+    whole = frame(laws=stored(tmp_path, MITRE), hinges=elastic)
+    post = [h for h in placed_hinges(whole) if h.member == "post" and h.name != "corner-b"]
+    rigidity = whole.flexural_rigidity("post", "y")
+    flexibility = sum(rigidity / h.record.elastic_stiffness for h in post)
+    assert flexibility == pytest.approx(0.5)
+
+
+def test_only_used_laws_are_part_of_the_input(tmp_path):
+    other = law_text(place_hash(SECTION, METAL, "z"))
+    whole = frame(laws=stored(tmp_path, STRAIGHT, MITRE, other))
+    kept = with_used_laws(whole)
+    assert kept.laws.texts == tuple(sorted((STRAIGHT, MITRE)))
+    assert [h.name for h in placed_hinges(kept)] == [h.name for h in placed_hinges(whole)]
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        (
+            {"sections": {"tube": TUBE, "other": TUBE | {"thickness": 0.002}}, "arm": {"section": "other"}},
+            "differ",
+        ),
+        ({"arm": {"roll": math.pi / 2}}, "does not lie in the same way"),
+        ({"arm": {"roll": 0.5}}, "does not lie in the same way"),
+        ({"post": {"roll": 0.5}}, "out of plane"),
+        ({"nodes": NODES | {"c": (0.4, 0.0, 0.05)}}, "above 135 deg"),
+        ({"supports": CLAMP | {"stay": {"node": "b", "fix": ["y", "rx", "rz"]}}}, "a support holds"),
+        ({"arm": {"rigid": True}}, "rigid there"),
+    ],
+)
+def test_corners_without_a_sub_model_are_named_with_the_reason(change, reason):
+    members = {
+        "post": {"nodes": ("a", "b"), **PLAIN} | change.get("post", {}),
+        "arm": {"nodes": ("b", "c"), **PLAIN} | change.get("arm", {}),
+    }
+    rest = {key: value for key, value in change.items() if key not in members}
+    whole = frame(members, **rest)
+    assert not corners(whole)
+    assert reason in untreated(whole)["b"]
+
+
+def test_members_in_line_and_three_members_are_no_corner():
+    line = frame(nodes=NODES | {"c": (0.0, 0.0, 1.0)})
+    assert not corners(line)
+    assert not untreated(line)
+    third = {"stay": member("b", "d")}
+    members = {"post": {"nodes": ("a", "b"), **PLAIN}, "arm": {"nodes": ("b", "c"), **PLAIN}, **third}
+    joined = frame(members, nodes=NODES | {"d": (-0.5, 0.0, 0.5)})
+    assert untreated(joined) == {"b": "3 members meet"}
