@@ -81,4 +81,5 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
             for path, module in sorted(session.config.stash[_MODULES].items())
             if path.startswith("tests/verification/")
         }
+        Path(target).parent.mkdir(parents=True, exist_ok=True)
         Path(target).write_text(json.dumps(modules, indent=1), encoding="utf-8")
