@@ -64,6 +64,9 @@ def solve(
         If the fidelity is unknown or the solver cannot take the structure.
     """
     result = solved_alone(analysis, fidelity, threads, progress, cancel, long_run=long_run)
+    if not result.time.size:
+        # cancelled before it had anything to say: nobody waits for the hash of its input
+        return result
     plain = canonical(analysis)
     settings = {**plain[fidelity], **result.provenance.settings}
     provenance = replace(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -94,12 +96,12 @@ def _solve(source: LoadedInput, folder: Path, how: tuple[Fidelity, int | None, P
     from crumple.cli.console.progress import progress_bar
     from crumple.cli.console.shell_run import long_run_of, remove_restart
     from crumple.cli.console.storing import store
-    from crumple.errors import CancelledError, InputError
+    from crumple.errors import CancelledError, InputError, Status
     from crumple.portable import available_cores, stop_on_interrupt
 
     fidelity, threads, restart = how
     is_shell = fidelity is Fidelity.SHELL
-    with stop_on_interrupt() as cancel:
+    with _discarding(), stop_on_interrupt() as cancel:
         try:
             with progress_bar("solving") as progress:
                 result = solve(
@@ -115,10 +117,23 @@ def _solve(source: LoadedInput, folder: Path, how: tuple[Fidelity, int | None, P
         if not result.time.size:
             raise CancelledError(result.reason)
         # still inside: Ctrl-C while figures are drawn must not lose the result
+        if result.status is Status.CANCELLED:
+            typer.echo("Stopped. Writing the results so far; another Ctrl-C discards them.", err=True)
         store(result, source, folder)
     if is_shell:
         remove_restart(folder, result)
     return result
+
+
+@contextmanager
+def _discarding() -> Iterator[None]:
+    """Report what is lost by a second Ctrl-C; the first is noted and stops the run."""
+    from crumple.errors import CancelledError
+
+    try:
+        yield
+    except KeyboardInterrupt:
+        raise CancelledError("ended by a second Ctrl-C: no results of this run were kept") from None
 
 
 def _summary(result: Result) -> dict[str, Any]:

@@ -67,11 +67,11 @@ def solve_multibody(
     tests/verification.
     """
     begin = time.perf_counter()
-    refuse_pictures(structure, len(picture_times(run)))
     accuracy = run.settings.accuracy
     poll = poll_of(run.duration, (0.0, 0.7), progress, cancel)
     try:
         with asking(cancel):
+            refuse_pictures(structure, len(picture_times(run)))
             solver = solver_of(structure, run)
             if not solver.moving:
                 raise _nothing_moves()

@@ -116,13 +116,14 @@ def _draw(result: Result, bound: float | None) -> list[tuple[str, str, str]]:
             (
                 "rotation",
                 curves.rotations(result),
-                "Rotation and angular velocity of the hinges over time." + _named(result, curves.NAMED),
+                "Rotation and angular velocity of the hinges over time."
+                + _named(result, curves.NAMED, curves.DRAWN),
             ),
             (
                 "energy_rotation",
                 curves.energy_over_rotation(result),
                 "Energy dissipated in each hinge over its rotation, "
-                "positive in the sense of its largest rotation." + _named(result, curves.NAMED),
+                "positive in the sense of its largest rotation." + _named(result, curves.NAMED, curves.DRAWN),
             ),
             *_moment_figures(result, moment.moment_over_rotation),
             *([] if loads is None else [("welds", *loads)]),
@@ -132,8 +133,10 @@ def _draw(result: Result, bound: float | None) -> list[tuple[str, str, str]]:
     return [(name, svg, caption) for name, svg, caption in figures if svg is not None]
 
 
-def _named(result: Result, named: int) -> str:
-    return f" The {named} hinges that absorbed most energy are named." if len(result.hinges) > named else ""
+def _named(result: Result, named: int, drawn: int) -> str:
+    count = len(result.hinges)
+    only = f"Of {count} hinges the {drawn} that absorbed most energy are drawn. " if count > drawn else ""
+    return f" {only}The {named} hinges that absorbed most energy are named." if count > named else ""
 
 
 def _moment_figures(result: Result, draw: Any) -> list[tuple[str, str | None, str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Generic, Protocol, TypeVar
 
 import numpy as np
@@ -14,7 +15,7 @@ from crumple._core.spatial.simulation import SpatialRecord, SpatialRows
 from crumple.multibody.bodies.assembly import Piece
 from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.planar.mechanism import Mechanism
-from crumple.numeric.arrays import Floats
+from crumple.numeric.arrays import Floats, Integers
 from crumple.numeric.rotation import (
     continuous,
     inverse,
@@ -50,6 +51,12 @@ class Poses(Protocol):
     def quaternion(self, body: int) -> Floats:
         """Rotation of a body from the start, (n, 4)."""
 
+    def places(self, bodies: Integers, points: Floats, rows: Integers) -> tuple[Floats, Floats]:
+        """Positions [m], (r, m, 3), and rotations from the start, (r, m, 4), in r of the rows.
+
+        Of m points given at the start, (m, 3), each on a body, (m,).
+        """
+
     def rotation(self, body: int) -> tuple[Floats, Floats]:
         """Rotation vector [rad] and angular velocity [rad/s] of a body, (n, 3) each."""
 
@@ -63,6 +70,11 @@ class TreePoses:
 
     mechanism: Mechanism
     record: TreeRows
+
+    @cached_property
+    def _joints(self) -> Floats:
+        """Origins of the bodies' frames at the start [m], at the end that of the ground, (bodies + 1, 3)."""
+        return np.array([*(link.position for link in self.mechanism.links), np.zeros(3)])
 
     @property
     def rows(self) -> int:
@@ -101,6 +113,19 @@ class TreePoses:
         """See `Poses`."""
         return vector_quaternion(self.rotation(body)[0])
 
+    def places(self, bodies: Integers, points: Floats, rows: Integers) -> tuple[Floats, Floats]:
+        """See `Poses`."""
+        plane = self.mechanism.plane
+        pose = self.record.pose[rows[:, None], bodies]
+        # the ground stays where it is
+        pose[:, bodies == GROUND] = 0.0
+        cosine, sine = np.cos(pose[..., 0]), np.sin(pose[..., 0])
+        x, y = np.moveaxis(plane.flat(points - self._joints[bodies]), -1, 0)
+        turned_arms = np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
+        across = (points @ plane.normal)[:, None] * plane.normal
+        place = plane.raised(pose[..., 1:] + turned_arms) + across
+        return place, vector_quaternion(pose[..., :1] * plane.normal)
+
     def rotation(self, body: int) -> tuple[Floats, Floats]:
         """See `Poses`."""
         if body == GROUND:
@@ -123,6 +148,11 @@ class SpatialPoses(Generic[SpatialKind]):
 
     linkage: Linkage
     record: SpatialKind
+
+    @cached_property
+    def _centres(self) -> Floats:
+        """Centres of the bodies at the start [m], at the end the origin for the ground, (bodies + 1, 3)."""
+        return np.array([*(body.centre for body in self.linkage.bodies), np.zeros(3)])
 
     @property
     def rows(self) -> int:
@@ -157,6 +187,14 @@ class SpatialPoses(Generic[SpatialKind]):
         if body == GROUND:
             return np.tile([1.0, 0.0, 0.0, 0.0], (self.rows, 1))
         return self.record.rotation[:, body]
+
+    def places(self, bodies: Integers, points: Floats, rows: Integers) -> tuple[Floats, Floats]:
+        """See `Poses`."""
+        centre = self.record.centre[rows[:, None], bodies]
+        rotation = self.record.rotation[rows[:, None], bodies]
+        # the ground stays where it is
+        centre[:, bodies == GROUND], rotation[:, bodies == GROUND] = 0.0, (1.0, 0.0, 0.0, 0.0)
+        return centre + turned(rotation, points - self._centres[bodies]), rotation
 
     def rotation(self, body: int) -> tuple[Floats, Floats]:
         """See `Poses`."""

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from itertools import groupby
-from operator import itemgetter
 
 import numpy as np
 
+from crumple.cancelling import go_on
 from crumple.errors import InputError, Problem
 from crumple.multibody.answer.poses import Poses
 from crumple.multibody.bodies.assembly import Piece
@@ -18,6 +17,8 @@ from crumple.structure import Structure, member_hinge_places
 
 MOST_POINTS = 20_000_000
 """Largest number of points in all pictures of a run: 0.5 GB."""
+MOST_AT_ONCE = 200_000
+"""Points that are moved together: enough for NumPy, few enough for the memory."""
 LONGEST_QUAD = 2.0
 """Length of a quadrilateral over the section's largest side: smooth enough to draw, few enough to store."""
 
@@ -33,6 +34,7 @@ def refuse_pictures(structure: Structure, pictures: int) -> None:
     points = {}
     shapes: dict[str, tuple[int, float]] = {}
     for name, member in structure.members.items():
+        go_on()
         if member.section not in shapes:
             outline = structure.section_of(name).outline()
             shapes[member.section] = len(outline), float(np.ptp(outline, axis=0).max())
@@ -62,10 +64,9 @@ def states_of(structure: Structure, poses: Poses, output_times: Floats, times: F
         stations = _stations(poses.pieces[name], float(np.ptp(outline, axis=0).max()))
         rings = frame.position(stations[:, None, None]) + outline @ frame.axes[1:]
         points.append(rings.reshape(-1, 3))
-        bodies = [_meeting(poses, name, station) for station in stations]
-        for pair, group in groupby(zip(bodies, rings, strict=True), key=itemgetter(0)):
-            moved.append(_carried(poses, pair, np.array([ring for _, ring in group]), rows))
-        member += [index] * (around * len(stations))
+        bodies = np.array([_meeting(poses, name, station) for station in stations])
+        moved += _carried(poses, bodies, rings, rows)
+        member.append(np.full(around * len(stations), index, dtype=np.int64))
         station.append(np.repeat(stations, around))
         contour.append(np.tile(np.arange(around), len(stations)))
         quads.append(count + _tube_quads(len(stations), around))
@@ -74,7 +75,7 @@ def states_of(structure: Structure, poses: Poses, output_times: Floats, times: F
     return States(
         points=reference,
         quads=np.concatenate(quads),
-        member=np.array(member, dtype=np.int64),
+        member=np.concatenate(member),
         station=np.concatenate(station),
         contour=np.concatenate(contour).astype(np.int64),
         member_names=tuple(structure.members),
@@ -106,17 +107,36 @@ def _meeting(poses: Poses, member: str, station: float) -> tuple[int, int]:
     return pieces[first].body, pieces[last].body
 
 
-def _carried(poses: Poses, bodies: tuple[int, int], rings: Floats, rows: Integers) -> Floats:
-    """Positions of rings of points, (rings, around, 3), at some output times, (rows, rings * around, 3).
+def _carried(poses: Poses, bodies: Integers, rings: Floats, rows: Integers) -> list[Floats]:
+    """Positions of rings of points, (rings, around, 3), at some output times.
 
-    At a hinge a ring turns by the mean of both bodies about the hinge, so that the walls meet.
+    Parameters
+    ----------
+    poses
+        Of the bodies.
+    bodies
+        The two that carry each ring, (rings, 2); at a hinge, where they differ, a ring rotates by the mean of
+        both about the hinge, so that the walls meet.
+    rows
+        Output times.
+
+    Returns
+    -------
+    list
+        Parts of few enough points for the memory, (rows, points, 3), in order.
     """
-    first, last = bodies
-    middle = rings[0].mean(axis=0)
-    place = poses.place(first, middle)[0][rows]
-    turn = poses.quaternion(first)[rows]
-    if first != last:
-        place = (place + poses.place(last, middle)[0][rows]) / 2.0
-        turn = product(turn, vector_quaternion(poses.relative(first, last)[rows] / 2.0))
-    carried: Floats = place[:, None] + turned(turn[:, None], rings.reshape(-1, 3) - middle)
-    return carried
+    at_once = max(1, MOST_AT_ONCE // (max(1, len(rows)) * rings.shape[1]))
+    found = []
+    for begin in range(0, len(rings), at_once):
+        part, pairs = rings[begin : begin + at_once], bodies[begin : begin + at_once]
+        middle = part.mean(axis=1)
+        place, turn = poses.places(pairs[:, 0], middle, rows)
+        hinges = np.flatnonzero(pairs[:, 0] != pairs[:, 1])
+        if len(hinges):
+            other = poses.places(pairs[hinges, 1], middle[hinges], rows)[0]
+            place[:, hinges] = (place[:, hinges] + other) / 2.0
+            bent = np.stack([poses.relative(a, b)[rows] for a, b in pairs[hinges].tolist()], axis=1)
+            turn[:, hinges] = product(turn[:, hinges], vector_quaternion(bent / 2.0))
+        carried = place[:, :, None] + turned(turn[:, :, None], part - middle[:, None])
+        found.append(carried.reshape(len(rows), -1, 3))
+    return found

@@ -65,8 +65,8 @@ class Assembly:
         """Mass of every rigid part that has a piece or a lumped mass."""
         parts: dict[int, list[RigidMass]] = defaultdict(list)
         for name, cuts in self.pieces.items():
-            go_on()
             for start, end, i in cuts:
+                go_on()
                 parts[self.root(i)].append(piece_mass(self.structure, name, start, end))
         for mass in self.structure.masses.values():
             parts[self.root(self.node[mass.node])].append(lump_mass(self.structure, mass))

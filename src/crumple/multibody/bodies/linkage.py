@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from crumple.cancelling import go_on
 from crumple.errors import InputError, Problem
 from crumple.multibody.bodies.assembly import Assembly, Cut, Piece, assemble, idle
 from crumple.multibody.bodies.rigid import RigidMass
@@ -184,6 +185,7 @@ def _held(structure: Structure) -> dict[str, set[str]]:
 
 
 def _cut_connection(structure: Structure, cut: Cut, body: dict[int, int]) -> Connection:
+    go_on()
     first, second = body.get(cut.first, GROUND), body.get(cut.second, GROUND)
     parts = (cut.first, cut.second)
     if cut.hinge is not None:

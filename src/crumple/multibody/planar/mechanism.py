@@ -146,6 +146,7 @@ def _graph(structure: Structure, linkage: Linkage, plane: Plane) -> _Graph:
     heaviest = sorted(massive, key=lambda i: -linkage.bodies[i].mass)
     graph = _Graph(clamped, pinned, defaultdict(list), heaviest)
     for connection in linkage.connections:
+        go_on()
         if connection.hinge is None:
             continue
         first, second = graph.body(connection.first), graph.body(connection.second)

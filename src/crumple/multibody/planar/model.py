@@ -47,6 +47,7 @@ def tree_model(structure: Structure, mechanism: Mechanism, duration: float) -> T
     bodies, hinges = [], []
     dof = 0
     for body, link in zip(mechanism.bodies, mechanism.links, strict=True):
+        go_on()
         joint = JointKind.FREE if link.free else JointKind.REVOLUTE
         parent = mechanism.links[link.parent].position if link.parent != GROUND else np.zeros(3)
         anchor, centre = plane.flat(link.position - parent), plane.flat(body.centre - link.position)

@@ -48,9 +48,11 @@ class View:
 
 def ring_centres(states: States) -> tuple[Floats, NDArray[np.int64]]:
     """Section centres in every state, undeformed first, (n_states + 1, n_rings, 3), and each point's ring."""
-    keys = np.stack([states.member.astype(float), states.station], axis=1)
-    _, ring = np.unique(keys, axis=0, return_inverse=True)
-    ring = ring.reshape(-1)
+    order = np.lexsort((states.station, states.member))
+    member, station = states.member[order], states.station[order]
+    ring = np.empty(len(order), dtype=np.int64)
+    ring[order[:1]] = 0
+    ring[order[1:]] = np.cumsum((np.diff(member) != 0) | (np.diff(station) != 0.0))
     positions = np.concatenate([states.points[None], states.points + states.displacement])
     sums = np.zeros((len(positions), ring.max(initial=-1) + 1, 3))
     for state, moved in zip(sums, positions, strict=True):

@@ -29,6 +29,8 @@ from crumple.result import Result
 
 NAMED = 6
 """Hinges drawn in colour and named; the others are drawn faintly behind them."""
+DRAWN = 100
+"""Hinges whose curves are drawn at all: more hide each other, and thousands take a minute to draw."""
 MAX_OUTPUTS = 12
 """Panels of requested outputs; the table and histories.csv hold the others."""
 
@@ -94,7 +96,7 @@ def energy_over_rotation(result: Result) -> str | None:
     lines = []
     peak = largest([e for h in result.hinges if (e := hinge_channel(result, h, "energy")) is not None])
     unit, factor = display_unit("J", peak)
-    for index, name in enumerate(ranked_hinges(result)):
+    for index, name in enumerate(ranked_hinges(result)[:DRAWN]):
         rotation, energy = (hinge_channel(result, name, quantity) for quantity in ("rotation", "energy"))
         if rotation is not None and energy is not None:
             x = sense(result, name) * rotation * _DEGREES
@@ -207,7 +209,7 @@ def _times(result: Result) -> Floats:
 
 def _hinge_lines(result: Result, quantity: str, factor: float) -> list[Line]:
     lines = []
-    for index, name in enumerate(ranked_hinges(result)):
+    for index, name in enumerate(ranked_hinges(result)[:DRAWN]):
         values = hinge_channel(result, name, quantity)
         if values is not None:
             lines.append(Line(name, _times(result), values * factor, index, faint=index >= NAMED))

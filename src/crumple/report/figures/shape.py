@@ -23,8 +23,14 @@ _WALL = to_rgb("#9db3c8")
 _GHOST = "#e9ecef"
 _CREASE = math.cos(math.radians(30.0))  # walls that meet at more than this get an edge between them
 _RASTER_FROM = 4000  # walls in all pictures together, from which they become an image to keep the page small
+_HAIR = 0.3 / 72.0  # thickness of a member in the picture, below which its centre line is drawn [in]
+_CENTRE_LINE = "#3c5268"
 _NAMED_HINGES = 8
+_NEAREST = 8  # points of the walls that carry a hinge
 _LETTER = 4.0  # width of a letter of a hinge's name, at most [pt]
+
+Rings = tuple[Floats, NDArray[np.int64]]
+"""Section centres in every state, undeformed first, and the ring of each point, see `ring_centres`."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +62,6 @@ def deformation(result: Result) -> str | None:
     if states is None:
         return None
     view = choose_view(states)
-    surface = surface_of(states)
     drawn = view.flat(np.concatenate([states.points[None], states.points + states.displacement]))
     low, high = drawn.reshape(-1, 2).min(axis=0), drawn.reshape(-1, 2).max(axis=0)
     size = np.maximum(high - low, 1e-3 * np.max(high - low))
@@ -71,6 +76,11 @@ def deformation(result: Result) -> str | None:
     figure = new_figure(WIDTH, total)
     hinges = hinge_places(result, states)
     raster = len(states.quads) * len(states.times) > _RASTER_FROM
+    inches_per_metre = min(panel_width / width, panel_height / height)
+    rings = ring_centres(states)
+    # walls that are thinner in the picture than a line show nothing, and take long where they are many
+    thin = raster and _thickness(states, rings) * inches_per_metre < _HAIR
+    surface = None if thin else surface_of(states, rings)
     for i, time in enumerate(states.times):
         row, column = divmod(i, columns)
         bottom = total - (row + 1) * (panel_height + label)
@@ -79,8 +89,11 @@ def deformation(result: Result) -> str | None:
         axes.set_xlim(low[0], high[0])
         axes.set_ylim(low[1], high[1])
         axes.set_aspect("equal", anchor="W")
-        draw_walls(axes, states, surface, view, None, raster)
-        draw_walls(axes, states, surface, view, i, raster)
+        for state in (None, i):
+            if surface is None:
+                draw_centre_lines(axes, states, rings, view, state)
+            else:
+                draw_walls(axes, states, surface, view, state, raster)
         last = i == len(states.times) - 1
         draw_hinges(axes, {name: view.flat(places[i]) for name, places in hinges.items()}, named=last)
         axes.text(
@@ -95,7 +108,6 @@ def deformation(result: Result) -> str | None:
     scale = add_axes(figure, 0, 0, WIDTH, foot)
     if top := largest_strain(states):
         draw_key(scale, top, WIDTH - 1.5, 0.1)
-    inches_per_metre = min(panel_width / width, panel_height / height)
     draw_scale(scale, view, inches_per_metre, panel_width, foot)
     return to_svg(figure, "deformation", _description(states))
 
@@ -129,9 +141,33 @@ def _columns(aspect: float, n: int) -> int:
     return max(1, min(target, n))
 
 
-def surface_of(states: States) -> Surface:
+def _thickness(states: States, rings: Rings) -> float:
+    """Largest distance of a wall from the centre line of its member, twice [m]."""
+    centres, ring = rings
+    return 2.0 * float(np.linalg.norm(states.points - centres[0][ring], axis=1).max())
+
+
+def draw_centre_lines(axes: Axes, states: States, rings: Rings, view: View, state: int | None) -> None:
+    """Centre lines of the members of one state; None: undeformed, grey."""
+    centres, ring = rings
+    flat = view.flat(centres[0 if state is None else state + 1])
+    member = np.zeros(len(flat), dtype=np.int64)
+    member[ring] = states.member
+    # rings follow each other along a member, and member by member
+    pairs = np.stack([flat[:-1], flat[1:]], axis=1)[member[:-1] == member[1:]]
+    colour = _GHOST if state is None else _CENTRE_LINE
+    lines: Any = pairs  # an array is taken whole; the annotations require a list
+    axes.add_collection(
+        LineCollection(
+            lines, colors=colour, linewidths=0.8, rasterized=True, zorder=1 if state is None else 2
+        ),
+        autolim=False,
+    )
+
+
+def surface_of(states: States, rings_of_states: Rings | None = None) -> Surface:
     """Rings, edges and creases of a surface."""
-    rings, ring = ring_centres(states)
+    rings, ring = ring_centres(states) if rings_of_states is None else rings_of_states
     pairs = np.stack([states.quads, np.roll(states.quads, -1, axis=1)], axis=2).reshape(-1, 2)
     owner = np.repeat(np.arange(len(states.quads)), 4)
     edges, first, inverse = np.unique(np.sort(pairs, axis=1), axis=0, return_index=True, return_inverse=True)
@@ -202,14 +238,40 @@ def draw_walls(
     axes.add_collection(outline, autolim=False)
 
 
+class Neighbours:
+    """Points in order along the axis of their largest extent: the nearest to a place lie next to it there."""
+
+    def __init__(self, points: Floats) -> None:
+        self._points = points
+        self._axis = int(np.argmax(np.ptp(points, axis=0)))
+        self._order = np.argsort(points[:, self._axis], kind="stable")
+        self._along = points[self._order, self._axis]
+
+    def nearest(self, place: Floats) -> tuple[NDArray[np.int64], Floats]:
+        """The nearest points and their distances [m], of equal ones those with the lower number."""
+        here, count = float(place[self._axis]), len(self._order)
+        middle, reach = int(np.searchsorted(self._along, here)), 8 * _NEAREST
+        while True:
+            low, high = max(middle - reach, 0), min(middle + reach, count)
+            window = np.sort(self._order[low:high])
+            distance = np.linalg.norm(self._points[window] - place, axis=1)
+            chosen = np.argsort(distance, kind="stable")[:_NEAREST]
+            below = here - float(self._along[low - 1]) if low else math.inf
+            above = float(self._along[high]) - here if high < count else math.inf
+            # nothing outside the window can be nearer than its ends
+            if high - low == count or distance[chosen[-1]] < min(below, above):
+                return window[chosen], distance[chosen]
+            reach *= 2
+
+
 def hinge_places(result: Result, states: States) -> dict[str, Floats]:
     """Place of every hinge in every state, (n_states, 3): it moves with the walls around it."""
     places = {}
+    around = Neighbours(states.points)
     for name, hinge in result.hinges.items():
         start = np.array(hinge.position)
-        distance = np.linalg.norm(states.points - start, axis=1)
-        near = np.argsort(distance, kind="stable")[:8]
-        weight = 1.0 / (distance[near] + 1e-6) ** 2
+        near, distance = around.nearest(start)
+        weight = 1.0 / (distance + 1e-6) ** 2
         moved = np.einsum("j,ijk->ik", weight / weight.sum(), states.displacement[:, near])
         places[name] = start + moved
     return places
