@@ -71,6 +71,7 @@ BENDING: Registry[LawType] = Registry(
         "oblique": "crumple.hinge.bending.oblique:ObliqueLaw",
         "circular": "crumple.hinge.bending.circular:CircularLaw",
         "folded_profile": "crumple.hinge.bending.folded_profile:FoldedProfileLaw",
+        "measured": "crumple.hinge.measured.measured_law:MeasuredLaw",
         "file": "crumple.hinge.measured.file_law:FileLaw",
         "estimate": "crumple.hinge.bending.estimate:EstimatedLaw",
         "auto": "crumple.hinge.bending.estimate:AutoLaw",

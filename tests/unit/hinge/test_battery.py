@@ -67,6 +67,13 @@ OPTIONS = {
         {"angle": math.pi / 4, "after_jamming": "hold"},
         {"angle": 1.2, "after_jamming": "stop", "rolling_weight": 0.0},
     ],
+    "measured": [
+        {
+            "rotations": [(0.0, 0.004, 0.006, 0.01, 0.02, 0.1, 0.4)],
+            "moments": [(0.0, 200.0, 300.0, 500.0, 900.0, 700.0, 400.0)],
+            "scatter": 0.1,
+        }
+    ],
     "circular": [{"after_jamming": "stop", "rolling_weight": 0.0}, {"after_jamming": "second_fold"}],
     "folded_profile": [
         {},
