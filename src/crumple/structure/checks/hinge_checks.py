@@ -32,7 +32,11 @@ def place_problems(structure: StructureParts, known: Mapping[str, Names]) -> Ite
         # one message for the many hinges between equal bars, and for those that one `auto` puts into many
         # members
         for place in {(place.where, place.axis): place for place in places}.values():
-            found = [problem for problem in _law_problems(structure, place) if problem not in reported]
+            found = [
+                problem
+                for problem in _law_problems(structure, place, known["hinge_laws"])
+                if problem not in reported
+            ]
             reported.update(found)
             yield from found
         for first, second in pairwise(places):
@@ -86,12 +90,15 @@ def _sound_members(structure: StructureParts) -> Iterator[str]:
             yield name
 
 
-def _law_problems(structure: StructureParts, place: HingePlace) -> Iterator[Problem]:
-    """Reasons why laws and axes do not fit the section of their hinge; unknown names have another check."""
+def _law_problems(structure: StructureParts, place: HingePlace, known: Names) -> Iterator[Problem]:
+    """Reasons why laws and axes do not fit the section of their hinge; unknown names have another check.
+
+    `known`: names of laws in the input, those with mistakes of their own included.
+    """
     keys = place.keys
     places = [replace(place, axis=axis, law=keys.law_about(axis)) for axis in keys.bending] or [place]
     named = [about.law for about in places if isinstance(about.law, str)]
-    if any(law not in structure.hinge_laws and law not in BENDING for law in named):
+    if any(law not in structure.hinge_laws and (law in known or law not in BENDING) for law in named):
         return
     found = [problem for about in places for problem in _refusals(partial(law_of, structure, about))]
     where = f"{place.where}.law"

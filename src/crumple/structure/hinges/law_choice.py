@@ -19,12 +19,10 @@ KEPT = 1024
 
 def automatic_law(structure: StructureParts, reference: LawReference | None) -> LawKeys | None:
     """Keys of a law that is chosen automatically; None for a law that the input names itself."""
-    if isinstance(reference, str):
-        named = structure.hinge_laws.get(reference)
-        reference = named if named is not None else None if reference == AUTO else plain_law(reference)
-    if reference is None:
-        return plain_law(AUTO)
-    return reference if reference.type == AUTO else None
+    named = structure.hinge_laws.get(reference) if isinstance(reference, str) else reference
+    if named is None:
+        return plain_law(AUTO) if reference in (None, AUTO) else None
+    return named if named.type == AUTO else None
 
 
 def chosen_law(structure: StructureParts, member: str, axis: Axis, asked: LawKeys) -> LawKeys:
