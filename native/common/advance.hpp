@@ -7,6 +7,10 @@
 
 namespace crumple {
 
+// Why a run ends at its smallest step, and what that mostly means if something is driven.
+inline constexpr const char* lost_balance = "a step of the smallest length was not accurate and lost the balance of energy";
+inline constexpr const char* driven_without_solution = "; where what is driven meets what cannot give way they have no solution";
+
 // What became of an attempt at a step.
 enum class Attempted { taken, inexact, unsolved, closing, impact };
 

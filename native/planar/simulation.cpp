@@ -12,6 +12,8 @@ namespace {
 
 // Turn [rad] by which a locked hinge may creep; the strongest hinge's work over it is no energy worth balancing.
 constexpr double negligible_turn = 1e-9;
+// Share of the slowest motion worth following that is rounding: of what is locked at rest.
+constexpr double rounded = 1e-6;
 }  // namespace
 
 Simulation::Simulation(Model model, const Settings& settings)
@@ -108,7 +110,7 @@ void Simulation::bound_steps(double duration) {
     for (const HingeState& h : state_.hinge) strongest = std::max(strongest, value(h.capacity));
     for (int i = 0; i < model_.tree.bodies(); i++) mass += value(model_.tree[i].mass);
     const double slow = std::sqrt(mass) * settings_.scale_floor * value(model_.length) / std::max(duration, settings_.minimum_step);
-    negligible_speed_ = bound_.empty() ? 0 : slow;
+    negligible_speed_ = (bound_.empty() ? rounded : 1) * slow;
     large_speed_ = strongest > 0 ? std::sqrt(2 * strongest * settings_.scale_floor) : slow;
 }
 

@@ -78,6 +78,7 @@ private:
     double next_break() const;
     StepBound::Step resolved(double h);
     bool stalled(Record& record);
+    bool unbalanced(Record& record) const;
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
     bool step_twice(double h, bool again);
     double error(const State& coarse, const State& fine) const;

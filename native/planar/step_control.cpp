@@ -86,6 +86,17 @@ bool Simulation::stalled(Record& record) {
     return true;
 }
 
+// Whether a smallest step that is not accurate loses the balance of energy: no number after it would mean anything.
+bool Simulation::unbalanced(Record& record) const {
+    const double reference = std::max(start_energy_ + work_max_, negligible_energy_);
+    const double missed = std::fabs(value(energies(model_, fine_).balance() - energies(model_, state_).balance()));
+    if (!(missed > settings_.accuracy * reference)) return false;
+    record.outcome = Outcome::step_collapsed;
+    record.reason = lost_balance;
+    if (!model_.drives.empty()) record.reason += driven_without_solution;
+    return true;
+}
+
 bool Simulation::advance(double target, Record& record, const std::function<bool(double)>& poll) {
     Attempt rejected;
     while (state_.t < target) {
@@ -128,6 +139,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
             if (h_ < settings_.minimum_step) h_ = settings_.minimum_step;
             continue;
         }
+        if (e > 1 && unbalanced(record)) return false;
         rejected = {};
         if (e > 1) record.forced++;
         if (last) fine_.t = stop;
@@ -139,7 +151,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
             unseen_ = std::max(unseen_, seen.unresolved * settings_.accuracy * std::max(speed_, large_speed_));
         }
         record.steps++;
-        advance_.count(Attempted::taken);
+        advance_.count(e > 1 ? Attempted::inexact : Attempted::taken);
         watch(record);
         set_critical_damping(false);
     }

@@ -21,6 +21,9 @@ constexpr double least_approach = 1e-6;
 constexpr double less_bounce = 0.5, least_bounce = 0.1;
 // Share of the limit of friction above which a point slides.
 constexpr double slides = 0.999;
+// Rate without a contact's impulse, over the rates with it, that no step has.  It is estimated with the mobility of both bodies by
+// themselves; what is locked yields far less to an impulse, and then closes as late as its rates say.
+constexpr double implausible = 1e3;
 // Gains of energy that are rounding.
 constexpr double rounding = 1e-9;
 
@@ -239,7 +242,7 @@ double Contacts::rest_rate(const Active& c) const {
 
 double Contacts::allowed(size_t i, double h, double start_rate, double unbounded) const {
     const Active& c = active_[i];
-    const double restitution = law(c).restitution;
+    const double restitution = bounces_ ? law(c).restitution : 0;
     if (unbounded < 0 && restitution > 0 && c.gap <= closed_gap_ && start_rate >= -rest_rate(c)) return unbounded;
     return allowed_rate(restitution_share_ * restitution, c.gap, start_rate, h, closed_gap_, rest_rate(c));
 }
@@ -296,7 +299,8 @@ void Contacts::commit(double h, bool from_rest, const Row* rows, const double* i
             continue;
         }
         // the motion without the contact's impulse, its rate linear in time, up to half of what counts as closed
-        const double free = w1[0] + p[0] * c.inverse_mass, fastest = std::min(w0[0], free), way = c.gap - closed_gap_ / 2;
+        const double most = implausible * std::max(std::fabs(w0[0]), std::fabs(w1[0]));
+        const double free = std::max(w1[0] + p[0] * c.inverse_mass, -most), fastest = std::min(w0[0], free), way = c.gap - closed_gap_ / 2;
         if (-fastest <= rest_rate(c)) continue;
         const double root = w0[0] * w0[0] - 2 * way * (free - w0[0]) / h;
         const double t = root > 0 ? 2 * way / (-w0[0] + std::sqrt(root)) : h / 2;

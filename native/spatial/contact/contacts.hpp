@@ -93,6 +93,8 @@ public:
     // whether anything overlaps that was not within reach
     bool overlooked(const std::vector<Pose>& pose) const;
     double closed_gap() const { return closed_gap_; }
+    // without bounces what is run into stops, whatever its restitution, and contacts at rest act with it
+    void set_bounces(bool bounces) { bounces_ = bounces; }
 
     // gap below which a contact counts as closed [m], and energy of an approach that is not worth an impact [J]
     void set_limits(double closed_gap, double negligible_energy) {
@@ -140,6 +142,7 @@ private:
     double margin_ = 0;
     std::vector<Active> active_, before_;
     double closed_gap_ = 1e-6, negligible_energy_ = 0, restitution_share_ = 1;
+    bool bounces_ = true;
 };
 
 }  // namespace crumple::spatial

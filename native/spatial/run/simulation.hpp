@@ -111,10 +111,12 @@ private:
     bool cancelled(Record& record, const std::function<bool(double)>& poll);
     bool stalled(Record& record);
     void reject(Record& record, Attempted what);
-    void accept(Record& record);
+    void accept(Record& record, bool exact);
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
     bool solve(double h);
     bool failed(double e, bool smallest, Record& record) const;
+    bool force(Record& record) const;
+    double unbalance(const State& fine) const;
     bool lost(const State& before, Record& record);
     bool jumps(int which);
     bool strike(Record& record);

@@ -18,8 +18,9 @@ constexpr double lost_tolerance = 2e-2;
 
 constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
 constexpr std::int64_t poll_interval = 20'000;  // solves times rows between calls of `poll`: some 10 ms
-// Impacts in a row that only what cannot give way leads to.
-constexpr int most_strikes = 1000;
+// Impacts in a row that only what cannot give way leads to; and those after which nothing bounces.  Restitution between parts that
+// lock one another gives impacts without end, each with a little less energy: their limit is contact that stays.
+constexpr int most_strikes = 1000, most_bounces = 200;
 // Steps are not shortened below this many smallest ones to end where a contact closes.
 constexpr double shortest_landing = 4;
 
@@ -52,9 +53,14 @@ double Simulation::error(const State& coarse, const State& fine) const {
     e /= lost_ > 0 ? std::max(step_tolerance_, lost_tolerance) : step_tolerance_;
     if (stepper_.stage().quasi_static) return e;
     // a step that leaves more energy unbalanced than the accuracy allows has missed something
+    return std::max(e, unbalance(fine) / settings_.accuracy);
+}
+
+// Energy that a step leaves unbalanced, over what the structure was given.
+double Simulation::unbalance(const State& fine) const {
     const Energies after = energies(model_, fine);
     const double reference = std::max(given(after), negligible_energy_ + lift_ * scale_ + rounding_share * after.kinetic);
-    return reference > 0 ? std::max(e, std::fabs(after.balance() - balance_) / reference / settings_.accuracy) : e;
+    return reference > 0 ? std::fabs(after.balance() - balance_) / reference : 0;
 }
 
 // one step and two halves; the halves know from the whole how the velocities change
@@ -79,7 +85,10 @@ bool Simulation::solve(double h) {
 
 // The step of an impact: so short that nothing but velocities changes.
 bool Simulation::strike(Record& record) {
-    if (!stepper_.step(state_, settings_.minimum_step, nullptr)) {
+    stepper_.contacts().set_bounces(strikes_ < most_bounces);
+    const bool solved = stepper_.step(state_, settings_.minimum_step, nullptr);
+    stepper_.contacts().set_bounces(true);
+    if (!solved) {
         record.outcome = Outcome::step_collapsed;
         record.reason = "the equations of an impact did not converge";
         return false;
@@ -103,8 +112,19 @@ bool Simulation::failed(double e, bool smallest, Record& record) const {
     if (std::isfinite(e) || !smallest) return false;
     record.outcome = Outcome::step_collapsed;
     record.reason = "the equations of a step did not converge at the smallest step";
-    if (!model_.drives.empty()) record.reason += "; where what is driven meets what cannot give way they have no solution";
+    if (!model_.drives.empty()) record.reason += driven_without_solution;
     return true;
+}
+
+// Whether a smallest step that is not accurate may be taken: where it loses the balance of energy no number after it would mean
+// anything.
+bool Simulation::force(Record& record) const {
+    record.forced++;
+    if (stepper_.stage().quasi_static || unbalance(fine_) <= settings_.accuracy) return true;
+    record.outcome = Outcome::step_collapsed;
+    record.reason = lost_balance;
+    if (!model_.drives.empty()) record.reason += driven_without_solution;
+    return false;
 }
 
 // Asks `poll` now and then.
@@ -122,9 +142,9 @@ void Simulation::reject(Record& record, Attempted what) {
     advance_.count(what);
 }
 
-void Simulation::accept(Record& record) {
+void Simulation::accept(Record& record, bool exact) {
     record.steps++;
-    advance_.count(Attempted::taken);
+    advance_.count(exact ? Attempted::taken : Attempted::inexact);
 }
 
 bool Simulation::advance(double target, Record& record, const std::function<bool(double)>& poll) {
@@ -166,7 +186,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
             landing_ = 0;
             continue;
         }
-        if (e > 1) record.forced++;
+        if (e > 1 && !force(record)) return false;
         if (last) fine_.t = stop;
         const bool rested = resting();
         std::swap(state_, fine_);
@@ -176,7 +196,7 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
         if (seen.unresolved > 0 && (rested || resting())) {
             unseen_ = std::max(unseen_, seen.unresolved * settings_.accuracy * std::max(speed_, large_speed_));
         }
-        accept(record);
+        accept(record, e <= 1);
         overshot_ = NAN;
         watch(record);
         strikes_ = 0;

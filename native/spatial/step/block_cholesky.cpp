@@ -19,11 +19,22 @@ constexpr int most_block = 6;
 // Share of the diagonal below which a difference is no number; where a pivot is put up to it, refinement has to correct.
 constexpr double rounding = 2.2e-16;
 
-// Sizes known to the compiler for the commonest block, six rows.
+// Sizes known to the compiler for the commonest blocks: six rows of joints, three of contacts.
 template <int N>
 struct Fixed {
     operator int() const { return N; }
 };
+
+template <class Use>
+inline void with_size(int n, Use use) {
+    if (n == 6) {
+        use(Fixed<6>());
+    } else if (n == 3) {
+        use(Fixed<3>());
+    } else {
+        use(n);
+    }
+}
 
 // Rows of the later node are contiguous in a block, so that the innermost loops run over them without sums.
 // target (m x n) -= b (k x m)^T a (k x n)
@@ -202,20 +213,14 @@ void BlockCholesky::factor(const std::vector<double>& floor, const std::vector<c
         for (size_t p = first_[k]; p < first_[k + 1]; p++) {
             double* b = &values_[below_[p].block];
             const int rows = size_[at(below_[p].node)];
-            if (n == 6 && rows == 6) {
-                solve_rows(b, lower, reciprocal, Fixed<6>(), Fixed<6>());
-            } else {
-                solve_rows(b, lower, reciprocal, rows, n);
-            }
+            with_size(rows, [&](auto m) { with_size(n, [&](auto k) { solve_rows(b, lower, reciprocal, m, k); }); });
         }
         for (size_t p = first_update_[k]; p < first_update_[k + 1]; p++) {
             const Update& u = update_[p];
             double *target = &values_[u.target], *a = &values_[u.a], *b = &values_[u.b];
-            if (n == 6 && u.rows_a == 6 && u.rows_b == 6) {
-                subtract_product(target, a, b, Fixed<6>(), Fixed<6>(), Fixed<6>());
-            } else {
-                subtract_product(target, a, b, u.rows_a, u.rows_b, n);
-            }
+            with_size(u.rows_a, [&](auto l) {
+                with_size(u.rows_b, [&](auto m) { with_size(n, [&](auto k) { subtract_product(target, a, b, l, m, k); }); });
+            });
         }
     }
 }
@@ -234,11 +239,7 @@ void BlockCholesky::solve(double* x) const {
             const int rows = size_[at(below_[p].node)];
             double* other = x + start_[at(below_[p].node)];
             const double* b = &values_[below_[p].block];
-            if (n == 6 && rows == 6) {
-                carry_forward(other, b, own, Fixed<6>(), Fixed<6>());
-            } else {
-                carry_forward(other, b, own, rows, n);
-            }
+            with_size(rows, [&](auto m) { with_size(n, [&](auto k) { carry_forward(other, b, own, m, k); }); });
         }
     }
     for (size_t k = order_.size(); k-- > 0;) {
@@ -248,11 +249,7 @@ void BlockCholesky::solve(double* x) const {
         for (size_t p = first_[k]; p < first_[k + 1]; p++) {
             const int rows = size_[at(below_[p].node)];
             const double *other = x + start_[at(below_[p].node)], *b = &values_[below_[p].block];
-            if (n == 6 && rows == 6) {
-                carry_back(own, b, other, Fixed<6>(), Fixed<6>());
-            } else {
-                carry_back(own, b, other, rows, n);
-            }
+            with_size(rows, [&](auto m) { with_size(n, [&](auto k) { carry_back(own, b, other, m, k); }); });
         }
         for (int j = n - 1; j >= 0; j--) {
             double s = own[j];

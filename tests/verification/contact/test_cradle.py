@@ -9,8 +9,9 @@ Kind: closed form.  Source: derived here.
 
 import numpy as np
 import pytest
-from tests.support.multibody.contact_models import MAX_RESIDUAL, ball_shape, simulation, sphere
+from tests.support.multibody.contact_models import MAX_RESIDUAL, ball_shape, plane, simulation, sphere
 
+from crumple._core.outcome import Outcome
 from crumple._core.spatial.model import SpatialContact
 
 RADIUS, MASS, SPEED, GAP = 0.1, 2.0, 3.0, 0.05
@@ -77,3 +78,26 @@ def test_unequal_balls_keep_momentum_and_energy(record_figure):
     record_figure("energy", float(np.dot(masses, found**2)) / 2, SPEED**2, 1e-6, "J")
     expected = [(2 - 8) / (2 + 8) * SPEED, 0.0, 0.0, 4 / 10 * SPEED]
     assert found == pytest.approx(expected, abs=1e-6)
+
+
+def test_balls_between_walls_come_to_rest():
+    """Five balls that touch one another and two walls: 0.1 % of the approach is lost in each of impacts that
+    follow at once, without end.  Their limit is contact that stays.
+    """
+    number = 5
+    bodies = [sphere((2 * RADIUS * k, 0, 0), RADIUS, MASS) for k in range(number)]
+    capsules = [ball_shape(k, (2 * RADIUS * k, 0, 0), RADIUS) for k in range(number)]
+    pairs = tuple((i, i + 1) for i in range(number - 1))
+    walls = [
+        plane((-RADIUS, 0, 0), (1, 0, 0), restitution=0.999),
+        plane(((2 * number - 1) * RADIUS, 0, 0), (-1, 0, 0), restitution=0.999),
+    ]
+    contact = SpatialContact(pairs, 0.0, 0.999)
+    run = simulation(bodies, capsules, walls, contact=contact, gravity=(0.0, 0.0, 0.0))
+    velocity = np.zeros((number, 6))
+    velocity[0, 3] = SPEED
+    run.set_motion(velocity, np.zeros_like(velocity))
+    record = run.run(np.array([0.01]))
+    assert record.outcome is Outcome.COMPLETE, record.reason
+    assert record.residual < MAX_RESIDUAL
+    assert np.abs(record.velocity[-1, :, 3]).max() < 1e-6

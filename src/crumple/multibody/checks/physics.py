@@ -30,6 +30,8 @@ from crumple.units import format_quantity
 FALL = 1e-3
 """Fall of a dissipated energy over the energy input that counts: the bound of the energy residual, so that
 what the ledger may leave open is no violation."""
+NO_ENERGY = 1e-9
+"""Energy [J] whose fall is rounding: of 1 N m over the turn by which a locked hinge creeps, 1e-9 rad."""
 REBOUND = 0.1
 """Energy of an obstacle's rebound over its energy at the start that needs no energy source: the elastic
 rebound of metal structures, which rigid bars lack, takes less."""
@@ -78,11 +80,12 @@ def falling_energies(solved: Solved, total: float) -> Iterator[Caution]:
     rising |= {name: solved.energy[name] for name in ("friction",) if name in solved.energy}
     for place, values in rising.items():
         fall = largest_fall(values)
-        if fall > FALL * total:
+        limit = max(FALL * total, NO_ENERGY)
+        if fall > limit:
             yield Caution(
                 "dissipation_falls",
                 fall,
-                FALL * total,
+                limit,
                 "J",
                 place,
                 f"The energy that {place} has dissipated falls by {format_quantity(fall, 'J', 3)}: "
