@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from crumple.cli.console.characterise_file import characterise_file
 from crumple.cli.console.named import MATERIAL_HELP, SECTION_HELP
 
 if TYPE_CHECKING:
@@ -21,9 +22,17 @@ STEEPEST = 2.3563
 
 
 def characterise(
-    section: Annotated[str, typer.Argument(help=SECTION_HELP, show_default=False)],
+    section: Annotated[
+        str,
+        typer.Argument(
+            help=f"An input file: all its members and corners. Or one section. {SECTION_HELP}",
+            show_default=False,
+        ),
+    ],
     *,
-    material: Annotated[str, typer.Option(help=MATERIAL_HELP, show_default=False)],
+    material: Annotated[
+        str | None, typer.Option(help=f"Of a section. {MATERIAL_HELP}", show_default=False)
+    ] = None,
     axis: Annotated[
         str, typer.Option(help="Bending axis y or z, along the moment vector; y compresses the width.")
     ] = "y",
@@ -42,13 +51,37 @@ def characterise(
     ] = False,
     store: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder of the law files.")] = Path("laws"),
     threads: Annotated[
-        int | None, typer.Option(help="Threads; by default all cores.", min=1, show_default=False)
+        int | None,
+        typer.Option(help="Threads for a section; by default all cores.", min=1, show_default=False),
     ] = None,
+    workers: Annotated[
+        int | None,
+        typer.Option(
+            help="Sub-models of an input file solved at a time; by default one a core.",
+            min=1,
+            show_default=False,
+        ),
+    ] = None,
+    only_list: Annotated[
+        bool,
+        typer.Option("--list", help="List what an input file needs and the time it takes; solve nothing."),
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON in place of the table.")] = False,
 ) -> None:
     """Solve a shell sub-model of a section, and keep the hinge law that it gives as a law file."""
     from crumple.characterisation import LawStore
+    from crumple.errors import InputError, Problem
+    from crumple.portable import available_cores
 
+    if material is None and Path(section).suffix.lower() in {".yaml", ".yml"}:
+        largest, count = _largest(to), workers or available_cores()
+        characterise_file(
+            Path(section), store, largest, workers=count, converge=converge, only_list=only_list
+        )
+        return
+    if material is None:
+        todo = "add --material, or give an input file such as frame.yaml"
+        raise InputError(Problem("a section needs its material", section, "", todo, "--material"))
     model = _model(section, material, axis, sense, angle, to)
     laws = LawStore(store)
     law = laws.law(model)
@@ -73,9 +106,7 @@ def _model(section: str, material: str, axis: str, sense: str, angle: str | None
     senses = {"+": 1, "-": -1}
     if sense not in senses:
         raise InputError(Problem("the sense is unknown", sense, "+ or -", "choose one", "--sense"))
-    largest = parse_quantity(to, "rad")
-    if not SMALLEST <= largest <= LARGEST:
-        raise InputError(Problem("the rotation is out of range", to, "5 deg to 60 deg", "", "--to"))
+    largest = _largest(to)
     shape, (metal, _) = section_of(section), material_of(material)
     which = checked_axis(axis)
     corner = None if angle is None else parse_quantity(angle, "rad")
@@ -85,6 +116,17 @@ def _model(section: str, material: str, axis: str, sense: str, angle: str | None
             Problem("the angle of the corner is out of range", angle or "", allowed, todo, "--angle")
         )
     return Bending(shape, metal, which, senses[sense], corner, largest)
+
+
+def _largest(to: str) -> float:
+    """Plastic rotation at which a law ends [rad]."""
+    from crumple.errors import InputError, Problem
+    from crumple.units import parse_quantity
+
+    largest = parse_quantity(to, "rad")
+    if not SMALLEST <= largest <= LARGEST:
+        raise InputError(Problem("the rotation is out of range", to, "5 deg to 60 deg", "", "--to"))
+    return largest
 
 
 def _solved(model: Bending, converge: bool, threads: int | None) -> Characterised:
