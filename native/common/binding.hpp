@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <functional>
 #include <stdexcept>
+#include <string>
+#include <typeinfo>
 #include <initializer_list>
 #include <optional>
 #include <type_traits>
@@ -58,6 +60,23 @@ template <class R> nanobind::list column_names() {
 
 inline void require(bool ok, const char* what) {
     if (!ok) throw nanobind::value_error(what);
+}
+
+// A Python object as a type; its name is in the message where it is of another one.
+template <class T> T as(nanobind::handle given, const std::string& name) {
+    try {
+        return nanobind::cast<T>(given);
+    } catch (const std::bad_cast&) {
+        throw nanobind::type_error((name + " has the wrong type or shape").c_str());
+    }
+}
+
+inline std::string name_of_entry(const char* key) { return std::string("'") + key + "'"; }
+inline std::string name_of_entry(int place) { return "entry " + std::to_string(place) + " of a tuple"; }
+
+// An entry of a mapping, by its name, or of a tuple, by its place.
+template <class T, class Holder, class Key> T entry(const Holder& holder, Key key) {
+    return as<T>(nanobind::object(holder[key]), name_of_entry(key));
 }
 
 // Rows of what varies from variant to variant, (count, ...); none: nothing does.
@@ -133,6 +152,7 @@ template <class T> void require_all(const std::vector<T*>& given) {
 
 // A tuple of so many fields.
 inline nanobind::tuple fields(nanobind::handle given, std::size_t number, const char* what) {
+    require(nanobind::isinstance<nanobind::tuple>(given), what);
     const auto found = nanobind::cast<nanobind::tuple>(given);
     require(found.size() == number, what);
     return found;

@@ -30,8 +30,8 @@ inline Hinge make_hinge(const nanobind::dict& d, Form form, Softening softening)
     Hinge h;
     h.form = form;
     h.softening = softening;
-    auto number = [&](const char* key) { return nanobind::cast<double>(d[key]); };
-    auto numbers = [&](const char* key) { return nanobind::cast<Doubles>(d[key]); };
+    auto number = [&](const char* key) { return entry<double>(d, key); };
+    auto numbers = [&](const char* key) { return entry<Doubles>(d, key); };
     h.positive = make_curve(numbers("positive_rotation"), numbers("positive_moment"));
     h.negative = make_curve(numbers("negative_rotation"), numbers("negative_moment"));
     h.stiffness = number("elastic_stiffness");

@@ -6,16 +6,23 @@ import contextlib
 import faulthandler
 import os
 import signal
-import sys
 import tempfile
 import traceback
 import warnings
 from collections.abc import Callable
+from multiprocessing.connection import Connection
 from typing import Any
 
+from tests.fuzz import kernel_base, restart_base
 from tests.fuzz.attacks import ATTACKS
 from tests.fuzz.sites import Watch
-from tests.fuzz.worker import MEMORY, SECONDS, WAITING, Outcome, place_in, receive, send
+from tests.fuzz.worker import MEMORY, SECONDS, WAITING, Outcome, place_in
+
+import crumple.multibody
+import crumple.shell
+
+FORKED = (kernel_base, restart_base, crumple.multibody, crumple.shell)
+"""Modules that attacks import late: children are forked with them."""
 
 
 def attempt(attack: Callable[[Any], str], payload: Any) -> Outcome:
@@ -34,36 +41,33 @@ def limit(seconds: float, waiting: float) -> None:
     """End this process with a traceback after so much processor time from now or wall time [s]; 0: never."""
     faulthandler.cancel_dump_traceback_later()
     if waiting:
-        faulthandler.dump_traceback_later(waiting, exit=True)
+        faulthandler.dump_traceback_later(waiting, exit=True, file=2)
     if hasattr(signal, "setitimer"):
         signal.setitimer(signal.ITIMER_PROF, seconds)
 
 
-def main() -> None:
-    """Take cases until the parent goes."""
+def serve(pipe: Connection, words: str) -> None:
+    """Take cases until the parent ends; output and tracebacks of crashes go into the file `words`."""
     with contextlib.suppress(ImportError):
         import resource
 
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    faulthandler.enable()
+    said = os.open(words, os.O_WRONLY | os.O_APPEND)
+    os.dup2(said, 1)
+    os.dup2(said, 2)
+    # by number: the object of the parent may not be the file that is number 2 here
+    faulthandler.enable(file=2)
     if hasattr(signal, "setitimer"):
-        faulthandler.register(signal.SIGPROF, chain=True)
+        faulthandler.register(signal.SIGPROF, file=2, chain=True)
     warnings.simplefilter("error")
-    requests, answers = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
-    # whatever prints does not disturb the answers
-    os.dup2(2, 1)
     watch = Watch()
     with tempfile.TemporaryDirectory() as folder, contextlib.suppress(EOFError):
         os.chdir(folder)
         while True:
-            case = receive(requests)
+            case = pipe.recv()
             limit(SECONDS, WAITING)
             outcome = attempt(ATTACKS[case.kind], case.payload)
             limit(0.0, 0.0)
             outcome.sites = watch.new()
-            send(answers, outcome)
-
-
-if __name__ == "__main__":
-    main()
+            pipe.send(outcome)

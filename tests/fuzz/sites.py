@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import sys
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -61,6 +62,7 @@ class Watch:
         return new
 
 
+@cache
 def refusal_sites() -> dict[str, list[tuple[int, int]]]:
     """First and last line of every refusal, by the file in the package."""
     sites: dict[str, list[tuple[int, int]]] = {}

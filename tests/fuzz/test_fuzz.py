@@ -1,13 +1,18 @@
 """Three hundred cases of every kind, the same in every run; `make fuzz N=...` tries any number."""
 
+import functools
+
 import pytest
+from tests.fuzz import kernel_base
 from tests.fuzz.attacks import attack_kernel
 from tests.fuzz.campaign import SHARES, campaign
 from tests.fuzz.input_files import bases, written
+from tests.fuzz.mutation import edited, listed
 from tests.fuzz.sites import refusal_sites, unreached
 from tests.fuzz.worker import Case, Worker
 
 CASES = 300
+WRONG = "has the wrong type or shape"
 
 
 @pytest.fixture(scope="module")
@@ -27,6 +32,32 @@ def test_cases_are_nearly_right(tally):
     assert tally.accepted["input"] > 0.3 * tally.tried["input"]
     every, missed = unreached(tally.sites)
     assert len(missed) < every - 40
+
+
+@pytest.mark.parametrize(
+    ("room", "edit", "words"),
+    [
+        # mass of the model; entry of its first joint; an entry of the first hinge; a load that is a number
+        ("spatial", (["model", "mass"], "x"), f"TypeError: '...' {WRONG}"),
+        (
+            "spatial",
+            (["model", "joints", 0, 3], 7),
+            "TypeError: entry # of a tuple has the wrong type or shape",
+        ),
+        (
+            "planar",
+            (["model", 4, 0, "elastic_stiffness"], []),
+            "TypeError: '...' has the wrong type or shape",
+        ),
+        ("planar", (["model", 5, 0], 3), "ValueError: a load has body, point, direction, times, values"),
+    ],
+)
+def test_the_kernels_name_what_they_cannot_read(room, edit, words, monkeypatch):
+    given = listed({"planar": kernel_base.PLANAR, "spatial": kernel_base.SPATIAL}[room])
+    (*way, last), value = edit
+    functools.reduce(lambda part, key: part[key], way, given)[last] = value
+    monkeypatch.setattr(kernel_base, "edited", lambda *_: edited(given, []))
+    assert attack_kernel((room, [])) == words
 
 
 def test_the_good_files_and_calls_are_accepted():

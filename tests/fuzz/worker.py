@@ -3,25 +3,25 @@
     with Worker() as worker:
         outcome = worker.run(Case("input", "crumple: 1"))
 
-The child is `python -m tests.fuzz.child`.  It may use `MEMORY` of address space and `SECONDS` a case; the
-parent starts another one when it ended, and reports the case that ended it.
+The child runs `tests.fuzz.child.serve`.  It may use `MEMORY` of address space and `SECONDS` a case; the
+parent starts another one when it ended, and reports the case that ended it.  Where the system can, children
+are forked from a process that has imported everything once, so a new one costs hardly any time.
 """
 
 from __future__ import annotations
 
 import contextlib
+import multiprocessing
 import os
-import pickle
 import re
 import signal
-import subprocess
-import sys
 import tempfile
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Any, BinaryIO
+from functools import cache
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
+from typing import Any
 
-ROOT = Path(__file__).parents[2]
 MEMORY = 2_000_000_000
 """Address space of the worker [byte]; not limited on systems without `resource`."""
 SECONDS = 20.0
@@ -66,12 +66,23 @@ class Outcome:
     sites: set[tuple[str, int]] = field(default_factory=set)
 
 
+@cache
+def _starting() -> Any:
+    """How children are started."""
+    able = "forkserver" in multiprocessing.get_all_start_methods()
+    started = multiprocessing.get_context("forkserver" if able else "spawn")
+    if able:
+        started.set_forkserver_preload(["tests.fuzz.child"])
+    return started
+
+
 class Worker:
     """Parent's side."""
 
     def __init__(self) -> None:
-        self._child: subprocess.Popen[bytes] | None = None
-        self._words = tempfile.TemporaryFile()  # noqa: SIM115  (closed by __exit__)
+        self._child: BaseProcess | None = None
+        self._pipe: Connection | None = None
+        self._words = tempfile.NamedTemporaryFile()  # noqa: SIM115  (closed by __exit__)
 
     def __enter__(self) -> Worker:
         return self
@@ -82,38 +93,47 @@ class Worker:
 
     def run(self, case: Case) -> Outcome:
         """Try a case."""
-        child = self._child or self._start()
-        assert child.stdin is not None
-        assert child.stdout is not None
-        with contextlib.suppress(BrokenPipeError):
-            send(child.stdin, case)
+        pipe = self._pipe or self._start()
+        with contextlib.suppress(BrokenPipeError, ConnectionResetError):
+            pipe.send(case)
         try:
-            outcome = receive(child.stdout)
-        except EOFError:
+            outcome = pipe.recv()
+        except (EOFError, ConnectionResetError):
             return self._ended(case)
         assert isinstance(outcome, Outcome)
         return outcome
 
-    def _start(self) -> subprocess.Popen[bytes]:
-        alone = os.environ | dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
+    def _start(self) -> Connection:
+        from tests.fuzz.child import serve
+
         self._words.truncate(0)
         self._words.seek(0)
-        command = [sys.executable, "-m", "tests.fuzz.child"]
-        pipe = subprocess.PIPE
-        self._child = subprocess.Popen(
-            command, cwd=ROOT, env=alone, stdin=pipe, stdout=pipe, stderr=self._words
-        )
-        return self._child
+        names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
+        before = {name: os.environ.get(name) for name in names}
+        # the server and its children inherit them
+        os.environ.update(dict.fromkeys(names, "1"))
+        try:
+            self._pipe, theirs = _starting().Pipe()
+            self._child = _starting().Process(target=serve, args=(theirs, self._words.name), daemon=True)
+            self._child.start()
+        finally:
+            for name, value in before.items():
+                if value is None:
+                    del os.environ[name]
+                else:
+                    os.environ[name] = value
+        theirs.close()
+        assert self._pipe is not None
+        return self._pipe
 
     def _stop(self) -> int:
         child, self._child = self._child, None
-        if child is None:
+        pipe, self._pipe = self._pipe, None
+        if child is None or pipe is None:
             return 0
-        for pipe in (child.stdin, child.stdout):
-            with contextlib.suppress(BrokenPipeError):
-                if pipe is not None:
-                    pipe.close()
-        return child.wait()
+        pipe.close()
+        child.join()
+        return child.exitcode or 0
 
     def _ended(self, case: Case) -> Outcome:
         code = self._stop()
@@ -130,16 +150,3 @@ def place_in(words: str, step: int) -> str:
     found = _SOURCE.findall(words)[::step]
     own = [one for one in found if "/crumple/" in one[0]] or found
     return f"in {own[-1][0].split('crumple/')[-1]} {own[-1][1]}" if own else ""
-
-
-def send(pipe: BinaryIO | Any, thing: object) -> None:
-    content = pickle.dumps(thing)
-    pipe.write(len(content).to_bytes(8, "little") + content)
-    pipe.flush()
-
-
-def receive(pipe: BinaryIO | Any) -> Any:
-    length = pipe.read(8)
-    if len(length) < 8:
-        raise EOFError
-    return pickle.loads(pipe.read(int.from_bytes(length, "little")))

@@ -30,33 +30,33 @@ Tree make_tree(const InNumbers& parent, const InNumbers& joint, const In& bodies
 }
 
 Hinge make_tree_hinge(const nb::dict& d) {
-    Hinge h = make_hinge(d, static_cast<Form>(nb::cast<int>(d["form"])), static_cast<Softening>(nb::cast<int>(d["softening"])));
-    h.dof = nb::cast<int>(d["dof"]);
-    h.scale = nb::cast<double>(d["capacity_scale"]);
+    Hinge h = make_hinge(d, static_cast<Form>(entry<int>(d, "form")), static_cast<Softening>(entry<int>(d, "softening")));
+    h.dof = entry<int>(d, "dof");
+    h.scale = entry<double>(d, "capacity_scale");
     return h;
 }
 
 // the first fields of a load or a drive: body, point, direction, times, values
 Load make_load(const nb::tuple& t) {
-    const Doubles at = nb::cast<Doubles>(t[1]), along = nb::cast<Doubles>(t[2]);
-    return {nb::cast<int>(t[0]), {at.at(0), at.at(1)}, {along.at(0), {along.at(1), along.at(2)}},
-            make_curve(nb::cast<Doubles>(t[3]), nb::cast<Doubles>(t[4])), 1};
+    const Doubles at = entry<Doubles>(t, 1), along = entry<Doubles>(t, 2);
+    return {entry<int>(t, 0), {at.at(0), at.at(1)}, {along.at(0), {along.at(1), along.at(2)}},
+            make_curve(entry<Doubles>(t, 3), entry<Doubles>(t, 4)), 1};
 }
 
 Drive make_drive(const nb::tuple& t) {
     const Load load = make_load(t);
-    const double start = nb::cast<Doubles>(t[4]).at(0);
-    return {load.body, load.point, load.direction, start, make_curve(nb::cast<Doubles>(t[3]), nb::cast<Doubles>(t[5]))};
+    const double start = entry<Doubles>(t, 4).at(0);
+    return {load.body, load.point, load.direction, start, make_curve(entry<Doubles>(t, 3), entry<Doubles>(t, 5))};
 }
 
 Hold make_hold(const nb::tuple& t) {
-    const Doubles at = nb::cast<Doubles>(t[1]), along = nb::cast<Doubles>(t[2]);
-    return {nb::cast<int>(t[0]), {at.at(0), at.at(1)}, {along.at(0), {along.at(1), along.at(2)}}};
+    const Doubles at = entry<Doubles>(t, 1), along = entry<Doubles>(t, 2);
+    return {entry<int>(t, 0), {at.at(0), at.at(1)}, {along.at(0), {along.at(1), along.at(2)}}};
 }
 
 Weld make_weld(const nb::tuple& t) {
-    const Doubles a = nb::cast<Doubles>(t[2]), b = nb::cast<Doubles>(t[3]);
-    return {nb::cast<int>(t[0]), nb::cast<int>(t[1]), {a.at(0), a.at(1)}, {b.at(0), b.at(1)}};
+    const Doubles a = entry<Doubles>(t, 2), b = entry<Doubles>(t, 3);
+    return {entry<int>(t, 0), entry<int>(t, 1), {a.at(0), a.at(1)}, {b.at(0), b.at(1)}};
 }
 
 Model make_model(const InNumbers& parent, const InNumbers& joint, const In& bodies, const Doubles& q0,
@@ -68,7 +68,7 @@ Model make_model(const InNumbers& parent, const InNumbers& joint, const In& bodi
     require(length > 0 && std::isfinite(length), "the length must be positive");
     for (const double q : q0) require_finite({q}, "q0 must be finite");
     require(q0.size() == static_cast<size_t>(model.tree.dofs()), "q0 must have one entry per joint coordinate");
-    for (nb::handle h : hinges) model.hinges.push_back(make_tree_hinge(nb::cast<nb::dict>(h)));
+    for (nb::handle h : hinges) model.hinges.push_back(make_tree_hinge(as<nb::dict>(h, "a hinge")));
     for (nb::handle l : loads) model.loads.push_back(make_load(fields(l, 5, "a load has body, point, direction, times, values")));
     for (nb::handle d : drives) model.drives.push_back(make_drive(fields(d, 6, "a drive is a load with rates")));
     for (nb::handle d : holds) model.holds.push_back(make_hold(fields(d, 3, "a hold has body, point, direction")));

@@ -137,7 +137,7 @@ static nb::dict save(const Simulation& s) {
 static void restore(Simulation& s, const nb::dict& d, bool same) {
     const Checkpoint before = s.save();
     Checkpoint c;
-    auto get = [&](const char* name, std::vector<double>& v) { v = to_vector(nb::cast<In>(d[name])); };
+    auto get = [&](const char* name, std::vector<double>& v) { v = to_vector(entry<In>(d, name)); };
     get("numbers", c.numbers);
     get("nodes", c.nodes);
     get("elements", c.elements);

@@ -42,19 +42,19 @@ static void set_elements(Model& m, const InIndex& quads, const In& thickness, co
 
 static void add_material(Model& m, const nb::dict& d) {
     Material a;
-    a.density = nb::cast<double>(d["density"]);
-    a.youngs_modulus = nb::cast<double>(d["youngs_modulus"]);
-    a.poissons_ratio = nb::cast<double>(d["poissons_ratio"]);
-    a.plastic_strain = to_vector(nb::cast<In>(d["plastic_strain"]));
-    a.yield_stress = to_vector(nb::cast<In>(d["yield_stress"]));
-    a.hardening_modulus = nb::cast<double>(d["hardening_modulus"]);
-    a.rate_reference = nb::cast<double>(d["rate_reference"]);
-    a.rate_exponent = nb::cast<double>(d["rate_exponent"]);
-    a.rate_time = nb::cast<double>(d["rate_time"]);
-    a.rate_logarithm = nb::cast<double>(d["rate_logarithm"]);
-    a.rigid = nb::cast<bool>(d["rigid"]);
-    a.failure_strain = nb::cast<double>(d["failure_strain"]);
-    a.fails_at_any_point = nb::cast<bool>(d["fails_at_any_point"]);
+    a.density = entry<double>(d, "density");
+    a.youngs_modulus = entry<double>(d, "youngs_modulus");
+    a.poissons_ratio = entry<double>(d, "poissons_ratio");
+    a.plastic_strain = to_vector(entry<In>(d, "plastic_strain"));
+    a.yield_stress = to_vector(entry<In>(d, "yield_stress"));
+    a.hardening_modulus = entry<double>(d, "hardening_modulus");
+    a.rate_reference = entry<double>(d, "rate_reference");
+    a.rate_exponent = entry<double>(d, "rate_exponent");
+    a.rate_time = entry<double>(d, "rate_time");
+    a.rate_logarithm = entry<double>(d, "rate_logarithm");
+    a.rigid = entry<bool>(d, "rigid");
+    a.failure_strain = entry<double>(d, "failure_strain");
+    a.fails_at_any_point = entry<bool>(d, "fails_at_any_point");
     if (a.plastic_strain.size() != a.yield_stress.size()) throw std::invalid_argument("a hardening table has unequal columns");
     m.materials.push_back(std::move(a));
 }
@@ -84,31 +84,31 @@ static Curve curve(const In& time, const In& value) {
 
 static void set_settings(Model& m, const nb::dict& d) {
     Settings& s = m.settings;
-    s.safety = nb::cast<double>(d["safety"]);
-    s.scaled_step = nb::cast<double>(d["scaled_step"]);
-    s.least_step = nb::cast<double>(d["least_step"]);
-    s.damping = nb::cast<double>(d["damping"]);
-    s.gravity = vec3(nb::cast<In>(d["gravity"]));
-    s.thickness_update = nb::cast<bool>(d["thickness_update"]);
-    s.warping_correction = nb::cast<bool>(d["warping_correction"]);
-    s.viscous_hourglass = nb::cast<bool>(d["viscous_hourglass"]);
-    s.hourglass_membrane = nb::cast<double>(d["hourglass_membrane"]);
-    s.hourglass_shear = nb::cast<double>(d["hourglass_shear"]);
-    s.hourglass_bending = nb::cast<double>(d["hourglass_bending"]);
-    s.stabilised = nb::cast<bool>(d["stabilised"]);
-    s.drill_stiffness = nb::cast<double>(d["drill_stiffness"]);
+    s.safety = entry<double>(d, "safety");
+    s.scaled_step = entry<double>(d, "scaled_step");
+    s.least_step = entry<double>(d, "least_step");
+    s.damping = entry<double>(d, "damping");
+    s.gravity = vec3(entry<In>(d, "gravity"));
+    s.thickness_update = entry<bool>(d, "thickness_update");
+    s.warping_correction = entry<bool>(d, "warping_correction");
+    s.viscous_hourglass = entry<bool>(d, "viscous_hourglass");
+    s.hourglass_membrane = entry<double>(d, "hourglass_membrane");
+    s.hourglass_shear = entry<double>(d, "hourglass_shear");
+    s.hourglass_bending = entry<double>(d, "hourglass_bending");
+    s.stabilised = entry<bool>(d, "stabilised");
+    s.drill_stiffness = entry<double>(d, "drill_stiffness");
 }
 
 static void set_contact(Model& m, const nb::dict& d) {
-    m.contact.on = nb::cast<bool>(d["on"]);
-    m.contact.gap = nb::cast<double>(d["gap"]);
-    m.contact.stiffness = nb::cast<double>(d["stiffness"]);
-    m.contact.friction = nb::cast<double>(d["friction"]);
-    m.contact.damping = nb::cast<double>(d["damping"]);
+    m.contact.on = entry<bool>(d, "on");
+    m.contact.gap = entry<double>(d, "gap");
+    m.contact.stiffness = entry<double>(d, "stiffness");
+    m.contact.friction = entry<double>(d, "friction");
+    m.contact.damping = entry<double>(d, "damping");
 }
 
 static Vec3 unit(const nb::handle& given, const char* what) {
-    const Vec3 v = vec3(nb::cast<In>(given));
+    const Vec3 v = vec3(as<In>(given, "a vector"));
     if (!(norm(v) > 0.0)) throw std::invalid_argument(std::string("an obstacle's ") + what + " has no length");
     return (1.0 / norm(v)) * v;
 }
@@ -116,34 +116,34 @@ static Vec3 unit(const nb::handle& given, const char* what) {
 // curves come as pairs of arrays
 static Curve curve_of(const nb::handle& pair) {
     if (nb::len(pair) != 2) throw std::invalid_argument("a curve is times and values");
-    return curve(nb::cast<In>(pair[0]), nb::cast<In>(pair[1]));
+    return curve(entry<In>(pair, 0), entry<In>(pair, 1));
 }
 
 static void add_obstacle(Model& m, const nb::dict& d) {
     Obstacle o{};
-    o.shape = Shape(nb::cast<int>(d["shape"]));
-    o.point = vec3(nb::cast<In>(d["point"]));
+    o.shape = Shape(entry<int>(d, "shape"));
+    o.point = vec3(entry<In>(d, "point"));
     o.axis = unit(d["axis"], "axis");
     o.edge = unit(d["edge"], "edge");
-    o.radius = nb::cast<double>(d["radius"]);
-    o.length = nb::cast<double>(d["length"]);
-    o.friction = nb::cast<double>(d["friction"]);
-    o.gap = nb::cast<double>(d["gap"]);
-    o.damping = nb::cast<double>(d["damping"]);
-    o.mass = nb::cast<double>(d["mass"]);
+    o.radius = entry<double>(d, "radius");
+    o.length = entry<double>(d, "length");
+    o.friction = entry<double>(d, "friction");
+    o.gap = entry<double>(d, "gap");
+    o.damping = entry<double>(d, "damping");
+    o.mass = entry<double>(d, "mass");
     o.guide = unit(d["guide"], "guide");
-    o.velocity = vec3(nb::cast<In>(d["velocity"]));
+    o.velocity = vec3(entry<In>(d, "velocity"));
     if (nb::len(nb::object(d["motion"])) != 3) throw std::invalid_argument("an obstacle moves in three directions");
     for (int i = 0; i < 3; i++) {
         const nb::object motion = d["motion"][i];
         if (!motion.is_none()) o.motion[i] = curve_of(motion);
     }
-    o.turn_about = vec3(nb::cast<In>(d["turn_about"]));
+    o.turn_about = vec3(entry<In>(d, "turn_about"));
     o.turn_axis = unit(d["turn_axis"], "turning axis");
     const nb::object turning = d["turning"];
     if (!turning.is_none()) o.turning = curve_of(turning);
-    o.active = nb::cast<bool>(d["active"]);
-    o.nodes = to_vector(nb::cast<InIndex>(d["nodes"]));
+    o.active = entry<bool>(d, "active");
+    o.nodes = to_vector(entry<InIndex>(d, "nodes"));
     m.obstacles.push_back(std::move(o));
 }
 

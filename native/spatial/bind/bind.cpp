@@ -24,7 +24,7 @@ using hinge::make_curve;
 Vec3 vector(const double* v) { return {v[0], v[1], v[2]}; }
 
 Vec3 vector(nb::handle h) {
-    const Doubles v = nb::cast<Doubles>(h);
+    const Doubles v = as<Doubles>(h, "a list of numbers");
     require(v.size() == 3, "a vector has three components");
     return vector(v.data());
 }
@@ -37,7 +37,7 @@ void require_body(const Model& model, int body, bool ground) {
 }
 
 void add_bodies(Model& model, const nb::dict& d) {
-    const auto mass = nb::cast<In>(d["mass"]), inertia = nb::cast<In>(d["inertia"]), place = nb::cast<In>(d["centre"]);
+    const auto mass = entry<In>(d, "mass"), inertia = entry<In>(d, "inertia"), place = entry<In>(d, "centre");
     const size_t n = mass.size();
     require(inertia.size() == 9 * n && place.size() == 3 * n, "every body has a mass, an inertia (3, 3) and a centre (3)");
     for (size_t i = 0; i < n; i++) {
@@ -57,19 +57,19 @@ void add_joint(Model& model, const nb::tuple& t) {
     Joint joint;
     const Vec3 place = vector(t[2]);
     for (int k = 0; k < 2; k++) {
-        joint.body[k] = nb::cast<int>(t[k]);
+        joint.body[k] = entry<int>(t, k);
         require_body(model, joint.body[k], true);
         joint.arm[k] = place - centre(model, joint.body[k]);
     }
     require(joint.body[0] != joint.body[1], "a joint needs two bodies");
-    const Doubles axes = nb::cast<Doubles>(t[3]);
+    const Doubles axes = entry<Doubles>(t, 3);
     require(axes.size() == 9, "axes must have shape (3, 3)");
     const Mat3 rows = {{vector(axes.data()), vector(axes.data() + 3), vector(axes.data() + 6)}};
     double skew = std::fabs(dot(cross(rows.r[0], rows.r[1]), rows.r[2]) - 1);
     for (const Vec3& row : rows.r) skew = std::max(skew, std::fabs(dot(row, row) - 1));
     require(skew < 1e-6, "axes must be right-handed unit vectors at right angles");
     joint.axes = quaternion(transposed(rows));
-    const auto held = nb::cast<std::vector<bool>>(t[4]);
+    const auto held = entry<std::vector<bool>>(t, 4);
     require(held.size() == 6, "a joint has six freedoms");
     int turns = 0;
     for (int k = 0; k < 6; k++) {
@@ -78,7 +78,7 @@ void add_joint(Model& model, const nb::tuple& t) {
         if (k >= 3) turns++;
         else joint.slotted = joint.slotted || !held[0] || !held[1] || !held[2];
     }
-    joint.cross = nb::cast<bool>(t[5]);
+    joint.cross = entry<bool>(t, 5);
     require(!joint.cross || turns == 1, "a joint with a cross holds one rotation");
     model.joints.push_back(joint);
 }
@@ -89,7 +89,7 @@ bool has(const Joint& joint, int rows, int freedom) {
 }
 
 void add_hinge(Model& model, const nb::dict& d) {
-    const int index = nb::cast<int>(d["joint"]);
+    const int index = entry<int>(d, "joint");
     require(index >= 0 && index < static_cast<int>(model.joints.size()), "a hinge names an unknown joint");
     Joint& joint = model.joints[static_cast<size_t>(index)];
     require(joint.hinge < 0, "a joint has one hinge at most");
@@ -106,71 +106,71 @@ void add_hinge(Model& model, const nb::dict& d) {
 }
 
 void add_drive(Model& model, const nb::tuple& t) {
-    const int index = nb::cast<int>(t[0]), freedom = nb::cast<int>(t[1]);
+    const int index = entry<int>(t, 0), freedom = entry<int>(t, 1);
     require(index >= 0 && index < static_cast<int>(model.joints.size()), "a drive names an unknown joint");
     Joint& joint = model.joints[static_cast<size_t>(index)];
     require(has(joint, joint.held, freedom), "a driven freedom must be held");
     joint.drive[freedom] = static_cast<int>(model.drives.size());
     joint.driven = true;
     joint.slotted = joint.slotted || freedom < 3;
-    model.drives.push_back({index, freedom, nb::cast<double>(t[4]), make_curve(nb::cast<Doubles>(t[2]), nb::cast<Doubles>(t[3]))});
+    model.drives.push_back({index, freedom, entry<double>(t, 4), make_curve(entry<Doubles>(t, 2), entry<Doubles>(t, 3))});
 }
 
 void add_load(Model& model, const nb::tuple& t) {
-    const int body = nb::cast<int>(t[0]);
+    const int body = entry<int>(t, 0);
     require_body(model, body, false);
-    const Curve value = make_curve(nb::cast<Doubles>(t[4]), nb::cast<Doubles>(t[5]));
+    const Curve value = make_curve(entry<Doubles>(t, 4), entry<Doubles>(t, 5));
     model.loads.push_back({body, vector(t[1]) - centre(model, body), vector(t[2]), vector(t[3]), value});
 }
 
 void add_spring(Model& model, const nb::tuple& t) {
     Spring s;
     for (int k = 0; k < 2; k++) {
-        s.body[k] = nb::cast<int>(t[k]);
+        s.body[k] = entry<int>(t, k);
         require_body(model, s.body[k], true);
         s.arm[k] = vector(t[2 + k]) - centre(model, s.body[k]);
     }
     require(s.body[0] != s.body[1], "a spring needs two bodies");
-    s.stiffness = nb::cast<double>(t[4]);
-    s.length = nb::cast<double>(t[5]);
-    s.damping = nb::cast<double>(t[6]);
+    s.stiffness = entry<double>(t, 4);
+    s.length = entry<double>(t, 5);
+    s.damping = entry<double>(t, 6);
     require(s.stiffness >= 0 && s.damping >= 0, "stiffness and damping must not be negative");
     model.springs.push_back(s);
 }
 
 void add_contact(Model& model, const nb::dict& d) {
     ContactModel& contact = model.contact;
-    for (nb::handle h : nb::cast<nb::list>(d["capsules"])) {
+    for (nb::handle h : entry<nb::list>(d, "capsules")) {
         const nb::tuple t = fields(h, 4, "a capsule has body, two ends, radius");
-        const int body = nb::cast<int>(t[0]);
+        const int body = entry<int>(t, 0);
         require_body(model, body, true);
         const Vec3 c = centre(model, body);
-        const double radius = nb::cast<double>(t[3]);
+        const double radius = entry<double>(t, 3);
         require(radius >= 0, "the radius of a capsule must not be negative");
         contact.capsules.push_back({body, {vector(t[1]) - c, vector(t[2]) - c, radius}});
     }
     const int capsules = static_cast<int>(contact.capsules.size());
-    for (nb::handle h : nb::cast<nb::list>(d["obstacles"])) {
-        const nb::dict o = nb::cast<nb::dict>(h);
+    for (nb::handle h : entry<nb::list>(d, "obstacles")) {
+        const nb::dict o = as<nb::dict>(h, "an obstacle");
         Obstacle obstacle;
-        obstacle.body = nb::cast<int>(o["body"]);
+        obstacle.body = entry<int>(o, "body");
         require_body(model, obstacle.body, true);
         obstacle.solid = make_solid(o);
         obstacle.solid.point = obstacle.solid.point - centre(model, obstacle.body);
         if (obstacle.body >= 0) model.bodies[static_cast<size_t>(obstacle.body)].obstacle = true;
-        obstacle.law = {nb::cast<double>(o["friction"]), nb::cast<double>(o["restitution"])};
+        obstacle.law = {entry<double>(o, "friction"), entry<double>(o, "restitution")};
         if (o["capsules"].is_none()) {
             for (int c = 0; c < capsules; c++) {
                 if (contact.capsules[static_cast<size_t>(c)].body != obstacle.body) obstacle.capsules.push_back(c);
             }
         } else {
-            obstacle.capsules = nb::cast<std::vector<int>>(o["capsules"]);
+            obstacle.capsules = entry<std::vector<int>>(o, "capsules");
         }
         for (const int c : obstacle.capsules) require(c >= 0 && c < capsules, "an obstacle names an unknown capsule");
         contact.obstacles.push_back(obstacle);
     }
-    for (nb::handle h : nb::cast<nb::list>(d["pairs"])) {
-        const auto pair = nb::cast<std::vector<int>>(h);
+    for (nb::handle h : entry<nb::list>(d, "pairs")) {
+        const auto pair = as<std::vector<int>>(h, "a pair of 'pairs'");
         for (const int c : {pair.at(0), pair.at(1)}) require(c >= 0 && c < capsules, "a pair names an unknown capsule");
         require(pair.size() == 2 && pair[0] != pair[1], "a capsule does not touch itself");
         contact.pairs.push_back({pair[0], pair[1]});
@@ -180,7 +180,7 @@ void add_contact(Model& model, const nb::dict& d) {
         Body& body = model.bodies[static_cast<size_t>(joint.body[1])];
         body.stand_in = body.obstacle;
     }
-    const auto between = nb::cast<std::pair<double, double>>(d["contact"]);
+    const auto between = entry<std::pair<double, double>>(d, "contact");
     contact.between = {between.first, between.second};
 }
 
@@ -189,25 +189,25 @@ void add_contact(Model& model, const nb::dict& d) {
 Model make_model(const nb::dict& d) {
     Model model;
     add_bodies(model, d);
-    for (nb::handle h : nb::cast<nb::list>(d["joints"])) {
+    for (nb::handle h : entry<nb::list>(d, "joints")) {
         add_joint(model, fields(h, 6, "a joint has two bodies, place, axes, held freedoms, cross"));
     }
-    for (nb::handle h : nb::cast<nb::list>(d["hinges"])) add_hinge(model, nb::cast<nb::dict>(h));
-    for (nb::handle h : nb::cast<nb::list>(d["drives"])) {
+    for (nb::handle h : entry<nb::list>(d, "hinges")) add_hinge(model, as<nb::dict>(h, "a hinge"));
+    for (nb::handle h : entry<nb::list>(d, "drives")) {
         add_drive(model, fields(h, 5, "a drive has joint, freedom, times, rates, start"));
     }
-    for (nb::handle h : nb::cast<nb::list>(d["loads"])) {
+    for (nb::handle h : entry<nb::list>(d, "loads")) {
         add_load(model, fields(h, 6, "a load has body, point, force, moment, times, values"));
     }
-    for (nb::handle h : nb::cast<nb::list>(d["springs"])) {
+    for (nb::handle h : entry<nb::list>(d, "springs")) {
         add_spring(model, fields(h, 7, "a spring has two bodies, two points, stiffness, length, damping"));
     }
     add_contact(model, d);
     model.gravity = vector(d["gravity"]);
-    model.length = nb::cast<double>(d["length"]);
+    model.length = entry<double>(d, "length");
     require_finite({model.gravity.x, model.gravity.y, model.gravity.z}, "gravity must be finite");
     require(model.length > 0 && std::isfinite(model.length), "the length must be positive");
-    model.breaks = nb::cast<Doubles>(d["breaks"]);
+    model.breaks = entry<Doubles>(d, "breaks");
     require_breaks(model.breaks);
     return model;
 }
@@ -215,14 +215,14 @@ Model make_model(const nb::dict& d) {
 Condition make_condition(const Model& model, nb::handle given) {
     const nb::tuple t = fields(given, 6, "a condition has kind, value, index, freedom, bodies, points");
     Condition c;
-    const int kind = nb::cast<int>(t[0]);
+    const int kind = entry<int>(t, 0);
     require(kind >= 0 && kind <= static_cast<int>(Quantity::displacement), "unknown condition");
     c.quantity = static_cast<Quantity>(kind);
-    c.value = nb::cast<double>(t[1]);
-    c.index = nb::cast<int>(t[2]);
-    c.freedom = nb::cast<int>(t[3]);
-    const auto bodies = nb::cast<std::vector<int>>(t[4]);
-    const auto points = nb::cast<nb::list>(t[5]);
+    c.value = entry<double>(t, 1);
+    c.index = entry<int>(t, 2);
+    c.freedom = entry<int>(t, 3);
+    const auto bodies = entry<std::vector<int>>(t, 4);
+    const auto points = entry<nb::list>(t, 5);
     require(bodies.size() == 2 && points.size() == 2, "a condition has two bodies and a point of each");
     for (size_t k = 0; k < 2; k++) {
         c.body[k] = bodies[k];

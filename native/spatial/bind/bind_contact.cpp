@@ -3,6 +3,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "spatial/bind/bind_contact.hpp"
+#include "common/binding.hpp"
 #include "spatial/contact/contact.hpp"
 
 namespace nb = nanobind;
@@ -38,14 +39,14 @@ nb::tuple answer(double friction, double inverse_mass, double normal_impulse, co
 
 Solid make_solid(const nb::dict& d) {
     Solid s;
-    const int shape = nb::cast<int>(d["kind"]);
+    const int shape = entry<int>(d, "kind");
     if (shape < 0 || shape > static_cast<int>(Shape::capsule)) throw nb::value_error("an obstacle is of unknown shape");
     s.shape = static_cast<Shape>(shape);
-    s.point = vector(nb::cast<Doubles>(d["point"]));
-    s.direction = vector(nb::cast<Doubles>(d["direction"]));
-    s.edge = vector(nb::cast<Doubles>(d["edge"]));
-    s.radius = nb::cast<double>(d["radius"]);
-    s.length = nb::cast<double>(d["length"]);
+    s.point = vector(entry<Doubles>(d, "point"));
+    s.direction = vector(entry<Doubles>(d, "direction"));
+    s.edge = vector(entry<Doubles>(d, "edge"));
+    s.radius = entry<double>(d, "radius");
+    s.length = entry<double>(d, "length");
     if (s.shape != Shape::sphere) {
         if (!(norm(s.direction) > 0)) throw nb::value_error("an obstacle needs a direction");
         s.direction = (1 / norm(s.direction)) * s.direction;

@@ -78,14 +78,14 @@ nb::dict state_of(const Element& e) {
 Surface make_surface(const nb::dict& d, int n) {
     require(n >= 1 && n <= most_components, "a hinge has one to four components");
     Surface s;
-    const int kind = nb::cast<int>(d["coupling"]);
+    const int kind = entry<int>(d, "coupling");
     require(kind >= 0 && kind <= static_cast<int>(Coupling::tension_flange), "unknown coupling");
     s.coupling = static_cast<Coupling>(kind);
-    s.rows = nb::cast<Doubles>(d["rows"]);
-    s.power = nb::cast<double>(d["power"]);
-    s.torque_power = nb::cast<double>(d["torque_power"]);
-    s.torsion = nb::cast<int>(d["torsion"]);
-    s.arm = nb::cast<double>(d["arm"]);
+    s.rows = entry<Doubles>(d, "rows");
+    s.power = entry<double>(d, "power");
+    s.torque_power = entry<double>(d, "torque_power");
+    s.torsion = entry<int>(d, "torsion");
+    s.arm = entry<double>(d, "arm");
     if (s.coupling == Coupling::section) {
         require(!s.rows.empty() && s.rows.size() % static_cast<size_t>(n) == 0, "rows must have one column per component");
         require(s.power >= 2 && s.torque_power >= 2, "the powers of a surface are at least 2");
@@ -98,11 +98,11 @@ Surface make_surface(const nb::dict& d, int n) {
 
 SpatialHinge make_hinge(const nb::dict& d) {
     SpatialHinge h;
-    const int form = nb::cast<int>(d["form"]), softening = nb::cast<int>(d["softening"]);
+    const int form = entry<int>(d, "form"), softening = entry<int>(d, "softening");
     int slips = 0, turns = 0;
-    for (nb::handle item : nb::cast<nb::list>(d["components"])) {
-        const auto c = nb::cast<nb::dict>(item);
-        h.components.push_back({nb::cast<int>(c["freedom"]),
+    for (nb::handle item : entry<nb::list>(d, "components")) {
+        const auto c = as<nb::dict>(item, "a component of a hinge");
+        h.components.push_back({entry<int>(c, "freedom"),
                                 hinge::make_hinge(c, static_cast<Form>(form), static_cast<Softening>(softening))});
         const Component& last = h.components.back();
         require(last.freedom >= 0 && last.freedom < 6, "a freedom is one of six");
@@ -111,7 +111,7 @@ SpatialHinge make_hinge(const nb::dict& d) {
     }
     require(size(h) >= 1 && size(h) <= most_components, "a hinge has one to four components");
     h.surface = make_surface(d, size(h));
-    h.fracture = nb::cast<double>(d["fracture"]);
+    h.fracture = entry<double>(d, "fracture");
     require(h.surface.coupling != Coupling::ball || slips == 0, "a ball hinge has rotations only");
     require(h.surface.coupling != Coupling::tension_flange || (slips == 1 && turns == 1 && form != 2 && h.surface.arm > 0),
             "a hinge about its tension flange has one slip and one rotation, an arm, and is not regularised");

@@ -56,7 +56,7 @@ def with_filters(result: Result, outputs: Outputs, interval: float) -> Result:
     interval
         Of the histories [s].
     """
-    if not result.time.size:
+    if not result.time.size or not outputs.filters:
         return result
     channels, warnings = dict(result.channels), list(result.warnings)
     # picture times may lie between the samples: filter only the regular samples

@@ -34,7 +34,8 @@ def continuous(vectors: Floats) -> Floats:
     out = vectors.copy()
     for i in range(1, len(out)):
         before, angle = out[i - 1], float(np.linalg.norm(out[i]))
-        if np.linalg.norm(before) + angle < np.pi:
+        # "not above", so that what is not a number stays as it is
+        if not np.linalg.norm(before) + angle >= np.pi:
             continue
         axis = (out[i] if angle > SMALL else before) / max(angle, SMALL)
         axis = axis / np.linalg.norm(axis)

@@ -108,3 +108,10 @@ def test_a_solver_refuses_what_it_would_leave_out():
         solve(loads(text), "shell")
     assert {problem.where for problem in refused.value.problems} == {"joints", "outputs.section_forces"}
     assert solve(loads(text)).status.ok
+
+
+def test_without_filters_times_of_any_length_cost_nothing():
+    analysis = loads(TEXT)
+    whole = solve(analysis)
+    late = replace(whole, time=whole.time * 1e9)
+    assert with_filters(late, analysis.outputs, analysis.output_interval) is late

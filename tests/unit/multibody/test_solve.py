@@ -149,3 +149,10 @@ def test_fall_from_rest_is_balanced_against_the_whole_fall():
     assert result.status is Status.COMPLETE
     work = np.abs(result["energy.external_work"]).max()
     assert np.abs(result["energy.residual"]).max() <= result.energy_residual * work * 1.001
+
+
+def test_outputs_closer_than_two_of_the_smallest_steps_are_refused_in_space():
+    settings = MultibodySettings(kernel="spatial")
+    run = Run(1e-14, 1e-16, settings)
+    with pytest.raises(InputError, match="closer together than two of the smallest time steps"):
+        solve_multibody(thrown(), run)

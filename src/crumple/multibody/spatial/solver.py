@@ -12,6 +12,7 @@ import numpy as np
 from crumple._core.outcome import Outcome
 from crumple._core.records import joined
 from crumple._core.spatial.simulation import SpatialRecord, SpatialSimulation
+from crumple.errors import InputError, Problem
 from crumple.multibody.answer.forces import check_sections, force_channels, section_force_channels
 from crumple.multibody.answer.hinge_histories import hinge_histories, ledger
 from crumple.multibody.answer.poses import SpatialHistory
@@ -122,6 +123,8 @@ class SpatialSolver:
         if not ends_only:
             # with error control alone, hinges that lock within a step would err by twice the accuracy
             longest = min(longest, self._run.every / 2)
+            if longest < settings.minimum_time_step:
+                raise _too_close(self._run.every, settings.minimum_time_step)
         simulation = SpatialSimulation(
             model, accuracy, settings.minimum_time_step, longest, parts=least_parts
         )
@@ -251,3 +254,12 @@ def _joined(records: list[SpatialRecord]) -> SpatialRecord:
     residual = max(record.residual for record in records)
     unseen = max(record.unseen for record in records)
     return replace(records[-1], **histories, **counts, residual=residual, unseen=unseen)
+
+
+def _too_close(every: float, minimum: float) -> InputError:
+    what = "the outputs are closer together than two of the smallest time steps"
+    allowed, todo = (
+        f"at least {2.0 * minimum:g} s",
+        "write a longer duration, or a larger interval of outputs",
+    )
+    return InputError(Problem(what, f"{every:g} s", allowed, todo, "outputs.every"))
