@@ -11,6 +11,7 @@ A corner whose law is stored has one hinge at its node in place of the candidate
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 import numpy as np
 
@@ -31,7 +32,9 @@ def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
     keys = {name: getattr(asked, name) for name in HingeAxes.model_fields}
     if asked.axis is None and asked.axes is None:
         flat = planar(structure)
-        keys |= {"axis": bending_axis(structure, member)} if flat else {"axes": ("y", "z")}
+        keys |= (
+            {"axis": bending_axis(structure, member)} if flat else {"axes": _axes_in_space(structure, member)}
+        )
     axes = (keys["axis"],) if keys["axis"] else tuple(axis for axis in keys["axes"] if axis != "x")
     stations = automatic_stations(structure, member, axes, asked.spacing)
     parts = structure.members[member].rigid_parts(structure.frame_of(member).length)
@@ -41,6 +44,18 @@ def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
     found = [Hinge.model_construct(name=name, at=station, **keys) for name, station in stations.items()]
     found += corner_hinges(structure, member, keys)
     return tuple(sorted(found, key=lambda hinge: float(hinge.at)))
+
+
+def _axes_in_space(structure: StructureParts, member: str) -> tuple[Axis | Literal["x"], ...]:
+    """Both bending axes, and of a closed section twist.
+
+    A closed section mostly yields in torsion before it bends about its strong axis.  An open one warps: its
+    plastic torque, which neglects that, is far too small.
+    """
+    from crumple.section.wall_section import walls_of  # noqa: PLC0415  (only structures in space need walls)
+
+    closed = bool(walls_of(structure.section_of(member)).skeleton.cells)
+    return ("y", "z", "x") if closed else ("y", "z")
 
 
 def automatic_stations(

@@ -78,6 +78,18 @@ def test_motion_across_the_plane_of_the_nodes_is_not_planar():
     assert not planar(frame(masses={"m": {"node": "c", "mass": 1.0, "offset": (0.0, 0.1, 0.0)}}))
 
 
+@pytest.mark.parametrize(
+    ("section", "axes"),
+    [
+        ({"type": "square_tube", "side": 0.04, "thickness": 0.002}, ("y", "z", "x")),
+        ({"type": "channel", "width": 0.03, "depth": 0.05, "thickness": 0.002}, ("y", "z")),
+    ],
+)
+def test_candidates_in_space_bend_about_both_axes_and_closed_ones_twist(section, axes):
+    whole = frame(sections={"tube": section}, gravity=(0.0, 9.81, 0.0))
+    assert {hinge.keys.axes for hinge in hinge_places(whole)} == {axes}
+
+
 def test_the_law_of_candidates_is_the_one_given():
     (first, *_) = placed_hinges(frame({"law": LAW}))
     assert first.record.positive.moment[0] == pytest.approx(LAW["moment"])
