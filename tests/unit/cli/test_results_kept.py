@@ -10,8 +10,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.support.long_chains import member_of_bars
 
-from crumple.cli.console import defect
+from crumple.cli.console import defect, storing
 from crumple.cli.console.folder import LOCK, results_folder
 from crumple.cli.main import main
 from crumple.errors import InputError
@@ -196,3 +197,18 @@ def test_a_terminal_without_the_letters_of_a_title_shows_others(
     done = subprocess.run(words, env=environment | terminal, capture_output=True, check=False)
     assert (done.returncode, done.stderr) == (0, b"")
     assert b"Gr??e ? <?>" in done.stdout
+
+
+def test_a_second_interrupt_reports_what_is_lost(command, tmp_path, monkeypatch):
+    """The first ends the run; the second comes while its results are written."""
+    path = tmp_path / "case.yaml"
+    path.write_text(member_of_bars(4), encoding="utf-8")
+
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(storing, "store", interrupted)
+    code, _, errors = command("run", path, "--out", tmp_path / "out")
+    assert code == 130
+    assert "second Ctrl-C: no results of this run were kept" in errors
+    assert not list((tmp_path / "out").glob("*.json"))
