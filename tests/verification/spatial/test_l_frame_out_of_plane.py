@@ -4,8 +4,8 @@ An L of two tubes 50x25x2.65 mm (488 MPa, 0.4 m each), clamped at the foot of it
 across its plane at the tip of its arm within 100 ms. Automatic hinges. The post twists: its plastic torque is
 reached before the plastic moments. Expected: rotations of the knee in the shell model of the same input
 (5 mm elements, energy residual 6e-8), solved once by this program, with `hinges: auto` for its zones.
-Tolerance: 2 degrees, since the bars are rigid and the torque does not fall. Forces are overestimated for the same
-reasons: the work is 708 J, that of the shells 534 J; without twist it was 1320 J.
+Tolerance: 2 degrees, since the bars are rigid and the torque does not fall. Forces are overestimated for
+the same reasons: the work is 708 J, that of the shells 534 J; without twist it was 1320 J.
 
 Kind: own past numbers.  Source: yes, this program's shell solver.
 """
