@@ -9,7 +9,7 @@ from crumple.analysis.analysis import Analysis
 from crumple.analysis.canonical import canonical, input_hash
 from crumple.analysis.input_file import FORMAT, InputFile, LoadedInput, check, load, load_input, loads
 from crumple.analysis.schema import json_schema
-from crumple.analysis.solve import FIDELITIES, solve
+from crumple.analysis.solve import FIDELITIES, solve, with_law_range
 
 __all__ = [
     "FIDELITIES",
@@ -25,4 +25,5 @@ __all__ = [
     "load_input",
     "loads",
     "solve",
+    "with_law_range",
 ]

@@ -15,6 +15,7 @@ from crumple.units import format_quantity
 from crumple.version import __version__
 
 if TYPE_CHECKING:
+    from crumple.multibody import Run
     from crumple.result import Result
     from crumple.shell import LongRun
 
@@ -84,6 +85,26 @@ def solve(
     return replace(result, provenance=provenance, reason=reason)
 
 
+def with_law_range(
+    result: Result, analysis: Analysis, threads: int = 1, cancel: Callable[[], bool] | None = None
+) -> Result:
+    """A multibody result with its range from the bands of the hinge laws, see `Result.law_range`.
+
+    Parameters
+    ----------
+    result
+        Of the analysis.
+    analysis
+        As it was solved.
+    threads, cancel
+        As in `solve`.
+    """
+    from crumple.multibody import law_range  # noqa: PLC0415
+
+    found = law_range(analysis.structure, _run_of(analysis), result, threads, cancel)
+    return replace(result, law_range=found)
+
+
 def solved_alone(
     analysis: Analysis,
     fidelity: str,
@@ -136,9 +157,15 @@ def _refuse_unsolved(analysis: Analysis, fidelity: str) -> None:
 def _multibody(
     analysis: Analysis, progress: Callable[[float], None] | None, cancel: Callable[[], bool] | None
 ) -> Result:
-    from crumple.multibody import Run, solve_multibody  # noqa: PLC0415
+    from crumple.multibody import solve_multibody  # noqa: PLC0415
 
-    run = Run(
+    return solve_multibody(analysis.structure, _run_of(analysis), progress, cancel)
+
+
+def _run_of(analysis: Analysis) -> Run:
+    from crumple.multibody import Run  # noqa: PLC0415
+
+    return Run(
         duration=analysis.duration,
         every=analysis.output_interval,
         settings=analysis.multibody,
@@ -146,7 +173,6 @@ def _multibody(
         title=analysis.title,
         stages=analysis.stages,
     )
-    return solve_multibody(analysis.structure, run, progress, cancel)
 
 
 def _shell(

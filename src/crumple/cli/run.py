@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from crumple.cli.console.fidelity import Fidelity
-from crumple.cli.console.laws import Freeze, Laws, law_lines, with_store
+from crumple.cli.console.laws import Freeze, Laws, law_lines, range_lines, with_store
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from rich.table import Table
 
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 MOST_HINGES = 20
 """Number of hinges in the table; the files contain all."""
+QUICK = 5.0
+"""Time of a run up to which its range from the hinge laws is computed without being requested [s]."""
 
 
 def run(
@@ -43,6 +45,15 @@ def run(
     ] = None,
     laws: Laws = None,
     freeze_laws: Freeze = None,
+    law_range: Annotated[
+        bool | None,
+        typer.Option(
+            "--law-range/--no-law-range",
+            help="Solve also with the laws at the edges of their bands: all low, all high, alternating; by "
+            "default if the run took less than 5 s.",
+            show_default=False,
+        ),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print summary.json instead of the table.")] = False,
 ) -> None:
     """Solve an input file and report. Writes summary, histories, shapes, figures and a page to a folder."""
@@ -55,13 +66,18 @@ def run(
     both = fidelity is Fidelity.BOTH
     within = tuple(one.value for one in fidelity.solvers) if both else ()
     with results_folder(out, file, within) as folder:
-        good = _run(source, folder, (fidelity, threads, restart), as_json=as_json)
+        good = _run(source, folder, (fidelity, threads, restart), law_range, as_json=as_json)
     if not good:
         raise typer.Exit(1)
 
 
 def _run(
-    source: LoadedInput, folder: Path, how: tuple[Fidelity, int | None, Path | None], *, as_json: bool
+    source: LoadedInput,
+    folder: Path,
+    how: tuple[Fidelity, int | None, Path | None],
+    law_range: bool | None,
+    *,
+    as_json: bool,
 ) -> bool:
     """Solve with every requested solver and report; returns whether all results can be trusted."""
     from crumple.errors import Status
@@ -70,7 +86,7 @@ def _run(
     summaries, good = {}, True
     for one in fidelity.solvers:
         place = folder / one.value if fidelity is Fidelity.BOTH else folder
-        result = _solve(source, place, (one, threads, restart))
+        result = _solve(source, place, (one, threads, restart), law_range)
         good = good and result.status.ok
         if as_json:
             summaries[one.value] = _summary(result)
@@ -90,7 +106,12 @@ def _run(
     return good
 
 
-def _solve(source: LoadedInput, folder: Path, how: tuple[Fidelity, int | None, Path | None]) -> Result:
+def _solve(
+    source: LoadedInput,
+    folder: Path,
+    how: tuple[Fidelity, int | None, Path | None],
+    law_range: bool | None,
+) -> Result:
     """Solve with one solver and write its files; `how`: solver, threads, restart file."""
     from crumple.analysis import solve
     from crumple.cli.console.progress import progress_bar
@@ -116,6 +137,9 @@ def _solve(source: LoadedInput, folder: Path, how: tuple[Fidelity, int | None, P
             raise source.with_lines(error) from None
         if not result.time.size:
             raise CancelledError(result.reason)
+        wanted = result.solve_seconds < QUICK if law_range is None else law_range
+        if wanted and not is_shell and result.status.ok:
+            result = _with_range(result, source, threads or available_cores(), cancel)
         # still inside: Ctrl-C while figures are drawn must not lose the result
         if result.status is Status.CANCELLED:
             typer.echo("Stopped. Writing the results so far; another Ctrl-C discards them.", err=True)
@@ -134,6 +158,18 @@ def _discarding() -> Iterator[None]:
         yield
     except KeyboardInterrupt:
         raise CancelledError("ended by a second Ctrl-C: no results of this run were kept") from None
+
+
+def _with_range(result: Result, source: LoadedInput, threads: int, cancel: Callable[[], bool]) -> Result:
+    """The result with its range from the laws; what is solved is kept if the range cannot be computed."""
+    from crumple.analysis import with_law_range
+    from crumple.errors import InputError
+
+    try:
+        return with_law_range(result, source.analysis, threads, cancel)
+    except InputError as error:
+        typer.echo(f"The range from the laws is not known: {error.problems[0].what}", err=True)
+        return result
 
 
 def _summary(result: Result) -> dict[str, Any]:
@@ -178,6 +214,8 @@ def _show(result: Result, folder: Path, source: LoadedInput) -> None:
         console.print(
             f"At most {MOST_HINGES} of {len(result.hinges)} hinges, those with the largest absorbed energy"
         )
+    for line in range_lines(result):
+        console.print(Text(line), soft_wrap=True)
     for line in law_lines(result, source):
         console.print(Text(line), soft_wrap=True)
     console.print(

@@ -16,6 +16,7 @@ from crumple.multibody.planar.plane import Plane
 from crumple.multibody.run import Run
 from crumple.multibody.solve import solve_multibody, solver_of
 from crumple.multibody.timing import least_seconds, stepping_seconds
+from crumple.multibody.variants.law_range import law_range
 from crumple.multibody.variants.sensitivity import Sensitivities, sensitivities
 from crumple.multibody.variants.variants import VariantTable, solve_variants
 
@@ -31,6 +32,7 @@ __all__ = [
     "VariantTable",
     "dead_centres",
     "infinitesimal",
+    "law_range",
     "least_seconds",
     "link",
     "lower",

@@ -184,6 +184,7 @@ def _render(
     from markupsafe import Markup  # noqa: PLC0415
 
     from crumple.report.wording import wording  # noqa: PLC0415
+    from crumple.report.wording.law_range import range_table  # noqa: PLC0415
 
     # the figures and the style are our own; everything else is escaped
     figures = {name: _Figure(i + 1, Markup(svg), caption) for i, (name, svg, caption) in enumerate(drawn)}
@@ -215,6 +216,7 @@ def _render(
         output_table=wording.output_table(result),
         fall_table=wording.fall_table(result),
         law_table=wording.law_table(result, source.name or INPUT),
+        range_table=range_table(result),
         assumptions=result.assumptions,
         provenance_table=_provenance(result, wording.Table),
         input_text=text[:MAX_INPUT],

@@ -3,6 +3,7 @@
 from crumple.result.caution import Caution, sentences
 from crumple.result.crush import CrushSummary, crush_summary
 from crumple.result.filters import ChannelClass, Standard, cfc
+from crumple.result.law_range import LawRange
 from crumple.result.pictures import missing_pictures
 from crumple.result.result import (
     Channel,
@@ -23,6 +24,7 @@ __all__ = [
     "ChannelClass",
     "CrushSummary",
     "HingeSummary",
+    "LawRange",
     "Opening",
     "OutputSummary",
     "Provenance",

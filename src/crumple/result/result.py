@@ -15,6 +15,7 @@ from crumple.hinge.law_use import LawUse
 from crumple.numeric.arrays import Floats, Integers
 from crumple.result.caution import Caution
 from crumple.result.crush import BENT, CrushSummary
+from crumple.result.law_range import LawRange
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -246,6 +247,8 @@ class Result:
     cautions: tuple[Caution, ...] = ()
     """Checks that the result did not pass.  The sentences of violations are the reason, of others the first
     warnings."""
+    law_range: LawRange | None = None
+    """Range from the bands of the hinge laws, if it was computed."""
 
     def __getitem__(self, name: str) -> Floats:
         """Values of one channel, (n_times,); KeyError with similar names if there is none."""

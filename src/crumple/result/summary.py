@@ -56,6 +56,7 @@ def summary(result: Result) -> dict[str, Any]:
             {"code": c.code, "value": c.value, "limit": c.limit, "unit": c.unit, "place": c.place}
             for c in result.cautions
         ],
+        "law_range": None if result.law_range is None else asdict(result.law_range),
         "warnings": result.warnings,
         "assumptions": result.assumptions,
         "provenance": {

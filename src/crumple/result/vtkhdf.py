@@ -26,6 +26,7 @@ from crumple.hinge.law_use import LawUse
 from crumple.result.caution import Caution
 from crumple.result.crush import CrushSummary
 from crumple.result.format import FORMAT, former_names_note, present_name
+from crumple.result.law_range import LawRange
 from crumple.result.result import (
     Channel,
     HingeSummary,
@@ -167,6 +168,7 @@ def _write_rest(group: h5py.Group, result: Result, field_names: FieldNames) -> N
         "hinges": hinges,
         "cautions": [asdict(caution) for caution in result.cautions],
         "stages": [asdict(stage) for stage in result.stages],
+        "law_range": None if result.law_range is None else asdict(result.law_range),
         "member_names": None if result.states is None else result.states.member_names,
         "fields": field_names,
     }
@@ -251,7 +253,15 @@ def read_vtkhdf(file: h5py.File) -> Result:
         collapse_threshold=text.get("collapse_threshold", 0.0),
         cautions=tuple(Caution(**caution) for caution in text.get("cautions", ())),
         stages=tuple(StageSummary(**stage) for stage in text.get("stages", ())),
+        law_range=_law_range(text.get("law_range")),
     )
+
+
+def _law_range(text: Mapping[str, Any] | None) -> LawRange | None:
+    if text is None:
+        return None
+    ranges = {name: (low, high) for name, (low, high) in text["ranges"].items()}
+    return LawRange(ranges, text["bands"], tuple(text["without"]), tuple(text["failed"]))
 
 
 def _read_states(file: h5py.File, text: Mapping[str, Any]) -> States:

@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from crumple.analysis import LoadedInput
     from crumple.result import HingeSummary, Result
 
+MOST_RANGES = 6
+"""Quantities whose range is printed; the files contain all."""
 MOST_NAMES = 4
 """Names of hinges with one law that are listed; the files contain all."""
 
@@ -74,6 +76,25 @@ def law_lines(result: Result, source: LoadedInput) -> Iterator[str]:
         shown = ", ".join(names[:MOST_NAMES])
         more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
         yield f"Law of {shown}{more}: {sentence}"
+
+
+def range_lines(result: Result) -> Iterator[str]:
+    """Range of rotations, energies and displacements from the bands of the laws."""
+    from crumple.report.wording.law_range import range_rows
+
+    found = result.law_range
+    if found is None:
+        return
+    rows = range_rows(result)
+    shown = "; ".join(f"{name} {low} to {high} {unit}" for name, unit, _, low, high in rows[:MOST_RANGES])
+    more = f"; and {len(rows) - MOST_RANGES} more in summary.json" if len(rows) > MOST_RANGES else ""
+    yield f"Range from the laws (a range, not a bound): {shown}{more}"
+    if found.without:
+        yield f"Without a band: {', '.join(found.without[:MOST_NAMES])}" + (
+            f" and {len(found.without) - MOST_NAMES} more" if len(found.without) > MOST_NAMES else ""
+        )
+    for name in found.failed:
+        yield f"Not in the range, the run did not reach its end: {name}"
 
 
 def grouped(hinges: Mapping[str, HingeSummary], file: str) -> dict[str, list[str]]:

@@ -1,0 +1,87 @@
+"""Runs with the hinge laws at the edges of their bands: all low, all high, and alternating.
+
+A law with the relative half-width u is multiplied by 1 - u or 1 + u.  The runs are variants of one structure
+in one call of the batch kernel.  Together they are a range, not a bound: other combinations may lie outside.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from crumple.multibody.run import Cancel, Run
+from crumple.multibody.variants.variants import VariantTable, solve_variants
+from crumple.numeric.arrays import Floats
+from crumple.result.law_range import LawRange
+from crumple.result.result import Result
+from crumple.structure import Structure, plastic_hinges
+
+CASES: dict[str, Callable[[int], float]] = {
+    "nominal": lambda _: 0.0,
+    "all laws low": lambda _: -1.0,
+    "all laws high": lambda _: 1.0,
+    "alternating, the first low": lambda k: -1.0 if k % 2 == 0 else 1.0,
+    "alternating, the first high": lambda k: 1.0 if k % 2 == 0 else -1.0,
+}
+"""Sense in which the law of the k-th hinge with a band is changed, by the name of the run."""
+WIDEST = 0.95
+"""Largest half-width that is used [-]: the capacity must stay positive."""
+
+
+def law_range(
+    structure: Structure, run: Run, nominal: Result, threads: int | None = None, cancel: Cancel | None = None
+) -> LawRange | None:
+    """Range of a result from the bands of its laws.
+
+    Parameters
+    ----------
+    structure, run
+        As they were solved.
+    nominal
+        Result with the nominal laws; its values are within the range too.
+    threads, cancel
+        As in `solve_variants`.
+
+    Returns
+    -------
+    LawRange or None
+        None if no law has a known band.
+
+    References
+    ----------
+    docs/theory/measured_curves.md.  Verified in tests/unit/multibody/variants/test_law_range.py.
+    """
+    widths = {hinge.name: hinge.law.validity.uncertainty for hinge in plastic_hinges(structure)}
+    bands = {name: min(width, WIDEST) for name, width in widths.items() if width}
+    if not bands:
+        return None
+    factors = {
+        f"hinges.{name}.capacity": np.array([1.0 + sense(k) * band for sense in CASES.values()])
+        for k, (name, band) in enumerate(bands.items())
+    }
+    table = solve_variants(structure, run, factors, threads, cancel=cancel)
+    good = np.array([status.ok for status in table.status])
+    failed = tuple(name for name, ok in zip(CASES, good.tolist(), strict=True) if not ok)
+    without = tuple(name for name in widths if name not in bands)
+    return LawRange(_ranges(table, good, nominal), bands, without, failed)
+
+
+def _ranges(table: VariantTable, good: Floats, nominal: Result) -> dict[str, tuple[float, float]]:
+    """Least and largest value of each reported quantity over the runs that reached their end."""
+    known = {
+        f"hinge.{name}.{key}": float(getattr(hinge, key))
+        for name, hinge in nominal.hinges.items()
+        for key in ("rotation_max", "energy")
+    }
+    known |= {
+        name: float(channel.values[-1])
+        for name, channel in nominal.channels.items()
+        if name == "energy.dissipated" or (name.startswith("node.") and ".displacement." in name)
+    }
+    found = {}
+    for name, value in known.items():
+        if name in table.quantities:
+            values = np.append(table.quantities[name][good], value)
+            found[name] = (float(values.min()), float(values.max()))
+    return found
