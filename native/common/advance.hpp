@@ -1,4 +1,4 @@
-// Whether a run still comes to an end: it stops where much work advances it by next to nothing, and says what the work went into.
+// Ends runs that no longer advance: a run stops if much work advances it by almost nothing, and reports what the work was spent on.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@ namespace crumple {
 inline constexpr const char* lost_balance = "a step of the smallest length was not accurate and lost the balance of energy";
 inline constexpr const char* driven_without_solution = "; where what is driven meets what cannot give way they have no solution";
 
-// What became of an attempt at a step.
+// Outcome of an attempted step.
 enum class Attempted { taken, inexact, unsolved, closing, impact };
 
 class Advance {
@@ -24,7 +24,7 @@ public:
 
     void count(Attempted what) { counts_[static_cast<size_t>(what)]++; }
 
-    // Why the run ends at this time, after so many linear solves; empty where it goes on.
+    // Reason for which the run ends at this time, after so many linear solves; empty if it continues.
     std::string stalled(double t, std::int64_t solves) {
         if (t >= next_by_steps_) mark_steps(t);
         if (t >= next_by_solves_) mark_solves(t, solves);

@@ -1,5 +1,5 @@
-// What the bindings share: copies between NumPy arrays and vectors (the core keeps its own memory), checks of what
-// Python hands over, and work without the interpreter's lock.
+// Shared by the bindings: copies between NumPy arrays and vectors (the core keeps its own memory), checks of what
+// Python passes, and work without the interpreter's lock.
 #pragma once
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
@@ -79,7 +79,7 @@ template <class T, class Holder, class Key> T entry(const Holder& holder, Key ke
     return as<T>(nanobind::object(holder[key]), name_of_entry(key));
 }
 
-// Rows of what varies from variant to variant, (count, ...); none: nothing does.
+// Values that differ from variant to variant by rows, (count, ...); none if they do not differ.
 using Rows = std::optional<In>;
 
 inline const double* rows(const Rows& given, std::size_t count, std::size_t each, const char* what) {
@@ -94,7 +94,7 @@ template <class State> struct Used : State {
     bool busy = false;
 };
 
-// Holds a state for a while.
+// Marks a state as in use while this object lives.
 class Busy {
 public:
     template <class State> explicit Busy(Used<State>& state) : busy_(state.busy) {

@@ -7,7 +7,7 @@ namespace crumple {
 
 struct Stopped {};
 
-// Whom this thread asks for as long as it lives.
+// The function that this thread calls to check for cancellation.
 class Asking {
 public:
     explicit Asking(const std::function<bool()>& go_on) : go_on_(go_on), before_(present()), next_(Clock::now() + pause_between) { present() = this; }
@@ -23,7 +23,7 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-    // nobody feels it, and a question costs nothing beside it
+    // short enough not to be noticed, and long compared with the cost of one check
     static constexpr std::chrono::milliseconds pause_between{50};
     static constexpr int calls_per_look = 16;
 

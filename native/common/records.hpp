@@ -1,4 +1,4 @@
-// What runs of both multibody kernels record, by name.
+// Records of runs of both multibody kernels, by name.
 //
 // Every record lists its columns once, in `each`, with a pointer to the member: storage, batches and bindings follow from
 // that list.  A column has a row for every output time (or, where runs are rows, for every run); `summary` has none.
@@ -10,7 +10,7 @@
 
 namespace crumple {
 
-// How a run ended; crumple._core.outcome has the same values.
+// Outcome of a run; crumple._core.outcome has the same values.
 enum class Outcome { complete, step_collapsed, not_finite, cancelled, refused, unheld, limit_load, stalled };
 
 // Energies of the whole model [J], (rows).  `slowed`: what quasi-static stages took out of the motion.
@@ -43,7 +43,7 @@ template <class T> struct ComponentRecord {
     }
 };
 
-// What every hinge came to by the end of a run, (hinges); times that never came are NaN.
+// Summary of every hinge at the end of a run, (hinges); times of events that did not happen are NaN.
 template <class T> struct HingeSummary {
     std::vector<T> rotation_max, moment_max, opening_time, rest_time, turning, energy, fracture_time, fracture_moment;
     template <class F> static void each(F f) {

@@ -1,4 +1,4 @@
-// Many tasks that share nothing, on several threads.
+// Many independent tasks on several threads.
 #pragma once
 
 #include <cstddef>

@@ -9,7 +9,7 @@ namespace crumple::shell {
 
 namespace {
 
-// How long a member waits awake for the next call: longer than a look at a run between two of them takes.
+// Time for which a member spins until the next call: longer than the work between two calls of a run.
 constexpr auto awake = std::chrono::microseconds(200);
 
 }  // namespace

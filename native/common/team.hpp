@@ -1,4 +1,4 @@
-// A team of threads that stays, and runs stages one after another with a barrier that spins first and yields then.
+// A persistent team of threads that runs stages one after another, with a barrier that first spins and then yields.
 #pragma once
 #include <atomic>
 #include <cstdint>

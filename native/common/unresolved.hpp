@@ -1,4 +1,4 @@
-// What loads and drives do within a step that the step does not see.  Derivation in docs/theory/time_functions.md.
+// Action of loads and drives within a step that the step does not resolve.  Derivation in docs/theory/time_functions.md.
 //
 // A step takes a load by its mean over the step, so the impulse in between as a straight line, and the rate of a drive as
 // a straight line.  What lies off these chords is unresolved: a pulse that comes and goes, a motion out and back.

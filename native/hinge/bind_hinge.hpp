@@ -1,4 +1,4 @@
-// A hinge from the plain values that Python hands over.
+// A hinge from the plain values that Python passes.
 #pragma once
 
 #include <nanobind/stl/string.h>

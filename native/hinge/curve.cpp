@@ -7,7 +7,7 @@ inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
-// Share of a step in which a function of time is no other piece of it: rounding of times.
+// Share of a step below which a further piece of a function of time is rounding of the times.
 constexpr double sliver = 1e-12;
 
 }  // namespace

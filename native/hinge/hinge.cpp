@@ -9,12 +9,12 @@ namespace {
 
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
 constexpr double half_pi = 1.57079632679489661923;
-// Below this turn [rad] the mean capacity is the present one: differences of areas would cancel.
+// Below this rotation [rad] the mean capacity is the present one: differences of areas would cancel.
 constexpr double smallest_mean = 1e-7;
 // An elastic hinge that has yielded swings back to just its capacity, where errors of the step make it flow or
 // not; its time of rest passes over flow of less than this share of all its plastic rotation.
 constexpr double smallest_episode = 1e-2;
-// A rigid hinge of a loop that has come to rest is stirred once more while the loop's gap is corrected.
+// Correction of the loop's gap moves a rigid hinge of the loop again after it has come to rest.
 constexpr double smallest_rigid_episode = 1e-5;
 
 // Capacity in one sense (0 positive, 1 negative) before it turns further.  `u` is the plastic rotation counted in
@@ -117,7 +117,7 @@ Real release_rate(const Stop& stop, const FrozenHinge& f, int k) {
     return (low + high) / 2;
 }
 
-// Integral over the rate of a stop's force, taken without letting go.
+// Integral over the rate of a stop's force, without separation.
 Real stop_integral(const Stop& stop, const FrozenHinge& f, int k, Real v) {
     const Real sign = k == 0 ? 1 : -1, start = max(f.gap[k], 0.0), end = penetration_at_end(f, k, sign * v);
     const Real damper = f.stop_damping[k] * v * v / 2;

@@ -56,7 +56,7 @@ struct Hinge {
     Stop stop[2];                   // positive, negative sense
 };
 
-// What one hinge remembers.
+// State of one hinge.
 struct HingeState {
     Real plastic = 0, peak[2] = {0, 0}, accumulated = 0;
     Real episode = 0;             // plastic rotation since it last came to rest
@@ -69,7 +69,7 @@ struct HingeState {
     int hint[2] = {0, 0};
 };
 
-// A hinge over one step, all that is not convex frozen.
+// A hinge during one step; all quantities that are not convex are frozen.
 struct FrozenHinge {
     double h = 0;
     Real w0 = 0, m0 = 0;

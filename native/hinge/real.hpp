@@ -99,7 +99,7 @@ inline Real pow(const Real& x, const Real& p) {
     for (int k = 0; k < directions; k++) r.d[k] += by_power * p.d[k];
     return r;
 }
-// the derivatives of another number, not its value
+// takes the derivatives of another number, not its value
 inline void take_directions(Real& to, const Real& from) { std::copy(from.d, from.d + directions, to.d); }
 
 #endif

@@ -9,7 +9,7 @@
 namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
-// What varies, one row per variant; a null pointer leaves the model's own.
+// Values that differ from variant to variant, one row each; a null pointer leaves the model's own values.
 struct Variations {
     size_t count = 0;
     std::vector<const Model*> models;       // of one topology
@@ -22,7 +22,7 @@ struct Variations {
     const double* gravity = nullptr;        // (count, 2)
 };
 
-// Where every variant ended, row by row; a row of a variant that was not solved holds zeros.
+// Final values of every variant by rows; zeros for a variant that was not solved.
 struct EndValues {
     std::vector<double> time, q, w;     // (count), (count, dofs)
     std::vector<double> pose;           // (count, bodies, 3): angle, x, y of the origin

@@ -30,7 +30,7 @@ void Simulation::make_ready() {
     ready_ = true;
 }
 
-// The inertia that a damper feels is taken at the start.
+// The inertia that a damper acts on is evaluated at the start.
 void Simulation::set_damping() {
     critical_.clear();
     for (Hinge& hinge : model_.hinges) {
@@ -213,7 +213,7 @@ void Simulation::run_to_end(const std::vector<double>& times, const std::functio
     show_first_moments();
     for (const double t : times) {
         const bool reached = t <= state_.t || advance(t, record, poll);
-        // a run that ends early stores its last state
+        // a run that ends early records its last state
         if (reached || record.time.empty() || record.time.back() < state_.t) store(record);
         if (!reached) break;
     }

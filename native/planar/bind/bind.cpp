@@ -1,4 +1,4 @@
-// Python face of the planar kernel.  Arrays come in as plain NumPy; nothing here decides physics.
+// Python interface of the planar kernel: conversion of NumPy arrays, no physics.
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>

@@ -1,4 +1,4 @@
-// Python face of the spatial kernel.  Plain values come in; nothing here decides physics.
+// Python interface of the spatial kernel: conversion of plain values, no physics.
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>

@@ -1,4 +1,4 @@
-// Python face of `solve_many`, and of a run with its followers.
+// Python interface of `solve_many`, and of a run with its followers.
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 

@@ -14,7 +14,7 @@ namespace {
 
 using hinge::Doubles;
 
-// One hinge that is led along given rates.
+// One hinge whose rates are prescribed.
 struct Element {
     SpatialHinge hinge;
     SpatialHingeState state;

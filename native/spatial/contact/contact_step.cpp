@@ -1,4 +1,4 @@
-// What a step does with contacts, beside what it does with every law.
+// Treatment of contacts within a step, in addition to that of every law.
 #include <algorithm>
 
 #include "spatial/step/stepper.hpp"
@@ -7,7 +7,7 @@ namespace crumple::spatial {
 
 namespace {
 
-// Of a step that looks at the present alone [s].
+// Length of a step that is used to evaluate the present state only [s].
 constexpr double instant = 1e-12;
 
 size_t at(int i) { return static_cast<size_t>(i); }
@@ -56,7 +56,7 @@ double Stepper::overlap(size_t link) const {
     return error_[k] < -contacts_.closed_gap() && impulse_[k] < 0 ? error_[k] : 0;
 }
 
-// Whether the state after a step of length h, whose rows have just been located, runs into something closed.
+// Whether the state after a step of length h, whose rows have just been located, approaches a closed contact.
 void Stepper::see_contacts(State& s, double h) {
     s.contact.impact = false;
     if (contacts_.overlooked(s.pose)) s.contact.closing = h / 2;

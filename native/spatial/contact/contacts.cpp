@@ -10,14 +10,14 @@ namespace {
 // Capsules whose centre lines are nearer than this share of their radii at the start are joined: contact between
 // them has no direction.
 constexpr double joined = 0.1;
-// Contacts are looked for within `looked_ahead` times the way that bodies go in a step, and kept up to `kept` times as
-// far: steps and their halves then have the same.
+// Contacts are searched within `looked_ahead` times the displacement of bodies in a step, and kept up to `kept` times as
+// far, so that a step and its halves have the same contacts.
 constexpr double looked_ahead = 2, kept = 4;
 // Reach [closed gaps] of a step in which nothing moves: what forces may set going.
 constexpr double least_reach = 1000;
-// Slower approaches [m/s] are rest, whatever their energy: rounding must not bounce.
+// Slower approaches [m/s] count as rest, whatever their energy, because rounding must not cause a rebound.
 constexpr double least_approach = 1e-6;
-// An impact that gains energy bounces by half as much in the next pass, and in the end not at all.
+// Restitution of an impact that gains energy is halved in the next pass, and finally set to zero.
 constexpr double less_bounce = 0.5, least_bounce = 0.1;
 // Share of the limit of friction above which a point slides.
 constexpr double slides = 0.999;
@@ -115,7 +115,7 @@ void Contacts::sweep(double margin) {
     std::sort(near_.begin(), near_.end());
 }
 
-// Way [m] within which points of contact are looked for: as far as bodies go in the step, and some more.
+// Distance [m] within which points of contact are searched: the displacement of bodies in the step, with a margin.
 double Contacts::look_ahead(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double h, double gain) {
     double way = 0, obstacles_way = 0, gone = swept_.empty() ? INFINITY : 0;
     for (size_t c = 0; c < placed_.size(); c++) {

@@ -1,4 +1,4 @@
-// All contacts of a model over a step: which there are, their rows, and what they remember.
+// All contacts of a model during a step: points of contact, their rows, and their state.
 //
 // Candidates are the pairs of a solid (an obstacle, or another capsule) and a capsule; boxes with a margin keep those that
 // can meet soon.  Every point of contact within reach of the step is a link of three rows (normal, two tangents) between
@@ -42,7 +42,7 @@ struct ContactModel {
     bool empty() const { return obstacles.empty() && pairs.empty(); }
 };
 
-// What a run remembers of its contacts.
+// State of the contacts of a run.
 struct ContactState {
     struct Held {
         int64_t key;
@@ -51,7 +51,7 @@ struct ContactState {
     std::vector<Held> held;               // in the order of their keys
     double dissipated = 0, friction = 0;  // [J]
     std::vector<Vec3> impulse, force;     // on every obstacle: since the start [N s]; mean over the last step [N]
-    bool impact = false;                  // something closed is being run into: the next step must be as short as can be
+    bool impact = false;                  // a closed contact is being approached: the next step is an impact, as short as possible
     double closing = 0;                   // after a step: when its first open contact closed, from its start; 0 if none did
 };
 
@@ -79,8 +79,8 @@ public:
     void freeze(size_t i, double inverse_mass);
     FrozenContact& frozen(size_t i) { return active_[i].frozen; }
     const FrozenContact& frozen(size_t i) const { return active_[i].frozen; }
-    // Takes what a pass has found: impulses, rates at start and end (3 each).  False if another pass must follow: friction
-    // worked against other normal impulses, or an impact gained energy and must bounce less.
+    // Stores the result of a pass: impulses, rates at start and end (3 each).  False if another pass is needed: friction
+    // used other normal impulses, or an impact gained energy and its restitution must be reduced.
     bool settle(const double* impulse, const double* rate0, const double* rate);
     // after the last pass: energies, forces on obstacles, and when open contacts closed (`from_rest`: in some step that
     // starts at rest); rows as in the step
@@ -90,7 +90,7 @@ public:
     void push(size_t i, double h, const Row* rows, const double* impulse, ContactState& state) const;
     // whether an impact follows from the gaps and rates (3 each, the first counts) at the end of the step
     bool impact_follows(const double* gap, const double* rate) const;
-    // whether anything overlaps that was not within reach
+    // whether there is an overlap of points that were not within reach
     bool overlooked(const std::vector<Pose>& pose) const;
     double closed_gap() const { return closed_gap_; }
     // without bounces what is run into stops, whatever its restitution, and contacts at rest act with it

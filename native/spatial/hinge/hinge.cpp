@@ -8,7 +8,7 @@ namespace crumple::spatial {
 namespace {
 
 constexpr int most = most_components;
-// Change of a softening variable [rad or m] below which its mean capacity is the present one: differences of areas cancel.
+// Change of a softening variable [rad or m] below which the mean capacity is the present one: differences of areas cancel.
 constexpr double smallest_mean = 1e-7;
 // An elastic hinge's time of rest passes over flow of less than this share of all its plastic work, as in one axis.
 constexpr double smallest_episode = 1e-2;

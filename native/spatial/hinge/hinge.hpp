@@ -44,7 +44,7 @@ struct SpatialHinge {
     double fracture = std::numeric_limits<double>::infinity();  // plastic rotation [rad] at which it opens for good
 };
 
-// What one hinge remembers.  Of each component: plastic rotation, moment (mean over the last step; elastic-plastic: at its
+// State of one hinge.  Of each component: plastic rotation, moment (mean over the last step; elastic-plastic: at its
 // end), total_moment (with damper and stops), capacity, energies dissipated, damped and stop_dissipated.
 struct SpatialHingeState {
     hinge::HingeState component[most_components];
@@ -58,7 +58,7 @@ struct SpatialHingeState {
     bool sliding = false;
 };
 
-// A hinge over one step, all that is not convex frozen.
+// A hinge during one step; all quantities that are not convex are frozen.
 struct FrozenSpatialHinge {
     double h = 0;
     double width = 0;           // half-width of the ramp [rad/s]; change it with `widen`
@@ -88,7 +88,7 @@ void respond(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const doubl
              double* potential);
 void law(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* impulse, double* tangent,
          double* potential);
-// adds what dampers and stops give
+// adds the contribution of dampers and stops
 void add_beside(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* impulse, double* tangent,
                 double* potential);
 // g of the trial state: below 1 the hinge is locked (or elastic), above it flows, and the more the farther above

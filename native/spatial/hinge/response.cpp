@@ -1,4 +1,4 @@
-// What a hinge gives at end rates, all else frozen: impulse, tangent, potential, and the derivative over its capacities.
+// Response of a hinge to its end rates, all else frozen: impulse, tangent, potential, and derivative over the capacities.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -9,7 +9,7 @@ namespace crumple::spatial {
 namespace {
 
 constexpr int most = 4;
-// Newton steps on the surface; a handful is usual, the rest is for edges of high powers.
+// Newton steps on the surface; five or so are usual, more are needed at edges of high powers.
 constexpr int newton_limit = 80;
 constexpr int halvings = 40;
 // Loads below this count as none: their squares and inverses leave the range of numbers.

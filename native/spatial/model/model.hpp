@@ -16,8 +16,8 @@ struct Body {
     double mass = 1;
     Mat3 inertia, inverse;  // about the centre, in the body's frame (the world's at the start)
     Vec3 centre;            // at the start
-    bool obstacle = false;  // no part of the structure: its energy counts when it is given on
-    bool stand_in = false;  // of a driven obstacle: its inertia is nobody's
+    bool obstacle = false;  // not part of the structure: its energy counts when it is transferred to the structure
+    bool stand_in = false;  // body of a driven obstacle: its inertia does not count
 };
 
 // Force and moment on a body, directions fixed in the world, times a factor of time.
@@ -61,7 +61,7 @@ struct Model {
     }
 };
 
-// How a drive stands in the present stage: one that does not act holds where it is.
+// State of a drive in the present stage: one that does not act holds its position.
 struct DriveStage {
     bool acts = true;
     double origin = 0;  // displacement when it was halted
@@ -95,7 +95,7 @@ struct Energies {
     double slowed = 0;  // taken out of the motion by quasi-static stages
     double obstacle_kinetic = 0, obstacle_work = 0;  // parts of obstacles in the kinetic energy and the external work
     double structure_kinetic() const { return kinetic - obstacle_kinetic; }
-    // what obstacles have given on, but for a constant
+    // energy that obstacles have transferred, up to a constant
     double given() const { return obstacle_work - obstacle_kinetic; }
     double balance() const {
         return kinetic + elastic + dissipated + damped + stop + spring + contact + friction + slowed - external_work;

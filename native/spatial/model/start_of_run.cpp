@@ -1,4 +1,4 @@
-// What a run asks of the model at rest: motion that fits the joints, inertias that hinges feel, displacements.
+// Evaluations of the model at rest for a run: motion that fits the joints, inertias felt by hinges, displacements.
 #include <algorithm>
 #include <cmath>
 

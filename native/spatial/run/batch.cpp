@@ -12,7 +12,7 @@ namespace {
 
 Vec3 vector(const double* v) { return {v[0], v[1], v[2]}; }
 
-// What a body carries keeps its place in the world while the centre moves.
+// Points of a body keep their positions in the world when its centre of mass is changed.
 void set_body(Model& model, size_t index, const double* row) {
     Body& body = model.bodies[index];
     const Vec3 shift = vector(row) - body.centre;
@@ -62,7 +62,7 @@ bool positive(const Body& body) {
     return body.mass > 0 && std::isfinite(body.mass) && rotary && finite(r[0]) && finite(r[1]) && finite(r[2]) && finite(body.centre);
 }
 
-// whether the equations make sense: positive masses, inertias and capacities, finite loads
+// whether the values are admissible: positive masses, inertias and capacities, finite loads
 bool sensible(const Model& model) {
     for (const Body& body : model.bodies) {
         if (!positive(body)) return false;

@@ -9,7 +9,7 @@
 
 namespace crumple::spatial {
 
-// A stage as every variant of a case passes it; motion that it adds is the variant's.
+// A stage, the same for every variant of a case except for the motion that it adds.
 struct CaseStage {
     double duration = 0;
     bool quasi_static = false;
@@ -26,7 +26,7 @@ struct Case {
 // inertia is a 3 x 3 matrix about the centre, all in world axes at the start
 constexpr size_t body_columns = 13;  // centre (3), mass, inertia (9)
 
-// What varies, one row per variant; a null pointer leaves the model's own.
+// Values that differ from variant to variant, one row each; a null pointer leaves the model's own values.
 struct Variations {
     size_t count = 0;
     std::vector<const Case*> cases;          // alike, see `alike`
@@ -39,7 +39,7 @@ struct Variations {
     const double* gravity = nullptr;         // (count, 3)
 };
 
-// Where every variant ended, row by row; a row of a variant that was not solved holds zeros.
+// Final values of every variant by rows; zeros for a variant that was not solved.
 struct EndValues {
     std::vector<double> time;                                     // (count)
     std::vector<double> start;                                    // (count, bodies, 3): centres at the start

@@ -1,4 +1,4 @@
-// A run that takes another's steps; see step_record.hpp.
+// A run that takes the steps of another one; see step_record.hpp.
 #include <cmath>
 
 #include "spatial/run/simulation.hpp"

@@ -1,4 +1,4 @@
-// What a run records.
+// Recording of a run.
 #include <limits>
 
 #include "spatial/run/simulation.hpp"

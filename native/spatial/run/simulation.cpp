@@ -37,7 +37,7 @@ void Simulation::make_ready() {
     ready_ = true;
 }
 
-// The inertia that a damper feels is taken at the start.
+// The inertia that a damper acts on is evaluated at the start.
 void Simulation::set_damping() {
     critical_.clear();
     for (size_t j = 0; j < model_.hinges.size(); j++) {
@@ -151,7 +151,7 @@ void Simulation::show_first_moments() {
     state_.contact.force = probe.contact.force;
 }
 
-// what counts as large, and as rounding, in a run to the given time
+// scales of a run to the given time: above which motion is large, below which it is rounding
 void Simulation::prepare(double end) {
     const double duration = end - state_.t;
     advance_.begin(state_.t, duration, stepper_.solves());
@@ -197,7 +197,7 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
         prepare(times.back());
         for (const double t : times) {
             const bool reached = t <= state_.t || advance(t, record, poll);
-            // a run that ends early stores its last state
+            // a run that ends early records its last state
             if (reached || record.time.empty() || record.time.back() < state_.t) store(record);
             if (!reached) break;
         }

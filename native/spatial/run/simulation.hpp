@@ -43,8 +43,8 @@ struct Record {
     Outcome outcome = Outcome::complete;
     std::string reason;
     int ended_by = -1;
-    int stuck_body = -1;         // of a run that could not go on: where it was furthest from balance
-    double lost_time = NAN;      // when the equilibrium ended that a quasi-static stage does not find again
+    int stuck_body = -1;         // for a run that could not continue: the body with the largest imbalance
+    double lost_time = NAN;      // time at which a quasi-static stage lost its equilibrium for good
     double residual = 0;         // largest |balance - start| over the energy that the structure was given
     // speed that loads and drives may have given or taken unseen, over the largest: where hinges rest, a step does not see a pulse
     // that its mean hides
@@ -84,7 +84,7 @@ public:
     Record run(const std::vector<double>& times, const std::function<bool(double)>& poll);
     // the present state alone
     Record present();
-    // the steps to come are kept; null for no longer
+    // steps from now on are stored there; null ends this
     void keep(StepRecords* steps) { step_records_ = steps; }
     // takes the steps that another run of this model or of one near by has kept; false if one cannot be solved
     bool follow(const StepRecords& steps);

@@ -1,4 +1,4 @@
-// Stages: how they begin, and what ends them before their time.
+// Stages: their beginning, and the conditions that end them early.
 #include <algorithm>
 #include <cmath>
 
@@ -10,9 +10,9 @@ namespace {
 
 // Share of the work of loads that drag takes in a step out of equilibrium.  In equilibrium it is drag m v over the load.
 constexpr double lost_share = 1e-3;
-// Way out of equilibrium [rad, model lengths] that is no snap any more, and drag's least share of the work on it.
+// Displacement out of equilibrium [rad, model lengths] beyond that of a snap-through, and drag's least share of its work.
 constexpr double longest_snap = 0.5, snap_share = 5e-2;
-// Steps in a row out of equilibrium that are too many for a snap.
+// Consecutive steps out of equilibrium that exceed a snap-through.
 constexpr int most_lost = 1000;
 // Share of the work that drag takes where nothing else resists.
 constexpr double unheld_share = 0.999;

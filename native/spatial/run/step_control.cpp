@@ -13,7 +13,7 @@ namespace {
 // the square root of the accuracy, as in the planar engine.  With the whole accuracy for a step M3 errs by just that.
 constexpr double loosest_share = 1e-3, step_share = 0.4;
 
-// The same out of equilibrium in a quasi-static stage, where without inertia no way is more than a guess.
+// The same out of equilibrium in a quasi-static stage, where without inertia the path is only an estimate.
 constexpr double lost_tolerance = 2e-2;
 
 constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
@@ -52,7 +52,7 @@ double Simulation::error(const State& coarse, const State& fine) const {
     if (speed > 0) e = std::max(e, kinetic_norm(model_, coarse, &fine) / speed);
     e /= lost_ > 0 ? std::max(step_tolerance_, lost_tolerance) : step_tolerance_;
     if (stepper_.stage().quasi_static) return e;
-    // a step that leaves more energy unbalanced than the accuracy allows has missed something
+    // a step that leaves more energy unbalanced than the accuracy allows is not resolved
     return std::max(e, unbalance(fine) / settings_.accuracy);
 }
 
@@ -127,7 +127,7 @@ bool Simulation::force(Record& record) const {
     return false;
 }
 
-// Asks `poll` now and then.
+// Calls `poll` at intervals.
 bool Simulation::cancelled(Record& record, const std::function<bool(double)>& poll) {
     const std::int64_t done = stepper_.solves() * std::max(1, stepper_.rows());
     if (done <= poll_at_ || !poll) return false;

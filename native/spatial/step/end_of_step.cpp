@@ -1,4 +1,4 @@
-// The end of a step: positions, what laws remember, and energies.
+// The end of a step: positions, states of the laws, and energies.
 #include <algorithm>
 #include <cmath>
 
@@ -55,7 +55,7 @@ Energies energies(const Model& model, const State& s) {
     return e;
 }
 
-// False where the held rows cannot be met, or a number is none.
+// False if the held rows cannot be satisfied, or a value is not finite.
 bool Stepper::commit(State& s, double h) {
     for (size_t i = 0; i < end_.size(); i++) {
         s.travel[i] = (h / 2) * (s.velocity[i] + velocity_[i]);
@@ -202,7 +202,7 @@ bool Stepper::meets() const {
     return true;
 }
 
-// Its impulses belong to the step: those of drives do work, at rates that are not zero.
+// Impulses of the projection belong to the step: those of drives do work, because their rates are not zero.
 void Stepper::project_rates(State& s, double h) {
     const std::vector<Link>& links = system_.links();
     rates(rows_, velocity_.data(), x_.data());
