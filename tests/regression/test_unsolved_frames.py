@@ -1,5 +1,6 @@
 """Random frames that once did not end as they should: one for each cause that was found.
 
+82: a crossing of several ways; moved aside by 0.1 % of its size its loops still left no digits.
 387: a planar frame that locks at rest; the rounding of its rates was held against the accuracy.
 499: locked members with restitution; impacts followed on each other without end.
 81, 900: a driven plane meets what is locked; contacts were taken to close much too early, over and over.
@@ -18,7 +19,7 @@ def solve(index):
     return crumple.solve(frame(SEEDS["campaign"], index))
 
 
-@pytest.mark.parametrize("index", [387, 499])
+@pytest.mark.parametrize("index", [82, 387, 499])
 def test_solved(index):
     result = solve(index)
     assert result.status is Status.COMPLETE, result.reason

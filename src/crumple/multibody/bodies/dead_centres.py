@@ -40,10 +40,14 @@ MOST_SOUGHT = 40
 """Independent motions above which zeros are not sought: the work grows with the cube of their number."""
 HALVINGS = 40
 """Newton steps towards a zero: a share that cannot go on falls to 1e-12 of itself."""
-CROOKED = 1e-3
+CROOKED = (1e-3, 3e-3, 1e-2)
 """Offset of hinges from which several ways go on, over the size of the structure, and lean [rad] of their
-axes: the straightness that standards ask of members (EN 10219-2: 0.2 % of the length; EN 1090-2: 0.1 %).
-The kernel takes rows for dependent that are 1e-9 apart."""
+axes.  The first is the straightness that standards ask of members (EN 10219-2: 0.2 % of the length;
+EN 1090-2: 0.1 %).  The others follow if the loops remain too near to their crossing with it."""
+CLEAR = 5e-4
+"""Least singular value of loops that are moved aside far enough.  Impulses along a loop go with its inverse
+square, and with them the rounding of rates: with rates of 100 rad/s it is 2e-16 x 100/CLEAR^2 = 1e-7 rad/s, a
+tenth of the rate at which locked hinges may creep."""
 GONE = 1e-6
 """Share of a random motion that is left in a freedom at a dead centre: far above 1e-12, far below any that
 goes on."""
@@ -61,10 +65,13 @@ class DeadCentres:
         Place [m], (3,), and axes, (3, 3), a little beside their own, of connections from which several ways
         go on at once, like two equal members side by side that bend together to either side: a perfect
         geometry decides for none.
+    offset
+        Of these places, over the size of the structure.
     """
 
     held: frozenset[Freedom] = frozenset()
     aside: dict[int, tuple[Floats, Floats]] = field(default_factory=dict)
+    offset: float = CROOKED[0]
 
     def __bool__(self) -> bool:
         return bool(self.held or self.aside)
@@ -101,7 +108,21 @@ def dead_centres(linkage: Linkage) -> DeadCentres:
     left = without(linkage, hinges)
     if _problem(left):
         hinges, left = held, without(linkage, held)
-    return DeadCentres(hinges, _crooked(left))
+    for offset in CROOKED:
+        aside = _crooked(left, offset)
+        if not aside or _least(left, aside) >= CLEAR:
+            break
+    return DeadCentres(hinges, aside, offset)
+
+
+def _least(linkage: Linkage, aside: dict[int, tuple[Floats, Floats]]) -> float:
+    """Least singular value of the loops that are independent once connections are moved aside."""
+    connections = list(linkage.connections)
+    for i, (place, axes) in aside.items():
+        connections[i] = replace(connections[i], position=place, axes=axes)
+    moved = replace(linkage, connections=tuple(connections))
+    sizes = np.linalg.svd(loop_system(moved, tree_of(moved)), compute_uv=False)
+    return float(sizes[sizes > NOTHING * max(float(sizes.max()), 1.0)].min())
 
 
 def _problem(linkage: Linkage) -> tuple[Tree, Floats, Floats] | None:
@@ -132,7 +153,7 @@ def without(linkage: Linkage, held: frozenset[Freedom]) -> Linkage:
     return replace(linkage, connections=tuple(connections))
 
 
-def _crooked(linkage: Linkage) -> dict[int, tuple[Floats, Floats]]:
+def _crooked(linkage: Linkage, offset: float) -> dict[int, tuple[Floats, Floats]]:
     """Change places and axes so that only one of the motions that cross at a dead centre is left, or none."""
     if not (problem := _problem(linkage)):
         return {}
@@ -150,16 +171,16 @@ def _crooked(linkage: Linkage) -> dict[int, tuple[Floats, Floats]]:
             # what turns about one axis alone stays in the plane across it, beside the line of its member
             across = rng.choice([-1.0, 1.0]) * np.cross(connection.axes[turning[0]], connection.axes[0])
             across, lean = (across if np.any(across) else connection.axes[1]), np.zeros(3)
-        place = connection.position + CROOKED * length * across / np.linalg.norm(across)
-        found[owner] = place, _leaning(connection.axes, lean)
+        place = connection.position + offset * length * across / np.linalg.norm(across)
+        found[owner] = place, _leaning(connection.axes, lean, offset)
     return found
 
 
-def _leaning(axes: Floats, lean: Floats) -> Floats:
+def _leaning(axes: Floats, lean: Floats, angle: float) -> Floats:
     """Axes, as rows, rotated by a small angle about a vector; unchanged if there is none."""
     if not np.any(lean):
         return axes
-    x, y, z = CROOKED * lean / np.linalg.norm(lean)
+    x, y, z = angle * lean / np.linalg.norm(lean)
     # the rows' nearest orthonormal ones
     left, _, right = np.linalg.svd(axes @ np.array([[1.0, -z, y], [z, 1.0, -x], [-y, x, 1.0]]))
     turned: Floats = left @ right

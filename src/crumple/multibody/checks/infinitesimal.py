@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from crumple.multibody.bodies.dead_centres import CROOKED, DeadCentres, dead_centres
+from crumple.multibody.bodies.dead_centres import DeadCentres, dead_centres
 from crumple.multibody.bodies.linkage import Linkage
 from crumple.multibody.bodies.mobility import too_large
 from crumple.text.names import listed
@@ -30,6 +30,6 @@ def dead_centre_notes(linkage: Linkage, centres: DeadCentres, *, aside: bool = F
         found.append(
             "The structure can move in several ways from its start position (equal members side by side, for "
             f"example), and the loads do not select one: {listed(names)} were moved aside by "
-            f"{CROOKED:g} of its size, as members are never straight, and it moves in one of the ways."
+            f"{centres.offset:g} of its size, as members are never straight, and it moves in one of the ways."
         )
     return tuple(found)
