@@ -8,6 +8,8 @@
 namespace crumple {
 
 // Why a run ends at its smallest step, and what that mostly means if something is driven.
+// It also ends where that step loses this share of all energy: twice what a whole result may leave open before it is refused.
+inline constexpr double refused_share = 2e-3;
 inline constexpr const char* lost_balance = "a step of the smallest length was not accurate and lost the balance of energy";
 inline constexpr const char* driven_without_solution = "; where what is driven meets what cannot give way they have no solution";
 

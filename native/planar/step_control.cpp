@@ -90,7 +90,7 @@ bool Simulation::stalled(Record& record) {
 bool Simulation::unbalanced(Record& record) const {
     const double reference = std::max(start_energy_ + work_max_, negligible_energy_);
     const double missed = std::fabs(value(energies(model_, fine_).balance() - energies(model_, state_).balance()));
-    if (!(missed > settings_.accuracy * reference)) return false;
+    if (!(missed > refused_share * reference)) return false;
     record.outcome = Outcome::step_collapsed;
     record.reason = lost_balance;
     if (!model_.drives.empty()) record.reason += driven_without_solution;

@@ -120,7 +120,7 @@ bool Simulation::failed(double e, bool smallest, Record& record) const {
 // anything.
 bool Simulation::force(Record& record) const {
     record.forced++;
-    if (stepper_.stage().quasi_static || unbalance(fine_) <= settings_.accuracy) return true;
+    if (stepper_.stage().quasi_static || unbalance(fine_) <= refused_share) return true;
     record.outcome = Outcome::step_collapsed;
     record.reason = lost_balance;
     if (!model_.drives.empty()) record.reason += driven_without_solution;
