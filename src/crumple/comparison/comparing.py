@@ -9,6 +9,7 @@ import numpy as np
 
 from crumple.comparison.cautions.trust import trust_of
 from crumple.comparison.comparison import Comparison, Opening, Source
+from crumple.comparison.measure.corner_motion import with_corners
 from crumple.comparison.measure.crush import CrushComparison, crush_figures, crushable
 from crumple.comparison.measure.metrics import HingeComparison, compared, metrics_of
 from crumple.comparison.measure.motion import Measured, channel_motions, measured, member_sections
@@ -127,7 +128,7 @@ def _source(name: str, result: Result, structure: Structure, hinges: Sequence[Pl
         sections = member_sections(result, structure)
         seen = Measured(sections, (), tuple(channel_motions(result, hinges, sections)), ())
     else:
-        seen = measured(result, structure, hinges)
+        seen = with_corners(measured(result, structure, hinges), structure, hinges)
     members = member_signals(structure, seen.sections)
     signals = signals_of(result, seen.hinges, members)
     return Source(name, result, seen.hinges, seen.extra, signals)

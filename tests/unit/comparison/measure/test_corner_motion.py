@@ -1,0 +1,65 @@
+"""Rotation of a hinge at a corner in shapes: folds of both members, with the sense of the axes."""
+
+import math
+
+import numpy as np
+import pytest
+from tests.support.multibody.frames import STEEL, TUBE
+from tests.support.stored_laws import law_text, store_of
+
+from crumple.comparison.measure.corner_motion import with_corners
+from crumple.comparison.measure.motion import HingeMotion, Measured
+from crumple.hinge.measured.place_hash import place_hash
+from crumple.material import Material
+from crumple.section import RectangularTube
+from crumple.structure import Structure, plastic_hinges
+
+PLACE = place_hash(
+    RectangularTube(0.050, 0.025, 0.00265), Material("", 210e9, 0.3, 7850.0, 488e6), "y", math.pi / 2
+)
+TIME = np.linspace(0.0, 1.0, 5)
+
+
+def frame(tmp_path, arm):
+    store = store_of(tmp_path / "laws", law_text(PLACE, corner="90 deg", stiffness=6e4))
+    member = {"section": "tube", "material": "steel"}
+    return Structure(
+        materials={"steel": STEEL},
+        sections={"tube": TUBE},
+        nodes={"a": (0.0, 0.0, 0.0), "b": (0.0, 0.0, 0.5), "c": (0.5, 0.0, 0.5)},
+        members={"post": {"nodes": ("a", "b"), **member}, "arm": {"nodes": arm, **member}},
+        supports={"clamp": {"node": "a", "fix": "all"}},
+        hinges="auto",
+        initial_velocity=[{"nodes": ["c"], "translation": (0.0, 0.0, -3.0)}],
+        laws=str(store),
+    )
+
+
+def motion(name, member, station, turned):
+    return HingeMotion(name, member, station, TIME, *(turned * TIME for _ in range(4)), TIME, "Measured.")
+
+
+@pytest.mark.parametrize(("arm", "station"), [(("b", "c"), 0.01), (("c", "b"), 0.49)])
+def test_folds_of_both_legs_that_close_the_corner_add_up(tmp_path, arm, station):
+    whole = frame(tmp_path, arm)
+    hinges = plastic_hinges(whole)
+    corner = next(hinge for hinge in hinges if hinge.name == "corner-b")
+    # the part of each member beyond its fold turns about global y, relative to the part before it
+    closing = float(np.sign(corner.direction[1]))
+    frame_y = whole.frame_of("arm").y[1]
+    beyond = 1.0 if arm[0] == "b" else -1.0
+    post = motion("corner-b", "post", 0.49, 0.2 * closing)
+    leg = motion("arm at 10 mm", "arm", station, 0.3 * beyond * float(np.sign(frame_y)))
+    far = motion("arm at 250 mm", "arm", 0.25, 0.1)
+    seen = with_corners(Measured({}, (), (post,), (leg, far)), whole, hinges)
+    (both,) = seen.hinges
+    assert both.rotation[-1] == pytest.approx(0.5 * closing)
+    assert both.plastic_work[-1] == pytest.approx(2.0)
+    assert seen.extra == (far,)
+
+
+def test_hinges_away_from_corners_stay_as_they_are(tmp_path):
+    whole = frame(tmp_path, ("b", "c"))
+    foot = motion("post-a", "post", 0.02, 0.2)
+    seen = Measured({}, (), (foot,), (motion("post at 250 mm", "post", 0.25, 0.1),))
+    assert with_corners(seen, whole, plastic_hinges(whole)).hinges == (foot,)
