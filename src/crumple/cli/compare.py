@@ -168,7 +168,7 @@ def _crush_lines(found: Comparison) -> Iterator[str]:
         yield f"Member {escape(crush.member)} is crushed by {figures[0]} and {figures[1]}"
 
 
-def _show(found: Comparison, folder: Path, source: LoadedInput) -> None:
+def _show(found: Comparison, folder: Path, source: LoadedInput | None = None) -> None:
     """Print the verdict, a table of hinges, cautions, times, and where the files are."""
     import math
 
@@ -207,7 +207,7 @@ def _show(found: Comparison, folder: Path, source: LoadedInput) -> None:
         console.print(line)
     if len(found.hinges) > MOST_HINGES:
         console.print(f"{MOST_HINGES} of {len(found.hinges)} hinges, those with the largest absorbed energy")
-    for line in law_lines(found.candidate.result, source):
+    for line in () if source is None else law_lines(found.candidate.result, source):
         console.print(Text(line), soft_wrap=True)
     times = [
         f"{format_quantity(source.result.solve_seconds, 's', 3)} ({source.with_threads})"
