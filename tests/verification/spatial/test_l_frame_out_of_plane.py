@@ -7,7 +7,7 @@ reached before the plastic moments. Expected: rotations of the knee in the shell
 Tolerance: 2 degrees, since the bars are rigid and the torque does not fall. Forces are overestimated for
 the same reasons: the work is 708 J, that of the shells 534 J; without twist it was 1320 J.
 
-Kind: own past numbers.  Source: yes, this program's shell solver.
+Kind: independent calculation.  Source: run here.
 """
 
 import math
