@@ -164,10 +164,15 @@ class Bending:
         stiffness = self.material.youngs_modulus * self.section.second_moment(self.axis)
         own = between - moment * self.gauge / stiffness
         flexibility = 0.0 if self.angle is None else max(_elastic_flexibility(own, moment), 0.0)
-        curve = law_curve(own - flexibility * moment, moment, self.largest)
-        if curve.rotation[-1] < 0.5 * self.largest:
-            came = f"{math.degrees(curve.rotation[-1]):.2g} deg between the planes of measurement"
-            raise InputError(Problem("the sub-model folded elsewhere", came, where=self.title))
+        plastic = own - flexibility * moment
+        if plastic.max() < 0.5 * self.largest:
+            what, todo = "the sub-model folded elsewhere", "give these hinges a law of their own"
+            if self.angle is not None:
+                what = "the corner is as strong as its members: the sub-model folded beside it"
+                todo = "use the law of the member there"
+            came = f"{math.degrees(plastic.max()):.2g} deg between the planes of measurement"
+            raise InputError(Problem(what, came, "", todo, where=self.title))
+        curve = law_curve(plastic, moment, self.largest)
         return curve if flexibility == 0.0 else curve.with_stiffness(1.0 / flexibility)
 
     def _moment(self, result: Result) -> Floats:

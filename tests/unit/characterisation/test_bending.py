@@ -9,6 +9,7 @@ from crumple.characterisation import Bending, LawCurve, LawStore, characterise
 from crumple.characterisation.law import law_of
 from crumple.characterisation.resolution import Resolution
 from crumple.characterisation.solving import energy_error, is_mirrored
+from crumple.errors import InputError
 from crumple.hinge.measured.law_file import read_law, write_law
 from crumple.material import Material
 from crumple.section import half_fold_length
@@ -82,3 +83,22 @@ def test_a_kept_law_is_found_again_and_another_model_is_not(tmp_path):
 def test_a_cancelled_sub_model_gives_no_law():
     with pytest.raises(KeyboardInterrupt):
         characterise(Bending(TUBE, STEEL, resolution=Resolution(2.0, 7.0)), cancel=lambda: True)
+
+
+@pytest.mark.parametrize(
+    ("angle", "message"), [(None, "folded elsewhere"), (1.5, "as strong as its members")]
+)
+def test_a_sub_model_that_folds_outside_its_gauge_is_refused_with_the_reason(angle, message):
+    model = Bending(TUBE, STEEL, angle=angle)
+    turned = np.linspace(0.0, model.turn, 50)
+    moment = np.linspace(0.0, 500.0, 50)
+    # nearly all of the rotation is in the pieces beside the gauge
+    history = {
+        "first": 0.5 * turned,
+        "second": 0.499 * turned,
+        "node.turned.rotation.y": turned,
+        "support.held.moment.y": moment,
+        "support.turned.moment.y": -moment,
+    }
+    with pytest.raises(InputError, match=message):
+        model.curve(history)
