@@ -1,4 +1,5 @@
-// Ends runs that no longer advance: a run stops if much work advances it by almost nothing, and reports what the work was spent on.
+// Detection of runs that no longer advance: a run ends if many steps or linear solves advance its time by almost nothing, and
+// reports the most frequent outcome of these steps.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -7,9 +8,10 @@
 
 namespace crumple {
 
-// Why a run ends at its smallest step, and what that mostly means if something is driven.
-// It also ends where that step loses this share of all energy: twice what a whole result may leave open before it is refused.
+// A run ends at an inaccurate step of the smallest length that changes the energy balance by more than this share of the
+// energy: twice the share for which a whole result is refused.
 inline constexpr double refused_share = 2e-3;
+// Message of such a run, and its usual cause if motion is prescribed.
 inline constexpr const char* lost_balance = "a step of the smallest length was not accurate and lost the balance of energy";
 inline constexpr const char* driven_without_solution = "; where what is driven meets what cannot give way they have no solution";
 
@@ -36,7 +38,8 @@ public:
     }
 
 private:
-    // Work that advances a run by less than a share of its time and ends it: of a whole run, ten million of either.
+    // Limits of the steps and of the linear solves that may pass before the run advances by a share of its time; a whole run
+    // may then take at most ten million of either.
     static constexpr int most_attempts = 10'000, most_solves = 100'000;
     static constexpr double share_by_steps = 1e-3, share_by_solves = 1e-2;
 
@@ -66,7 +69,7 @@ private:
 
     double duration_ = 0, next_by_steps_ = 0, next_by_solves_ = 0;
     std::int64_t solves_ = 0;
-    std::array<int, 5> counts_{};  // by `Attempted`, since the run last advanced
+    std::array<int, 5> counts_{};  // number of each `Attempted` since the run last advanced
 };
 
 }  // namespace crumple

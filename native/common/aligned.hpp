@@ -1,4 +1,4 @@
-// Arrays that start on a 64-byte boundary, as whole-register loads need.
+// Arrays aligned to 64 bytes, as aligned loads of whole vector registers require.
 #pragma once
 #include <cstddef>
 #include <cstdlib>

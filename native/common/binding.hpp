@@ -1,5 +1,5 @@
-// Shared by the bindings: copies between NumPy arrays and vectors (the core keeps its own memory), checks of what
-// Python passes, and work without the interpreter's lock.
+// Shared by the bindings: copies between NumPy arrays and vectors (the kernels own their memory), checks of the arguments
+// from Python, and work with the interpreter lock (GIL) released.
 #pragma once
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
@@ -39,8 +39,8 @@ template <class A> auto to_vector(const A& a) {
     return std::vector<T>(a.data(), a.data() + a.size());
 }
 
-// All columns of a record, each of this shape, as one array: (columns, *shape), in the order of `column_names`.  An array for each
-// column would cost more than a short run.
+// All columns of a record, each of this shape, as one array (columns, *shape) in the order of `column_names`.  Creating an array
+// for every column would take longer than a short run.
 template <class R> Array columns(const R& record, std::initializer_list<std::size_t> shape) {
     std::vector<std::size_t> whole{0};
     whole.insert(whole.end(), shape);
@@ -62,7 +62,7 @@ inline void require(bool ok, const char* what) {
     if (!ok) throw nanobind::value_error(what);
 }
 
-// A Python object as a type; its name is in the message where it is of another one.
+// Converts a Python object to a C++ type; `name` identifies it in the message if it has another type.
 template <class T> T as(nanobind::handle given, const std::string& name) {
     try {
         return nanobind::cast<T>(given);
@@ -74,12 +74,12 @@ template <class T> T as(nanobind::handle given, const std::string& name) {
 inline std::string name_of_entry(const char* key) { return std::string("'") + key + "'"; }
 inline std::string name_of_entry(int place) { return "entry " + std::to_string(place) + " of a tuple"; }
 
-// An entry of a mapping, by its name, or of a tuple, by its place.
+// Entry of a mapping by key, or of a tuple by index.
 template <class T, class Holder, class Key> T entry(const Holder& holder, Key key) {
     return as<T>(nanobind::object(holder[key]), name_of_entry(key));
 }
 
-// Values that differ from variant to variant by rows, (count, ...); none if they do not differ.
+// Values that differ between variants, one row per variant, (count, ...); none if all variants share the model's value.
 using Rows = std::optional<In>;
 
 inline const double* rows(const Rows& given, std::size_t count, std::size_t each, const char* what) {
@@ -88,7 +88,7 @@ inline const double* rows(const Rows& given, std::size_t count, std::size_t each
     return given->data();
 }
 
-// A state, and whether a thread is at work on it without the interpreter's lock; the flag changes under that lock alone.
+// A state with a flag: a thread works on it with the interpreter lock released.  The flag changes only while the lock is held.
 template <class State> struct Used : State {
     using State::State;
     bool busy = false;
@@ -109,7 +109,7 @@ private:
     bool& busy_;
 };
 
-// The function of a state for a `Used` one that nobody else holds.
+// Wraps a function of a state so that it refuses a state on which another thread works.
 template <class State, class Result, class... Arguments> auto alone(Result (*function)(State&, Arguments...)) {
     return [function](Used<std::remove_const_t<State>>& state, Arguments... arguments) {
         const Busy busy(state);
@@ -132,7 +132,7 @@ inline void require_times(const std::vector<double>& times, double now) {
     require(times.back() >= now * (1 - 1e-9), "the last output time lies in the past");
 }
 
-// Times at which a step must end.
+// Breaks: times at which a step must end.
 inline void require_breaks(const std::vector<double>& breaks) {
     for (std::size_t i = 0; i < breaks.size(); i++) {
         require(std::isfinite(breaks[i]) && (i == 0 || breaks[i] > breaks[i - 1]), "breaks are finite and increase");
@@ -145,12 +145,12 @@ inline void require_finite(std::initializer_list<double> numbers, const char* wh
 
 inline void require_step(double h) { require(h > 0 && std::isfinite(h), "a step is positive"); }
 
-// None in a list of models would be a null pointer
+// A None in a list of models arrives as a null pointer.
 template <class T> void require_all(const std::vector<T*>& given) {
     for (const T* one : given) require(one != nullptr, "a model is missing");
 }
 
-// A tuple of so many fields.
+// Checks that a tuple has this number of fields.
 inline nanobind::tuple fields(nanobind::handle given, std::size_t number, const char* what) {
     require(nanobind::isinstance<nanobind::tuple>(given), what);
     const auto found = nanobind::cast<nanobind::tuple>(given);

@@ -22,14 +22,14 @@ struct Registers {
     unsigned a, b, c, d;
 };
 
-// The instruction by itself: the headers that wrap it differ between GCC, Clang and clang-cl.
+// Written as an instruction because the headers that wrap it differ between GCC, Clang and clang-cl.
 Registers cpuid(unsigned leaf) {
     Registers r;
     __asm__ volatile("cpuid" : "=a"(r.a), "=b"(r.b), "=c"(r.c), "=d"(r.d) : "a"(leaf), "c"(0));
     return r;
 }
 
-// Bits of the registers that the operating system saves when it changes threads.
+// Bits of the register sets that the operating system saves when it switches threads (XCR0).
 unsigned saved_registers() {
     unsigned low, high;
     __asm__ volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
@@ -58,9 +58,9 @@ int x86_level() {
     const unsigned extended = cpuid(0x80000000u).a >= 0x80000001u ? cpuid(0x80000001u).c : 0;
     if (!has(c, level2_c) || !has(extended, level2_extended_c)) return 1;
     const unsigned b = last >= 7 ? cpuid(7).b : 0;
-    // OSXSAVE is among the features: without it xgetbv does not exist
+    // level3_c contains OSXSAVE, without which xgetbv in saved_registers() does not exist
     if (!has(c, level3_c) || !has(extended, level3_extended_c) || !has(b, level3_b) || !has(saved_registers(), level3_saved)) return 2;
-    // macOS saves the ZMM registers only for threads that have used them, so that it gets level 3
+    // macOS saves the ZMM registers only for threads that have used them, so it is rated level 3
     return has(b, level4_b) && has(saved_registers(), level4_saved) ? 4 : 3;
 }
 

@@ -1,13 +1,13 @@
-// What differs between processors and operating systems: no other source asks for these, but for the width of the vector types
+// Everything that depends on the processor or the operating system; only the width of the vector types is chosen elsewhere
 // (shell/simd/pack.hpp).
 #pragma once
 
 namespace crumple {
 
-// Number of this process: it changes when a process forks, and is 0 where none can.
+// Process identifier, which differs in a forked process; 0 on systems without fork.
 long long process_number();
 
-// Level of the x86-64 instruction set that processor and operating system offer: 1 to 4, 0 on other processors.
+// Level of the x86-64 instruction set that both processor and operating system support: 1 to 4; 0 on other processors.
 int x86_level();
 
 // Hint to the processor that this thread waits in a loop.

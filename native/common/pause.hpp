@@ -1,4 +1,5 @@
-// Work that can be stopped anywhere: `pause` asks now and then whether to go on, and throws `Stopped` where not.
+// Cancellation of long computations: they call `pause` often, which occasionally asks the caller whether to continue and throws
+// `Stopped` if not.
 #pragma once
 #include <chrono>
 #include <functional>
@@ -17,13 +18,13 @@ public:
 
     static void pause() {
         Asking* asked = present();
-        // most calls do not even read the clock
+        // read the clock in one of 16 calls only
         if (asked && ++asked->calls_ % calls_per_look == 0) asked->look();
     }
 
 private:
     using Clock = std::chrono::steady_clock;
-    // short enough not to be noticed, and long compared with the cost of one check
+    // short enough for an immediate response, long compared with the cost of one check
     static constexpr std::chrono::milliseconds pause_between{50};
     static constexpr int calls_per_look = 16;
 

@@ -1,7 +1,7 @@
-// Records of runs of both multibody kernels, by name.
+// Result columns that both multibody kernels record, by name.
 //
-// Every record lists its columns once, in `each`, with a pointer to the member: storage, batches and bindings follow from
-// that list.  A column has a row for every output time (or, where runs are rows, for every run); `summary` has none.
+// Every record lists its columns once, in `each`, with a pointer to the member; storage, batches and bindings are generated
+// from that list.  A column has one row per output time (in a batch: one row per run); a summary has a single row per run.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace crumple {
 // Outcome of a run; crumple._core.outcome has the same values.
 enum class Outcome { complete, step_collapsed, not_finite, cancelled, refused, unheld, limit_load, stalled };
 
-// Energies of the whole model [J], (rows).  `slowed`: what quasi-static stages took out of the motion.
+// Energies of the whole model [J], (rows).  `slowed`: kinetic energy that quasi-static stages removed.
 template <class T> struct EnergyRecord {
     std::vector<T> kinetic, elastic, dissipated, damped, stop, spring, contact, friction, external_work, slowed;
     template <class F> static void each(F f) {
@@ -24,7 +24,7 @@ template <class T> struct EnergyRecord {
     }
 };
 
-// Energies of every hinge [J], (rows, hinges); `dissipated` with dampers and stops.
+// Energies of every hinge [J], (rows, hinges); `dissipated` includes its damper and its stops.
 template <class T> struct HingeEnergyRecord {
     std::vector<T> dissipated, elastic, stop;
     template <class F> static void each(F f) {
@@ -33,7 +33,8 @@ template <class T> struct HingeEnergyRecord {
     }
 };
 
-// Every component of every hinge, (rows, components): rotations [rad] and moments [N m], or travels [m] and forces [N].
+// Histories of every component of every hinge, (rows, components): rotations [rad] and moments [N m], or displacements [m]
+// and forces [N].
 template <class T> struct ComponentRecord {
     std::vector<T> rotation, rate, plastic, moment, capacity;
     template <class F> static void each(F f) {

@@ -57,7 +57,7 @@ void share_out(std::size_t count, std::size_t share, int threads,
     try {
         while (team.size() < useful) team.emplace_back(member);
     } catch (const std::system_error&) {
-        // the machine gives no more threads: those that came do the work
+        // the system provides no more threads: those that started do the work
         if (team.empty()) throw;
     }
     working = team.size();

@@ -9,12 +9,12 @@ namespace crumple::shell {
 
 namespace {
 
-// Time for which a member spins until the next call: longer than the work between two calls of a run.
+// Time for which a member spins before it sleeps: longer than the work between two calls of a run.
 constexpr auto awake = std::chrono::microseconds(200);
 
 }  // namespace
 
-// The members beside the caller.
+// The members except the caller.
 struct Team::Crew {
     explicit Crew(int others) : asked(others) {
         threads.reserve(std::size_t(others));
@@ -28,7 +28,7 @@ struct Team::Crew {
         assign(nullptr);
         for (std::thread& thread : threads) thread.join();
     }
-    // Null: end the threads.
+    // Starts the next task; null ends the threads.
     void assign(const std::function<void(int)>* next) {
         {
             const std::lock_guard<std::mutex> lock(mutex);
@@ -68,13 +68,13 @@ struct Team::Crew {
         }
     }
 
-    const int asked;                             // as many as were to come
+    const int asked;                             // requested number of threads
     std::mutex mutex;
     std::condition_variable called;
     alignas(64) std::atomic<unsigned> calls{0};
     alignas(64) std::atomic<int> busy{0};
     const std::function<void(int)>* task = nullptr;
-    std::vector<std::thread> threads;            // last: they use the others
+    std::vector<std::thread> threads;            // declared last: they use the members above
 };
 
 Team::Team() = default;

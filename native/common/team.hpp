@@ -1,4 +1,4 @@
-// A persistent team of threads that runs stages one after another, with a barrier that first spins and then yields.
+// A persistent team of threads that executes stages in sequence, with a barrier that first spins and then yields.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace crumple::shell {
 
-// Blocking system barriers cost more than a stage on a busy machine; spinning alone would starve the others.
+// A blocking system barrier takes longer than a stage; pure spinning would starve other threads on a busy machine.
 constexpr int spins_before_yield = 2000;
 
 class Barrier {
 public:
     explicit Barrier(int members) : members_(members) {}
-    // The last member to arrive runs `serial` before all go on.
+    // The last member to arrive runs `serial` before all continue.
     template <class Serial> void wait(Serial serial) {
         const unsigned phase = phase_.load(std::memory_order_relaxed);
         if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == members_) {
@@ -43,20 +43,20 @@ private:
 struct Range {
     std::size_t first, last;
 };
-// Share of one member of [0, n), in whole chunks: shares follow one another.
+// Contiguous share of one member in [0, n), in whole chunks.
 inline Range share_of(std::size_t n, int member, int members, std::size_t chunk = 1) {
     const std::size_t chunks = (n + chunk - 1) / chunk, m = std::size_t(member), all = std::size_t(members);
     const std::size_t first = chunks * m / all * chunk, last = chunks * (m + 1) / all * chunk;
     return {first < n ? first : n, last < n ? last : n};
 }
 
-// One member's part in the work of its team; made by default, the only one.
+// One member of a team and its barrier; a default-constructed member works alone.
 struct Member {
     int index = 0, count = 1;
     Barrier* barrier = nullptr;
 
     Range share(std::size_t n, std::size_t chunk = 1) const { return share_of(n, index, count, chunk); }
-    // Waits for the others; the last to arrive runs `serial` before all go on.
+    // Waits for the other members; the last to arrive runs `serial` before all continue.
     template <class Serial> void meet(Serial serial) const {
         if (barrier)
             barrier->wait(serial);
@@ -65,12 +65,12 @@ struct Member {
     }
 };
 
-// Pieces of work dealt out to the members of a team beforehand, so that each finds what it worked on last in its caches; who is
-// ready takes pieces from the end of another's share.
+// Work stealing: pieces of work are assigned to the members in advance, so that each member finds its data of the last call in its
+// caches; a member that has finished takes pieces from the end of another member's share.
 class Shares {
 public:
     explicit Shares(int members) : rest_(std::size_t(members)) {}
-    // One member alone, before the others take.
+    // Assigns the pieces; called by one member before any member calls `take`.
     void deal(std::size_t pieces) {
         const int members = int(rest_.size());
         for (int i = 0; i < members; i++) {
@@ -78,7 +78,7 @@ public:
             rest_[std::size_t(i)].range.store(packed(own.first, own.last), std::memory_order_relaxed);
         }
     }
-    // Calls work(piece) until nothing is left to take.
+    // Calls work(piece) until no piece is left.
     template <class Work> void take(const Member& member, Work work) {
         for (std::size_t k = 0; k < rest_.size(); k++) {
             std::atomic<std::uint64_t>& range = rest_[(std::size_t(member.index) + k) % rest_.size()].range;
@@ -103,15 +103,15 @@ private:
     std::vector<Rest> rest_;                     // [member]
 };
 
-// Members that stay for the next call: a run that is looked at every few steps calls every few hundred microseconds, and a newly started
-// thread is late by as much.  Between calls they spin for a while, then they sleep.
+// Threads that persist between calls: a run that returns to Python every few steps calls every few hundred microseconds, about the
+// time that starting a thread takes.  Between calls they spin for a while, then they sleep.
 class Team {
 public:
     Team();
     ~Team();
-    // Calls so many members together, the caller the first; returns how many started: fewer if the system has no more threads.
+    // Sets the number of members, the caller being the first; returns how many there are: fewer if the system has no more threads.
     int gather(int members);
-    // Runs work(member) on those that started.
+    // Runs work(member) on all members.
     template <class Work> void run(Work work) {
         Barrier barrier(members_);
         call([&](int index) { work(Member{index, members_, &barrier}); });
@@ -124,7 +124,7 @@ private:
 
     std::unique_ptr<Crew> crew_;
     int members_ = 1;
-    long long process_ = 0;          // that started the crew: one forked off has none, and must not wait for it
+    long long process_ = 0;          // process that started the crew; a forked process has no crew and must not wait for it
 };
 
 }  // namespace crumple::shell

@@ -7,7 +7,7 @@ namespace crumple {
 
 namespace {
 
-// A step that is too long is shortened to between these shares of its length at a time.
+// A step that is too long is shortened to a share of its length between these two, repeatedly if necessary.
 constexpr double least_share = 0.1, most_share = 0.9;
 
 }  // namespace
@@ -52,8 +52,9 @@ OffChord Samples::value_off_chord(double from, double to) const {
     return out;
 }
 
-// The integral is a parabola over each piece; it turns back towards the chord where the value passes its mean.  The size
-// is the whole range, on both sides of the chord: the impulse over no part of the interval errs by more.
+// The integral is a parabola over each piece; its deviation from the chord has an extremum where the value passes its mean.
+// The size is the range of the deviation, from its minimum to its maximum: it bounds the error of the impulse over any part
+// of the interval.
 OffChord Samples::integral_off_chord(double from, double to) const {
     const size_t first = next(from);
     auto over_pieces = [&](const auto& take) {
@@ -97,7 +98,7 @@ void StepBound::add_drive(std::vector<double> times, std::vector<double> values)
     if (!samples.constant()) drives_.push_back({samples, samples.largest(), samples.largest_integral()});
 }
 
-// `unresolved` is a share of what is allowed.  Off a smooth function's chord it goes with the square of the step.
+// `unresolved` is relative to what is allowed.  For a smooth function it is proportional to the square of the step length.
 StepBound::Step StepBound::longest(double t, double h, double least, const Measure& unresolved) {
     for (;;) {
         const OffChord first = unresolved(t, t + h / 2), second = unresolved(t + h / 2, t + h);

@@ -1,9 +1,9 @@
-// Action of loads and drives within a step that the step does not resolve.  Derivation in docs/theory/time_functions.md.
+// Variation of loads and drives within a step that the step does not resolve.  Derivation in docs/theory/time_functions.md.
 //
-// A step takes a load by its mean over the step, so the impulse in between as a straight line, and the rate of a drive as
-// a straight line.  What lies off these chords is unresolved: a pulse that comes and goes, a motion out and back.
-// Steps are kept so short that it stays below the accuracy; where that asks for a shorter step, it ends at the kink that
-// lies farthest off the chord.
+// A step represents a load by its mean over the step, so that its impulse grows linearly, and interpolates the rate of a drive
+// linearly.  The deviation from these chords is unresolved: a pulse within the step, or a motion there and back.
+// Steps are shortened until the deviation is below the accuracy; a shortened step preferably ends at the kink with the largest
+// deviation.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace crumple {
 
-// How far a function leaves its chord over an interval, and the kink inside at which it is farthest; below the
-// interval's start where it has none.
+// Largest deviation of a function from its chord over an interval, and the kink inside with the largest deviation; -1 if there
+// is none.
 struct OffChord {
     double size = 0, kink = -1;
 };
@@ -24,7 +24,7 @@ public:
     Samples(std::vector<double> times, std::vector<double> values);
     bool constant() const { return constant_; }
     bool same(const Samples& other) const { return times_ == other.times_ && values_ == other.values_; }
-    // largest magnitudes of the value, and of the integral from the start
+    // largest magnitudes of the value and of the integral from the first sample
     double largest() const;
     double largest_integral() const;
     OffChord value_off_chord(double from, double to) const;
@@ -38,20 +38,20 @@ private:
     bool constant_ = true;
 };
 
-// Bound of the step by all loads and drives of a run.
+// Limit of the step length by all loads and drives of a run.
 class StepBound {
 public:
-    // Loads of one function of time are one: its number, -1 for a constant.
+    // Loads with the same function of time are counted once; returns the number of the function, -1 if it is constant.
     int add_load(std::vector<double> times, std::vector<double> values);
     void add_drive(std::vector<double> times, std::vector<double> values);
     struct Step {
-        double h = 0, unresolved = 0;  // length [s], and what it leaves unresolved over what it may
+        double h = 0, unresolved = 0;  // length [s]; unresolved action relative to the allowed one
     };
     bool empty() const { return loads_.empty() && drives_.empty(); }
-    // Longest step from t, at most h, whose halves leave no more than the accuracy unresolved; not below `least`.
-    // `speed`: of what a unit impulse of a load moves, over the speed that counts as large.
+    // Longest step from t, between `least` and h, whose halves each leave no more than the accuracy unresolved.
+    // `speed`: kinetic norm that a unit impulse of a load causes, relative to the speed that counts as large.
     Step dynamic(double t, double h, double accuracy, double least, const std::function<double(size_t)>& speed) const;
-    // the same where inertia is neglected: loads are resolved by value and drives by displacement
+    // the same for quasi-static stages, where the value of loads and the displacement of drives are compared
     Step quasi_static(double t, double h, double accuracy, double least) const;
 
 private:

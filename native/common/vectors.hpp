@@ -1,4 +1,4 @@
-// Small vectors and matrices of the stepper, in world axes.
+// Vectors of three components and 3 by 3 matrices of the shell stepper, in world axes.
 #pragma once
 #include <cmath>
 

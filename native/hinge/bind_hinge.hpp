@@ -1,4 +1,4 @@
-// A hinge from the plain values that Python passes.
+// Builds a hinge from plain values that Python passes.
 #pragma once
 
 #include <nanobind/stl/string.h>

@@ -7,7 +7,7 @@ inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
-// Share of a step below which a further piece of a function of time is rounding of the times.
+// Share of a step below which its overlap with a further piece of a function of time is attributed to rounding of the times.
 constexpr double sliver = 1e-12;
 
 }  // namespace
@@ -43,7 +43,7 @@ Real Curve::integral(Real v, int& hint) const {
     return area_[k] + d * (y_[k] + (y_[k + 1] - y_[k]) * d / (x_[k + 1] - x_[k]) / 2);
 }
 
-// the piece that holds t: -1 before the first point, the last point's own number from there on
+// index of the piece that contains t: -1 before the first point, the index of the last point from there on
 int Curve::piece_at(double t) const {
     auto before = [](double a, const Real& b) { return a < value(b); };
     return static_cast<int>(std::upper_bound(x_.begin(), x_.end(), t, before) - x_.begin()) - 1;
@@ -59,11 +59,11 @@ Real Curve::integral_to(double t) const {
     return integral(t, hint);
 }
 
-// Over one piece its value at the middle; over several the sum of their areas, for the difference of two integrals from the
+// Within one piece the value at the middle, else the sum of the areas of the pieces: the difference of two integrals from the
 // first point would lose digits in short steps.
 Real Curve::mean(double t, double h) const {
     int first = piece_at(t), last = piece_at(t + h);
-    // a step that ends at a point, or starts there, may pass it by rounding
+    // a step that starts or ends at a point of the curve may overlap the neighbouring piece by rounding
     if (last > first && t + h - x_[static_cast<size_t>(last)] <= sliver * h) last--;
     if (last > first && x_[static_cast<size_t>(first + 1)] - t <= sliver * h) first++;
     if (first == last) return at_time(t + h / 2);

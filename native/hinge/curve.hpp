@@ -11,7 +11,8 @@ inline namespace CRUMPLE_ARITHMETIC {
 
 using std::size_t;
 
-// Piecewise linear curve, constant outside its ends.  The hint makes a lookup that moves slowly O(1).
+// Piecewise linear curve, constant outside its range.  `hint` is the piece found last, which makes the lookup of a slowly
+// changing argument O(1).
 class Curve {
 public:
     Curve() = default;
@@ -20,12 +21,12 @@ public:
     std::vector<Real>& values() { return y_; }
     const std::vector<Real>& places() const { return x_; }
     const std::vector<Real>& values() const { return y_; }
-    // the areas again, after a change of places or values
+    // recomputes the areas after a change of places or values
     void integrate();
     Real at(Real v, int& hint) const;
     // integral from the first point to v; negative before it
     Real integral(Real v, int& hint) const;
-    // the same at any time, found by bisection, and the mean from t to t + h: of functions of time, which may have many points
+    // for functions of time, which may have many points: value and integral with a binary search, and the mean from t to t + h
     Real at_time(double t) const;
     Real integral_to(double t) const;
     Real mean(double t, double h) const;

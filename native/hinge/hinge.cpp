@@ -9,17 +9,16 @@ namespace {
 
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
 constexpr double half_pi = 1.57079632679489661923;
-// Below this rotation [rad] the mean capacity is the present one: differences of areas would cancel.
+// Below this rotation [rad] the mean capacity is taken as the present one: the difference of areas would lose its digits.
 constexpr double smallest_mean = 1e-7;
-// An elastic hinge that has yielded swings back to just its capacity, where errors of the step make it flow or
-// not; its time of rest passes over flow of less than this share of all its plastic rotation.
+// After yielding, an elastic hinge vibrates with peaks just at its capacity, where errors of the step decide whether it flows.
+// Its rest time ignores flow below this share of its accumulated plastic rotation.
 constexpr double smallest_episode = 1e-2;
-// Correction of the loop's gap moves a rigid hinge of the loop again after it has come to rest.
+// The same for rigid hinges: in a loop, the correction of the loop's gap moves a hinge again after it has come to rest.
 constexpr double smallest_rigid_episode = 1e-5;
 
-// Capacity in one sense (0 positive, 1 negative) before it turns further.  `u` is the plastic rotation counted in
-// that sense.  A fold keeps the strength that it has lost, in whichever sense it is bent next: walls that have folded do not
-// become straight again.
+// Capacity in one sense (0 positive, 1 negative) at the present plastic rotation; `u` is the plastic rotation counted in that
+// sense.  With Softening::peak a loss of strength is permanent in both senses: folded walls do not become straight again.
 Real present_capacity(const Hinge& hinge, const HingeState& s, int sense, Real u, int& hint) {
     const Curve& curve = sense == 0 ? hinge.positive : hinge.negative;
     switch (hinge.softening) {
@@ -30,7 +29,7 @@ Real present_capacity(const Hinge& hinge, const HingeState& s, int sense, Real u
     return hinge.scale * curve.at(max(max(s.peak[0], s.peak[1]), u), hint);
 }
 
-// Mean capacity while the hinge turns by `turn` > 0 in one sense from u.
+// Mean capacity over a rotation by `turn` > 0 in one sense from u.
 Real mean_capacity(const Hinge& hinge, const HingeState& s, int sense, Real u, Real turn, int& hint) {
     const Curve& curve = sense == 0 ? hinge.positive : hinge.negative;
     const Real end = u + turn;
@@ -54,7 +53,7 @@ Real step_polynomial(Real x) {
     return x * x * (3 - 2 * x);
 }
 
-// Weight of the end rate that makes a step over z = h c/I decay by e^-z: 1/(1 - e^-z) - 1/z.
+// Weight of the end rate with which a damped rate decays by e^-z over a step, z = h c/I: 1/(1 - e^-z) - 1/z.
 Real end_weight(Real z) { return z < 1e-3 ? 0.5 + z / 12 : 1 / (1 - exp(-z)) - 1 / z; }
 
 Real damper_rate(const FrozenHinge& f, Real w) { return (1 - f.damper_weight) * f.w0 + f.damper_weight * w; }
@@ -79,7 +78,7 @@ Real ramp(Real x) { return x < 1 ? sin(half_pi * x) : 1; }
 Real ramp_integral(Real x) { return x < 1 ? (1 - cos(half_pi * x)) / half_pi : 1 / half_pi + x - 1; }
 Real mean_ramp(Real x0, Real x) { return (ramp_integral(x) - ramp_integral(x0)) / (x - x0); }
 
-// Integral of the mean ramp from x0 to x, x0 < x: by Gauss points within the ramp, in closed form beyond it.
+// Integral of the mean ramp from x0 to x, x0 < x: Gauss quadrature (8 points) within the ramp, closed form beyond it.
 Real mean_ramp_integral(Real x0, Real x) {
     static constexpr double place[4] = {0.18343464249564980494, 0.52553240991632898582, 0.79666647741362673959, 0.96028985649753623168};
     static constexpr double weight[4] = {0.36268378337836198297, 0.31370664587788728734, 0.22238103445337447054, 0.10122853629037625915};
@@ -91,17 +90,17 @@ Real mean_ramp_integral(Real x0, Real x) {
     }
     if (x <= 1) return sum;
     const Real start = max(x0, 1.0);
-    // beyond the ramp the mean is 1 less what the ramp took, over the way
+    // beyond the ramp the mean is 1 - lost/(x - x0), `lost` being the integral of 1 - ramp within the ramp
     const Real lost = x0 < 1 ? ramp_integral(x0) - x0 - 1 / half_pi + 1 : 0;
     return sum + (x - start) - (lost > 0 ? lost * log((x - x0) / (start - x0)) : 0);
 }
 
-// The regularised form takes the ramp at the end rate while it slows down, which decays however stiff the ramp is.
-// While it speeds up it takes the mean over the rates passed: a step may leap over the whole ramp.
+// The regularised form uses the ramp at the end rate while the hinge slows down, which decays however steep the ramp is.  While
+// the hinge accelerates it uses the mean over the range of rates, because one step may cross the whole ramp.
 Real ramp_start(const FrozenHinge& f, Real w) { return fabs(w * f.w0 < 0 ? w : f.w0) / f.width; }
 
-// Rate in the sense of a stop at which its spring and damper, without separation, give zero force; below it the
-// stop has separated.  Needs a damper: the force then grows with the rate.
+// Rate towards a stop at which the forces of its spring and damper cancel; below this rate the stop has separated.
+// It is unique only with a damper, because the force then grows with the rate.
 Real release_rate(const Stop& stop, const FrozenHinge& f, int k) {
     const Real start = max(f.gap[k], 0.0), sign = k == 0 ? 1 : -1;
     auto force = [&](Real v) {
@@ -117,11 +116,11 @@ Real release_rate(const Stop& stop, const FrozenHinge& f, int k) {
     return (low + high) / 2;
 }
 
-// Integral over the rate of a stop's force, without separation.
+// Integral of a stop's force over the rate, separation ignored.
 Real stop_integral(const Stop& stop, const FrozenHinge& f, int k, Real v) {
     const Real sign = k == 0 ? 1 : -1, start = max(f.gap[k], 0.0), end = penetration_at_end(f, k, sign * v);
     const Real damper = f.stop_damping[k] * v * v / 2;
-    // rate at which the end leaves the stop
+    // rate at which the penetration at the end is zero
     const Real edge = -sign * f.w0 - 2 * f.gap[k] / f.h;
     const Real outside = start > 0 ? stop.force(start / 2) * (min(v, edge) - edge) : 0;
     const Real inside = end > 0 ? 4 / f.h * (stop.energy((start + end) / 2) - stop.energy(start / 2)) : 0;
@@ -142,8 +141,8 @@ Real ramp_over_integral(Real x0, Real x) {
 
 Real ramp_width(const Hinge& hinge) { return hinge.form == Form::regularised ? hinge.ramp_rate : stick_rate; }
 
-// Capacities before it flows, in the sense of the flow the mean over it; the elastic form needs that at the end of the
-// step, where its moment M1 stands.
+// Capacities at the present plastic rotation; in the sense of the flow the mean capacity over it, for the elastic form the
+// capacity at its end, because its moment M1 is that of the end of the step.
 void set_capacity(const Hinge& hinge, const HingeState& s, Real flow, int* hint, FrozenHinge& f) {
     for (int k = 0; k < 2; k++) f.capacity[k] = present_capacity(hinge, s, k, k == 0 ? s.plastic : -s.plastic, hint[k]);
     if (flow == 0) return;
@@ -279,9 +278,9 @@ int kinks(const Hinge& hinge, const FrozenHinge& f, Real* rates) {
         if (f.touched[k] == 0) continue;
         const Real sign = k == 0 ? 1 : -1, start = max(f.gap[k], 0.0), damping = f.stop_damping[k];
         const Real stiffness = hinge.stop[k].stiffness, quarter = f.h / 4;
-        // where the end leaves the stop: gap + h (w0 + v)/2 = 0
+        // zero penetration at the end: gap + h (w0 + v)/2 = 0
         rates[n++] = -f.w0 - sign * 2 * f.gap[k] / f.h;
-        // where a linear stop lets go with its end inside, k (start + gap + h (w0 + v)/2)/2 + c v = 0, or outside
+        // separation of a linear stop with penetration at the end, k (start + gap + h (w0 + v)/2)/2 + c v = 0, or without
         rates[n++] = -sign * stiffness * ((start + f.gap[k]) / 2 + quarter * sign * f.w0) / (stiffness * quarter + damping);
         if (damping > 0) rates[n++] = -sign * stiffness * start / (2 * damping);
     }
@@ -303,8 +302,8 @@ Real commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0, 
         s.moment = m1;
         flowed = m1 == f.capacity[0] || m1 == -f.capacity[1];
         if ((s.sliding || flowed) && f.w0 * w1 < 0) {
-            // plastic flow ends where the rate passes zero; a step that ends at capacity missed the turning back,
-            // and so do its halves, with the very same motion, while each of them turns forward on the whole
+            // Plastic flow ends where the rate passes zero.  A step that ends at capacity misses the reversal; so do its two
+            // halves, with the same motion, as long as the rotation over each of them is forward.
             if (flowed) s.overrun += f.h * w1 * w1 / fabs(f.w0 - w1) / 2;
             flowed = true;
             arrest = t0 + f.h * f.w0 / (f.w0 - w1);
@@ -317,7 +316,7 @@ Real commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0, 
         s.sliding = fabs(w1) > f.width && !(halt && *halt < f.h);
         flowed = slid || s.sliding;
         if (slid && !s.sliding && hinge.form == Form::set_valued && stop == 0) {
-            // it stopped within the step, after the time in which the capacity gives the impulse: C t = |P|
+            // the hinge came to rest within the step, after the time t in which the capacity yields the impulse: C t = |P|
             const Real t = halt ? *halt : min(f.h, fabs(impulse) / s.capacity);
             arrest = t0 + t;
             turn = flow = f.w0 * t / 2;
@@ -337,7 +336,7 @@ Real commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0, 
 void commit_beside(const Hinge& hinge, const FrozenHinge& f, HingeState& s, Real q0, Real turn, Real w1) {
     const Real mean_rate = (f.w0 + w1) / 2, stop = stop_response(hinge, f, w1).impulse;
     s.damped += f.h * hinge.damping * damper_rate(f, w1) * mean_rate;
-    // also if the stop has separated and its spring relaxes into its damper
+    // after separation the remaining energy of the spring is dissipated in the damper of the stop
     s.stop_dissipated += stop * mean_rate - (stop_energy(hinge, q0 + turn) - stop_energy(hinge, q0));
     s.total_moment = s.moment + hinge.damping * damper_rate(f, w1) + stop / f.h;
     s.rotation_max = max(s.rotation_max, fabs(q0 + turn));

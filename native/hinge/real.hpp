@@ -1,8 +1,8 @@
-// The number that the engine computes with: a plain double, or, where the same sources are compiled once more with
-// CRUMPLE_TANGENT, a double with its derivatives along a few directions in the space of parameters.
+// Number type of the kernel: a plain double, or, if the same sources are compiled with CRUMPLE_TANGENT, a double with its
+// derivatives along a few directions in the parameter space (forward-mode automatic differentiation).
 //
-// Lengths of steps, tolerances and everything that only decides between branches stay plain: so a run with
-// derivatives takes the very steps of a plain run, and its derivatives are those of that chain of steps.
+// Step lengths, tolerances and everything that only decides between branches stay plain doubles.  A run with derivatives
+// therefore takes the same steps as a plain run, and its derivatives are those of this discrete sequence of steps.
 #pragma once
 
 #include <algorithm>
@@ -44,7 +44,7 @@ struct Real {
 
     Real() = default;
     Real(double value) : v(value) {}  // a constant
-    // f(x) with f' = slope
+    // chain rule: f(x) with f' = slope
     static Real chained(double f, double slope, const Real& x) {
         Real r(f);
         for (int k = 0; k < directions; k++) r.d[k] = slope * x.d[k];
@@ -99,7 +99,7 @@ inline Real pow(const Real& x, const Real& p) {
     for (int k = 0; k < directions; k++) r.d[k] += by_power * p.d[k];
     return r;
 }
-// takes the derivatives of another number, not its value
+// copies the derivatives of another number, not its value
 inline void take_directions(Real& to, const Real& from) { std::copy(from.d, from.d + directions, to.d); }
 
 #endif

@@ -10,7 +10,7 @@ inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
-// Variants that a thread takes at a time: some milliseconds of work, so that threads seldom meet.
+// Variants that a thread takes at a time: some milliseconds of work, so that threads rarely contend for the counter.
 constexpr size_t share = 16;
 
 Model varied(const Variations& v, size_t row) {
@@ -35,7 +35,7 @@ Model varied(const Variations& v, size_t row) {
     return model;
 }
 
-// whether the equations make sense: positive masses and capacities, finite loads
+// whether the equations have a solution: positive masses and capacities, finite loads
 bool sensible(const Model& model) {
     auto positive = [](double x) { return x > 0 && std::isfinite(x); };
     for (int i = 0; i < model.tree.bodies(); i++) {

@@ -1,4 +1,4 @@
-// Many variants of a model, each solved as one run would solve it, on several threads.
+// Solution of many variants of a model on several threads, each exactly as in a single run.
 #pragma once
 
 #include <functional>
@@ -9,20 +9,20 @@
 namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
-// Values that differ from variant to variant, one row each; a null pointer leaves the model's own values.
+// Values that differ between variants, one row per variant; with a null pointer the model's own values apply.
 struct Variations {
     size_t count = 0;
-    std::vector<const Model*> models;       // of one topology
-    const int64_t* model = nullptr;         // (count): which of the models
+    std::vector<const Model*> models;       // all of the same topology
+    const int64_t* model = nullptr;         // (count): index of the model
     const double* velocity = nullptr;       // (count, bodies, 3): at the start, at the centres of mass
     const double* impulse = nullptr;        // (count, bodies, 3)
-    const double* capacity_scale = nullptr; // (count, hinges): times the model's
-    const double* load_scale = nullptr;     // (count, loads): times the model's
+    const double* capacity_scale = nullptr; // (count, hinges): factor on the model's capacities
+    const double* load_scale = nullptr;     // (count, loads): factor on the model's loads
     const double* bodies = nullptr;         // (count, bodies, 4): centre x, y, mass, inertia
     const double* gravity = nullptr;        // (count, 2)
 };
 
-// Final values of every variant by rows; zeros for a variant that was not solved.
+// Final values, one row per variant; zeros for a variant that was not solved.
 struct EndValues {
     std::vector<double> time, q, w;     // (count), (count, dofs)
     std::vector<double> pose;           // (count, bodies, 3): angle, x, y of the origin
@@ -31,11 +31,11 @@ struct EndValues {
     HingeEnergyRecord<double> hinge_energy;
     HingeSummary<double> summary;       // (count, hinges)
     EnergyRecord<double> energy;
-    std::vector<double> residual, lost; // (count); lost: energy that the joints took from the motion at the start
+    std::vector<double> residual, lost; // (count); lost: energy lost when the initial motion was made compatible with the joints
     std::vector<int64_t> outcome, steps;
 };
 
-// `poll` gets the share done, now and then, on the calling thread, and returns false to cancel.
+// `poll` is called regularly on the calling thread with the completed share and returns false to cancel.
 EndValues solve_many(const Variations& variations, double end, const Settings& settings, int threads,
                   const std::function<bool(double)>& poll);
 

@@ -1,4 +1,4 @@
-// Small dense solve for drive forces: symmetric positive definite up to redundancy.
+// Small dense solver for constraint forces: the matrix is symmetric positive semi-definite, singular if constraints are redundant.
 #pragma once
 
 #include "hinge/real.hpp"
@@ -8,7 +8,7 @@ inline namespace CRUMPLE_ARITHMETIC {
 
 using namespace hinge;
 
-// Solves a x = b in place (b becomes x) by LDL^T.  A redundant row (pivot below 1e-12 of its diagonal) gets x = 0.
+// Solves a x = b in place (b becomes x) by LDL^T factorisation.  A redundant row (pivot below 1e-12 of its diagonal) gets x = 0.
 inline void solve_symmetric(Real* a, Real* b, int n) {
     for (int j = 0; j < n; j++) {
         Real pivot = a[j * n + j];

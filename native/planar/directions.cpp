@@ -77,7 +77,7 @@ bool set_directions(Model& model, const std::vector<Model*>& up, const std::vect
         const Numbers above = numbers(*up[k]), below = numbers(*down[k]);
         if (above.size() != base.size() || below.size() != base.size()) return false;
         for (size_t i = 0; i < base.size(); i++) {
-            // two infinities, or two dampers left to the solver, are the same
+            // two infinities, or two NaNs (damper chosen by the solver), do not differ
             const double difference = above[i]->v - below[i]->v;
             base[i]->d[k] = std::isfinite(difference) ? difference / width[k] : 0;
         }

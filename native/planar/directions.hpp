@@ -8,8 +8,8 @@
 namespace crumple::planar {
 inline namespace CRUMPLE_ARITHMETIC {
 
-// Gives every number of the model the derivative (up - down)/width along each direction, up and down being the same
-// model with that parameter moved either way.  False when they differ in more than numbers.
+// Sets the derivative (up - down)/width of every number of the model along each direction; `up` and `down` are the same model
+// with that parameter increased and decreased.  False if they differ in more than numbers.
 bool set_directions(Model& model, const std::vector<Model*>& up, const std::vector<Model*>& down,
                     const std::vector<double>& width);
 

@@ -1,4 +1,5 @@
-// The end rates of a step: semismooth Newton on the convex potential that the frozen hinges and bodies make.
+// Joint rates at the end of a step: semismooth Newton method on the convex potential of stepper.hpp, with all non-convex
+// quantities of bodies and hinges frozen.
 #include <algorithm>
 #include <cmath>
 
@@ -11,22 +12,22 @@ inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
-// Full Newton steps before the guaranteed path is taken; they fail only by cycling, which is rare.  In a chain hinges
-// come loose one after another, so a long one gets one more for every so many hinges.
+// Limit of full Newton steps before the globally convergent method is used; they fail only by cycling, which is rare.  In a chain
+// hinges start to flow one after another, so the limit grows by one for every `hinges_per_full_step` hinges.
 constexpr int full_step_limit = 16, hinges_per_full_step = 8;
-// Newton steps per width of the ramps before the step is given up and shortened: a fixed number, and some per
-// hinge, since in the worst case (an impulse on the end of a long chain) hinges lock and release one at a time.
+// Limit of Newton iterations for each width of the ramps before the time step is shortened: a fixed number and some per hinge,
+// because in the worst case (an impulse on the end of a long chain) hinges lock and release one at a time.
 constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
-// Widening: from the largest rate down by this factor a time.
+// Factor by which the widened ramps are narrowed from one solution to the next, starting at the largest rate.
 constexpr double narrowing = 1e-1;
-// Relative accuracy of a hinge's impulse; piecewise linear laws reach round-off, HAVSIN ramps converge to this.
+// Relative tolerance of a hinge's impulse; piecewise linear laws reach round-off, HAVSIN ramps converge to this.
 constexpr double impulse_tolerance = 1e-9;
 
 }  // namespace
 
-// A locked hinge is nearly infinitely stiff, so a line search at the true ramps unlocks hinges one at a time.  So
-// full steps are tried first; where they cycle, the ramps are widened and narrowed in steps, each a good start
-// for the next, with line search.
+// A locked hinge is almost infinitely stiff, so a line search with the true ramps releases hinges one at a time.  Full steps are
+// therefore tried first if all hinges are set-valued; if they cycle, the ramps are widened and then narrowed in stages (continuation),
+// each stage solved with line search from the solution of the previous one.
 bool Stepper::newton() {
     std::fill(impedance_.begin(), impedance_.end(), 0.0);
     std::fill(rhs_.begin(), rhs_.end(), 0.0);
@@ -41,7 +42,7 @@ bool Stepper::newton() {
             const Hinge& hinge = model_.hinges[j];
             const Real wanted = max(width, ramp_width(hinge));
             Real& w = w_[static_cast<size_t>(hinge.dof)];
-            // inside the ramp the moment is kept, so the rate shrinks with the width
+            // within the ramp the moment is kept: the rate is reduced in proportion to the width
             if (wanted < frozen_[j].width && fabs(w) < frozen_[j].width) w *= wanted / frozen_[j].width;
             frozen_[j].width = wanted;
             if (wanted > ramp_width(hinge)) narrowest = false;
@@ -51,9 +52,9 @@ bool Stepper::newton() {
     return true;
 }
 
-// Takes the whole Newton step, except that a hinge which would reverse is first put to rest, and that of
-// neighbouring locked hinges loaded beyond their capacity only the one loaded most is released: the moment
-// falls beside it, and releasing all of them would only send most back.
+// Takes the full Newton step with two exceptions: a hinge that would reverse its rotation is set to zero rate first, and of
+// neighbouring locked hinges that are overloaded only the one with the largest overload is released, because its release reduces
+// the moments of its neighbours and most of them would lock again.
 void Stepper::take_full_step() {
     std::fill(overload_.begin(), overload_.end(), 0.0);
     std::fill(overload_of_children_.begin(), overload_of_children_.end(), 0.0);
@@ -80,12 +81,13 @@ void Stepper::take_full_step() {
     w_.swap(next_);
 }
 
-// Newton steps, either full (no guarantee) or with exact line search on the potential (always downhill).
+// Newton iterations, either with full steps (not guaranteed to converge) or with exact line search on the potential (descent in
+// every iteration).
 bool Stepper::descend(int limit, bool full_steps) {
     for (int iteration = 0; iteration < limit; iteration++) {
         linearise();
         solve_once();
-        // what the true responses leave unbalanced there, and the slope of the potential along the step
+        // residuals of the nonlinear responses at the new rates, and the slope of the potential along the step
         Real slope = 0;
         bool balanced = true;
         for (size_t j = 0; j < frozen_.size(); j++) {
@@ -113,7 +115,7 @@ bool Stepper::descend(int limit, bool full_steps) {
     return false;
 }
 
-// Tangent of every hinge at the present rates.
+// Tangent of every hinge at the present rates, as impedance and right-hand side.
 void Stepper::linearise() {
     for (size_t j = 0; j < frozen_.size(); j++) {
         const auto dof = static_cast<size_t>(model_.hinges[j].dof);
@@ -123,8 +125,8 @@ void Stepper::linearise() {
     }
 }
 
-// Derivatives of the solution, by the implicit function: with the solved rates as constants, the linear problem's own
-// derivatives are those of the equilibrium, since its tangents are exact there.
+// Derivatives of the solution by the implicit function theorem: with the solved rates held constant, the derivatives of the linear
+// problem are those of the equilibrium, because its tangents are exact at the solution.
 void Stepper::differentiate() {
     for (Real& w : w_) w = value(w);
     linearise();
@@ -140,8 +142,8 @@ void Stepper::solve_once() {
     if (!rows_.empty()) constrain(next_.data(), 0);
 }
 
-// Adds to w the response to the constraint impulses that bring the constrained directions, from the first on, to
-// their target rates.
+// Adds to w the response to the constraint impulses that bring the constrained directions, from row `first` on, to their target
+// rates.
 void Stepper::constrain(Real* w, size_t first) {
     const size_t n = rows_.size() - first, m = w_.size();
     auto rates = [&](const Real* rate, Real* out) {
@@ -169,8 +171,8 @@ void Stepper::constrain(Real* w, size_t first) {
     }
 }
 
-// Root of the potential's slope along next - w, in (0, 1): exact for piecewise linear responses, because the
-// bracket shrinks to one piece before it is interpolated.
+// Line search: root in (0, 1) of the slope of the potential along next - w.  It is exact for piecewise linear responses, because
+// the bracket is reduced to one piece before interpolation.
 Real Stepper::search(Real slope_end) {
     Real curvature = 0, linear_end = 0;
     for (size_t k = 0; k < w_.size(); k++) direction_[k] = next_[k] - w_[k];
@@ -217,7 +219,7 @@ Real Stepper::search(Real slope_end) {
             first = middle + 1;
         }
     }
-    // within one piece: secant, safeguarded by bisection where the piece is curved
+    // within one piece: secant method, with bisection in every third iteration in case the piece is curved
     for (int k = 0; k < 40 && hi - lo > 1e-15 * hi; k++) {
         const Real a = k % 3 == 2 ? (lo + hi) / 2 : lo - f_lo * (hi - lo) / (f_hi - f_lo);
         if (!(a > lo && a < hi)) break;

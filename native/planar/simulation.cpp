@@ -10,9 +10,9 @@ inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
-// Turn [rad] by which a locked hinge may creep; the strongest hinge's work over it is no energy worth balancing.
+// Rotation [rad] by which a locked hinge may creep; the work of the strongest hinge over it is negligible in the energy balance.
 constexpr double negligible_turn = 1e-9;
-// Share of the slowest motion worth following that is rounding: of what is locked at rest.
+// Without loads or drives that vary, motion below this share of the slowest relevant speed is rounding: the structure is locked.
 constexpr double rounded = 1e-6;
 }  // namespace
 
@@ -23,14 +23,14 @@ Simulation::Simulation(Model model, const Settings& settings)
     between_.resize(rest.size());
 }
 
-// What takes long for many hinges, and must end where a run is cancelled.
+// Preparation that takes long with many hinges and must therefore be cancellable.
 void Simulation::make_ready() {
     if (ready_) return;
     set_damping();
     ready_ = true;
 }
 
-// The inertia that a damper acts on is evaluated at the start.
+// The effective inertia of every damper is evaluated at the start.
 void Simulation::set_damping() {
     critical_.clear();
     for (Hinge& hinge : model_.hinges) {
@@ -42,8 +42,8 @@ void Simulation::set_damping() {
     set_critical_damping(true);
 }
 
-// A stop without a damper of its own gets the critical one, c = 2 sqrt(k m), m the inertia felt just before the
-// stop is touched (at the start, should that come without notice).
+// A stop without a damper in the input gets critical damping, c = 2 sqrt(k m), with the effective inertia m just before contact (m
+// at the start of the run if the contact was not foreseen).
 void Simulation::set_critical_damping(bool all) {
     const Hinge* last = nullptr;
     Real inertia = 0;
@@ -53,7 +53,7 @@ void Simulation::set_critical_damping(bool all) {
         const double gap = value(sign * state_.q[dof] - c.stop->rotation), rate = value(state_.w[dof]);
         const bool soon = gap <= 0 && gap + 2 * h_ * std::fabs(rate) > 0;
         if (!all && !soon) continue;
-        // both stops of a hinge feel the same
+        // both stops of a hinge have the same effective inertia
         if (c.hinge != last) inertia = stepper_.effective_inertia(state_, c.hinge->dof);
         last = c.hinge;
         c.stop->damping = 2 * sqrt(c.stop->stiffness * inertia);
@@ -81,7 +81,7 @@ void Simulation::set_rates(const Real* w) {
     state_ = stepper_.start(q.data(), w);
 }
 
-// Loads and drives that vary bound the steps.
+// Step limits of loads and drives that vary with time, and the speeds that count as negligible and as large.
 void Simulation::bound_steps(double duration) {
     auto plain = [](const std::vector<Real>& given) {
         std::vector<double> out;
@@ -100,12 +100,12 @@ void Simulation::bound_steps(double duration) {
     moved_.assign(grouped_.size(), NAN);
     for (const Drive& d : model_.drives) bound_.add_drive(plain(d.rate.places()), plain(d.rate.values()));
     breaks_ = model_.breaks;
-    // a rate that prescribed motion begins with is taken up at once, as in an impact
+    // prescribed motion that begins with another rate than the structure has is an impact: it gets a step of the smallest length
     if (stepper_.jerked(state_)) {
         breaks_.push_back(state_.t + std::min(settings_.minimum_step, duration / 2));
         std::sort(breaks_.begin(), breaks_.end());
     }
-    // the speed at which the strongest hinge would turn by what counts as large before it stops
+    // speed with the kinetic energy that the strongest hinge dissipates over the smallest rotation that counts as large
     double strongest = 0, mass = 0;
     for (const HingeState& h : state_.hinge) strongest = std::max(strongest, value(h.capacity));
     for (int i = 0; i < model_.tree.bodies(); i++) mass += value(model_.tree[i].mass);
@@ -167,8 +167,8 @@ Record Simulation::present() const {
     return record;
 }
 
-// Before the first step a rigid hinge has no moment and no hinge a sense in which it turns; what it will carry at once
-// is seen by a step that is thrown away.
+// Before the first step a rigid hinge has no moment, and no hinge has a sense of rotation.  A short trial step that is discarded
+// gives the moments and capacities to report at the start.
 void Simulation::show_first_moments() {
     State probe = state_;
     if (state_.t > 0 || !stepper_.step(probe, 100 * settings_.minimum_step)) return;
@@ -195,7 +195,7 @@ void Simulation::run_to_end(const std::vector<double>& times, const std::functio
     make_ready();
     const double duration = times.back() - state_.t;
     advance_.begin(state_.t, duration, stepper_.solves());
-    // the rotation that the strongest hinge would need for all energy: what counts as large before anything has turned
+    // reference rotation before anything has turned: half the rotation in which the strongest hinge would dissipate all kinetic energy
     double strongest = 0;
     for (const HingeState& h : state_.hinge) strongest = std::max(strongest, value(h.capacity));
     negligible_energy_ = negligible_turn * strongest;
@@ -213,7 +213,7 @@ void Simulation::run_to_end(const std::vector<double>& times, const std::functio
     show_first_moments();
     for (const double t : times) {
         const bool reached = t <= state_.t || advance(t, record, poll);
-        // a run that ends early records its last state
+        // a run that ends early records its last state as well
         if (reached || record.time.empty() || record.time.back() < state_.t) store(record);
         if (!reached) break;
     }
@@ -230,7 +230,7 @@ HingeSummary<Real> hinge_summary(const Simulation& simulation) {
         out.rest_time.push_back(s.rest_time);
         out.turning.push_back(turning(simulation.model().hinges[j], s) ? 1.0 : 0.0);
         out.energy.push_back(s.dissipated + s.damped + s.stop_dissipated);
-        // hinges of a plane do not break, and when they open is not watched
+        // hinges of the planar kernel do not fracture, and their opening is not monitored
         for (auto* none : {&out.opening_time, &out.fracture_time, &out.fracture_moment}) none->push_back(NAN);
     }
     return out;

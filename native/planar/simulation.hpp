@@ -1,4 +1,4 @@
-// A run: adaptive steps to the requested output times, and what they record.
+// A run: adaptive time steps to the requested output times, and the recorded results.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct Settings {
     double accuracy = 1e-3;      // allowed error of the motion, relative to the largest rotation
     double minimum_step = 1e-9;  // [s]
     double maximum_step = 1e30;  // [s]
-    int parts = 1;               // least number of steps between two breaks
+    int parts = 1;               // smallest number of steps between two breaks
     double scale_floor = 2e-3;   // [rad] smallest rotation that counts as large
 };
 
@@ -26,22 +26,22 @@ struct Record {
     std::vector<double> time;
     std::vector<Real> q, w;               // (n, dofs)
     std::vector<Real> pose, velocity;     // (n, bodies, 3): angle, x, y of the origin; of the centre of mass
-    ComponentRecord<Real> hinge;          // a component each
+    ComponentRecord<Real> hinge;          // one component per hinge
     HingeEnergyRecord<Real> hinge_energy;
-    EnergyRecord<Real> energy;            // none of springs, contact, friction and quasi-static stages
+    EnergyRecord<Real> energy;            // zero for springs, contact, friction and quasi-static stages
     std::vector<Real> drive;              // (n, drives) [N or N m]
     Outcome outcome = Outcome::complete;
     std::string reason;
     double residual = 0;                   // largest |balance - start| over (start + largest external work)
-    // speed that loads and drives may have given or taken unseen, over the largest: where hinges rest, a step does not see a pulse
-    // that its mean hides
+    // change of speed that unresolved loads and drives may have caused, relative to the largest speed: while hinges are locked, the
+    // error estimate of a step does not show a pulse that vanishes in the mean of the load
     double unseen = 0;
     std::int64_t steps = 0, rejected = 0, forced = 0, solves = 0;
 };
 
-// Error that one step may add [of the error measure].
+// Error allowed in one step, in units of the error measure.
 double step_tolerance(double accuracy);
-// Norm of velocities by kinetic energy, or of the difference of two [m/s kg^1/2].
+// Kinetic-energy norm of velocities, or of the difference of two velocity fields [m/s kg^1/2].
 double kinetic_norm(const Tree& tree, const std::vector<Twist>& a, const std::vector<Twist>* b);
 
 class Simulation {
@@ -54,14 +54,15 @@ public:
     Stepper& stepper() { return stepper_; }
     State& state() { return state_; }
     const State& state() const { return state_; }
-    // joint rates at time 0 from velocities and impulses at the centres of mass; returns the energy lost in fitting
+    // Sets the joint rates at time 0 from velocities and impulses at the centres of mass; returns the kinetic energy lost in the
+    // projection onto the joints' motion.
     Real set_motion(const Twist* velocity, const Twist* impulse);
     void set_rates(const Real* w);
-    // before the first step; a run does so itself
+    // prepares the first step; `run` calls it
     void make_ready();
-    // runs to the last of the times; `poll` gets the time reached and returns false to cancel
+    // runs to the last of the times; `poll` is called with the present time and returns false to cancel
     Record run(const std::vector<double>& times, const std::function<bool(double)>& poll);
-    // the present state alone
+    // a record of the present state only
     Record present() const;
 
 private:
@@ -90,24 +91,24 @@ private:
     Settings settings_;
     Stepper stepper_;
     State state_, coarse_, fine_;
-    std::vector<Critical> critical_;  // stops whose damper is left to the solver
-    std::vector<Real> between_;     // rates
-    StepBound bound_;                          // by loads and drives
-    std::vector<std::vector<size_t>> grouped_;  // loads of one function of time
-    std::vector<double> moved_;                // by a unit impulse of each group [kinetic norm]; NaN: not asked yet
-    std::vector<double> breaks_;               // those of the model, and the first instant of a drive that begins with a rate
-    double begin_ = 0, end_ = 0;               // of the run [s]
+    std::vector<Critical> critical_;  // stops that get critical damping
+    std::vector<Real> between_;     // joint rates at the middle of the step
+    StepBound bound_;                          // step limit by loads and drives
+    std::vector<std::vector<size_t>> grouped_;  // loads grouped by their function of time
+    std::vector<double> moved_;                // response to a unit impulse of each group [kinetic norm]; NaN: not evaluated yet
+    std::vector<double> breaks_;               // those of the model, and the end of the first step if a drive begins with an impact
+    double begin_ = 0, end_ = 0;               // start and end of the run [s]
     double unseen_ = 0;                        // see `Record::unseen` [kinetic norm]
     double large_speed_ = 0;                   // kinetic norm that counts as large before anything moves
-    double negligible_speed_ = 0;              // where loads or drives act: moves bodies by less than what counts as large in the run
-    double step_tolerance_;  // of the error measure
+    double negligible_speed_ = 0;              // kinetic norm that moves bodies over the run by less than what counts as large
+    double step_tolerance_;  // allowed value of the error measure
     double h_ = 0, scale_ = 0, speed_ = 0, start_energy_ = 0, work_max_ = 0, residual_max_ = 0, negligible_energy_ = 0;
     Advance advance_;
-    std::int64_t poll_at_ = 0;  // work at which `poll` is asked next
+    std::int64_t poll_at_ = 0;  // amount of work at which `poll` is called next
     bool ready_ = false;
 };
 
-// at the present state
+// summary of all hinges at the present state
 HingeSummary<Real> hinge_summary(const Simulation& simulation);
 
 }  // namespace CRUMPLE_ARITHMETIC

@@ -1,4 +1,4 @@
-// The control of the step: its error from one step and two halves, shorter steps after an error, ends at breaks.
+// Step control: error estimate from one step and two half steps, shorter steps if the error is too large, step ends at breaks.
 #include <algorithm>
 #include <cmath>
 
@@ -9,22 +9,21 @@ inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
-// Error that one step may add, measured by the difference between one step and two halves.  The local error goes
-// with h^3 and the error of the whole motion with h^2, so below `loosest_share` the share of a step shrinks with
-// the square root of the accuracy: then the whole error shrinks in proportion to it, and a quarter of the
-// accuracy halves the step.  With the whole accuracy for each step the verification problems err by more than it
-// from 1e-5 on.
+// Error allowed in one step, measured by the difference between one step and two half steps.  The local error is proportional to
+// h^3 and the error of the whole motion to h^2, so below `loosest_share` the error allowed in a step is reduced by a further factor,
+// the square root of accuracy/loosest_share: the error of the motion is then proportional to the accuracy, and a quarter of the
+// accuracy halves the step.  If each step were allowed the full accuracy, the verification problems would exceed it from 1e-5 on.
 constexpr double loosest_share = 1e-3;
 
 constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
 
-// length and error of a step that was made
+// length and error of an attempted step
 struct Attempt {
     double h = 0, e = 0;
 };
 
-// Power of the step with which its error goes: three, but down to one where velocities jump, which follows from two
-// step lengths from the same state.
+// Order of the error in the step length: three, but down to one where velocities jump; estimated from two step lengths from the
+// same state.
 double error_order(const Attempt& rejected, const Attempt& present) {
     if (rejected.h == 0 || !(present.e > 1)) return 3;
     return std::clamp(std::log(rejected.e / present.e) / std::log(rejected.h / present.h), 1.0, 3.0);
@@ -67,8 +66,8 @@ double Simulation::error(const State& coarse, const State& fine) const {
     return e / step_tolerance_;
 }
 
-// A step of length h, and two halves that start from the rates it found.  After a rejected step `between_` holds
-// rates of its middle: they know already which hinges come loose.
+// One step of length h, and two half steps whose iterations start from its rates.  After a rejected step `between_` holds the
+// rates at its middle, in which the hinges that start to flow already turn.
 bool Simulation::step_twice(double h, bool again) {
     coarse_ = state_;
     fine_ = state_;
@@ -86,7 +85,7 @@ bool Simulation::stalled(Record& record) {
     return true;
 }
 
-// Whether a smallest step that is not accurate loses the balance of energy: no number after it would mean anything.
+// Whether an inaccurate step of the smallest length violates the energy balance, so that no later result would be meaningful.
 bool Simulation::unbalanced(Record& record) const {
     const double reference = std::max(start_energy_ + work_max_, negligible_energy_);
     const double missed = std::fabs(value(energies(model_, fine_).balance() - energies(model_, state_).balance()));
@@ -158,13 +157,14 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
     return true;
 }
 
-// Breaks nearer than the smallest step are passed with what follows.
+// The next break at which a step must end; a break closer than the smallest step is included in the following step.
 double Simulation::next_break() const {
     const auto next = std::lower_bound(breaks_.begin(), breaks_.end(), state_.t + settings_.minimum_step * (1 - 1e-6));
     return next == breaks_.end() ? INFINITY : *next;
 }
 
-// Where breaks bound the steps they still differ between two runs that ask for different numbers of parts.
+// Longest step for the requested number of parts between two breaks: runs with different numbers of parts then differ in their
+// steps even where breaks limit them.
 double Simulation::longest_part() const {
     if (breaks_.empty() || settings_.parts < 2) return INFINITY;
     const auto next = std::lower_bound(breaks_.begin(), breaks_.end(), state_.t + settings_.minimum_step * (1 - 1e-6));
@@ -172,12 +172,12 @@ double Simulation::longest_part() const {
     return std::max((until - since) / settings_.parts, settings_.minimum_step);
 }
 
-// whether a hinge does not turn
+// whether any hinge is at rest
 bool Simulation::resting() const {
     return std::any_of(state_.hinge.begin(), state_.hinge.end(), [](const HingeState& h) { return !h.sliding; });
 }
 
-// Length of a step, at most h, that sees what loads and drives do within it.
+// Longest step, at most h, that resolves the variation of loads and drives within it.
 StepBound::Step Simulation::resolved(double h) {
     if (bound_.empty()) return {h, 0};
     const double large = std::max(speed_, large_speed_);

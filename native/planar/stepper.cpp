@@ -10,11 +10,11 @@ inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
-// Turn [rad] over which the drift of a constraint is corrected to 1/e: short against any rotation of interest.
+// Rotation [rad] over which the drift of a constraint decays to 1/e: small compared with any rotation of interest.
 constexpr double correction_turn = 0.02;
-// Share of its rate that a hinge of a loop may keep and still count as come to rest: what the loop's gap asks of it.
+// A hinge of a loop counts as at rest below this share of its start rate: the correction of the loop's gap keeps it turning slowly.
 constexpr double at_rest = 1e-3;
-// Difference of two rates, relative to them, that is rounding.
+// Relative difference of two rates that is attributed to rounding.
 constexpr double same_rate = 1e-9;
 
 }  // namespace
@@ -96,7 +96,7 @@ void Stepper::project(const State& at, const Twist* velocity, const Twist* impul
     keep_joined(at, w);
 }
 
-// Takes out of w what would move a held point or open a weld; drives act from the first step on.
+// Projects w onto the rates that neither move a held point nor open a weld; drives are left out, they act from the first step on.
 void Stepper::keep_joined(const State& at, Real* w) {
     if (rows_.size() == model_.drives.size()) return;
     middle_ = at.pose;
@@ -156,11 +156,11 @@ bool Stepper::step(State& s, double h, const Real* guess, int passes) {
         hint_[2 * j + 1] = s.hinge[j].hint[1];
     }
     for (int pass = 0; pass < passes; pass++) {
-        // positions, free-flight velocities, loads and drives at the predicted middle
+        // predict the middle of the step: positions, velocities without joint impulses, loads and drives
         predict(s, h);
-        // capacities, rate factors and stops
+        // freeze capacities, rate factors and stops
         freeze(s, h);
-        // end rates
+        // solve for the joint rates at the end
         if (!newton()) return false;
         if (with_directions) differentiate();
     }
@@ -178,7 +178,7 @@ void Stepper::predict(const State& s, double h) {
         const Body& b = tree[i];
         const auto k = static_cast<size_t>(i);
         const Vec2 arm = middle_[k].turned(b.centre), end_arm = end_[k].turned(b.centre);
-        // T1 w1 - T_mid w1 is lagged: then M (V1 - V0) is the whole change of momentum
+        // T1 w1 - T_mid w1 is taken from the previous pass, so that M (V1 - V0) is the complete change of momentum
         const Vec2 ahead = end_twist_[k].v + turn(end_twist_[k].w, end_arm) - twist_[k].v - turn(twist_[k].w, arm);
         const Vec2 linear = b.mass * (s.velocity[k].v - ahead + h * model_.gravity);
         bias_[k] = {b.inertia * s.velocity[k].w + cross(arm, linear), linear};
@@ -193,9 +193,10 @@ void Stepper::predict(const State& s, double h) {
     aim_rows(s, h);
 }
 
-// Rates that the constrained directions must have, evaluated at the positions of the midpoint.  They must be the drive's own
-// (a hold's and a weld's are zero) at the positions of the end, which the last pass predicts.  Drift is corrected while something
-// turns to the end, so that a structure at rest, or coming to rest within the step, does not move.
+// Target rates of the constrained directions, evaluated at the positions of the midpoint.  At the end positions, which the last
+// pass predicts, they must equal the rate of the drive (zero for holds and welds).  Drift of holds and welds is corrected in
+// proportion to the largest joint rate at the end, so that a structure that is at rest or comes to rest within the step does not
+// move; drift of drives is corrected at a rate of its own.
 void Stepper::aim_rows(const State& s, double h) {
     if (rows_.empty()) return;
     Real turning = 0;
@@ -226,7 +227,7 @@ Real Stepper::relative(const Row& row, const Pose* pose) const {
     return row.direction.w * (a.phi - b.phi) + dot(row.direction.v, a.at(row.point) - b.at(row.other_point));
 }
 
-// Relative rate in the constrained direction.
+// Relative rate of the two points of a row in its constrained direction.
 Real Stepper::row_rate(const Row& row, const Pose* pose, const Twist* twist) const {
     const Real rate = point_rate(row.direction, twist[row.body], arm(row.body, row.point, pose));
     if (row.other < 0) return rate;
@@ -241,9 +242,9 @@ void Stepper::freeze(const State& s, double h) {
     }
 }
 
-// When within the step the hinges of loops come to rest: their rates being in proportion, all at once, after the time in
-// which their capacities do the work of their impulses.  At the end of the step where one of them slides on, or
-// prescribed motion may have brought them to rest.
+// Time within the step at which the hinges of loops come to rest.  Their rates are proportional to each other, so they stop
+// together, after the time in which their capacities do the work of their impulses.  The step length if one of them still turns at
+// the end, or if prescribed motion may have brought them to rest.
 Real Stepper::common_halt(double h) const {
     Real work = 0, power = 0;
     for (size_t j = 0; j < frozen_.size(); j++) {
@@ -257,7 +258,7 @@ Real Stepper::common_halt(double h) const {
     return power > 0 ? min(max(work / power, 0.0), h) : h;
 }
 
-// Hinges on the ways between the two bodies of each weld.
+// Marks the hinges on the path through the tree between the two bodies of each weld.
 void Stepper::find_loops() {
     looped_.assign(model_.hinges.size(), false);
     const Tree& tree = model_.tree;
@@ -286,7 +287,7 @@ void Stepper::commit(State& s, double h) {
         s.hinge[j].hint[0] = hint_[2 * j];
         s.hinge[j].hint[1] = hint_[2 * j + 1];
     }
-    // work of gravity is exact; loads and drives act over the mean of the start and end rates of their points
+    // the work of gravity is exact; the work of loads and drives uses the mean of the start and end rates of their points
     auto mean_rate = [&](int body, Vec2 point, const Twist& direction) {
         const auto i = static_cast<size_t>(body);
         const Body& b = tree[body];

@@ -1,10 +1,11 @@
 // One step of the planar kernel: a convex problem for the joint rates at the end of the step.
 //
-// With the motion over the step taken as trapezoidal (q1 = q0 + h (w0 + w1)/2) and everything that depends on
-// position taken at its middle, the end rates w1 minimise
+// With the trapezoidal rule for the motion over the step (q1 = q0 + h (w0 + w1)/2) and everything that depends on position
+// evaluated at the middle of the step, the joint rates w1 at its end (the unknowns) minimise
 //     sum_bodies 1/2 |T w - V*|^2_M  +  sum_hinges Phi_j(w_j)      subject to  G w = g,
-// V* being the velocities that the bodies would have without joints' impulses.  Semismooth Newton with exact
-// line search on that potential; each Newton step is one O(N) articulated-body solve.
+// where V* are the body velocities without joint impulses, M the body inertias, T the map from joint rates to body velocities,
+// Phi_j the potential of hinge j (hinge.hpp) and G w = g the drives, holds and welds.  The potential is minimised by a semismooth
+// Newton method with exact line search; each Newton step is one O(N) articulated-body solve.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +26,8 @@ struct Load {
     Real scale = 1;
 };
 
-// Prescribed motion of a point of a body in one direction.  The rate is piecewise linear and the displacement its
-// integral: were both sampled by themselves, their difference over a short step would be a jerk.
+// Prescribed motion of a point of a body in one direction.  The rate is piecewise linear and the displacement is its integral: if
+// both were sampled independently, their inconsistency over a short step would act as a jerk.
 struct Drive {
     int body = 0;
     Vec2 point;
@@ -35,11 +36,11 @@ struct Drive {
     Curve rate;
 };
 
-// Two bodies that move as one: what closes a loop.  A body in a loop is cut in two, each half hangs on its own
-// joint, and the weld holds the halves together; so every hinge stays a joint coordinate of the tree.
+// Rigid connection of two bodies, which closes a loop.  A body in a loop is cut in two halves, each with its own inboard joint, and
+// the weld holds the halves together; every hinge thus remains a joint coordinate of the tree.
 struct Weld {
     int body = 0, other = -1;  // -1: the ground
-    Vec2 point, other_point;   // the same place in the frame of each (in the world for the ground)
+    Vec2 point, other_point;   // the same point in the frame of each body (world frame for the ground)
 };
 
 // A point of a body that is held in one direction by a support.
@@ -58,7 +59,7 @@ struct Model {
     std::vector<Weld> welds;
     Vec2 gravity;
     std::vector<Real> q0;  // reference joint coordinates
-    Real length = 1;       // [m] turns translations of free bodies into angles for the error measure
+    Real length = 1;       // [m] reference length that converts translations of free bodies to angles in the error measure
     std::vector<double> breaks;  // [s] increasing: jumps and kinks of loads and drives, where steps end
 };
 
@@ -81,27 +82,27 @@ Energies energies(const Model& model, const State& state);
 
 class Stepper {
 public:
-    // Passes over the frozen quantities: the second takes them at the middle of the motion that the first found,
-    // which makes the step second order.
+    // Passes over the frozen quantities: the second evaluates them at the middle of the motion found by the first, which makes the
+    // step second-order accurate.
     static constexpr int most_passes = 2;
     explicit Stepper(const Model& model);
 
-    // a state at rest or in motion from joint coordinates and rates
+    // state with these joint coordinates and rates
     State start(const Real* q, const Real* w) const;
-    // joint rates nearest, in kinetic energy, to given velocities of the centres of mass plus body impulses at them
+    // joint rates closest, in the kinetic-energy norm, to given velocities of the centres of mass plus body impulses at them
     void project(const State& at, const Twist* velocity, const Twist* impulse, Real* w);
-    // One step of length h; false when the equations did not converge (the state is then unchanged).  `guess`: end
-    // rates from which the solution starts; where they err by O(h^2) at most, one pass is enough.
+    // One step of length h; false if the equations did not converge (the state is then unchanged).  `guess`: end rates from which
+    // the iteration starts; if their error is O(h^2) or smaller, one pass is sufficient.
     bool step(State& state, double h) { return step(state, h, state.w.data(), most_passes); }
     bool step(State& state, double h, const Real* guess, int passes);
-    // inertia that the joint coordinate feels with all other hinges free: 1 / (J M^-1 J^T)
+    // effective inertia at a joint coordinate with all other hinges free: 1 / (J M^-1 J^T)
     Real effective_inertia(const State& at, int dof);
-    // Kinetic norm of what loads do to the structure, each by its scale, with all hinges free.
+    // Kinetic norm of the response of the structure, with all hinges free, to a unit impulse of these loads times their scales.
     double moved_by(const State& at, const std::vector<size_t>& loads);
-    // whether prescribed motion begins at another rate than the structure has
+    // whether prescribed motion begins with another rate than the structure has
     bool jerked(const State& at) const;
-    // least time in which drives make up for drift; without it twice the step, so that the drift of a long step
-    // would jerk a short one that follows
+    // Smallest time constant for the correction of the drift of drives.  Without it the time constant would be twice the step, and
+    // the drift of a long step would jerk a short step that follows.
     void set_drift_time(double time) { drift_time_ = time; }
     std::int64_t solves() const { return solves_; }
 
@@ -114,12 +115,12 @@ private:
     void linearise();
     void differentiate();
     void solve_once();
-    // one constrained direction: motion of a point of a body, relative to one of another body or the ground
+    // one constrained direction: motion of a point of a body relative to a point of another body or of the ground
     struct Row {
         int body = 0, other = -1;
         Vec2 point, other_point;
         Twist direction;
-        Real origin = 0;  // of the relative displacement at the start
+        Real origin = 0;  // relative position at the start
     };
     void add_row(const Row& row);
     Real relative(const Row& row, const Pose* pose) const;

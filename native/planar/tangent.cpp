@@ -1,4 +1,4 @@
-// The engine once more, with derivatives: the same sources over the other arithmetic of real.hpp.
+// The planar kernel with derivatives: the same sources compiled with the tangent arithmetic of real.hpp.
 #define CRUMPLE_TANGENT
 
 #include "hinge/curve.cpp"

@@ -7,7 +7,7 @@ inline namespace CRUMPLE_ARITHMETIC {
 
 namespace {
 
-// sine and cosine of a small angle to round-off, else the library's
+// sine and cosine: power series to round-off for small angles, library functions otherwise
 inline void sine_cosine(Real a, Real& s, Real& c) {
     if (fabs(a) > 0.125) {
         s = sin(a);
@@ -74,7 +74,7 @@ void Tree::place_after(const Pose* from, const Real* q, Pose* pose) const {
         Real s, c;
         sine_cosine(p.phi - f.phi, s, c);
         const Real cosine = f.c * c - f.s * s, sine = f.s * c + f.c * s;
-        // back to unit length, from which rounding would lead away
+        // normalise: rounding errors of cosine and sine would accumulate
         const Real unit = (3 - cosine * cosine - sine * sine) / 2;
         p.c = unit * cosine;
         p.s = unit * sine;
@@ -103,7 +103,7 @@ void Tree::place_ahead(const Pose* from, const Real* q, const Real* dq, Pose* mi
         m.phi = f.phi + turn;
         m.c = f.c * c - f.s * s;
         m.s = f.s * c + f.c * s;
-        // the same turn again, from the middle
+        // the same rotation again, from the middle to the end
         e.phi = m.phi + turn;
         e.c = m.c * c - m.s * s;
         e.s = m.s * c + m.c * s;
@@ -143,13 +143,13 @@ void ArticulatedSolver::place(const Pose* pose) {
     }
 }
 
-// Eliminates joint i, all bodies further out being done: what is left of the inertia goes to the parent.
+// Eliminates joint i after all bodies further out, and adds the remaining articulated inertia to the parent.
 inline void ArticulatedSolver::eliminate(int i, const Real* impedance) {
     const Body& b = tree_[i];
     Inertia& a = articulated_[static_cast<size_t>(i)];
     Row& row = row_[static_cast<size_t>(i)];
     const Real* z = impedance + b.dof;
-    if (b.joint == Joint::free) {  // hangs on the ground and hands nothing to it
+    if (b.joint == Joint::free) {  // its parent is the ground, to which nothing is added
         a.rr += z[0];
         a.xx += z[1];
         a.yy += z[2];
@@ -211,7 +211,7 @@ void ArticulatedSolver::substitute(const Twist* b, const Real* r, Real* w) {
         Twist t;
         if (body.parent >= 0) t = carried(twist_[static_cast<size_t>(body.parent)], row.arm);
         if (body.joint == Joint::free) {
-            // the carried motion of a parent is part of the body's own free motion only for ground parents
+            // the motion relative to the ground is solved directly: the parent of a free body is the ground
             const Real* f = &free_factor_[static_cast<size_t>(9 * i)];
             const Real b0 = b[i].w + r[body.dof], b1 = b[i].v.x + r[body.dof + 1], b2 = b[i].v.y + r[body.dof + 2];
             Real* wi = w + body.dof;

@@ -1,12 +1,12 @@
-// Trees of rigid bodies in the plane: constants, placement, velocities, and the O(N) solve.
+// Trees of rigid bodies in the plane: mass properties, positions, velocities, and the O(N) solution for joint rates.
 //
-// Every body hangs on one inboard joint; parents come before children.  A body's frame is aligned with
-// the world in the reference configuration and has its origin at the inboard joint.  Velocities are
-// twists (rotation rate, velocity of the body's origin) in world axes.
+// Every body has one inboard joint; parents come before children.  A body's frame is aligned with the world axes in the reference
+// configuration and has its origin at the inboard joint.  Velocities are twists (rotation rate, velocity of the body's origin) in
+// world axes.
 //
-// The solve minimises  sum_i 1/2 |V_i|^2_{I_i} - b_i.V_i + sum_j 1/2 Z_j w_j^2 - r_j w_j  over the joint
-// rates w, with V = T w: Gauss's principle for impulses b_i on bodies and r_j on joints, and impedances Z_j.
-// The articulated-body recursion does it in one sweep to the root and one back.
+// The solver minimises  sum_i 1/2 |V_i|^2_{I_i} - b_i.V_i + sum_j 1/2 Z_j w_j^2 - r_j w_j  over the joint rates w, with V = T w:
+// Gauss's principle of least constraint for impulses b_i on bodies and r_j on joints, with joint impedances Z_j.
+// The articulated-body algorithm solves it in one sweep from the leaves to the root and one sweep back.
 #pragma once
 
 #include <cstddef>
@@ -31,13 +31,13 @@ inline Real dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 inline Real cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 inline Vec2 turn(Real rate, Vec2 arm) { return {-rate * arm.y, rate * arm.x}; }  // rate times unit normal, crossed with arm
 
-// rotation rate and velocity; also angular and linear impulse
+// rotation rate and velocity of a body; also used for angular and linear impulse
 struct Twist {
     Real w = 0;
     Vec2 v;
 };
 
-// rate of a body's point, at `arm` from where `body` is given, along a direction (rotation, x, y)
+// rate along a direction (rotation, x, y) of a point at `arm` from the reference point of the twist `body`
 inline Real point_rate(const Twist& direction, const Twist& body, Vec2 arm) {
     return direction.w * body.w + dot(direction.v, body.v + turn(body.w, arm));
 }
@@ -76,7 +76,7 @@ public:
 
     // poses from joint coordinates
     void place(const Real* q, Pose* pose) const;
-    // poses at q, cheaper than `place`; `from` holds those a small turn away
+    // poses at q, faster than `place`; `from` holds poses that differ by a small rotation
     void place_after(const Pose* from, const Real* q, Pose* pose) const;
     // poses at q + dq and at q + 2 dq; `from` holds those at q
     void place_ahead(const Pose* from, const Real* q, const Real* dq, Pose* middle, Pose* end) const;
@@ -94,17 +94,17 @@ private:
 class ArticulatedSolver {
 public:
     explicit ArticulatedSolver(const Tree& tree);
-    // the configuration in which all that follows is solved
+    // sets the configuration for the following solutions
     void place(const Pose* pose);
-    // Gives the joint rates w for impedances Z >= 0 per joint coordinate, body impulses b about the body origins
-    // (overwritten) and joint impulses r.
+    // Joint rates w for impedances Z >= 0 of the joint coordinates, body impulses b about the body origins (overwritten) and joint
+    // impulses r.
     void solve(const Real* impedance, Twist* b, const Real* r, Real* w);
-    // the same for further impulses, with the impedances of the last `solve`
+    // the same for other impulses, with the factorisation of the last `solve`
     void solve_again(Twist* b, const Real* r, Real* w);
 
 private:
     struct Row {
-        Real rr, rx, ry;     // column of the articulated inertia that belongs to the joint's rotation
+        Real rr, rx, ry;     // column of the articulated inertia for the joint's rotation
         Real inverse;        // 1 / (rr + Z)
         Real kept;           // Z / (rr + Z)
         Vec2 arm;              // from the parent's origin to this body's
@@ -115,10 +115,10 @@ private:
 
     const Tree& tree_;
     std::vector<Row> row_;
-    std::vector<Inertia> own_, articulated_;  // about the body origins, alone and with all that hangs on it
+    std::vector<Inertia> own_, articulated_;  // about the body origins: the body alone, and with all bodies outboard of it
     std::vector<Real> rhs_;
     std::vector<Twist> twist_;
-    std::vector<Real> free_factor_;  // 3x3 inverse of every free joint
+    std::vector<Real> free_factor_;  // inverse 3x3 articulated inertia of every free joint
 };
 
 }  // namespace CRUMPLE_ARITHMETIC

@@ -1,4 +1,4 @@
-// Python face of `solve_many`.
+// Python interface of `solve_many`.
 #include "planar/bind/bind_batch.hpp"
 
 #include <nanobind/stl/string.h>

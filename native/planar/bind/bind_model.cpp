@@ -1,4 +1,4 @@
-// The frozen model of a planar tree, from plain Python data; nothing here decides physics.
+// Builds the model of a planar tree from plain Python data; no physics.
 #include "planar/bind/bind_model.hpp"
 
 #include <nanobind/stl/string.h>

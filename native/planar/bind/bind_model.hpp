@@ -1,4 +1,4 @@
-// What the bindings of the planar kernel share: the model from plain Python data.
+// Shared by the bindings of the planar kernel: the model from plain Python data.
 #pragma once
 
 #include "hinge/bind_hinge.hpp"

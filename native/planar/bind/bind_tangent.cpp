@@ -1,4 +1,4 @@
-// Python face of a run with derivatives.
+// Python interface of a run with derivatives.
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -25,7 +25,7 @@ std::vector<Twist> twists(const In& values, const In& slopes, int bodies, size_t
     return out;
 }
 
-// values in the first row, derivatives in those that follow
+// appends the values as the first row and the derivatives, one direction per row, as the following rows
 void append_rows(Doubles& out, const std::vector<Real>& values, size_t count) {
     for (const Real& x : values) out.push_back(x.v);
     for (size_t k = 0; k < count; k++) {
@@ -39,7 +39,7 @@ Array rows(const std::vector<Real>& values, size_t count) {
     return to_array(out, {count + 1, values.size()});
 }
 
-// the same of every column of a record, (columns, count + 1, values)
+// the same for every column of a record, (columns, count + 1, values)
 template <class R> Array rows_of(const R& record, size_t count) {
     Doubles out;
     size_t number = 0, size = 0;
