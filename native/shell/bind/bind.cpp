@@ -1,4 +1,4 @@
-// Python face of the shell engine's state; the typed face that people use is crumple._core.shell.simulation.
+// Python interface of the shell kernel's state; the typed interface for callers is crumple._core.shell.simulation.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/pair.h>
@@ -44,7 +44,7 @@ static Array element_slot(const Simulation& s, int slot) {
     return to_array(std::move(v), {s.model().elements()});
 }
 
-// (elements, points): one quantity of every thickness point; points that a part does not have are zero
+// (elements, points): one quantity at every thickness point; zero for points that a part does not have
 static Array point_slot_values(const Simulation& s, int which) {
     require(which >= 0 && which < point_slots, "a point has no such slot");
     std::size_t points = 0;
@@ -93,7 +93,7 @@ static Array rigid_states(const Simulation& s) {
     return to_array(std::move(v), {s.body_states().size(), 18});
 }
 
-// displacement, its rate, angle and its rate, force and impulse of the structure on it, deepest penetration (15)
+// displacement and its rate, angle and its rate, force and impulse of the structure on the obstacle, largest penetration (15)
 static Array obstacle_states(const Simulation& s) {
     std::vector<double> v;
     for (const ObstacleContact::State& o : s.contact().obstacles().states())
@@ -102,14 +102,14 @@ static Array obstacle_states(const Simulation& s) {
     return to_array(std::move(v), {s.contact().obstacles().states().size(), 15});
 }
 
-// broken or not, time of the last look or of failure, normal and shear force then, largest use so far (5)
+// whether broken, time of the last evaluation or of failure, normal and shear force then, largest value of the criterion so far (5)
 static Array weld_states(const Simulation& s) {
     std::vector<double> v;
     for (const WeldState& w : s.welds().states()) v.insert(v.end(), {double(w.broken), w.time, w.normal, w.shear, w.worst});
     return to_array(std::move(v), {s.welds().states().size(), 5});
 }
 
-// depth of the deepest node when an obstacle appeared, and that node (2)
+// depth of the deepest node when the obstacle appeared, and the index of that node (2)
 static Array appeared_inside(const Simulation& s) {
     std::vector<double> v;
     for (const ObstacleContact::State& o : s.contact().obstacles().states()) v.insert(v.end(), {o.inside, double(o.inside_node)});
@@ -133,7 +133,7 @@ static nb::dict save(const Simulation& s) {
     return d;
 }
 
-// `same`: of the same model, else of the stage before
+// `same`: the checkpoint is of the same model, else of the previous stage
 static void restore(Simulation& s, const nb::dict& d, bool same) {
     const Checkpoint before = s.save();
     Checkpoint c;
@@ -148,7 +148,7 @@ static void restore(Simulation& s, const nb::dict& d, bool same) {
     try {
         same ? s.restore(c) : s.go_on_from(c);
     } catch (const std::invalid_argument&) {
-        // a refused checkpoint changes nothing
+        // a refused checkpoint leaves the state unchanged
         s.restore(before);
         throw;
     }
@@ -174,7 +174,7 @@ static void add_motion(Simulation& s, const In& v, const In& w) {
     s.add_motion(v.data(), w.data());
 }
 
-// Work that leaves the interpreter's lock: nobody else may touch the state meanwhile.
+// Advances with the interpreter lock released; other threads must not use the state meanwhile.
 static int advance(Run& s, double until, double seconds, std::int64_t steps, int threads) {
     require(!std::isnan(until) && !std::isnan(seconds) && steps >= 0, "a run needs an end, a time and a number of steps");
     const Busy busy(s);

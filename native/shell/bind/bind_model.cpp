@@ -1,4 +1,4 @@
-// Building a model from arrays, one kind of thing per call.
+// Builds a model from arrays, one kind of component per call.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
@@ -61,7 +61,7 @@ static void add_material(Model& m, const nb::dict& d) {
 
 static void add_rigid_set(Model& m, const InIndex& nodes, double mass, const In& at, const In& inertia, unsigned fixed,
                           const In& pin) {
-    // an empty array: no pin
+    // an empty array means no pin
     RigidSet s{to_vector(nodes), mass, vec3(at), {}, fixed, pin.size() > 0, {}};
     if (s.pinned) s.pin = vec3(pin);
     if (s.pinned && (fixed & 7u) != 7u) throw std::invalid_argument("a pinned rigid set holds x, y and z");
@@ -113,7 +113,7 @@ static Vec3 unit(const nb::handle& given, const char* what) {
     return (1.0 / norm(v)) * v;
 }
 
-// curves come as pairs of arrays
+// curves are passed as pairs of arrays
 static Curve curve_of(const nb::handle& pair) {
     if (nb::len(pair) != 2) throw std::invalid_argument("a curve is times and values");
     return curve(entry<In>(pair, 0), entry<In>(pair, 1));

@@ -7,15 +7,17 @@ namespace crumple::shell {
 
 namespace {
 
-// Weight of all touches over the set's mass: a set then falls short of the stiffness asked for by a tenth.  Much more would leave single nodes with forces that change with every step.
+// Sum of the weights of all contacts relative to the set's mass: the resulting stiffness is then a tenth below the requested one.
+// Much larger values would make the forces on single nodes change with every step.
 constexpr double firmness = 10.0;
-// Share of critical of the springs of friction: what sticks gives nothing back.
+// Damping ratio of the friction springs: critical, so that a sticking contact does not rebound.
 constexpr double stick_damping = 1.0;
-// The set of touching nodes settles in two or three rounds, the weights of sliding ones within this share in a few more.
+// The active set of the pressures converges in two or three iterations; the weights of sliding contacts converge to this relative
+// tolerance in a few more.
 constexpr int most_rounds = 20;
 constexpr double settled_share = 1e-3;
 
-// Accelerations of a body, or forces that work on them: of its centre, and turning.
+// Accelerations of a body (translation of its centre, rotation), or the generalised forces conjugate to them.
 struct Six {
     double v[6] = {0, 0, 0, 0, 0, 0};
 };
@@ -48,7 +50,7 @@ Matrix inertia_of(const RigidBody& body, const RigidState& s) {
     return M;
 }
 
-// H a = f by Cholesky's factors; what is held does not accelerate
+// solves H a = f by Cholesky factorisation; held components do not accelerate
 Six solved(Matrix H, Six f, unsigned held) {
     for (int i = 0; i < 6; i++) {
         if (!(held & (1u << i))) continue;
@@ -73,14 +75,14 @@ Six solved(Matrix H, Six f, unsigned held) {
     return f;
 }
 
-// Accelerations that a touch asks for, over 1 + c dt for the dampers' share of the step to come, and their weights.
+// Accelerations that a contact requests, divided by 1 + c dt for the implicit dampers, and their weights.
 struct Asked {
     double normal, weight;
     Vec3 tangent;
     double tangent_weight;
 };
 
-// pressures: those touches push whose asked acceleration is not reached by the others
+// Pressures by an active-set iteration: a contact pushes if the other contacts do not give it the requested acceleration.
 void press(const RigidBody& body, const Matrix& M, const std::vector<Asked>& asked, std::vector<BodyTouch>& touches) {
     std::vector<std::uint8_t> pushes(touches.size(), 1), now(touches.size());
     Six a;
@@ -105,9 +107,9 @@ void press(const RigidBody& body, const Matrix& M, const std::vector<Asked>& ask
 
 Vec3 in_plane(Vec3 v, Vec3 normal) { return v - dot(v, normal) * normal; }
 
-// friction: what would hold every touch, cut off at Coulomb's limit.  Each round gives what slides the weight with which its
-// force would lie at the limit (least squares with new weights): so its direction follows the motion to come, while one
-// taken from the motion before would throw a set of little inertia to and fro.
+// Friction: the force that would make every contact stick, limited by Coulomb's law.  Iteratively reweighted least squares: each
+// iteration gives a sliding contact the weight with which its force lies at the limit.  The direction of friction thus follows
+// the motion of the coming step; the direction of the last motion would make a set of small inertia oscillate.
 void rub(const RigidBody& body, const Matrix& M, const std::vector<Asked>& asked, double friction_damper,
          std::vector<BodyTouch>& touches) {
     std::vector<double> weight(touches.size());
@@ -139,7 +141,7 @@ void rub(const RigidBody& body, const Matrix& M, const std::vector<Asked>& asked
     }
     for (std::size_t i = 0; i < touches.size(); i++) {
         BodyTouch& t = touches[i];
-        // the spring keeps no more than what could be asked for at the limit
+        // limit the spring to what corresponds to the Coulomb limit
         const double most = (1.0 + friction_damper) * norm(force[i]) / asked[i].tangent_weight;
         if (weight[i] < asked[i].tangent_weight) t.stick = std::min(1.0, most / norm(t.stick)) * t.stick;
         t.force = t.force + force[i];
@@ -154,7 +156,7 @@ void hold(const RigidBody& body, const RigidState& state, double stiffness, doub
     std::vector<Asked> asked;
     bool rough = false;
     for (BodyTouch& t : touches) {
-        // the damper acts on the velocity to come, so that it may be as strong as a dead stop needs
+        // the damper acts on the velocity after the step (implicit), so that it may be strong enough for an impact without rebound
         const double damper = 2.0 * t.damping * root, implicit = 1.0 + damper * step, approach = dot(t.slip, t.normal);
         const Vec3 tangent = t.slip - approach * t.normal;
         t.stick = in_plane(t.stick, t.normal) - (t.soft * stiffness * step) * tangent;

@@ -1,11 +1,12 @@
-// Touches of one rigid set with obstacles, taken together.
+// Contacts of one rigid set with obstacles, solved together.
 //
-// Springs of single nodes, each a share of what the node's own wall bears, hold a heavy set softly: its lump stands
-// behind all of them.  Stiffer ones would run away in the set's rotations, whose inertia may be that of the thin
-// walls alone.  So every touch asks for an acceleration, k depth - c approach with k = s / dt^2, and the forces are
-// those of the least 1/2 a.M a + sum w/2 max(0, asked - B a)^2 over the set's six accelerations a: never a pull, and
-// no mode of the set stiffer than s / dt^2, whatever its mass and inertia.  Friction is found in the same way, with
-// the pressures that came out.  Theory: docs/theory/contact.md.
+// Penalty springs of single nodes, limited by the mass of each node's own wall, are too soft for a set with a large added mass.
+// Stiffer springs would be unstable in the rotations of the set, whose inertia may be that of the thin walls only.  Therefore every
+// contact requests an acceleration, k depth - c approach with k = s / dt^2, and the forces follow from the minimum of
+//     1/2 a.M a + sum w/2 max(0, requested - B a)^2
+// over the set's six accelerations a (M inertia, B a acceleration at the contact, w weights).  The forces never pull, and no mode of
+// the set is stiffer than s / dt^2, whatever its mass and inertia.  Friction is found in the same way from the resulting pressures.
+// Theory: docs/theory/contact.md.
 #pragma once
 #include "shell/contact/penalty.hpp"
 #include "shell/rigid/rigid_body.hpp"
@@ -13,18 +14,18 @@
 namespace crumple::shell {
 
 struct BodyTouch {
-    std::size_t item;                // whose it is
+    std::size_t item;                // item of the obstacle contact to which it belongs
     Vec3 arm, normal;                // from the set's centre [m]; unit, out of the obstacle
     Vec3 slip;                       // velocity relative to the obstacle's surface [m/s]
     double depth;                    // [m]
-    double soft;                     // factor for the sake of an obstacle's light mass
-    double damping, friction;        // share of critical; Coulomb coefficient
-    double share;                    // of the wall mass of all that touch of the set
-    Vec3 stick;                      // acceleration that friction holds; in and out [m/s2]
-    Vec3 force;                      // out, on the node [N]
+    double soft;                     // factor that reduces the stiffness for an obstacle of small mass
+    double damping, friction;        // damping ratio; Coulomb coefficient
+    double share;                    // of the wall mass of all contacts of the set
+    Vec3 stick;                      // acceleration held by friction; input and output [m/s2]
+    Vec3 force;                      // output: force on the node [N]
 };
 
-// Finds the forces; `step` is the time step to come [s], `stiffness` the s / dt^2 [1/s2].
+// Computes the forces; `step` is the coming time step [s], `stiffness` is s / dt^2 [1/s2].
 void hold(const RigidBody& body, const RigidState& state, double stiffness, double step, std::vector<BodyTouch>& touches);
 
 }  // namespace crumple::shell

@@ -1,4 +1,4 @@
-// Closest point of a quadrilateral: of the four triangles around its centroid.
+// Closest point of a quadrilateral: the closest point of the four triangles around its centroid.
 #pragma once
 #include "common/vectors.hpp"
 
@@ -15,7 +15,7 @@ struct TrianglePoint {
     double a, b, c;                  // barycentric
 };
 
-// By the regions of the triangle's plane (vertex, edge, face).
+// By the Voronoi regions of the triangle (vertex, edge, face).
 inline TrianglePoint closest_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
     const Vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
     const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp), d6 = dot(ac, cp);

@@ -6,18 +6,18 @@ namespace crumple::shell {
 
 namespace {
 
-// Positions are compared with those of the last search once in so many steps ...
+// Number of steps between comparisons of the positions with those of the last search ...
 constexpr std::size_t check_every = 10;
-// ... and a search is due when a node has moved by this share of the margin; two nodes approach at most twice as fast.
+// ... a search is due when a node has moved by this share of the search margin; two nodes approach each other by at most twice that.
 constexpr double moved_share = 0.35;
-// Of what a search has listed most is too far away to touch in the next steps.  So all of it is looked at only when a node has moved by half of
-// this share of the margin of the search, and what is nearer than the gap and that share in every step: no touch is missed, and
-// none is late.  A larger share makes the looks at all rarer and the list of what is close longer.
+// Most candidates listed by a search are too far away for contact in the next steps.  Candidates closer than the gap plus this share
+// of the search margin are checked in every step; all candidates are checked when a node has moved by half this share, so that no
+// contact is missed or late.  A larger share means fewer checks of all candidates but a longer list of close ones.
 constexpr double close_share = 0.1;
-// Items that are handed out at once: a few microseconds of work.
+// Items that a thread takes at a time: a few microseconds of work.
 constexpr std::size_t items_at_once = 16;
-// Share of half its wall's thickness that a node around a spot weld keeps.  The weld holds the mean of these nodes apart; did
-// contact hold each of them too, it would push against the weld, whose reported force would be too large by as much.
+// Share of half its wall's thickness that a node around a spot weld keeps as distance.  The weld keeps the mean distance of these
+// nodes; if contact acted at each of them too, it would push against the weld and increase the weld's reported force.
 constexpr double welded_share = 0.5;
 
 }  // namespace
@@ -61,7 +61,7 @@ Contact::Contact(const Model& model, const Masses& masses, double step) : sheets
     before_ = NodeForces(model.nodes());
     power_.assign(now_.chunks(), 0.0);
     searched_at_.assign(3 * model.nodes(), 0.0);
-    // not beyond the neighbourhood, else every node would list the rest of its own wall
+    // not larger than the neighbourhood, or every node would list the rest of its own wall as candidates
     const double thickest = *std::max_element(model.thickness.begin(), model.thickness.end());
     skin_ = (WallContact::neighbourhood - 1.0) * (walls_ ? walls_->reach() : thickest);
     margin_ = close_share * skin_;
@@ -146,7 +146,7 @@ void Contact::commit(double last_dt) {
     for (std::size_t k = 0; k < chunks_; k++) deepest_ = std::max(deepest_, found_[k].deepest);
     double power = obstacles_.power(false) + obstacles_.power(true);
     for (double p : power_) power += p;
-    // work done against contact over the last step, by the mean of the forces at both ends
+    // work done against contact over the last step, by the mean of the forces at its start and end
     work_ -= 0.5 * last_dt * power;
     obstacles_.book(last_dt);
     due_ = ++checks_ % check_every == 0 && (moved_ || !(obstacles_.moved() < moved_share * skin_));

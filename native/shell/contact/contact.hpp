@@ -15,23 +15,23 @@ public:
 
     bool any() const { return walls_ || obstacles_.any(); }
 
-    // Where each node was when everything listed was last looked at, [node][position_record]; null if nobody asks.
+    // Position of each node when all candidates were last checked, [node][position_record]; null without self-contact.
     const double* seen() const { return walls_ ? seen_.data() : nullptr; }
 
-    // A step, in this order; every member of the team calls what takes a member, one alone calls the rest.
-    // Whether to look at everything again: `way2` is the square of the largest way that a node has made since [m2].
+    // One step calls these functions in this order; those with a Member are called by every member of the team, the others by one.
+    // Decides whether to check all candidates; `way2`: square of the largest displacement of a node since the last such check [m2].
     void prepare(double way2);
-    // Finds the touches at new positions; who is ready first takes more of them.
+    // Finds the contacts at new positions; work is distributed dynamically among the members.
     void evaluate(const Motions& m, const Member& member);
-    // Makes room for new forces and puts those of obstacles there.
+    // Exchanges the buffers of new and old forces and enters the forces of obstacles.
     void turn_over(const Motions& m);
-    // Sums the forces on the member's share of the nodes, in fixed order.
+    // Sums the forces on the member's share of the nodes, in a fixed order.
     void sum(const Motions& m, const Member& member);
     // Accumulates the work done on contact over the last step [J], and decides whether to search.
     void commit(double last_dt);
-    // Nodes have moved so far that others may touch: `search` is to be called.
+    // Nodes have moved so far that pairs outside the list may come into contact: `search` must be called.
     bool search_due() const { return due_; }
-    // Lists the candidates for contact again; `alive` is 1 for elements that still exist.
+    // Rebuilds the list of contact candidates; `alive` is 1 for elements that are not deleted.
     void search(const Motions& m, const std::vector<std::uint8_t>& alive, const Member& member);
 
     ObstacleContact& obstacles() { return obstacles_; }
@@ -43,7 +43,7 @@ public:
     std::size_t searches() const { return searches_; }
     std::size_t touching() const { return now_.touched(); }
 
-    // What a restart needs besides positions.
+    // State that a restart needs in addition to the positions.
     std::vector<double> save() const;
     void restore(const std::vector<double>& saved);
 
@@ -57,16 +57,16 @@ private:
     std::unique_ptr<WallContact> walls_;         // null without self-contact
     std::unique_ptr<EdgeContact> edges_;
     ObstacleContact obstacles_;
-    std::vector<FoundForces> found_;             // [chunk of items]; those in use come first
+    std::vector<FoundForces> found_;             // [chunk of items]; the first chunks_ are in use
     std::size_t chunks_ = 0;
-    alignas(64) std::atomic<std::size_t> next_{0};       // chunk of items to be handed out
+    alignas(64) std::atomic<std::size_t> next_{0};       // next chunk of items to be evaluated
     NodeForces now_, before_;
-    std::vector<double> power_;                  // of the forces at both ends of the step, [chunk of nodes] [W]
+    std::vector<double> power_;                  // of the forces at the start and the end of the step, [chunk of nodes] [W]
     double skin_ = 0.0;                          // margin of the search [m]
     std::vector<double> searched_at_;            // positions of the last search
-    double margin_ = 0.0;                        // of what is close [m]
-    aligned_vector<double> seen_;                // positions at the last look at all
-    bool all_ = true;                            // this step looks at all
+    double margin_ = 0.0;                        // beyond the gap within which candidates are close [m]
+    aligned_vector<double> seen_;                // positions when all candidates were last checked
+    bool all_ = true;                            // this step checks all candidates
     double work_ = 0.0, deepest_ = 0.0;
     std::size_t searches_ = 0, checks_ = 0;
     std::atomic<bool> moved_{false};

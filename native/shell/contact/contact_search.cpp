@@ -16,7 +16,7 @@ PointGrid::PointGrid(const double* points, int stride, std::size_t count, double
         }
     double size[3];
     for (int i = 0; i < 3; i++) size[i] = std::max(high[i] - low[i], 0.0);
-    // at most about eight cells per point, so that a far-flung node cannot exhaust the memory
+    // at most about eight cells per point, so that a single distant node cannot exhaust the memory
     for (;; cell *= 1.3) {
         double cells = 1.0;
         for (int i = 0; i < 3; i++) cells *= std::floor(size[i] / cell) + 1.0;
@@ -27,7 +27,7 @@ PointGrid::PointGrid(const double* points, int stride, std::size_t count, double
         origin_[i] = low[i];
         count_[i] = std::int64_t(size[i] / cell) + 1;
     }
-    // points by cell, counted and then placed
+    // counting sort of the points by cell
     std::vector<Index> cell_of(count);
     first_.assign(std::size_t(count_[0] * count_[1] * count_[2]) + 1, 0);
     for (std::size_t n = 0; n < count; n++) {

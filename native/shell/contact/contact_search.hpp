@@ -1,4 +1,4 @@
-// Which points lie in which boxes: a bucket search.
+// Bucket search: finds the points that lie in a box.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -16,7 +16,7 @@ struct Box {
     }
 };
 
-// Box around corners of `nodes`, grown to all sides.
+// Bounding box of nodes, enlarged by `grow` on all sides.
 template <std::size_t corners> Box box_around(const double* position, int stride, const Index* nodes, double grow) {
     Box b;
     for (std::size_t i = 0; i < 3; i++) {
@@ -33,11 +33,11 @@ template <std::size_t corners> Box box_around(const double* position, int stride
     return b;
 }
 
-// Points sorted into the cells of a grid; many threads may ask one grid at once.
+// Points sorted into the cells of a grid; several threads may query a grid at the same time.
 class PointGrid {
 public:
     PointGrid() = default;
-    // Cells of side `cell` [m], larger where there would be too many of them.
+    // Cells of edge length `cell` [m], or larger if there would be too many.
     PointGrid(const double* points, int stride, std::size_t count, double cell);
 
     // Calls visit(point) for the points in the box, in the order of the cells.
@@ -49,7 +49,7 @@ public:
         }
         for (std::int64_t x = from[0]; x <= to[0]; x++)
             for (std::int64_t y = from[1]; y <= to[1]; y++) {
-                // cells along z follow one another, and so do their points
+                // cells along z are contiguous, and so are their points
                 const std::int64_t row = (x * count_[1] + y) * count_[2];
                 for (Index k = first_[std::size_t(row + from[2])]; k < first_[std::size_t(row + to[2]) + 1]; k++)
                     if (box.contains(points_[k])) visit(number_[k]);
@@ -59,15 +59,15 @@ public:
 private:
     std::int64_t along(int axis, double x) const {
         const double cell = (x - origin_[axis]) * inverse_;
-        // what is no number goes to the first
+        // NaN goes to the first cell
         return cell > 0.0 ? std::int64_t(std::min(cell, double(count_[axis] - 1))) : 0;
     }
 
     double origin_[3] = {0.0, 0.0, 0.0}, inverse_ = 0.0;
     std::int64_t count_[3] = {1, 1, 1};
     std::vector<Index> first_{0, 0};             // [cell]; one more entry
-    std::vector<Index> number_;                  // points by cell, within each in order
-    std::vector<Vec3> points_;                   // where those are
+    std::vector<Index> number_;                  // indices of the points by cell, increasing within each
+    std::vector<Vec3> points_;                   // positions in the same order
 };
 
 }  // namespace crumple::shell

@@ -8,15 +8,15 @@ namespace crumple::shell {
 
 namespace {
 
-// Cosine of the angle between two elements' normals below which their common edge is a crease (30 degrees):
-// flatter folds are still held by their nodes, since an edge that crosses them must pass a node first.
+// Cosine of the angle between two elements' normals below which their common edge is a crease (30 degrees).  Flatter folds are
+// covered by node contact, because an edge that crosses them passes a node first.
 constexpr double crease = 0.866;
-// Squared sine of the angle of two edges below which they are parallel and answer by their nodes (10 degrees).
+// Squared sine of the angle between two edges below which they count as parallel and are left to node contact (10 degrees).
 constexpr double parallel = 0.03;
 
 struct Crossing {
-    double s, t;                     // places along both segments, 0 to 1
-    Vec3 apart;                      // from the second to the first
+    double s, t;                     // coordinates of the closest points along the segments, 0 to 1
+    Vec3 apart;                      // vector from the second to the first
     bool parallel, inside;           // inside: within both segments and not parallel
 };
 
@@ -43,8 +43,8 @@ double segment_distance(Vec3 a0, Vec3 a1, Vec3 b0, Vec3 b1) {
     return std::min({from(a0, b0, b1), from(a1, b0, b1), from(b0, a0, a1), from(b1, a0, a1)});
 }
 
-// No more than the distance of two segments.  Those that count as parallel may cross between their ends after all: then an end lies within
-// half the shorter one of the crossing, and beside the other by at most the sine of their angle times that.
+// Lower bound of the distance of two segments.  Segments that count as parallel may still cross between their ends; then an end lies
+// within half the shorter segment of the crossing, at a distance from the other segment of at most that times the sine of their angle.
 double least_distance(Vec3 a0, Vec3 a1, Vec3 b0, Vec3 b1) {
     const double distance = segment_distance(a0, a1, b0, b1);
     if (!crossing(a0, a1, b0, b1).parallel) return distance;
@@ -91,7 +91,7 @@ bool EdgeContact::stands_out(const std::vector<std::uint8_t>& alive, const Edge&
     int count = 0;
     for (std::size_t k = 0; k < edge.elements.size(); k++) {
         if (!alive[edge.elements[k]]) continue;
-        // two elements that look the same way run along their edge in opposite directions
+        // two elements with the same orientation traverse their common edge in opposite directions
         if (count < 2) normal[count] = (count == 0 ? double(edge.sense[k]) : -double(edge.sense[k])) * normal_[edge.elements[k]];
         count++;
     }
@@ -104,8 +104,8 @@ void EdgeContact::find_creases(const std::vector<std::uint8_t>& alive, const Mem
     for (std::size_t i = edges.first; i < edges.last; i++) out_[i] = stands_out(alive, edges_[i]);
 }
 
-// Edges of one node, and those within twice the gap at the start that hang together: a crumpled corner may bring
-// together what was farther apart, and is held there.
+// Edges with a common node, and connected edges within twice the gap at the start, belong to the same sheet and have no contact.
+// Parts of a crumpled corner that were further apart at the start have contact.
 bool EdgeContact::same_sheet(const Edge& a, const Edge& b) const {
     auto near = [this](const Edge& from, const Edge& to) {
         for (Index n : from.node)
@@ -136,7 +136,7 @@ void EdgeContact::start_search(const Motions& m, double skin, int members) {
     near_.resize(std::size_t(members));
 }
 
-// Middles of edges in the boxes of others, grown by what the halves of both can reach.
+// Finds midpoints of edges in the boxes around other edges, enlarged by half the longest edge and the search distance.
 void EdgeContact::search(const Motions& m, const Member& member) {
     std::vector<Pair>& near = near_[std::size_t(member.index)];
     near.clear();
@@ -164,7 +164,7 @@ void EdgeContact::end_search(const Motions& m) {
             p = *old;
             continue;
         }
-        // an edge that has just become a crease beside another keeps the distance that it has
+        // an edge that has just become a crease close to another one keeps its present distance
         const Edge &a = edges_[p.first], &b = edges_[p.second];
         const Crossing c = crossing(position_of(m, a.node[0]), position_of(m, a.node[1]), position_of(m, b.node[0]), position_of(m, b.node[1]));
         if (c.inside) p.gap = std::min(p.gap, norm(c.apart));
@@ -195,7 +195,7 @@ void EdgeContact::evaluate(const Motions& m, Pair& p, FoundForces& found) const 
         p.stick = {};
         return;
     }
-    // weights of the nodes: the force goes to the first edge, its opposite to the second
+    // weights of the nodes: the force acts on the first edge, its reaction on the second
     const double w[4] = {1.0 - c.s, c.s, c.t - 1.0, -c.t};
     const Index nodes[4] = {a.node[0], a.node[1], b.node[0], b.node[1]};
     double compliance = 0.0;

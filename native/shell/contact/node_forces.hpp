@@ -1,4 +1,4 @@
-// Contact forces on nodes, summed in a fixed order, and what contact knows of the sheets.
+// Contact forces on nodes, summed in a fixed order, and the sheet data that all kinds of contact read.
 #pragma once
 #include "shell/run/lowering.hpp"
 #include "shell/run/saved.hpp"
@@ -7,10 +7,10 @@
 
 namespace crumple::shell {
 
-// What every kind of contact reads: constants of the run.
+// Constants of the run that every kind of contact reads.
 struct Sheets {
     const Model& model;
-    std::vector<double> mass, half;  // [node] mass [kg], half the mean thickness of its elements [m]; 0 beside walls
+    std::vector<double> mass, half;  // [node] mass [kg], half the mean thickness of its elements [m]; 0 for nodes without elements
     double step;                     // time step of the penalty [s]
 
     Sheets(const Model& model, const Masses& masses, double step);
@@ -20,10 +20,10 @@ struct Sheets {
     }
 };
 
-// Forces that contact finds on nodes, kept apart for each member of the team that may own the node.
+// Contact forces on nodes, stored separately for the member of the team that owns the node.
 class FoundForces {
 public:
-    // Forgets all; nodes are shared among `members` in chunks, see share_of.
+    // Discards all forces; nodes are distributed among `members` in chunks, see share_of.
     void clear(std::size_t nodes, int members) {
         chunks_ = (nodes + node_chunk - 1) / node_chunk;
         for (std::vector<Found>& f : found_) f.clear();
@@ -31,7 +31,7 @@ public:
         deepest = 0.0;
     }
     void add(Index n, Vec3 force) {
-        // the member whose share holds the node's chunk
+        // the member whose share contains the node's chunk
         const std::size_t owner = ((n / node_chunk + 1) * found_.size() - 1) / chunks_;
         found_[owner].push_back({n, force});
     }
@@ -41,7 +41,7 @@ public:
     };
     const std::vector<Found>& of(const Member& owner) const { return found_[std::size_t(owner.index)]; }
 
-    double deepest = 0.0;            // penetration over the gap
+    double deepest = 0.0;            // largest penetration relative to the gap
 
 private:
     std::vector<std::vector<Found>> found_;      // [member]
@@ -59,7 +59,7 @@ public:
             touched_[c].clear();
         }
     }
-    // To be called by the member that owns the node's chunk.
+    // Must be called by the member that owns the node's chunk.
     void add(Index n, Vec3 f) {
         add3(&force_[4 * n], f);
         if (force_[4 * n + 3] == 0.0) {
@@ -67,7 +67,7 @@ public:
             touched_[n / std::size_t(node_chunk)].push_back(n);
         }
     }
-    // Power on the nodes of a chunk [W].
+    // Power of the forces on the nodes of a chunk [W].
     double power(const Motions& m, std::size_t chunk) const {
         double sum = 0.0;
         for (Index n : touched_[chunk]) sum += dot(read3(&force_[4 * n]), velocity_of(m, n));

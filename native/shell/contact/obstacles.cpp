@@ -8,11 +8,11 @@ namespace crumple::shell {
 
 namespace {
 
-// Walls heavier than so many times an obstacle's mass soften its penalty: the springs of all nodes act on the one
-// mass, and the sum of their shares of the stability limit must stay below that limit.
+// If the walls in contact are heavier than this multiple of an obstacle's mass, its penalty stiffness is reduced: the springs of all
+// nodes act on the same mass, and the sum of their shares of the stability limit must stay below that limit.
 constexpr double heaviest_walls = 4.0;
 
-// turn about a unit axis
+// rotation matrix about a unit axis
 Mat3 turned(Vec3 k, double angle) {
     const double c = std::cos(angle), s = std::sin(angle), d = 1.0 - c;
     return Mat3{{c + d * k.x * k.x, d * k.x * k.y - s * k.z, d * k.x * k.z + s * k.y,
@@ -252,7 +252,7 @@ double ObstacleContact::moved() const {
     return most;
 }
 
-// nodes beside an obstacle that turns are all listed: how far it sweeps depends on where they are
+// for a rotating obstacle all its nodes are listed, because the distance that it sweeps depends on their positions
 void ObstacleContact::search(const Motions& m, double skin) {
     items_.clear();
     for (std::size_t i = 0; i < model_.size(); i++) {

@@ -1,8 +1,8 @@
-// Nodes against rigid planes, cylinders and spheres that are fixed, driven, or have a mass on a guide.
+// Contact of nodes with rigid planes, cylinders and spheres that are fixed, driven, or have a mass on a linear guide.
 //
-// A point X of an obstacle is at x = c + Q (X + u - c): moved by u, then turned about the fixed axis through c.
-// A node keeps half its wall's thickness away, or the distance it has when the obstacle appears if that is less:
-// the end of a wall that stands on a plane has no thickness towards it.  Theory: docs/theory/contact.md.
+// A point X of an obstacle is at x = c + Q (X + u - c): displaced by u, then rotated about the fixed axis through c.
+// A node keeps a distance of half its wall's thickness, or its distance at the time the obstacle appears if that is smaller: the end
+// of a wall that stands on a plane has no thickness towards it.  Theory: docs/theory/contact.md.
 #pragma once
 #include "shell/contact/body_contact.hpp"
 #include "shell/run/saved.hpp"
@@ -10,7 +10,7 @@
 
 namespace crumple::shell {
 
-// How far a point is outside a solid [m], negative inside, and the unit normal out of it.
+// Distance of a point from a solid [m], negative inside, and the outward unit normal.
 struct Distance {
     double value;
     Vec3 normal;
@@ -22,36 +22,36 @@ public:
     struct State {
         Vec3 shift, velocity;        // u at the step [m], its rate half a step earlier [m/s]
         double angle = 0.0, rate = 0.0;
-        Vec3 force, moment;          // of the structure on it, moment about c
+        Vec3 force, moment;          // of the structure on the obstacle, moment about c
         Vec3 force_before, moment_before;
-        Vec3 impulse;                // of the structure on it so far [N s]
-        double deepest = 0.0;        // penetration so far over half the wall's thickness
-        double inside = 0.0;         // depth of the deepest node when it appeared in this model [m]
+        Vec3 impulse;                // of the structure on the obstacle so far [N s]
+        double deepest = 0.0;        // largest penetration so far relative to half the wall's thickness
+        double inside = 0.0;         // depth of the deepest node when the obstacle appeared in this model [m]
         Index inside_node = 0;
     };
 
     explicit ObstacleContact(const Sheets& sheets);
-    // Sets the rigid bodies, whose contacts are resolved together; they must outlive this object.
+    // Sets the rigid bodies; the contacts of each body are solved together.  They must outlive this object.
     void attach(const std::vector<RigidBody>& bodies, const std::vector<RigidState>& states);
 
     bool any() const { return !model_.empty(); }
     std::size_t items() const { return items_.size(); }
     const std::vector<State>& states() const { return states_; }
-    // Moves them by one step: velocities over `kick`, places over `drift` [s].
+    // Moves the obstacles by one step: velocities over `kick`, positions over `drift` [s].
     void move(double time, double kick, double drift);
     void evaluate(const Motions& m, std::size_t item);
-    // Adds forces in fixed order; gives the deepest penetration over half the wall's thickness.
+    // Adds the forces in a fixed order; returns the largest penetration relative to half the wall's thickness.
     double commit(const Motions& m, NodeForces& forces);
-    // Work on driven ones and of gravity over the last step [J], by the mean of the forces at both ends.
+    // Adds the work on driven obstacles and of gravity over the last step [J], by the mean of the forces at its start and end.
     void book(double last_step);
-    double power(bool before) const;                     // of the structure on them, at either end of the step [W]
+    double power(bool before) const;                     // of the structure on the obstacles, at the start or end of the step [W]
     double kinetic(double kick) const;                   // [J]
     double external_work() const { return outside_work_; }
-    // Sets those that have just appeared beside the walls as they are now.
+    // Places obstacles that have just appeared relative to the present walls.
     void place(const Motions& m);
-    // Ends all motion of masses; gives the kinetic energy that was lost [J].
+    // Stops all masses; returns the lost kinetic energy [J].
     double stop();
-    // Largest way of any obstacle since the last search [m].
+    // Largest displacement of any obstacle since the last search [m].
     double moved() const;
     void search(const Motions& m, double skin);
 
@@ -60,25 +60,25 @@ public:
 
 private:
     struct Item {
-        std::uint32_t obstacle, place;   // place in the obstacle's list of nodes
+        std::uint32_t obstacle, place;   // place: index in the obstacle's list of nodes
     };
     struct Touch {
         Vec3 force, moment;          // on the node; moment about the obstacle's c
         double depth;                // [m]
         bool active;
-        Vec3 normal, slip;           // out of the obstacle; velocity against its surface [m/s]
+        Vec3 normal, slip;           // out of the obstacle; velocity relative to its surface [m/s]
     };
     void hold_bodies(const Motions& m);
     Vec3 in_frame(std::size_t o, Vec3 x) const;
-    double acceleration(std::size_t o) const;            // of a mass along its guide [m/s2]
+    double acceleration(std::size_t o) const;            // of an obstacle with mass along its guide [m/s2]
 
     const Sheets& sheets_;
     const std::vector<Obstacle>& model_;
     std::vector<State> states_;
-    std::vector<Mat3> turn_;                             // Q of each
-    std::vector<double> soft_;                           // factor on the penalty for the sake of a light mass
-    std::vector<std::uint8_t> present_;                  // placed, or there at the last checkpoint
-    std::vector<std::vector<double>> gap_;               // [obstacle][node of its list]
+    std::vector<Mat3> turn_;                             // Q of each obstacle
+    std::vector<double> soft_;                           // factor on the penalty stiffness for an obstacle of small mass
+    std::vector<std::uint8_t> present_;                  // placed, or active at the last checkpoint
+    std::vector<std::vector<double>> gap_;               // [obstacle][node of its list] distance kept [m]
     std::vector<std::vector<Vec3>> stick_;
     std::vector<Vec3> searched_at_;
     const std::vector<RigidBody>* bodies_ = nullptr;

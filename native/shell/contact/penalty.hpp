@@ -1,4 +1,5 @@
-// One touch: spring against the depth, damper on the approach, friction that sticks by a spring until it slips.
+// Penalty force of one contact: spring on the depth, damper on the approach velocity, and friction with a sticking spring up to the
+// Coulomb limit.
 #pragma once
 #include <algorithm>
 
@@ -7,7 +8,7 @@
 
 namespace crumple::shell {
 
-// What contact reads of the moving state; `step` is the time step that led to it [s].
+// Motion of the nodes as contact reads it; `step` is the time step that led to it [s].
 struct Motions {
     const double* position;
     const double* velocity;
@@ -23,14 +24,14 @@ struct Bond {
     double friction;
 };
 
-// The share `s` of the stability limit m / dt^2, and the damper of a share of critical.
+// Stiffness as a share of the stability limit m / dt^2, and the damper from its damping ratio.
 inline Bond bond_of(const ContactSettings& s, double mass, double step, double friction) {
     const double k = s.stiffness * mass / (step * step);
     return {k, 2.0 * s.damping * std::sqrt(k * mass), friction};
 }
 
-// Force along `direction` and against the slip; never pulls.  `stick` is the force that friction holds: kept from
-// step to step, turned into the tangent plane, stretched by the slip, cut off at the Coulomb limit.
+// Force along `direction` and against the slip; it never pulls.  `stick` is the friction force: kept from step to step, projected
+// onto the tangent plane, changed by the slip, limited by Coulomb's law.
 inline Vec3 force_of(const Bond& b, double depth, Vec3 direction, Vec3 slip, double step, Vec3& stick) {
     const double approach = dot(slip, direction);
     const double normal = std::max(b.stiffness * depth - b.damper * approach, 0.0);

@@ -7,12 +7,12 @@ namespace crumple::shell {
 
 namespace {
 
-// A node can touch so many elements at once at most; more are passed over.
+// Largest number of elements with which a node can be in contact at once; further ones are ignored.
 constexpr std::size_t most_hits = 24;
-// Distance of what is too far away to be looked at.
+// Distance returned for elements beyond gap and margin.
 constexpr double beyond = 1e300;
 
-// Elements of `near` that hang together with the node: start at its own, go on to those that share a node.
+// Elements of `near` that are connected to the node: its own elements, and from there all that share a node.
 std::vector<Index> connected(const std::vector<Index>& quads, Index node, const std::vector<Index>& near) {
     auto shares = [&](Index a, Index b) {
         for (std::size_t i = 0; i < 4; i++)
@@ -35,11 +35,12 @@ std::vector<Index> connected(const std::vector<Index>& quads, Index node, const 
     return found;
 }
 
-// Middle of an element and the square of its largest distance from a corner.
+// Bounding sphere: centre of an element and the square of the largest distance of a corner from it.
 struct Ball {
     Vec3 centre;
     double square;
-    // Whether a point so far from the centre, squared, is nearer to the ball than `gap`; without a root: asked most often.
+    // Whether a point at the squared distance `away` from the centre is closer to the sphere than `gap`; the most frequent test,
+    // therefore without a square root.
     bool within(double away, double gap) const {
         const double d = away - square - gap * gap;
         return d < 0.0 || d * d < 4.0 * square * gap * gap;
@@ -52,7 +53,7 @@ inline Ball ball_around(const Vec3 (&x)[4]) {
     return b;
 }
 
-// In the order of nodes, else as they came.
+// Stable sort by node.
 template <class Near> std::vector<Near> by_node(const std::vector<std::vector<Near>>& lists, std::size_t nodes) {
     std::vector<std::size_t> next(nodes + 1, 0);
     for (const std::vector<Near>& list : lists)
@@ -79,7 +80,8 @@ double WallContact::gap(Index n, Index e) const {
     return given > 0.0 ? given : sheets_.half[n] + sheets_.half_of(e);
 }
 
-// The same piece of sheet, and what overlaps at the start (walls joined on purpose), never touch.
+// Lists pairs that never have contact: those of the same piece of sheet, and those that overlap at the start (walls joined on
+// purpose).
 void WallContact::list_neighbours() {
     const Model& model = sheets_.model;
     const double* x0 = model.position.data();
@@ -142,7 +144,7 @@ void WallContact::search(const Motions& m, const std::vector<std::uint8_t>& aliv
     }
 }
 
-// A pair known already keeps its side, even where the node has been pressed through.
+// A known pair keeps its side, even if the node has been pressed through the element.
 std::int8_t WallContact::side_so_far(Index n, Index e) const {
     const auto at = std::lower_bound(listed_.begin(), listed_.end(), n);
     if (at == listed_.end() || *at != n) return 0;
@@ -166,7 +168,7 @@ void WallContact::end_search() {
         candidate_first_.back() = candidates_.size();
     }
     is_close_.assign(candidates_.size(), 0);
-    // a node that has left every wall behind has nothing that sticks
+    // a node without candidates has no friction force
     for (Index n : before)
         if (!std::binary_search(listed_.begin(), listed_.end(), n)) stick_[2 * n] = stick_[2 * n + 1] = {};
 }
@@ -176,17 +178,17 @@ struct WallContact::Hits {
     std::size_t count = 0;
 };
 
-// Distance of the node from the element, `beyond` if that is more than the gap and `margin`; adds to `hits` how they touch.
-// The side on which the node is held is the one from which it comes to lie over the element; beside the border there is none.
+// Distance of the node from the element, `beyond` if it is larger than the gap plus `margin`; adds a contact to `hits`.
+// The node is held on the side on which it first lies over the interior of the element; outside the element's border there is no side.
 double WallContact::approach(const Motions& m, Index n, Candidate& c, double margin, Hits& hits) const {
     const Vec3 p = position_of(m, n);
     const double g = gap(n, c.element), far = g + margin;
     Vec3 x[4];
     sheets_.corners(m.position, position_record, c.element, x);
-    // reject by the slab and the ball around the element
+    // reject by the bounding slab and the bounding sphere of the element
     const Ball ball = ball_around(x);
     const Vec3 away = p - ball.centre, across = cross(x[2] - x[0], x[3] - x[1]);
-    // height over the slab that the warped element fills, times the length of `across`
+    // height above the slab that contains the warped element, times the length of `across`
     const double high = std::abs(dot(away, across)) - std::abs(dot(x[0] - ball.centre, across));
     const bool near = (high < 0.0 || high * high < far * far * dot(across, across)) && ball.within(dot(away, away), far);
     const Closest q = near ? closest_on_quad(p, x) : Closest{};
@@ -205,7 +207,7 @@ double WallContact::approach(const Motions& m, Index n, Candidate& c, double mar
     return q.distance;
 }
 
-// The force goes to the node, its opposite to the corners by weight.
+// Applies the force to the node and its reaction to the corners, distributed by their weights.
 void WallContact::touch(const Motions& m, Index n, const Hit& hit, Vec3& stick, FoundForces& found) const {
     const Index* corners = &sheets_.model.quads[4 * hit.element];
     double compliance = 1.0 / sheets_.mass[n];
@@ -223,7 +225,7 @@ void WallContact::touch(const Motions& m, Index n, const Hit& hit, Vec3& stick, 
         if (hit.at.weight[c] != 0.0) found.add(corners[c], (-hit.at.weight[c]) * force);
 }
 
-// The closest element, and the closest on the other side.
+// Contact forces from the closest element and from the closest element on the node's other side.
 void WallContact::answer(const Motions& m, Index n, const Hits& hits, FoundForces& found) {
     const Hit *first = nullptr, *second = nullptr, *end = hits.hit + hits.count;
     for (const Hit* h = hits.hit; h != end; h++)

@@ -1,9 +1,9 @@
-// Nodes against elements.
+// Node-to-element contact.
 //
-// A node keeps the distance `gap` (half of both thicknesses) from every element but its neighbourhood in
-// the sheet: those within twice the gap at the start that hang together with it.  So elements may be
-// smaller than the wall is thick.  A node answers to the closest element and to the closest on its other
-// side, so that a wall between two walls is held by both.  Theory: docs/theory/contact.md.
+// A node keeps the distance `gap` (half of both thicknesses) from every element except its neighbourhood in the sheet: the connected
+// elements within twice the gap at the start.  Elements may therefore be smaller than the wall thickness.  A node has contact with the
+// closest element and with the closest one on its other side, so that a wall between two walls is held by both.
+// Theory: docs/theory/contact.md.
 #pragma once
 #include "shell/contact/closest_point.hpp"
 #include "shell/run/saved.hpp"
@@ -14,26 +14,26 @@ namespace crumple::shell {
 
 class WallContact {
 public:
-    // Neighbourhood in the sheet over the gap: twice lets a fold of inner radius half a thickness still be seen
-    // (its points in contact were pi/2 thicknesses apart), and keeps compressed flat walls free of contact.
+    // Size of the neighbourhood in the sheet relative to the gap: 2 still detects a fold of inner radius half a thickness (its points
+    // in contact were pi/2 thicknesses apart) and keeps compressed flat walls free of contact.
     static constexpr double neighbourhood = 2.0;
 
     explicit WallContact(const Sheets& sheets);
 
     double reach() const { return reach_; }      // largest gap [m]
-    // Nodes with candidates, and those of them with close ones.
+    // Numbers of nodes with candidates and of nodes with close candidates.
     std::size_t items() const { return listed_.size(); }
     std::size_t close_items() const { return close_nodes_.size(); }
-    // Forces on the node of an item; the first looks at all its candidates and notes which are nearer than the gap and `margin`.
+    // Forces on a node; `evaluate_all` checks all its candidates and marks those closer than the gap plus `margin`.
     void evaluate_all(const Motions& m, std::size_t item, double margin, FoundForces& found);
     void evaluate_close(const Motions& m, std::size_t item, FoundForces& found);
-    // Lists what was noted as close.
+    // Lists the candidates marked as close.
     void list_close();
-    // Three parts of a search: one member alone, each with its share of the elements, one alone.
+    // Stages of a search: `start_search` by one member, `search` by each for its share of the elements, `end_search` by one.
     void start_search(const Motions& m, double skin, int members);
     void search(const Motions& m, const std::vector<std::uint8_t>& alive, Range elements, const Member& member);
     void end_search();
-    // Whether an element belongs to the node's own piece of sheet, or overlapped with it at the start.
+    // Whether an element belongs to the node's own piece of sheet or overlapped with the node at the start.
     bool neighbour(Index node, Index element) const;
 
     void save(std::vector<double>& out) const;
@@ -42,7 +42,7 @@ public:
 private:
     struct Candidate {
         Index element;
-        std::int8_t side;            // of the element on which the node is held, +1 or -1; 0: not over it
+        std::int8_t side;            // side of the element on which the node is held, +1 or -1; 0: node not over the element
     };
     struct Hit {
         Closest at;
@@ -68,11 +68,11 @@ private:
     std::vector<Index> listed_;                  // nodes with candidates
     std::vector<std::size_t> candidate_first_{0};
     std::vector<Candidate> candidates_;
-    std::vector<Vec3> stick_;                    // two for each node; zero unless listed
+    std::vector<Vec3> stick_;                    // friction forces, two for each node; zero unless listed
     std::vector<std::uint8_t> is_close_;         // [candidate]
     std::vector<Index> close_nodes_;             // nodes with close candidates
-    std::vector<std::size_t> close_first_{0}, close_;    // places of those among the candidates
-    // of a search
+    std::vector<std::size_t> close_first_{0}, close_;    // CSR: indices of their close candidates
+    // data of a search
     PointGrid grid_;
     double far_ = 0.0;
     std::vector<std::vector<Near>> near_;        // [member]

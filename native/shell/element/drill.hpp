@@ -1,7 +1,7 @@
-// Stiffness of the drill: the turning of a corner about the element's normal against the element's own spin.
+// Drilling stiffness: resists the rotation of a corner about the element's normal relative to the element's own spin.
 //
-// Without it nothing holds that freedom in a smooth sheet, and where the warping terms couple it with curvature it
-// lets bending relax.  Theory: docs/theory/shell_element.md.
+// Without it this degree of freedom has no stiffness in a smooth sheet, and if the warping terms couple it with curvature, bending
+// moments relax.  Theory: docs/theory/shell_element.md.
 #pragma once
 #include "shell/element/kinematics.hpp"
 
@@ -12,7 +12,8 @@ struct DrillMoment {
     Real corner[4]{}, sum{};     // [N m]
 };
 
-// New moments; adds the work done on them [J].  Where points yield they are returned like the stresses.
+// New drilling moments; adds the work done on them [J].  If thickness points yield, the moments are reduced by `kept`, the mean share
+// of the deviatoric stress left by the plastic return.
 CRUMPLE_INLINE DrillMoment update_drill(const Part& part, const Frame& f, const Motion& m, const Vec (&omega)[4], double dt,
                                         Real volume, Real kept, Real* extra, Real& work) {
     DrillMoment d;

@@ -1,8 +1,9 @@
 // Transverse shear measured along the edges of an element.
 //
-// The turning of an edge d against the mean w of the rotations at its ends, s = n . (v_j - v_i - w x d), vanishes when the
-// plate bends without shear and curves evenly along the edge, and for every rigid motion; the term of second order in
-// the step makes that true of finite turns seen from the end of the step.  It is what MITC elements interpolate.  Theory: docs/theory/stabilised_element.md, docs/theory/shell_triangle.md.
+// The rotation of an edge d relative to the mean rotation rate w of its ends, s = n . (v_j - v_i - w x d), is zero for bending without
+// shear with constant curvature along the edge and for every rigid motion; a term of second order in the step extends this to
+// finite rotations, seen from the end of the step.  MITC elements interpolate this shear.
+// Theory: docs/theory/stabilised_element.md, docs/theory/shell_triangle.md.
 #pragma once
 #include "shell/element/kinematics.hpp"
 
@@ -24,7 +25,7 @@ CRUMPLE_INLINE Real edge_rate(const Corners& c, int i, int j, Vec normal) {
     return dot(normal, c.v[j] - c.v[i] - turned + (0.5 * c.dt) * cross(w, turned));
 }
 
-// The force that works on edge_rate.
+// Adds the corner forces conjugate to edge_rate.
 CRUMPLE_INLINE void add_edge_force(CornerForces& out, const Vec (&x)[4], int i, int j, Vec normal, Real force) {
     const Vec f = force * normal, m = (0.5 * force) * cross(normal, x[j] - x[i]);
     out.force[i] = out.force[i] - f;

@@ -8,7 +8,7 @@
 namespace crumple::shell {
 namespace {
 
-// Moment resultants of the warped surface act on the in-plane velocities too.
+// In a warped element the moment resultants act on the in-plane velocities too.
 struct InPlane {
     Real x1{}, x2{}, y1{}, y2{};
 };
@@ -17,7 +17,7 @@ CRUMPLE_INLINE InPlane warp_forces(const Warp& w, Real mx, Real my, Real mxy) {
     return {w.cx1 * mx + w.cy1 * mxy, w.cx2 * mx + w.cy2 * mxy, w.cy1 * my + w.cx1 * mxy, w.cy2 * my + w.cx2 * mxy};
 }
 
-// The counterpart of project_drill: a corner's moment lies in its own tangent plane.
+// Transpose of project_drill: the moment of a corner lies in its own tangent plane.
 CRUMPLE_INLINE void tilt_moments(const Frame& f, const Warp& w, Vec (&moment)[4]) {
     moment[0] = moment[0] + dot(w.tilt1, moment[0]) * f.e3;
     moment[1] = moment[1] - dot(w.tilt2, moment[1]) * f.e3;
@@ -36,7 +36,8 @@ CRUMPLE_INLINE Pair divergence(const Frame& f, Real p, Real q, Real hourglass) {
     return {f.bx1 * p + f.by1 * q, f.bx2 * p + f.by2 * q};
 }
 
-// Internal force at the corners of a quadrilateral; `mean_shear`: transverse shear acts on gradient and mean rotation.
+// Internal forces at the corners of a quadrilateral; `mean_shear`: the transverse shear is conjugate to the gradient and the mean
+// rotation.
 CRUMPLE_INLINE CornerForces quad_forces(const Part& part, const Frame& f, const Integrals& s, const HourglassForce& h,
                                         const DrillMoment& drill, bool mean_shear) {
     const Resultants& r = s.r;
@@ -56,7 +57,7 @@ CRUMPLE_INLINE CornerForces quad_forces(const Part& part, const Frame& f, const 
     return c;
 }
 
-// Internal force at the corners of a triangle, without transverse shear.
+// Internal forces at the corners of a triangle, without transverse shear.
 CRUMPLE_INLINE CornerForces triangle_forces(const Frame& f, const Integrals& s) {
     const Resultants& r = s.r;
     const Real vt = s.volume * s.thickness, mx = vt * r.mx, my = vt * r.my, mxy = vt * r.mxy, fxy = s.volume * r.nxy;
@@ -67,7 +68,7 @@ CRUMPLE_INLINE CornerForces triangle_forces(const Frame& f, const Integrals& s) 
     return {{a, b, Vec{} - a - b, Vec{}}, {ma, mb, Vec{} - ma - mb, Vec{}}};
 }
 
-// A lane that has failed keeps its state and carries no force; returns which lanes are alive.
+// Failed lanes keep their state and carry no force; returns which lanes are alive.
 CRUMPLE_INLINE Mask still_alive(const Part& part, Real* slots) {
     Real least = slots[point_slot(0, plastic_strain)], largest = least;
     for (int k = 1; k < part.points; k++) {
@@ -88,18 +89,18 @@ CRUMPLE_INLINE void silence(CornerForces& c, Mask live) {
     }
 }
 
-// Work that the forces of the end of a step do in it.  An element that goes with this step carries none of them, so
-// this half is not done: it is taken from what was dissipated, and what is stored in the element stays as it is.
+// Half of the step's work, done by the forces at its end.  An element that is deleted in this step does not apply these forces, so
+// this half is not done: it is subtracted from the dissipated energy; the energy stored in the element is kept.
 CRUMPLE_INLINE Real second_half(const Corners& corners, const CornerForces& c) {
     Real power{};
     for (int i = 0; i < 4; i++) power += dot(c.force[i], corners.v[i]) + dot(c.moment[i], corners.w[i]);
     return (0.5 * corners.dt) * power;
 }
 
-// A strain increment beyond a third in one step is not physical: the solution has diverged.
+// A strain increment above this value in one step is not physical: the solution has diverged.
 constexpr double torn_strain = 0.33;
 
-// Shape, motion and strain of a step; what a shape does not use costs nothing.
+// Frame, motion and strain of a step; members that a formulation does not use are removed by the compiler.
 struct Step {
     Frame f;
     Motion motion;
@@ -121,7 +122,7 @@ template <Formulation kind> CRUMPLE_INLINE Step step_of(const Part& part, const 
     s.strain = membrane_and_bending(s.motion, dt);
     if (warped) add_warp(s.f, warp_of(s.f), v, dt, s.strain);
     if constexpr (kind == Formulation::one_point) {
-        // half the product of spin and slope is of second order like the membrane's
+        // half the product of spin and slope: term of second order in the step, like that of the membrane strain
         const Gradient& vz = s.motion.vz;
         const Vec mean = 0.25 * ((w[0] + w[1]) + (w[2] + w[3]));
         const Real turn = 0.25 * dt * (s.motion.vy.x - s.motion.vx.y);
@@ -141,7 +142,7 @@ template <Formulation kind> CRUMPLE_INLINE Step step_of(const Part& part, const 
     return s;
 }
 
-// Forces at the corners, with those of the modes that the points do not see; adds the work done on the latter.
+// Forces at the corners, including those of hourglass and drilling modes; adds the work done on these modes.
 template <Formulation kind>
 CRUMPLE_INLINE CornerForces corner_forces(const Part& part, const Step& s, const Corners& corners, const Integrals& in,
                                           Real* slots, Real& held_work) {
@@ -173,7 +174,7 @@ CRUMPLE_INLINE CornerForces corner_forces(const Part& part, const Step& s, const
     return c;
 }
 
-// Stresses at the thickness points and transverse shear, which stays elastic; `work` gets that of the step.
+// Stresses at the thickness points and transverse shear, which stays elastic; `work` receives the work of the step.
 template <Law law, int points>
 CRUMPLE_INLINE Integrals integrate(const Part& part, const Step& s, double dt, Real* slots, Real& work) {
     const Real t = slots[thickness];
@@ -183,7 +184,7 @@ CRUMPLE_INLINE Integrals integrate(const Part& part, const Step& s, double dt, R
     const Real xz = old_xz + part.transverse_modulus * s.strain.xz, yz = old_yz + part.transverse_modulus * s.strain.yz;
     slots[shear_xz] = xz;
     slots[shear_yz] = yz;
-    // thickness from the volume: plastic flow keeps it, the elastic trace of stress changes it
+    // thickness from the volume, which plastic flow preserves and the elastic trace of stress changes
     in.volume = s.f.area * t;
     in.thickness = t;
     if (part.thickness_update) {
@@ -197,8 +198,8 @@ CRUMPLE_INLINE Integrals integrate(const Part& part, const Step& s, double dt, R
     return in;
 }
 
-// Advances the state of a block; `stiffest` gets its squared frequency: NaN where the state is not finite, infinite where it is torn
-// or inverted.
+// Advances the state of a block; `stiffest` receives the squared frequency: NaN if the state is not finite, infinite if the element is
+// torn or inverted.
 template <Formulation kind, Law law, int points>
 CRUMPLE_INLINE CornerForces update_block(const Part& part, const Corners& corners, Real* slots, Real& stiffest) {
     const Step s = step_of<kind>(part, corners);

@@ -1,9 +1,9 @@
 // Co-rotational frame and one-point gradient of a quadrilateral (a triangle repeats its third corner).
 //
-// e3 is normal to both diagonals, e1 halves the angle between one midline and the normal of the other: so the
-// frame turns with the material.  Tied to a side it would turn by twice the spin of a shear wave along it, which
-// makes the stiffness under shear stress markedly unsymmetric, and short waves grow.  In this frame the corners are
-// x_I = mean + in-plane part, height z_I = z0 (+1, -1, +1, -1): a warped element has z0 != 0.
+// e3 is normal to both diagonals, e1 bisects the angle between one midline and the normal of the other, so that the frame rotates
+// with the material.  A frame tied to a side would rotate by twice the spin of a shear wave along that side, which makes the
+// stiffness under shear stress markedly unsymmetric, and short waves would grow.  In this frame the corners are
+// x_I = mean + in-plane part, height z_I = z0 (+1, -1, +1, -1); a warped element has z0 != 0.
 // Gradients: d/dx = b_x . v with b_x = (y24, y31, y42, y13) / 2A, so B3 = -B1 and B4 = -B2.
 #pragma once
 #include "shell/simd/pack.hpp"
@@ -18,7 +18,7 @@ struct Frame {
     Real hx, hy, hz;             // sum over corners of (+1, -1, +1, -1) times position [m]; hz = 4 z0
 };
 
-// A field at the corners in the pattern that one-point integration sees: differences along the diagonals, and the alternating sum.
+// A corner field reduced to what one-point integration uses: differences along the diagonals, and the alternating sum.
 struct Pattern {
     Vec along_13, along_24, alternating;
 };
@@ -34,7 +34,7 @@ CRUMPLE_INLINE Frame frame_of(const Vec (&x)[4]) {
     f.e3 = inverse * normal;
     f.area = 0.5 * twice_area;
     f.inverse_area = 2.0 * inverse;
-    // midlines lie in the plane; the mean of their turns is the material's spin
+    // the midlines lie in the plane; the mean of their rotations is the spin of the material
     const Vec g1 = d31 - d42, g2 = d31 + d42;
     const Vec both = root(dot(g2, g2)) * g1 + root(dot(g1, g1)) * cross(g2, f.e3);
     f.e1 = (1.0 / root(dot(both, both))) * both;
@@ -60,8 +60,8 @@ CRUMPLE_INLINE Gradient gradient(const Frame& f, const Pattern& p, Vec e) {
     return {gx, gy, dot(p.alternating, e) - f.hx * gx - f.hy * gy};
 }
 
-// A corner that lies beyond the diagonal between its neighbours turns over: there the share of the area that grows from
-// corner to corner, h . b, passes 1.  At 3 it has gone half the way on to the opposite corner: no shape of metal.
+// A corner that moves across the diagonal between its neighbours inverts the element: |h . b|, the variation of the area from corner
+// to corner, then passes 1.  At 3 it has gone half the way from there to the opposite corner, which is not a physical shape.
 constexpr double turned_over = 3.0;
 
 CRUMPLE_INLINE Mask inverted(const Frame& f) {

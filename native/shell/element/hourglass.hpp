@@ -1,8 +1,9 @@
-// Control of the five modes that one-point integration cannot see, by stiffness or by viscosity.
+// Hourglass control, by stiffness or by viscosity, of the five modes without strain at the single integration point.
 //
-// Stiffness: resultants grow with the hourglass rates (Flanagan-Belytschko type, coefficients of Belytschko, Lin and Tsay); viscosity: they are
-// proportional to them.  Where the thickness points yield, resultants of stiffness are returned by the mean share that
-// the points keep, as stresses away from the one point would be: else they would carry load that the metal cannot.  Work done on them is the hourglass energy.  Theory: docs/theory/hourglass.md.
+// Stiffness: the rates of the resultants are proportional to the hourglass rates (Flanagan-Belytschko type, coefficients of Belytschko,
+// Lin and Tsay); viscosity: the resultants themselves are.  If thickness points yield, the resultants of stiffness are reduced by the
+// mean share of the stress that the points keep, as the stresses elsewhere in the element would be; otherwise they would carry load
+// that the metal cannot.  The work done on them is the hourglass energy.  Theory: docs/theory/hourglass.md.
 #pragma once
 #include "shell/element/kinematics.hpp"
 
@@ -32,7 +33,7 @@ CRUMPLE_INLINE HourglassRange hourglass_viscosity(const Part& part, const Frame&
             (part.hourglass_bending / 12.0) * base * tt};
 }
 
-// New resultants; returns the work done on them [J].
+// New hourglass resultants; returns the work done on them [J].
 CRUMPLE_INLINE Real update_hourglass(const Part& part, const Frame& f, const HourglassRate& rate, double dt, Real thickness,
                                      Real volume, Real kept, Real* slots, HourglassForce& now) {
     const HourglassForce old = {slots[hourglass_x], slots[hourglass_y], slots[hourglass_z], slots[hourglass_rx],

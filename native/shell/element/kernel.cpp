@@ -51,7 +51,7 @@ inline void run_any_points(const ElementStage& stage, const Part& part, std::siz
 }
 
 inline void run_any_shape(const ElementStage& stage, const Part& part, std::size_t block, double* out, Real& stiffest) {
-    // the place of the corner forces is shared with other blocks
+    // the buffer of corner forces is reused by other blocks, so it must be cleared
     if (part.rigid) {
         std::fill_n(out, 4 * corner_record * lanes, 0.0);
         return;
@@ -59,12 +59,12 @@ inline void run_any_shape(const ElementStage& stage, const Part& part, std::size
     switch (part.formulation) {
         case Formulation::one_point: return run_any_points<Formulation::one_point>(stage, part, block, out, stiffest);
         case Formulation::stabilised: return run_any_points<Formulation::stabilised>(stage, part, block, out, stiffest);
-        // few: not unrolled
+        // triangles are few: no unrolling over the points
         case Formulation::triangle: return run_any_law<Formulation::triangle, 0>(stage, part, block, out, stiffest);
     }
 }
 
-// The next state comes from memory while this one is computed.
+// Prefetches the next block's state while the present one is computed.
 inline void prefetch(const double* next, std::size_t size) {
     for (std::size_t i = 0; i < size; i += 8) __builtin_prefetch(next + i, 1);
 }
@@ -78,7 +78,7 @@ ElementReport run_elements(const ElementStage& stage, std::size_t first, std::si
         if (stage.from_memory) prefetch(stage.state + stage.offset[block + 1], stage.offset[block + 1] - stage.offset[block]);
         Real stiffest{};
         run_any_shape(stage, part, block, out, stiffest);
-        // NaN fails every comparison, so it counts as beyond the limit
+        // written so that NaN counts as beyond the limit
         const Mask fine = stiffest <= stage.frequency_limit;
         if (report.bad_block < 0 && any(~fine)) report.bad_block = std::int64_t(block);
         stiffest_of_all = larger(stiffest, stiffest_of_all);
@@ -114,7 +114,7 @@ inline void run_node(const NodeStage& s, std::size_t i, Quad gravity, double& da
     const double* inverse_mass = s.inverse_mass + velocity_record * i;
     const Quad im = load(inverse_mass), ii = load(inverse_mass + 4);
     const Quad v_old = load(velocity), w_old = load(velocity + 4);
-    // gravity acts where there is mass to move
+    // gravity acts on free degrees of freedom with mass only
     Quad v = v_old - s.kick * (im * force) + s.kick * (im > 0.0 ? gravity : Quad{});
     Quad w = w_old - s.kick * (ii * moment);
     if (s.damping > 0.0) {

@@ -1,7 +1,7 @@
 // Strain increments of one step, seen from the end of the step.
 //
 // With L' = dt grad v at the end of the step, the increment is the Almansi strain sym(L') - L'^T L' / 2:
-// it vanishes for any finite rigid rotation, where sym(L') leaves (1 - cos) per step.  The transverse
+// it is zero for any finite rigid rotation, where sym(L') alone has an error of (1 - cos) per step.  The transverse
 // shear is corrected to the same order.  Theory: docs/theory/shell_element.md.
 #pragma once
 #include "shell/element/frame.hpp"
@@ -62,7 +62,7 @@ CRUMPLE_INLINE void add_warp(const Frame& f, const Warp& w, const Pattern& v, do
     s.kxy += dt * (w.cx1 * y13 + w.cx2 * y24 + w.cy1 * x13 + w.cy2 * x24);
 }
 
-// Takes the turning about a corner's own normal out: only what tilts the normal bends the element.
+// Removes the rotation rate about each corner's own normal: only rotations that tilt the normal bend the element.
 CRUMPLE_INLINE void project_drill(const Frame& f, const Warp& w, Vec (&omega)[4]) {
     omega[0] = omega[0] + dot(omega[0], f.e3) * w.tilt1;
     omega[1] = omega[1] - dot(omega[1], f.e3) * w.tilt2;
@@ -70,12 +70,12 @@ CRUMPLE_INLINE void project_drill(const Frame& f, const Warp& w, Vec (&omega)[4]
     omega[3] = omega[3] + dot(omega[3], f.e3) * w.tilt2;
 }
 
-// Hourglass rates, blind to linear fields and to rigid rotation of a warped element.
+// Hourglass rates, orthogonal to linear fields and to the rigid rotation of a warped element.
 CRUMPLE_INLINE HourglassRate hourglass_rate(const Frame& f, const Motion& m) {
     return {m.vx.hourglass + f.hz * m.vz.x, m.vy.hourglass + f.hz * m.vz.y, m.vz.hourglass, m.wx.hourglass, m.wy.hourglass};
 }
 
-// What is missing to second order in the step, where dvx/dz = -dvz/dx - dt dvy/dx dvz/dy: needed where they are held firmly.
+// Correction of second order in the step, with dvx/dz = -dvz/dx - dt dvy/dx dvz/dy: needed if the hourglass modes are held stiffly.
 CRUMPLE_INLINE void correct_for_spin(const Frame& f, const Motion& m, double dt, HourglassRate& q) {
     q.x += dt * f.hz * m.vy.x * m.vz.y;
     q.y += dt * f.hz * m.vx.y * m.vz.x;

@@ -1,4 +1,4 @@
-// Constants of a group of alike elements: material, thickness rule, hourglass control, options.
+// Constants of a group of elements with the same material, thickness rule, hourglass control and options.
 #pragma once
 #include "shell/simd/layout.hpp"
 
@@ -13,12 +13,12 @@ struct Part {
     double plane_modulus;        // E / (1 - nu^2)
     double shear_modulus;        // G
     double transverse_modulus;   // 5/6 G
-    double pressure_ratio;       // R = (1 + nu) / (3 (1 - nu)): how fast the mean stress returns, relative to the deviator
+    double pressure_ratio;       // R = (1 + nu) / (3 (1 - nu)): rate of return of the mean stress relative to the deviator
     double bulk_compliance;      // (1 - 2 nu) / E: elastic change of volume per in-plane trace of stress
     double inverse_3g;           // 1 / (3 G)
     Formulation formulation;
     Law law;
-    bool rigid;                  // its nodes are one rigid body, so it strains nothing
+    bool rigid;                  // its nodes belong to a rigid body, so its elements have no strain
     double yield_stress, hardening;              // Law::linear: Y = yield_stress + hardening * plastic strain
     int table_size;                              // Law::general
     const double* table_strain;
@@ -35,7 +35,7 @@ struct Part {
     double hourglass_membrane, hourglass_shear, hourglass_bending;
     double hourglass_moduli[3];  // of stiffness, in that order [Pa]: see hourglass.hpp
     bool thickness_update, warping_correction;
-    double drill_stiffness;      // share of G V; 0: nothing holds the drill
+    double drill_stiffness;      // drilling stiffness as a share of G V; 0: none
     bool extra() const { return formulation == Formulation::stabilised || drill_stiffness > 0.0; }
 };
 

@@ -1,12 +1,12 @@
-// Von Mises plasticity in plane stress: implicit return, iterated to round-off.
+// Von Mises plasticity in plane stress: implicit return mapping, iterated to round-off.
 //
 // With p = sx + sy, d = sx - sy of the elastic trial and the unknown X = 3 G dep / Y(end of step), the
 // stress at the end is p / (1 + R X), d / (1 + X), sxy / (1 + X), R = (1 + nu) / (3 (1 - nu)), and
 // X follows from one equation
 //     q(X) (1 - H X / 3G) = Y0,    q^2 = p^2/4 u^2 + (3/4 d^2 + 3 sxy^2) v^2,   u = 1/(1 + R X), v = 1/(1 + X),
-// H the slope and Y0 the value at the old plastic strain of the hardening line in force.  1/q is nearly
-// linear in X, so Newton on 1/q needs two steps in an ordinary time step.  Every lane stops by its own
-// residual and lanes that do not yield keep their trial: the answer of an element does not depend on
+// with H the slope of the present hardening segment and Y0 its value at the old plastic strain.  1/q is nearly
+// linear in X, so Newton's method on 1/q needs two iterations in an ordinary time step.  Every lane stops by its own
+// residual, and lanes that do not yield keep their trial stress: the result of an element does not depend on
 // its neighbours in the block.  Theory: docs/theory/plasticity.md.
 #pragma once
 #include "shell/simd/pack.hpp"
@@ -15,15 +15,15 @@
 namespace crumple::shell {
 namespace {
 
-// Relative residual below which one more Newton step, being quadratic, ends at round-off.
+// Relative residual below which one more Newton iteration, with its quadratic convergence, reaches round-off.
 constexpr double last_step_residual = 1e-7;
-// Reached only by tables with convex kinks; ordinary steps take two.
+// Limit of the iterations, reached only by tables with convex kinks; ordinary steps need two.
 constexpr int max_return_steps = 40;
 
 struct Stress {
     Real x, y, xy;
 };
-// yield line in force at plastic strain `at`: value extrapolated to `start`, and slope
+// hardening segment at the plastic strain `at`: its value extrapolated to `start`, and its slope
 struct YieldLine {
     Real value, slope;
 };
@@ -37,7 +37,7 @@ CRUMPLE_INLINE YieldLine yield_line(const Part& part, Real start, Real at, Real 
         line.value = here ? s[i] + slope * (start - e[i]) : line.value;
         line.slope = here ? all(slope) : line.slope;
     }
-    // beyond the last point the stress stays
+    // beyond the last point the yield stress is constant
     const Mask beyond = at >= e[part.table_size - 1];
     line.value = beyond ? all(s[part.table_size - 1]) : line.value;
     line.slope = beyond ? Real{} : line.slope;
@@ -60,9 +60,9 @@ CRUMPLE_INLINE Real rate_factor(const Part& part, Real& rate, Real strain, doubl
     return factor;
 }
 
-// Work of the step's plastic strain on the mean stress of the step, as the total work is taken: so their difference is the change of
-// what the stress stores, and never falls below zero.  With the stress of the end alone, rapidly reversing
-// strains would be counted as dissipation beyond the energy input.
+// Work of the step's plastic strain with the mean stress of the step.  The total work uses the mean stress too, so that their
+// difference is the change of the elastic energy and the stored energy never becomes negative.  With the end stress alone,
+// rapidly reversing strains would be counted as dissipation beyond the energy input.
 CRUMPLE_INLINE Real plastic_work(const Part& part, const Stress& old, const Stress& trial, const Stress& now) {
     const double nu = part.poissons_ratio;
     const Real dx = trial.x - now.x, dy = trial.y - now.y;
@@ -70,8 +70,8 @@ CRUMPLE_INLINE Real plastic_work(const Part& part, const Stress& old, const Stre
            part.half_shear_compliance * ((old.xy + now.xy) * (trial.xy - now.xy));
 }
 
-// Linear hardening, of `n` points at once so that their chains of roots and divisions overlap.  `kept` is the share of the deviator that is
-// left; false, and nothing done, where no lane yields.
+// Linear hardening, for `n` points at once so that the latencies of their roots and divisions overlap.  `kept` is the share of the
+// deviator that remains; returns false, with nothing changed, if no lane yields.
 template <int n> CRUMPLE_INLINE bool return_linear(const Part& part, Stress (&s)[n], Real (&ep)[n], Real (&kept)[n]) {
     const double R = part.pressure_ratio, h = part.hardening * part.inverse_3g;
     Real Y[n];
@@ -82,7 +82,7 @@ template <int n> CRUMPLE_INLINE bool return_linear(const Part& part, Stress (&s)
         active |= yields[i];
     }
     if (!any(active)) return false;
-    // with P = 1/u, S = 1/v and Q = q P S a Newton step on 1/q takes one root and one division
+    // with P = 1/u, S = 1/v and Q = q P S a Newton iteration on 1/q takes one root and one division
     Real p[n], d[n], a[n], b[n], X[n], P[n], S[n], soft[n];
     Mask goes_on[n];
     for (int i = 0; i < n; i++) {
@@ -120,7 +120,7 @@ template <int n> CRUMPLE_INLINE bool return_linear(const Part& part, Stress (&s)
     return true;
 }
 
-// Table and rate factor: the line in force is looked up at every Newton step.
+// Table and rate factor: the hardening segment is looked up in every Newton iteration.
 CRUMPLE_INLINE bool return_general(const Part& part, Stress& s, Real& ep, Real factor, Real& kept) {
     kept = all(1.0);
     const double R = part.pressure_ratio;
@@ -134,7 +134,7 @@ CRUMPLE_INLINE bool return_general(const Part& part, Stress& s, Real& ep, Real f
     for (int step = 0; step < max_return_steps && any(active); step++) {
         const Real A = a * u * u, B = b * v * v;
         q = root(A + B);
-        // newton step on q itself: an extrapolated line may start below zero
+        // Newton iteration on q itself, because the extrapolated value Y0 may be negative
         line = yield_line(part, ep, ep + X * q * part.inverse_3g, factor);
         const Real h = line.slope * part.inverse_3g, residual = q * (1.0 - h * X) - line.value;
         const Real next = X + residual / ((R * A * u + B * v) * (1.0 - h * X) / q + h * q);

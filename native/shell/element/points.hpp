@@ -1,4 +1,4 @@
-// The thickness points: stress update of each, integrated to resultants.
+// Thickness points: stress update of each point, and integration to resultants.
 #pragma once
 #include "shell/element/kinematics.hpp"
 #include "shell/element/plasticity.hpp"
@@ -19,7 +19,7 @@ struct Integrals {
     Real volume, thickness, xz, yz;
 };
 
-// Elastic change of stress in a step: at the mid-surface, and how it grows with z over the thickness.
+// Elastic change of stress in a step: at the mid-surface, and its slope over z/t.
 struct ElasticStep {
     Stress membrane, bending;
 };
@@ -38,7 +38,7 @@ CRUMPLE_INLINE Real rate_factor_at(const Part& part, int k, const StrainIncremen
     return rate_factor(part, slots[rate_slot(part.points, k)], root(e2), dt);
 }
 
-// Plastic return of the points k; subtracts what it takes from the resultants of the elastic trial, and adds the plastic work.
+// Plastic return of the points k; subtracts the change of stress from the resultants of the elastic trial and adds the plastic work.
 template <Law law, int n>
 CRUMPLE_INLINE void return_points(const Part& part, const int (&k)[n], const StrainIncrement& s, Real thickness, double dt,
                                   const Stress (&old)[n], Stress (&now)[n], Real* slots, Resultants& r) {
@@ -72,7 +72,7 @@ CRUMPLE_INLINE void return_points(const Part& part, const int (&k)[n], const Str
     }
 }
 
-// Points k that mirror each other, or the one at the mid-surface: new stresses; adds the old ones to the resultants `before`.
+// Two points k symmetric about the mid-surface, or the point on it: new stresses; adds the old stresses to the resultants `before`.
 template <Law law, int n>
 CRUMPLE_INLINE void update_mirrored(const Part& part, const int (&k)[n], const ElasticStep& step, const StrainIncrement& s, Real thickness,
                                     double dt, Real* slots, Resultants& before, Resultants& returned) {
@@ -108,8 +108,8 @@ CRUMPLE_INLINE void update_mirrored(const Part& part, const int (&k)[n], const E
     }
 }
 
-// points > 0: the compiler unrolls them; 0: as many as the part has.  The rule is symmetric, so the elastic change of the resultants is known
-// without the points, and only what the return takes is summed over them.
+// points > 0: number of points, unrolled by the compiler; 0: as many as the part has.  The rule is symmetric, so the elastic change of
+// the resultants is known in closed form, and only the change by the plastic return is summed over the points.
 template <Law law, int points>
 CRUMPLE_INLINE Resultants update_points(const Part& part, const StrainIncrement& s, Real thickness, double dt, Real* slots) {
     const int count = points > 0 ? points : part.points;
@@ -132,7 +132,7 @@ CRUMPLE_INLINE Resultants update_points(const Part& part, const StrainIncrement&
     r.mx += before.mx + part.second_moment * b.x;
     r.my += before.my + part.second_moment * b.y;
     r.mxy += before.mxy + part.second_moment * b.xy;
-    // work of the mean of old and new stress
+    // work with the mean of old and new stress
     r.internal = 0.5 * (((before.nx + r.nx) * s.xx + (before.ny + r.ny) * s.yy + (before.nxy + r.nxy) * s.xy) +
                         thickness * ((before.mx + r.mx) * s.kx + (before.my + r.my) * s.ky + (before.mxy + r.mxy) * s.kxy));
     return r;

@@ -1,8 +1,8 @@
-// Physical stabilisation: what the strains that vary over the element do, by the metal's own moduli.
+// Physical stabilisation: resultants of the strains that vary over the element, with the elastic moduli of the material.
 //
 // Velocities are split as v = linear part + (q/4) h, h = xi eta.  The varying membrane stress is that of in-plane
 // bending (uniaxial along each axis), the varying curvature that of bilinear rotations, and the varying transverse
-// shear is interpolated from the edges, so that twist is free of shear.  Integrals over the element are those of the
+// shear is interpolated from the edges, so that twist causes no shear.  Integrals over the element are those of the
 // parallelogram with the same gradients at the centre.  Theory: docs/theory/stabilised_element.md.
 #pragma once
 #include "shell/element/edge_shear.hpp"
@@ -12,17 +12,17 @@
 namespace crumple::shell {
 namespace {
 
-// Transverse shear of the edges: mean and varying part along both natural directions, and what it takes to get there.
+// Geometry for the transverse shear of the edges, with its mean and varying parts along both natural directions.
 struct EdgeShear {
-    Vec xi, eta;                 // gradients of the natural coordinates [1/m], in the world
-    Vec n12, n43, n14, n23;      // normals in the middle of the edges
+    Vec xi, eta;                 // gradients of the natural coordinates [1/m], in world axes
+    Vec n12, n43, n14, n23;      // normals at the middle of the edges
 };
 
 CRUMPLE_INLINE EdgeShear edges_of(const Frame& f) {
     EdgeShear s;
     s.xi = 2.0 * ((f.bx2 - f.bx1) * f.e1 + (f.by2 - f.by1) * f.e2);
     s.eta = -2.0 * ((f.bx1 + f.bx2) * f.e1 + (f.by1 + f.by2) * f.e2);
-    // at right angles to the edges of a warped element too: so the drill shears nothing
+    // perpendicular to the edges even in a warped element, so that a drilling rotation causes no shear
     const Vec px = (0.25 * f.hz) * s.xi, py = (0.25 * f.hz) * s.eta;
     s.n12 = f.e3 + px;
     s.n43 = f.e3 - px;
@@ -41,7 +41,7 @@ CRUMPLE_INLINE ShearRate shear_rate(const Frame& f, const EdgeShear& s, const Co
     const Real s14 = edge_rate(c, 0, 3, s.n14), s23 = edge_rate(c, 1, 2, s.n23);
     const Vec mean = (0.25 * (s12 + s43)) * s.xi + (0.25 * (s14 + s23)) * s.eta;
     ShearRate r{dot(mean, f.e1), dot(mean, f.e2), {}, {}};
-    // constant shear of a trapezoid has natural components that vary
+    // constant shear in a trapezoid has varying natural components
     const Real skew = 0.25 * (f.hx * r.xz + f.hy * r.yz);
     r.xi = 0.25 * (s43 - s12) - skew;
     r.eta = 0.25 * (s23 - s14) - skew;
@@ -49,7 +49,7 @@ CRUMPLE_INLINE ShearRate shear_rate(const Frame& f, const EdgeShear& s, const Co
 }
 
 struct VaryingShear {
-    Real xi, eta;                // resultants that work on ShearRate::xi and ::eta [N]
+    Real xi, eta;                // resultants conjugate to ShearRate::xi and ::eta [N]
 };
 
 CRUMPLE_INLINE void add_shear_forces(const Frame& f, const EdgeShear& s, const Vec (&x)[4], Real fxz, Real fyz, const VaryingShear& p,
@@ -64,12 +64,12 @@ CRUMPLE_INLINE void add_shear_forces(const Frame& f, const EdgeShear& s, const V
 }
 
 struct Stabilisation {
-    HourglassForce hourglass;    // z is not used
+    HourglassForce hourglass;    // z is unused
     VaryingShear shear;
     Real work;                   // [J]
 };
 
-// New resultants.  Those of membrane and bending are returned with the metal, transverse shear stays elastic.
+// New resultants.  Those of membrane and bending are reduced with the plastic return, transverse shear stays elastic.
 CRUMPLE_INLINE Stabilisation stabilise(const Part& part, const Frame& f, const HourglassRate& q, const ShearRate& g, double dt,
                                        const Integrals& in, Real* slots, Real* extra) {
     const double nu = part.poissons_ratio;

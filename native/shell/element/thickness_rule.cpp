@@ -1,4 +1,4 @@
-// Gauss-Legendre and Gauss-Lobatto rules through the thickness, found by Newton on Legendre polynomials.
+// Gauss-Legendre and Gauss-Lobatto rules through the thickness; the points are computed by Newton's method on Legendre polynomials.
 #include <cmath>
 
 #include "shell/run/lowering.hpp"
@@ -64,7 +64,7 @@ void thickness_rule(int points, bool use_lobatto, double* z, double* weight) {
         lobatto(points, z, weight);
     else
         gauss(points, z, weight);
-    // both halves alike to the last bit, so that a flat sheet has no spurious bending
+    // make both halves identical to the last bit, so that a flat sheet has no spurious bending
     for (int i = 0; i < points / 2; i++) {
         z[points - 1 - i] = -z[i];
         weight[points - 1 - i] = weight[i];

@@ -1,14 +1,14 @@
-// The C0 triangle: constant strain and curvature, transverse shear from its three edges.
+// C0 triangle: constant strain and curvature, transverse shear from its three edges.
 //
-// The shear at the centroid is that of the lowest edge functions, sum over edges of s_ij (grad N_j - grad N_i) / 3; with
-// the mean rotation in its place, as in a collapsed quadrilateral, pure bending would shear.  Theory: docs/theory/shell_triangle.md.
+// The shear at the centroid is that of the lowest-order edge functions, sum over edges of s_ij (grad N_j - grad N_i) / 3; with the mean
+// rotation instead, as in a collapsed quadrilateral, pure bending would cause shear.  Theory: docs/theory/shell_triangle.md.
 #pragma once
 #include "shell/element/edge_shear.hpp"
 
 namespace crumple::shell {
 namespace {
 
-// Edges 1-2, 2-3, 3-1: differences of the shape functions' gradients at their ends, over 3 [1/m].
+// Edges 1-2, 2-3, 3-1: difference of the gradients of the shape functions of their end nodes, divided by 3 [1/m].
 struct TriangleEdges {
     Vec g12, g23, g31;
 };

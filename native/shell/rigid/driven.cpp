@@ -1,4 +1,4 @@
-// Nodes with loads or prescribed velocities, and rigid sets: few, handled one by one.
+// Nodes with loads or prescribed velocities, and rigid sets; there are few of them, so they are handled one by one.
 #include <algorithm>
 
 #include "shell/run/simulation.hpp"
@@ -25,7 +25,7 @@ Vec3 Simulation::load(const std::vector<std::size_t>& loads, bool moment, double
     return {sum[0], sum[1], sum[2]};
 }
 
-// New velocities of a driven node, and the force from outside (load and reaction) that makes them.
+// New velocities of a driven node, and the external force (load and reaction) that causes them.
 Simulation::Kick Simulation::kick_driven(const Driven& d) const {
     Kick out{};
     const Wrench inside = internal_force(d.node);
@@ -55,7 +55,7 @@ void Simulation::move_driven() {
         const Kick k = kick_driven(d);
         for (std::size_t i = 0; i < 6; i++) {
             double& v = velocity_[velocity_record * d.node + (i < 3 ? i : i + 1)];
-            // work since the last step, by the mean of the forces at both ends
+            // work over the last step, by the mean of the forces at its start and end
             outside_work_ += 0.5 * last_dt_ * v * (k.outside[i] + d.outside[i]);
             const double im = inverse_mass_[velocity_record * d.node + (i < 3 ? i : i + 1)], mean = 0.5 * (v + k.velocity[i]);
             if (!(d.held & (1u << i)) && im > 0.0) body_damping_ += model_->settings.damping * kick() * mean * mean / im;
@@ -67,7 +67,7 @@ void Simulation::move_driven() {
     }
 }
 
-// Kicks a copy of a rigid set's state; its held components take their prescribed values.
+// Updates the velocities in a copy of a rigid set's state; held components take their prescribed values.
 Simulation::Kick Simulation::kick_body(std::size_t i, RigidState& s) const {
     const RigidBody& b = bodies_[i];
     const BodyDrive& drive = body_drives_[i];
@@ -83,7 +83,7 @@ Simulation::Kick Simulation::kick_body(std::size_t i, RigidState& s) const {
         out_moment = out_moment + (a.dof >= 3 ? f : cross(read3(&position_[position_record * a.node]) - s.centre, f));
         if (a.dof < 3) out_force = out_force + f;
     }
-    // weight turns a body that does not hang in its centre of mass
+    // moment of the weight about the centre, if that is not the centre of mass
     moment = moment + b.mass * cross(s.rotation * b.mass_arm, model_->settings.gravity);
     Kick out{};
     double wanted[6] = {0, 0, 0, 0, 0, 0};
@@ -140,7 +140,7 @@ void Simulation::move_bodies() {
             drive.outside[c] = k.outside[c];
         }
         if (damping > 0.0) {
-            // what is held or driven is not damped: its reaction gives it its velocity
+            // held and driven components are not damped: their velocity is prescribed
             const Vec3 v = 0.5 * (old.velocity + s.velocity), L = 0.5 * (old.angular_momentum + s.angular_momentum);
             const Vec3 w = 0.5 * (old.omega + read3(k.velocity + 3));
             for (int c = 0; c < 3; c++) {
@@ -150,7 +150,7 @@ void Simulation::move_bodies() {
         }
         const Vec3 wanted{k.velocity[3], k.velocity[4], k.velocity[5]};
         drift(bodies_[i], s, dt_, wanted);
-        // members: positions from the rotation, velocities from positions, so that their elements see exact rigid motion
+        // members: positions from the rotation, velocities from the positions, so that the elements have exact rigid motion
         for (std::size_t n = 0; n < bodies_[i].nodes.size(); n++) {
             const Index node = bodies_[i].nodes[n];
             double* x = &position_[position_record * node];

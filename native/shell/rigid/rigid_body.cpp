@@ -47,7 +47,7 @@ void push(const RigidBody& b, RigidState& s, const Masses& masses, const double*
         momentum = momentum + masses.mass[n] * read3(velocity + 3 * n);
     }
     if (!(mass > 0.0)) return;
-    // of the members alone, about their own centre; the added mass moves with them
+    // motion of the members alone, about their own centre; the added mass moves with them
     const Vec3 centre = (1.0 / mass) * moment;
     Mat3 J{{0, 0, 0, 0, 0, 0, 0, 0, 0}};
     Vec3 L;
@@ -59,7 +59,7 @@ void push(const RigidBody& b, RigidState& s, const Masses& masses, const double*
         L = L + masses.mass[n] * cross(r, read3(velocity + 3 * n)) + b.member_inertia[k] * read3(spin + 3 * n);
     }
     const Vec3 omega = solve(J, L), there = (1.0 / mass) * momentum - cross(omega, centre);
-    // a pin takes the momentum but not the moment about itself
+    // a pin takes up linear momentum but no moment about itself
     const Vec3 turned = b.mass * cross(s.rotation * b.mass_arm, there);
     const Vec3 v = s.velocity + there, w = s.omega + omega + solve(world_inertia(b, s.rotation), turned);
     double free[6];
@@ -72,7 +72,7 @@ void push(const RigidBody& b, RigidState& s, const Masses& masses, const double*
     s.angular_momentum = world_inertia(b, s.rotation) * s.omega;
 }
 
-// rigid motion with the members' momentum and angular momentum
+// rigid motion with the linear and angular momentum of the members
 RigidState start_body(const RigidBody& b, const Model& model, const Masses& masses) {
     RigidState s;
     s.centre = b.centre0;
@@ -103,7 +103,7 @@ static Mat3 cayley(Vec3 a) {
                  s * (h.x * h.z - h.y), s * (h.y * h.z + h.x), c + s * h.z * h.z}};
 }
 
-// one Newton step of the polar factor keeps the columns orthonormal against round-off
+// one Newton iteration for the polar factor: keeps the columns orthonormal despite round-off
 static Mat3 straightened(const Mat3& Q) {
     const Mat3 g = transposed(Q) * Q;
     Mat3 half;

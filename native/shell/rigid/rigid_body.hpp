@@ -1,10 +1,10 @@
-// A rigid set of nodes: exact rigid motion, with momentum and energy of the free body kept to round-off.
+// Rigid set of nodes: exact rigid motion; momentum and energy of a free body are conserved to round-off.
 #pragma once
 #include "shell/run/lowering.hpp"
 
 namespace crumple::shell {
 
-// Constants: members in the axes of the start.  Its centre is that of mass, or the pin that holds it.
+// Constants, in the axes at the start.  The centre is the centre of mass, or the pin of a pinned set.
 struct RigidBody {
     std::vector<Index> nodes;
     std::vector<Vec3> arm;           // member minus centre at the start [m]
@@ -18,8 +18,8 @@ struct RigidBody {
 
 struct RigidState {
     Vec3 centre, velocity;           // position at the step, velocity half a step earlier
-    Vec3 angular_momentum, omega;    // in the world, half a step earlier
-    Mat3 rotation;                   // from the start
+    Vec3 angular_momentum, omega;    // world axes, half a step earlier
+    Mat3 rotation;                   // relative to the start
 };
 
 struct Wrench {
@@ -28,13 +28,13 @@ struct Wrench {
 
 RigidBody make_body(const Model& model, const RigidSet& set, const Masses& masses);
 RigidState start_body(const RigidBody& body, const Model& model, const Masses& masses);
-// Adds rigid motion with the momentum and angular momentum of the members' velocities and spins (n, 3).
+// Adds rigid motion with the linear and angular momentum of the members' velocities and spins (n, 3).
 void push(const RigidBody& body, RigidState& state, const Masses& masses, const double* velocity, const double* spin);
 // Inertia in world axes.
 Mat3 world_inertia(const RigidBody& body, const Mat3& rotation);
-// Angular velocity whose free components carry the angular momentum, the held ones given.
+// Angular velocity with given held components whose free components match the angular momentum.
 Vec3 omega_of(const RigidBody& body, const Mat3& rotation, Vec3 momentum, Vec3 held_omega);
-// Turns and moves the body by its velocities over dt: implicit midpoint, which keeps L and L . J^-1 L / 2.
+// Moves and rotates the body over dt by the implicit midpoint rule, which conserves L and L . J^-1 L / 2.
 void drift(const RigidBody& body, RigidState& state, double dt, Vec3 held_omega);
 
 }  // namespace crumple::shell

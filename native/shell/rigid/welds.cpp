@@ -10,19 +10,19 @@ namespace crumple::shell {
 
 namespace {
 
-// Welds that share nodes take turns until no correction exceeds this share of the fastest node's speed; the drift is taken back
-// in the next step.
+// Welds that share nodes are solved by Gauss-Seidel iteration until no correction exceeds this share of the fastest node's speed;
+// the remaining drift is corrected in the next step.
 constexpr double settled = 1e-10;
-// Neighbours that share some nodes settle within some ten turns.
+// Limit of the iterations; neighbouring welds that share some nodes converge in about ten.
 constexpr int most_turns = 50;
-// Distance of two sheets [m] below which there is no direction across them: far above round-off, far below any thickness.
+// Distance of two sheets [m] below which the direction across them is undefined: far above round-off, far below any thickness.
 constexpr double least_distance = 1e-9;
 
 [[noreturn]] void refuse(std::size_t i, const std::string& why) {
     throw std::invalid_argument("spot weld " + std::to_string(i) + ": " + why);
 }
 
-// Kinds of nodes that no weld can hold
+// Reason for each node that cannot belong to a weld, else null
 std::vector<const char*> taken_nodes(const Model& m) {
     std::vector<const char*> taken(m.nodes(), nullptr);
     for (std::size_t n = 0; n < m.nodes(); n++)
@@ -92,14 +92,14 @@ std::vector<std::uint8_t> SpotWelds::held() const {
     return out;
 }
 
-// The five equations of a tie in axes along the sheets and across them, factored.
+// The five equations of a tie in axes along and across the sheets, factorised.
 struct SpotWelds::Frame5 {
-    Vec3 r, drift;                   // between the sheets; velocity that is to be taken back
+    Vec3 r, drift;                   // vector between the sheets; velocity that corrects the drift
     Vec3 axis[3];                    // two along the sheets, the last along r
     Vec3 turn[2][5];                 // moments on each side of unit impulses
-    double factor[5][5];             // of Cholesky
+    double factor[5][5];             // Cholesky factor
 
-    // impulses that end a mismatch
+    // replaces a velocity mismatch by the impulses that remove it
     void solve(double (&y)[5]) const {
         for (int i = 0; i < 5; i++) {
             for (int k = 0; k < i; k++) y[i] -= factor[i][k] * y[k];
@@ -214,7 +214,8 @@ void SpotWelds::restore(Saved& in) {
     }
 }
 
-// Tied nodes as they move, in the order of the welds' list.  Nodes of failed welds are left out: other threads move them meanwhile.
+// Motion of the tied nodes, in the order of the welds' list.  Nodes of failed welds are skipped: other threads move them at the same
+// time.
 std::vector<SpotWelds::Motion6> Simulation::weld_motion() const {
     std::vector<SpotWelds::Motion6> motion(welds_->nodes().size());
     for (std::size_t i = 0; i < motion.size(); i++) {
@@ -234,7 +235,7 @@ void Simulation::set_weld_motion(const std::vector<SpotWelds::Motion6>& motion) 
     }
 }
 
-// Velocities that forces and ties give the tied nodes, and the impulses on the welds' second sheets.
+// New velocities of the tied nodes from forces and ties, and the impulses on the second sheets of the welds.
 std::vector<SpotWelds::Motion6> Simulation::kick_welds(std::vector<Vec3>& impulse) const {
     const Settings& s = model_->settings;
     const double a = 0.5 * kick() * s.damping;
@@ -255,7 +256,7 @@ void Simulation::move_welds() {
     if (welds_->nodes().empty()) return;
     std::vector<Vec3> impulse;
     const std::vector<SpotWelds::Motion6> now = kick_welds(impulse), before = weld_motion();
-    // the damped step passes on 1/(1 + a) of a force's impulse
+    // with mass damping a step transmits only 1/(1 + a) of a force's impulse
     welds_->bear(position_.data(), time_, kick() / (1.0 + 0.5 * kick() * model_->settings.damping), impulse);
     for (std::size_t i = 0; i < now.size(); i++) {
         const Index n = welds_->nodes()[i];
@@ -267,7 +268,7 @@ void Simulation::move_welds() {
     set_weld_motion(now);
 }
 
-// Kinetic energy of the tied nodes, as that of free ones.
+// Kinetic energy of the tied nodes, computed as for free nodes.
 double Simulation::kinetic_of_welds() const {
     if (!welds_ || welds_->nodes().empty()) return 0.0;
     std::vector<Vec3> impulse;
@@ -281,13 +282,13 @@ double Simulation::kinetic_of_welds() const {
     return sum;
 }
 
-// Nodes of failed welds move by themselves from now on; for one thread alone.
+// Makes the nodes of failed welds free; called by one thread only.
 void Simulation::sort_welds() {
     const std::vector<std::uint8_t> held = welds_->held();
     for (std::size_t i = 0; i < held.size(); i++) kind_[welds_->nodes()[i]] = held[i] ? tied_node : 0;
 }
 
-// Lets velocities that were given fit the ties.
+// Makes given velocities compatible with the ties.
 void Simulation::fit_welds() {
     std::vector<SpotWelds::Motion6> motion = weld_motion();
     welds_->fit(position_.data(), 0.0, motion);

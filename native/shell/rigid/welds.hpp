@@ -1,12 +1,12 @@
-// Spot welds: ties of two sheets, each at a point between nodes, that can fail.
+// Spot welds: ties of two sheets at points between nodes, which can fail.
 //
-// Each sheet takes part with the weighted mean of some nodes' velocities v and spins w; weights add up to one and place
-// the means p and q of their positions right across each other.  With r = q - p the tie asks for
+// Each sheet is represented by the weighted mean of the velocities v and spins w of some nodes; the weights add up to one and are
+// such that the mean positions p and q lie opposite each other.  With r = q - p the tie requires
 //     v_q - v_p = (w_p + w_q)/2 x r   and   w_q = w_p along the sheets,
-// which is the motion of a small rigid piece.  Its force F on the second sheet acts half-way between both: F w and -F w on
-// their nodes, with moments -r x F w/2 on each, so force and moment balance to round-off, and the power of a tie that is
-// met is nothing.  The impulses of a step follow from five equations for each weld; welds that share nodes take turns.
-// Spins about the normal are left alone: nothing in a smooth sheet holds them.
+// which is the motion of a small rigid piece.  Its force F on the second sheet acts half-way between the sheets: F w and -F w on
+// their nodes, with moments -r x F w/2 on each, so that force and moment balance to round-off and a satisfied tie has no power.
+// The impulses of a step follow from five equations for each weld; welds that share nodes are iterated (Gauss-Seidel).
+// Spins about the normal are not tied: a smooth sheet has no stiffness against them.
 // With Fn = -F . r/|r| (tension positive) and Fs = |F + Fn r/|r||, a weld fails at (max(Fn, 0)/Sn)^2 + (Fs/Ss)^2 >= 1.
 // Theory: docs/theory/spot_welds.md.
 #pragma once
@@ -17,9 +17,9 @@ namespace crumple::shell {
 
 struct WeldState {
     bool broken = false;
-    double time = 0.0;               // of the last step, or of failure [s]
+    double time = 0.0;               // of the last evaluation, or of failure [s]
     double normal = 0.0, shear = 0.0;// force then, tension positive [N]
-    double worst = 0.0;              // largest left side of the criterion so far
+    double worst = 0.0;              // largest value of the failure criterion so far
 };
 
 // Throws std::invalid_argument naming the first weld that cannot be computed.
@@ -34,16 +34,16 @@ public:
 
     SpotWelds(const Model& model, const Masses& masses);
 
-    // Nodes of all welds, whole or not, increasing.
+    // Nodes of all welds, intact or failed, in increasing order.
     const std::vector<Index>& nodes() const { return nodes_; }
-    // Whether a node of the list is held by a weld that is whole.
+    // Whether each node of the list is held by an intact weld.
     std::vector<std::uint8_t> held() const;
     const std::vector<WeldState>& states() const { return states_; }
 
-    // Makes velocities of the tied nodes fit the ties; `step` > 0 also takes back by its end what the sheets have come apart
-    // or together.  Gives the impulse on each second sheet.
+    // Makes the velocities of the tied nodes compatible with the ties; `step` > 0 also corrects the drift of the sheets' distance by
+    // the end of the step.  Returns the impulse on each second sheet.
     std::vector<Vec3> fit(const double* position, double step, std::vector<Motion6>& motion) const;
-    // Takes the impulses that forces gave within `kick` [s]: welds that cannot bear them fail.
+    // Evaluates the failure criterion with the impulses within `kick` [s]: overloaded welds fail.
     void bear(const double* position, double time, double kick, const std::vector<Vec3>& impulse);
 
     void save(std::vector<double>& out) const;
@@ -51,7 +51,7 @@ public:
 
 private:
     struct Side {
-        std::vector<std::uint32_t> at;   // places in the list of nodes
+        std::vector<std::uint32_t> at;   // indices in the list of nodes
         std::vector<double> weight;
         double mobility = 0.0, spin_mobility = 0.0;      // sums of weight^2/mass and weight^2/inertia
     };
@@ -69,7 +69,7 @@ private:
     std::vector<double> inverse_mass_, inverse_inertia_;     // of the list of nodes
     std::vector<Tie> ties_;
     std::vector<WeldState> states_;
-    bool coupled_ = false;               // some node belongs to several welds
+    bool coupled_ = false;               // whether any node belongs to several welds
 };
 
 }  // namespace crumple::shell

@@ -1,8 +1,8 @@
-// Energies at the time of the positions, forces through cuts, and what a restart needs.
+// Energies at the time of the positions, forces through cuts, and the data of a restart.
 //
-// Kinetic energy is m v(-) v(+) / 2 of the velocities half a step before and after: with works by the
-// mean of the forces at both ends of a step, the sum of central differences balances to round-off
-// apart from the change of shape within a step (docs/theory/explicit_stepper.md).
+// Kinetic energy is m v(-) v(+) / 2 with the velocities half a step before and after.  With the work computed from the
+// mean of the forces at the start and end of a step, the energies of the central difference scheme balance to round-off
+// except for the change of shape within a step (docs/theory/explicit_stepper.md).
 #include <algorithm>
 
 #include "shell/run/simulation.hpp"
@@ -46,7 +46,7 @@ double Simulation::kinetic() const {
     return sum + kinetic_of_welds();
 }
 
-// work of loads and reactions over the last step, not yet booked
+// work of loads and reactions over the last step that outside_work_ does not contain yet
 double Simulation::work_to_come() const {
     double sum = 0.0;
     for (const Driven& d : driven_) {
@@ -172,7 +172,7 @@ void Simulation::restore(const Checkpoint& c) {
     Saved numbers(c.numbers);
     for (double* x : {&time_, &dt_, &last_dt_, &outside_work_, &body_damping_, &first_kinetic_}) *x = numbers.number();
     steps_ = std::int64_t(numbers.index(std::size_t(1) << 53));
-    // -1 for none
+    // -1: none
     failed_element_ = numbers.whole(-1, model_->elements() + 1);
     end_ = End(int(numbers.index(std::size_t(End::inverted) + 1)));
     numbers.copy(damping_work_);

@@ -7,7 +7,7 @@
 
 namespace crumple::shell {
 
-// Rate law, table and failure of a material into a part
+// Copies rate law, hardening table and failure strain of a material to a part.
 static void set_plasticity(Part& p, const Material& a) {
     const bool rate = std::isfinite(a.rate_reference) && !a.yield_stress.empty();
     p.rate = !rate ? Rate::none : (a.rate_logarithm > 0.0 ? Rate::logarithm : Rate::power);
@@ -22,7 +22,7 @@ static void set_plasticity(Part& p, const Material& a) {
     p.failure_strain = a.failure_strain;
     p.yield_stress = a.yield_stress.empty() ? 0.0 : a.yield_stress[0];
     p.hardening = a.hardening_modulus;
-    // one point with a slope behind it is the fast law
+    // a single point with a hardening modulus uses the fast law
     p.law = a.yield_stress.empty() ? Law::elastic : (a.yield_stress.size() == 1 && !rate ? Law::linear : Law::general);
 }
 
@@ -73,7 +73,7 @@ static Place place_in_chunk(const Blocks& b, std::size_t element, int corner) {
     return {chunk, std::uint32_t(b.corner(element, corner) - 4 * lanes * first[chunk])};
 }
 
-// Sums of each chunk's corners per node, in the order of the elements: the order of summation is fixed.
+// Lists the corners that each chunk sums per node, in the order of the elements, so that the order of summation is fixed.
 static void list_corners(const Model& m, Blocks& b) {
     Chunks& c = b.chunks;
     struct Corner {
@@ -106,7 +106,7 @@ static void list_corners(const Model& m, Blocks& b) {
     for (std::size_t i = 0; i < node_of.size(); i++) b.sum_of[next[node_of[i]]++] = std::uint32_t(i);
 }
 
-// Corners of the cuts' elements at the cuts' nodes, chunk by chunk.
+// Lists the corners of the cuts' elements at the cuts' nodes, by chunk.
 static void list_cuts(const Model& m, Blocks& b) {
     Chunks& c = b.chunks;
     struct Kept {
@@ -165,7 +165,7 @@ Blocks block_up(const Model& m, int lanes) {
     }
     b.offset.push_back(offset);
     b.chunks.block.push_back(std::uint32_t(b.count()));
-    // copies run with the last real element of the part, and nobody reads their forces
+    // copies use the nodes of the last real element of the part; their forces are not read
     b.nodes.resize(4 * b.element_of.size());
     std::int64_t last = 0;
     for (std::size_t place = 0; place < b.element_of.size(); place++) {
@@ -183,7 +183,7 @@ double first_stable_step(const Model& m, std::size_t e) {
     if (a.rigid) return std::numeric_limits<double>::infinity();
     Vec3 x[4];
     for (int c = 0; c < 4; c++) x[c] = read3(&m.position[3 * m.quads[4 * e + c]]);
-    // the kernel's frame and bound, for one element
+    // frame and frequency bound as in the kernel (frame.hpp), for one element
     const Vec3 d31 = x[2] - x[0], d42 = x[3] - x[1], normal = cross(d31, d42);
     const double inverse = 1.0 / norm(normal);
     const Vec3 e3 = inverse * normal, g1 = d31 - d42, g2 = d31 + d42;
@@ -201,8 +201,8 @@ double first_stable_step(const Model& m, std::size_t e) {
     return 2.0 / std::sqrt((tri ? 3.0 : 4.0) * c2 * (std::max(xx, yy) + std::abs(xy)));
 }
 
-// In a mesh the stiffest mode alternates from element to element and cannot dilate them all; an element
-// with two corners of its own can dilate, which raises its squared frequency by 1 + nu.
+// In a mesh the stiffest mode alternates from element to element and cannot dilate all of them; an element with two corners that
+// belong to no other element can dilate, which raises its squared frequency by the factor 1 + nu.
 static std::vector<double> loose_ends(const Model& m) {
     std::vector<int> sharing(m.nodes(), 0);
     for (std::size_t e = 0; e < m.elements(); e++)
@@ -218,7 +218,7 @@ static std::vector<double> loose_ends(const Model& m) {
 
 // Rotary inertia per mass is (t^2 + a A) / 12.  With a = 3 kG / (C - kG) (kG transverse shear, C plane modulus) the
 // squared frequency of shear, 4 kG (1/A + 3/(a A)) in a square, stays at that of membrane waves, 4 C / A: shear
-// never governs the step.  With a = 1 narrow strips of a metal of low nu run away.  Theory: docs/theory/explicit_stepper.md.
+// never governs the step.  With a = 1 narrow strips with a small nu are unstable.  Theory: docs/theory/explicit_stepper.md.
 static double inertia_factor(const Material& a) {
     const double shear = 5.0 / 6.0 / (2.0 * (1.0 + a.poissons_ratio)), plane = 1.0 / (1.0 - a.poissons_ratio * a.poissons_ratio);
     return 3.0 * shear / (plane - shear);

@@ -26,7 +26,7 @@ double area_of(const Model& m, std::size_t e) {
     throw std::invalid_argument(std::string(what) + " " + std::to_string(i) + ": " + why);
 }
 
-// every corner's triangle must look the same way as the element's normal
+// the triangle at every corner must have the orientation of the element's normal
 static void check_shape(const Model& m, std::size_t e) {
     const int corners = m.triangle(e) ? 3 : 4;
     for (int a = 0; a < corners; a++)
@@ -78,7 +78,7 @@ static void check_materials(const Model& m) {
     }
 }
 
-// what is rigid must be moved as one body, and something must give the time step
+// the nodes of rigid elements must belong to one rigid set, and at least one deformable element must define the time step
 static void check_rigid_elements(const Model& m, const std::vector<Index>& set_of) {
     bool something_strains = false;
     for (std::size_t e = 0; e < m.elements(); e++) {

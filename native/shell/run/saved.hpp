@@ -1,4 +1,4 @@
-// Numbers of a checkpoint, read one after another: what is missing, or no number of anything, is refused.
+// Sequential reader of the numbers in a checkpoint; missing or invalid numbers are refused.
 #pragma once
 #include <cmath>
 #include <cstddef>
@@ -22,20 +22,20 @@ public:
         const double x = number(), y = number();
         return {x, y, number()};
     }
-    // whole number from `first` on, one of so many
+    // integer in [first, first + many)
     std::int64_t whole(std::int64_t first, std::size_t many) {
         const double value = number();
         if (!(value >= double(first) && value < double(first) + double(many)) || value != std::floor(value)) refuse();
         return std::int64_t(value);
     }
-    // number of something below a limit
+    // index below a limit
     std::size_t index(std::size_t limit) { return std::size_t(whole(0, limit)); }
-    // how many records of so many numbers follow
+    // number of records, of `each` numbers, that follow
     std::size_t count(std::size_t each) { return index(std::size_t(end_ - next_) / each + 1); }
     void copy(std::vector<double>& to) {
         for (double& x : to) x = number();
     }
-    // everything was read
+    // checks that everything has been read
     void finish() const {
         if (next_ != end_) refuse();
     }

@@ -1,4 +1,4 @@
-// Building the state, and the loop of the stepper.
+// Construction of the state, and the time stepping loop.
 #include "shell/run/simulation.hpp"
 
 #include <algorithm>
@@ -12,11 +12,11 @@ namespace crumple::shell {
 
 namespace {
 
-// Below this many elements per thread the barriers cost more than they gain.
+// With fewer elements per thread the barriers cost more than another thread gains.
 constexpr std::size_t elements_per_thread = 500;
-// State of more numbers than these is fetched ahead; below it the fetching would only cost.
+// States with more numbers than this are prefetched; smaller ones stay in the cache.
 constexpr std::size_t largest_in_cache = 500'000;
-// The clock is read once in so many steps.
+// Steps between readings of the clock.
 constexpr std::int64_t steps_per_look = 16;
 
 }  // namespace
@@ -41,12 +41,12 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const Kernels& kernel
     contact_->obstacles().attach(bodies_, body_states_);
     contact_->obstacles().place(motions());
     contact_->search(motions(), alive_, {});
-    // forces of contact at the start; the elements are free of stress
+    // contact forces at the start; the elements are free of stress
     contact_->prepare(0.0);
     contact_->evaluate(motions(), {});
     contact_->turn_over(motions());
     contact_->sum(motions(), {});
-    first_kinetic_ = kinetic();      // before there is a step, of the velocities as they are
+    first_kinetic_ = kinetic();      // before the first step, with the velocities as given
     dt_ = first_dt_;
     for (Driven& d : driven_) std::copy_n(kick_driven(d).outside, 6, d.outside);
 }
@@ -114,7 +114,7 @@ void Simulation::start_elements() {
     alive_.assign(model_->elements(), 1);
     std::size_t e = 0;
     for (std::size_t place = 0; place < blocks_.element_of.size(); place++) {
-        // copies start like the element they copy
+        // copies have the initial state of the element they copy
         if (blocks_.element_of[place] >= 0) e = std::size_t(blocks_.element_of[place]);
         const std::size_t block = place / std::size_t(blocks_.lanes), lane = place % std::size_t(blocks_.lanes);
         const Part& part = blocks_.parts[blocks_.part_of[block]];
@@ -134,7 +134,7 @@ ElementStage Simulation::element_stage(double dt, double* corner) {
             state_.size() > largest_in_cache, 4.0 / (least * least)};
 }
 
-// adds what another report found; of what is bad the first counts, in whatever order they come
+// merges two reports; of all bad blocks the first is kept, independent of the order of merging
 static void add(ElementReport& sum, const ElementReport& r) {
     if (r.bad_block >= 0) sum.bad_block = sum.bad_block < 0 ? r.bad_block : std::min(sum.bad_block, r.bad_block);
     sum.frequency = std::max(sum.frequency, r.frequency);
@@ -157,7 +157,7 @@ NodeStage Simulation::node_stage() {
 
 double Simulation::move_nodes(Range range) { return kernels_.nodes(node_stage(), range.first, range.last); }
 
-// the step that follows from what the elements found, or why there is none
+// sets the next time step from the elements' reports, or the reason why the run ends
 void Simulation::end_step(const std::vector<ElementReport>& reports) {
     ElementReport all;
     for (const ElementReport& r : reports) add(all, r);
@@ -168,7 +168,7 @@ void Simulation::end_step(const std::vector<ElementReport>& reports) {
     if (end_ != End::running) return;
     contact_->turn_over(motions());
     sort_welds();
-    // a shape that relaxes lengthens the step slowly; with every element gone the step stays
+    // the step grows slowly if the stable step does; with all elements deleted it is kept
     const double stable = all.frequency > 0.0 ? model_->settings.safety * 2.0 / std::sqrt(all.frequency) : dt_;
     dt_ = std::min(stable, 1.02 * dt_);
 }
@@ -180,7 +180,7 @@ static bool is_inverted(const Vec3 (&x)[4]) {
     return std::max(std::abs(first), std::abs(second)) > 3.0 * area;
 }
 
-// the first element of the block that is not finite or inverted, else the one that is torn or the smallest
+// finds the failed element of a block: the first with a non-finite state or inverted shape, else the torn or the smallest one
 void Simulation::note_failure(const ElementReport& r) {
     const std::size_t block = std::size_t(r.bad_block);
     end_ = std::isinf(r.frequency) ? End::torn : End::step_collapsed;
@@ -216,7 +216,7 @@ void Simulation::update_alive() {
     for (std::size_t e = 0; e < alive_.size(); e++) alive_[e] = slot(e, alive) > 0.5;
 }
 
-// sums of the contact forces, and the search when it is due; a run that has failed keeps the forces of the step before
+// sums the contact forces and searches if due; a run that has failed keeps the forces of the previous step
 void Simulation::end_contact(const Member& member) {
     if (!contact_->any() || end_ != End::running) return;
     contact_->sum(motions(), member);
@@ -247,7 +247,7 @@ End Simulation::advance(double until, double seconds, std::int64_t steps, int th
     team_.run([&](const Member& member) {
         aligned_vector<double> corner = chunk_corners();
         while (go) {
-            // nodes: forces of the last step move them
+            // update velocities and positions of the nodes with the forces of the last step
             double& way = ways[std::size_t(member.index)];
             way = move_nodes(member.share(model_->nodes(), node_chunk));
             if (member.index == 0) {
@@ -261,7 +261,7 @@ End Simulation::advance(double until, double seconds, std::int64_t steps, int th
                 contact_->prepare(*std::max_element(ways.begin(), ways.end()));
                 shares.deal(blocks_.chunks.count());
             });
-            // elements and contact: the new shape gives new forces
+            // compute the forces of elements and contact at the new positions
             ElementReport report;
             const ElementStage stage = element_stage(dt_, corner.data());
             shares.take(member, [&](std::size_t chunk) { move_elements(stage, chunk, report); });

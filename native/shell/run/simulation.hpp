@@ -1,4 +1,4 @@
-// The moving state of a model and the explicit stepper that advances it.
+// The state of a model and the explicit stepper that advances it.
 #pragma once
 #include <memory>
 #include <string>
@@ -18,7 +18,7 @@ struct Energies {
 
 enum class End : int { running, reached, not_finite, step_collapsed, torn, inverted };
 
-// Kind of a node that a spot weld holds; 0 is free, 1 a rigid set's, 2 loaded or driven.
+// Kind of a node held by a spot weld; 0: free, 1: in a rigid set, 2: loaded or driven.
 constexpr std::uint8_t tied_node = 3;
 
 struct Checkpoint {
@@ -29,7 +29,7 @@ class Simulation {
 public:
     Simulation(std::shared_ptr<const Model> model, const Kernels& kernels);
 
-    // Steps until `until`, or for `seconds` of wall time, or `steps` steps, whichever comes first.
+    // Advances to the time `until`, for `seconds` of wall time, or by `steps` steps, whichever comes first.
     End advance(double until, double seconds, std::int64_t steps, int threads);
     // One evaluation of the elements at given nodal motion, without time integration: positions at the end of the step.
     void deform(const double* position, const double* velocity, const double* spin, double dt);
@@ -42,11 +42,11 @@ public:
 
     Checkpoint save() const;
     void restore(const Checkpoint& saved);
-    // Takes over the state of another model of the same mesh, bodies and obstacles: the next stage of a sequence.
+    // Continues from the state of another model with the same mesh, bodies and obstacles: the next stage of a sequence.
     void go_on_from(const Checkpoint& saved);
-    // Adds a velocity and spin (n, 3) to the motion; the energy counts as external work.
+    // Adds velocities and spins (n, 3) to the motion; the change of kinetic energy counts as external work.
     void add_motion(const double* velocity, const double* spin);
-    // Ends all motion; its energy counts as damped.
+    // Stops all motion; its kinetic energy counts as damping.
     void stop();
     double external_work() const { return outside_work_ + work_to_come() + gravity_work() + contact_->obstacles().external_work(); }
 
@@ -67,18 +67,18 @@ public:
     End end() const { return end_; }
 
 private:
-    // a node with a load or a prescribed velocity
+    // node with a load or a prescribed velocity
     struct Driven {
         Index node;
         unsigned held;                           // prescribed dofs
         std::vector<std::size_t> loads, motions;
-        double outside[6];                       // force from outside at the last step
+        double outside[6];                       // external force at the last step
     };
     struct BodyDrive {
         std::vector<std::size_t> loads, motions;
         double outside[6];
     };
-    struct Kick {                                // result of a half-computed step of six degrees of freedom
+    struct Kick {                                // new velocities and external forces of six degrees of freedom
         double velocity[6], outside[6];
     };
 
@@ -86,12 +86,12 @@ private:
     void sort_drives();
     void start_elements();
     ElementStage element_stage(double dt, double* corner);
-    // room for the forces at the corners of a chunk's elements
+    // buffer for the forces at the corners of a chunk's elements
     aligned_vector<double> chunk_corners() const { return aligned_vector<double>(std::size_t(4 * corner_record) * elements_per_chunk); }
     void move_elements(const ElementStage& stage, std::size_t chunk, ElementReport& report);
     NodeStage node_stage();
-    double move_nodes(Range range);              // gives the square of the largest way since contact looked at everything
-    double way_of_others() const;                // the same of nodes that are driven, tied or of rigid sets
+    double move_nodes(Range range);              // returns the square of the largest displacement since contact checked all candidates
+    double way_of_others() const;                // the same for nodes that are driven, tied or in rigid sets
     void move_driven();
     void move_bodies();
     std::vector<SpotWelds::Motion6> weld_motion() const;
@@ -105,7 +105,7 @@ private:
     void end_contact(const Member& member);
     void note_failure(const ElementReport& report);
     void update_alive();
-    Wrench internal_force(Index node) const;     // of elements and contact, as it acts on the node
+    Wrench internal_force(Index node) const;     // of elements and contact on the node
     Vec3 load(const std::vector<std::size_t>& loads, bool moment, double t) const;
     Kick kick_driven(const Driven& d) const;
     Kick kick_body(std::size_t i, RigidState& state) const;
@@ -120,7 +120,7 @@ private:
     Masses masses_;
     Blocks blocks_;
     aligned_vector<double> position_, velocity_, inverse_mass_, state_;
-    aligned_vector<double> sum_, kept_;           // corner forces: per chunk and node, and those that cuts look at
+    aligned_vector<double> sum_, kept_;           // corner forces: sums per chunk and node, and those that cuts read
     std::vector<std::uint8_t> kind_, alive_;
     std::vector<double> damping_work_;
     std::vector<RigidBody> bodies_;

@@ -1,4 +1,4 @@
-// From one stage of a sequence to the next: the state goes over to a model with other drives, loads and obstacles.
+// Transition between the stages of a sequence: the state continues in a model with other drives, loads and obstacles.
 #include <algorithm>
 
 #include "shell/run/simulation.hpp"
@@ -7,7 +7,7 @@ namespace crumple::shell {
 
 void Simulation::go_on_from(const Checkpoint& saved) {
     Checkpoint own = saved;
-    own.drives = save().drives;      // those of this stage
+    own.drives = save().drives;      // the drives of this stage
     restore(own);
     contact_->obstacles().place(motions());
     contact_->search(motions(), alive_, {});

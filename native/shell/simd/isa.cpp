@@ -1,4 +1,4 @@
-// Which build of the kernels runs here: on x86-64 one for each level of the instruction set, elsewhere one generic build.
+// Choice of the kernels' build: on x86-64 one for each level of the instruction set, elsewhere one generic build.
 #include <stdexcept>
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
-// Where things lie in memory: node records, corner records and the slots of an element's state.
+// Memory layout: node records, corner records and the slots of an element's state.
 //
 // Element state is [block][slot][lane]: one load fills a register with the same quantity of `lanes`
-// elements.  Nodes are padded records, loaded whole and transposed in registers.
+// elements.  Nodes are padded records that are loaded as a whole and transposed in registers.
 #pragma once
 #include <cstdint>
 
@@ -25,7 +25,7 @@ enum Slot : int {
 };
 // Slots of one thickness point.
 enum PointSlot : int { stress_x, stress_y, stress_xy, plastic_strain, point_slots };
-// Slots behind the points, of elements that hold more than the five hourglass modes.
+// Slots after those of the points, for elements with stabilisation or drilling stiffness.
 enum ExtraSlot : int {
     edge_shear,                      // second resultant of varying transverse shear; the first is hourglass_z [N m]
     drill_1, drill_2, drill_3, drill_4,   // moment about the normal at each corner [N m]

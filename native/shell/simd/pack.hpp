@@ -1,7 +1,7 @@
-// Vector types of exactly the width of the instruction set, and 3-vectors of them.
+// Vector types with the register width of the instruction set, and 3-vectors of them.
 //
-// Everything lies in an unnamed namespace: each instruction set compiles its own copy, and the linker
-// must not mix them.
+// Everything is in an unnamed namespace: each instruction set compiles its own copy, and the linker
+// must not merge them.
 #pragma once
 #include <cstdint>
 #if defined(__SSE2__)

@@ -1,4 +1,4 @@
-// Records of four doubles to and from registers: loaded whole, then transposed 4 by 4.
+// Loads and stores of records of four doubles: whole records, transposed 4 by 4 in registers.
 #pragma once
 #include <utility>
 
@@ -21,7 +21,7 @@ template <int which> CRUMPLE_INLINE Real shuffle(Real a, Real b) {
     return shuffle_<which>(a, b, std::make_integer_sequence<int, lanes>());
 }
 
-// records of node[0], node[4] ... side by side
+// the records of node[0], node[4] ... side by side in one register
 CRUMPLE_INLINE Real row(const double* p, int stride, const std::uint32_t* node) {
     auto record = [&](int i) { return load(p + std::size_t(stride) * node[i]); };
 #if defined(__AVX512F__)
