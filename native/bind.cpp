@@ -1,4 +1,4 @@
-// The compiled kernels behind crumple._core: one registration function per engine.
+// Python module of the compiled kernels behind crumple._core, with a registration function for each kernel.
 #include <nanobind/nanobind.h>
 
 #include "common/binding.hpp"

@@ -97,7 +97,7 @@ void add_hinge(Model& model, const nb::dict& d) {
     for (const Component& c : hinge.components) {
         require(!has(joint, joint.rows(), c.freedom), "a hinge needs freedoms that are not held");
         joint.freedom[joint.held + joint.laws++] = c.freedom;
-        // a slip is small: its direction lies in the middle frame
+        // a slip is small: its direction is that of the middle frame
         if (c.freedom < 3) joint.slotted = false;
     }
     joint.hinge = static_cast<int>(model.hinges.size());

@@ -1,4 +1,4 @@
-// The geometry and the law of contact for tests; the simulation uses them inside the kernel.
+// Python interface of contact geometry and contact law for tests; simulations use them inside the kernel.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/vector.h>
 

@@ -1,4 +1,4 @@
-// Solids from Python's plain values.
+// Solids from plain Python values.
 #pragma once
 
 #include <nanobind/nanobind.h>

@@ -1,4 +1,4 @@
-// Spatial hinges from Python's plain values, and one hinge by itself for tests of the element.
+// Spatial hinges from plain Python values, and a single hinge for tests of the element.
 #pragma once
 
 #include <nanobind/nanobind.h>

@@ -1,4 +1,4 @@
-// Models and conditions from Python's plain values.
+// Models and conditions from plain Python values.
 #pragma once
 
 #include <nanobind/nanobind.h>

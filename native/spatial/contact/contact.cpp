@@ -27,7 +27,7 @@ void respond(const FrozenContact& f, const double* w, double* impulse, double* t
     if (tangent) {
         std::fill(tangent, tangent + 9, 0.0);
         if (approach < 0) tangent[0] = 1 / f.compliance;
-        // sliding friction only turns with the direction of slip
+        // sliding friction changes only with the direction of slip
         const double u = sliding ? w[1] / slip : 0, v = sliding ? w[2] / slip : 0;
         tangent[4] = slope * (1 - u * u);
         tangent[5] = tangent[7] = -slope * u * v;

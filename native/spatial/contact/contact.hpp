@@ -1,13 +1,13 @@
-// Rigid contact between two bodies at a point: the impulse that it opposes to its rates at the end of the step.
+// Rigid contact between two bodies at a point: its impulse over a step as a function of its rates at the end of the step.
 //
 // Rates (normal, two tangents) are those of the second body relative to the first at the point of contact, along the
-// normal out of the first body.  The normal rate is counted from the allowed rate a, which is frozen over a step:
+// outward normal of the first body.  The normal rate is measured relative to the allowed rate a, which is frozen over a step:
 //   at rest            a = 0
-//   being run into     a = -e r_0, r_0 the rate at the start, e the restitution
+//   impact             a = -e r_0, r_0 the rate at the start, e the restitution
 //   open by a gap g    a = -max(0, 2 g/h + r_0): it may close, but with trapezoidal motion not overlap at the end
-// With w counted so, the impulse P is the gradient of a convex potential, and -P acts on the second body:
-//   normal     P_n = min(0, w_n/c),  c a compliance of `softness` times the inverse mass felt
-//   friction   P_t = L w_t/max(|w_t|, width),  L = mu times the normal impulse that the last pass over the step found
+// With this relative rate w, the impulse P is the gradient of a convex potential, and -P acts on the second body:
+//   normal     P_n = min(0, w_n/c),  c a compliance, `softness` times the inverse effective mass
+//   friction   P_t = L w_t/max(|w_t|, width),  L = mu times the normal impulse found by the last pass over the step
 #pragma once
 
 #include "spatial/contact/contact_geometry.hpp"
@@ -25,13 +25,14 @@ struct FrozenContact {
     double width = 0;       // half-width of the ramp of friction [m/s]; widened while a step is solved
 };
 
-// Share of the change of rate that the stiff normal law lets pass, for two free bodies.  Larger ones show where much mass
-// stands behind a light body, smaller ones cost digits of the impulse.
+// Share of the change of rate that the stiff normal law does not suppress, for two free bodies.  Larger values are noticeable when a
+// large mass acts through a light body; smaller ones cost digits of the impulse.
 constexpr double softness = 1e-8;
-// Sticking contacts creep at less than this rate [m/s]: 1e-7 m over 0.1 s.  Smaller ones cost Newton steps.
+// Sticking contacts creep at less than this rate [m/s]: 1e-7 m over 0.1 s.  Smaller values cost Newton iterations.
 constexpr double creep_rate = 1e-6;
 
-// gap and normal rate at the start of a step of length h; a gap up to `closed` is none, an approach up to `rest` no impact
+// allowed rate from gap and normal rate at the start of a step of length h; a gap up to `closed` counts as closed, an approach up to
+// `rest` is not an impact
 double allowed_rate(double restitution, double gap, double rate, double h, double closed, double rest);
 FrozenContact freeze(const ContactLaw& law, double inverse_mass, double normal_impulse);
 // impulse P (3), its derivative (3 x 3, symmetric, positive semidefinite), and its potential; any may be null

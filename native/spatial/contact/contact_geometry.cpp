@@ -7,11 +7,11 @@ namespace crumple::spatial {
 
 namespace {
 
-// A valley deeper than this below the ends and breaks, and points farther than this from the ends, count; as shares of
-// the segment's length.
+// The minimum counts if it is lower than the ends and breaks by at least the first value, and farther from the ends than the second,
+// as shares of the segment's length.
 constexpr double flatness = 1e-7, narrow = 1e-3;
 constexpr int most_breaks = 4;
-// halvings: the place of the valley to 1e-12 of the length, where its depth is exact
+// halvings of the interval: the position of the minimum to 1e-12 of the length, at which its depth is exact
 constexpr int halvings = 40;
 // a shorter segment is a sphere, a shorter distance has no direction [m]
 constexpr double nothing = 1e-12;
@@ -24,7 +24,7 @@ Distance from_axis(Vec3 radial, Vec3 direction, double radius) {
     return {-radius, first};
 }
 
-// Distance from the part that two solids with normals at right angles have in common.
+// Distance from the intersection of two solids with perpendicular normals.
 Distance of_corner(const Distance& a, const Distance& b) {
     if (a.value > 0 && b.value > 0) {
         const double d = std::hypot(a.value, b.value);
@@ -59,7 +59,7 @@ public:
             (rising ? hi : lo) = s;
             (rising ? above : below) = d;
         }
-        // where the distance has a kink the normal lies between those of both sides, at right angles to the segment
+        // at a kink of the distance the normal lies between those of both sides, perpendicular to the segment
         const double a = -slope(below), b = slope(above), s = (lo + hi) / 2;
         Vec3 normal = above.normal;
         if (a > 0 && b > 0) normal = (b / (a + b)) * below.normal + (a / (a + b)) * above.normal;
@@ -67,14 +67,14 @@ public:
         if (size > nothing) {
             normal = (1 / size) * normal;
         } else {
-            // straight through an axis: out of it on any side
+            // the segment passes straight through an axis: any direction perpendicular to the segment
             Vec3 second;
             tangents((1 / length()) * along_, normal, second);
         }
         return {s, {(*this)(s).value, normal}};
     }
 
-    // where the segment passes corners of the solid, in a fixed order; infinite where it does not
+    // coordinates at which the segment passes corners of the solid, in a fixed order; infinite if it does not
     int breaks(double* s) const {
         const Vec3 r = from_ - solid_.point;
         if (solid_.shape == Shape::plane) {

@@ -1,4 +1,4 @@
-// Treatment of contacts within a step, in addition to that of every law.
+// Treatment of contacts within a step, in addition to what all laws have in common.
 #include <algorithm>
 
 #include "spatial/step/stepper.hpp"
@@ -14,7 +14,7 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 }  // namespace
 
-// Normal rates count from those that are allowed.
+// Shifts the normal rates by the allowed rates.
 void Stepper::allow_closing(double h) {
     const size_t first = contact_rows();
     for (size_t i = 0; i < contacts_.size(); i++) {
@@ -23,7 +23,7 @@ void Stepper::allow_closing(double h) {
     }
 }
 
-// After a pass: true rates again, and whether friction has used the impulses that the pass found.
+// After a pass: restores the true rates; returns whether friction has used the normal impulses that the pass found.
 bool Stepper::settle() {
     if (contacts_.size() == 0) return true;
     const size_t first = contact_rows();
@@ -36,7 +36,8 @@ void Stepper::commit_contacts(State& s, double h) {
     contacts_.commit(h, stage_.quasi_static, rows_.data() + first, impulse_.data() + first, rate0_.data() + first, w_.data() + first, s.contact);
 }
 
-// Projecting rates, with contacts as stiff as they were, pushes obstacles a little: x_ along the roots of their tangents.
+// Adds the impulses on obstacles from the projection of the rates, in which contacts keep their tangents: x_ is their unknown along the
+// roots of the tangents.
 void Stepper::push_obstacles(State& s, double h) {
     for (size_t i = 0; i < contacts_.size(); i++) {
         const size_t link = connections_.size() - contacts_.size() + i, first = at(start(link));
@@ -49,14 +50,14 @@ void Stepper::push_obstacles(State& s, double h) {
     }
 }
 
-// Error that projection takes from a link's row of a law: overlap of closed contacts.
+// Error of a link's law row that the projection corrects: the overlap of a closed contact.
 double Stepper::overlap(size_t link) const {
     if (!is(link, Kind::contact)) return 0;
     const size_t k = at(start(link));
     return error_[k] < -contacts_.closed_gap() && impulse_[k] < 0 ? error_[k] : 0;
 }
 
-// Whether the state after a step of length h, whose rows have just been located, approaches a closed contact.
+// Sets whether the state after a step of length h, whose rows have just been located, approaches a closed contact (impact).
 void Stepper::see_contacts(State& s, double h) {
     s.contact.impact = false;
     if (contacts_.overlooked(s.pose)) s.contact.closing = h / 2;

@@ -7,24 +7,24 @@ namespace crumple::spatial {
 
 namespace {
 
-// Capsules whose centre lines are nearer than this share of their radii at the start are joined: contact between
-// them has no direction.
+// Capsules whose centre lines are closer than this share of their radii at the start count as joined: contact between them has no
+// defined direction.
 constexpr double joined = 0.1;
-// Contacts are searched within `looked_ahead` times the displacement of bodies in a step, and kept up to `kept` times as
-// far, so that a step and its halves have the same contacts.
+// Contacts are searched within `looked_ahead` times the displacement of the bodies in a step, and kept up to `kept` times that
+// distance, so that a step and its two halves have the same contacts.
 constexpr double looked_ahead = 2, kept = 4;
-// Reach [closed gaps] of a step in which nothing moves: what forces may set going.
+// Search distance, in closed gaps, of a step in which nothing moves: forces may start a motion.
 constexpr double least_reach = 1000;
 // Slower approaches [m/s] count as rest, whatever their energy, because rounding must not cause a rebound.
 constexpr double least_approach = 1e-6;
 // Restitution of an impact that gains energy is halved in the next pass, and finally set to zero.
 constexpr double less_bounce = 0.5, least_bounce = 0.1;
-// Share of the limit of friction above which a point slides.
+// Share of the friction limit above which a point counts as sliding.
 constexpr double slides = 0.999;
-// Rate without a contact's impulse, over the rates with it, that no step has.  It is estimated with the mobility of both bodies by
-// themselves; what is locked yields far less to an impulse, and then closes as late as its rates say.
+// Upper bound of the rate without a contact's impulse relative to the rates with it.  The rate without impulse is estimated with the
+// mobility of both bodies alone; locked bodies yield much less to an impulse, and then the closing time follows from their rates.
 constexpr double implausible = 1e3;
-// Gains of energy that are rounding.
+// Relative gain of energy that is attributed to rounding.
 constexpr double rounding = 1e-9;
 
 size_t at(int i) { return static_cast<size_t>(i); }
@@ -88,7 +88,7 @@ void Contacts::appear(Pair& pair, const std::vector<Pose>& pose) {
     if (pair.obstacle < 0 && pair.offset + radii < joined * radii) pair.present = false;
 }
 
-// Pairs of capsules whose boxes come within the margin, by sweeping along x.
+// Finds pairs of capsules whose boxes are within the margin of each other, by sweep and prune along x.
 void Contacts::sweep(double margin) {
     margin_ = margin;
     swept_ = placed_;
@@ -115,7 +115,7 @@ void Contacts::sweep(double margin) {
     std::sort(near_.begin(), near_.end());
 }
 
-// Distance [m] within which points of contact are searched: the displacement of bodies in the step, with a margin.
+// Distance [m] within which points of contact are searched: the displacement of the bodies in the step, with a margin.
 double Contacts::look_ahead(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double h, double gain) {
     double way = 0, obstacles_way = 0, gone = swept_.empty() ? INFINITY : 0;
     for (size_t c = 0; c < placed_.size(); c++) {
@@ -146,7 +146,7 @@ bool Contacts::gather(const std::vector<Pose>& pose, const std::vector<Twist>& v
     const double reach = look_ahead(pose, velocity, h, gain);
     for (size_t p = 0; p < obstacle_pairs_; p++) find(p, pose, reach);
     for (const size_t p : near_) find(p, pose, reach);
-    // what the last step's forces would give
+    // normal impulses that the forces of the last step would give
     auto held = state.held.begin();
     for (Active& c : active_) {
         while (held != state.held.end() && held->key < c.key) ++held;
@@ -213,7 +213,7 @@ void Contacts::find(size_t p, const std::vector<Pose>& pose, double reach) {
     }
 }
 
-// Where the point of contact is lost, or has passed through, it stays where it was at the start of the step.
+// If the point of contact is lost or has passed through the solid, it stays at its position at the start of the step.
 void Contacts::locate(size_t i, const std::vector<Pose>& pose, Row* rows, double* gap) const {
     const Active& c = active_[i];
     const Pair& pair = pairs_[c.pair];
@@ -228,7 +228,7 @@ void Contacts::locate(size_t i, const std::vector<Pose>& pose, Row* rows, double
         point = touch[k].point;
         *gap = touch[k].gap - pair.offset;
     }
-    // the tangents of the start, turned into this plane
+    // the tangents at the start, projected onto this plane
     const Vec3 along = c.tangent - dot(c.tangent, axes[0]) * axes[0];
     axes[1] = (1 / norm(along)) * along;
     axes[2] = cross(axes[0], axes[1]);
@@ -263,7 +263,7 @@ bool Contacts::settle(const double* impulse, const double* rate0, const double* 
         }
         const double found = -impulse[3 * i];
         largest = std::max(largest, found);
-        // a point that sticks within both limits does not mind them
+        // a point that sticks within both friction limits does not depend on them
         const double mu = law(c).friction, held = std::hypot(impulse[3 * i + 1], impulse[3 * i + 2]);
         if (held >= slides * mu * std::min(found, c.normal_impulse)) change = std::max(change, std::fabs(found - c.normal_impulse));
         c.normal_impulse = found;
@@ -284,8 +284,8 @@ void Contacts::commit(double h, bool from_rest, const Row* rows, const double* i
     for (size_t i = 0; i < active_.size(); i++) {
         const Active& c = active_[i];
         const double *p = impulse + 3 * i, *w0 = rate0 + 3 * i, *w1 = rate + 3 * i;
-        // friction acts against the slip at the end of the step: where an impact reverses the slip, its mean work would be negative,
-        // and belongs to the impact
+        // friction acts against the slip at the end of the step: if an impact reverses the slip, the work on the mean rate has the wrong
+        // sign and is counted with the impact
         const double slid = p[1] * (w0[1] + w1[1]) / 2 + p[2] * (w0[2] + w1[2]) / 2;
         state.friction += std::max(slid, 0.0);
         state.dissipated += p[0] * (w0[0] + w1[0]) / 2 + std::min(slid, 0.0);
@@ -294,11 +294,11 @@ void Contacts::commit(double h, bool from_rest, const Row* rows, const double* i
         push(i, h, rows + 3 * i, p, state);
         if (c.gap <= closed_gap_) continue;
         if (from_rest) {
-            // the motion without the impulse does not follow from the drives: halve
+            // the motion without the impulse cannot be estimated from the drives: halve the step
             state.closing = h / 2;
             continue;
         }
-        // the motion without the contact's impulse, its rate linear in time, up to half of what counts as closed
+        // time at which the motion without the contact's impulse, with a rate linear in time, closes the gap to half the closed gap
         const double most = implausible * std::max(std::fabs(w0[0]), std::fabs(w1[0]));
         const double free = std::max(w1[0] + p[0] * c.inverse_mass, -most), fastest = std::min(w0[0], free), way = c.gap - closed_gap_ / 2;
         if (-fastest <= rest_rate(c)) continue;

@@ -8,11 +8,11 @@ namespace crumple::spatial {
 namespace {
 
 constexpr int most = most_components;
-// Change of a softening variable [rad or m] below which the mean capacity is the present one: differences of areas cancel.
+// Change of a softening variable [rad or m] below which the mean capacity is taken at the middle: differences of areas lose digits.
 constexpr double smallest_mean = 1e-7;
-// An elastic hinge's time of rest passes over flow of less than this share of all its plastic work, as in one axis.
+// The rest time of an elastic hinge ignores flow below this share of its accumulated plastic work, as with a single component.
 constexpr double smallest_episode = 1e-2;
-// Rates within so many ramps count as rest where the turning of the hinge's axis is judged.
+// Rates below this multiple of the ramp's half-width count as rest when the rotation of the hinge's axis is evaluated.
 constexpr double at_rest = 10;
 
 Form form_of(const SpatialHinge& hinge) { return hinge.components[0].law.form; }
@@ -26,7 +26,7 @@ double first_capacity(const SpatialHinge& hinge, int k, int sense) {
     return law_of(hinge, k).scale * curve_of(law_of(hinge, k), sense).at(0, hint);
 }
 
-// Work D_0(e) that turning straight by e takes at the first capacities.
+// Work D_0(e) of a proportional rotation by e at the initial capacities.
 double measure(const SpatialHinge& hinge, const double* e) {
     const int n = size(hinge);
     const double none[most] = {};
@@ -35,8 +35,8 @@ double measure(const SpatialHinge& hinge, const double* e) {
     return nearest(hinge.surface, n, y, none, nullptr, nullptr).value;
 }
 
-// Plastic rotation that a coupled hinge softens by: integrated rates; for the ball the relative rotation itself, so that its
-// angle is meant whatever the axis did.
+// Plastic rotation that determines the softening of a coupled hinge: the integrated rates; for the ball the relative rotation itself,
+// so that its angle counts independently of the path of the axis.
 void plastic_rotation(const SpatialHinge& hinge, const SpatialHingeState& s, const double* q, double* e) {
     for (int k = 0; k < size(hinge); k++) {
         const hinge::HingeState& c = s.component[k];
@@ -52,14 +52,14 @@ double length_of_rotation(const SpatialHinge& hinge, const double* e) {
     return std::sqrt(square);
 }
 
-// Mean of a capacity while its variable goes from a to b; at b for the elastic form.
+// Mean of a capacity over its variable from a to b; the value at b for the elastic form.
 double capacity_over(const hinge::Curve& curve, double a, double b, bool at_end, int& hint) {
     if (at_end) return curve.at(b, hint);
     if (std::fabs(b - a) < smallest_mean) return curve.at((a + b) / 2, hint);
     return (curve.integral(b, hint) - curve.integral(a, hint)) / (b - a);
 }
 
-// Capacities of a coupled hinge over a plastic flow from e: the mean over it, for the elastic form that at its end.
+// Capacities of a coupled hinge over a plastic flow from e: the mean over the flow, for the elastic form the value at its end.
 void set_coupled_capacity(const SpatialHinge& hinge, const SpatialHingeState& s, const double* e, const double* flow,
                           FrozenSpatialHinge& f) {
     const int n = size(hinge);
@@ -75,7 +75,7 @@ void set_coupled_capacity(const SpatialHinge& hinge, const SpatialHingeState& s,
         case Softening::rotation: break;
         case Softening::accumulated: from = s.softening, to = s.softening + measure(hinge, flow); break;
         case Softening::peak: {
-            // the share of the way on which it turns back towards the peak, at the peak's capacity
+            // share of the flow before it exceeds the peak so far, with the capacity at that peak
             const double peak = std::max(s.softening, from);
             held = to <= peak ? 1 : (peak - from) / (to - from);
             from = peak, to = std::max(peak, to);
@@ -92,7 +92,7 @@ void set_coupled_capacity(const SpatialHinge& hinge, const SpatialHingeState& s,
     }
 }
 
-// Of coupled components by the rates about their own axes that would each take all the power.
+// Rate factors.  For coupled components the rate is the one about their own axis that alone would dissipate the total power.
 void apply_rate_factor(const SpatialHinge& hinge, const double* rate, FrozenSpatialHinge& f) {
     const double power = on_flange(hinge) ? 0 : measure(hinge, rate);
     for (int k = 0; k < size(hinge); k++) {
@@ -105,7 +105,7 @@ void apply_rate_factor(const SpatialHinge& hinge, const double* rate, FrozenSpat
     }
 }
 
-// Share of a plastic flow from e before the rotation reaches that of fracture: |e + t flow| = fracture.
+// Share t of a plastic flow from e at which the rotation reaches the fracture rotation: |e + t flow| = fracture.
 double share_before_fracture(const SpatialHinge& hinge, const double* e, const double* flow) {
     if (!std::isfinite(hinge.fracture)) return 1;
     const double limit = hinge.fracture, start = length_of_rotation(hinge, e), way = length_of_rotation(hinge, flow);
@@ -113,7 +113,7 @@ double share_before_fracture(const SpatialHinge& hinge, const double* e, const d
     double along = 0;
     for (int k = 0; k < size(hinge); k++) along += rotates(hinge, k) ? e[k] * flow[k] : 0;
     const double far = limit * limit - start * start, root = std::sqrt(along * along + way * way * far);
-    // far = way^2 t^2 + 2 along t, in the form without cancellation
+    // solution of far = way^2 t^2 + 2 along t, in a form without cancellation
     return root + along > 0 ? std::min(1.0, far / (along + root)) : 1;
 }
 
@@ -126,7 +126,7 @@ void break_open(const SpatialHinge& hinge, FrozenSpatialHinge& f) {
     for (double& top : f.top) top *= left;
 }
 
-// The mean rate's direction serves a hinge whose axis turns while it slides; the end rate's, one that comes to rest.
+// Weight of the start rate: up to 1/2 (mean rate) if the hinge slides with a rotating axis, 0 (end rate) if it comes to rest.
 double lead_of(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w1) {
     double square0 = 0, square1 = 0, product = 0;
     for (int k = 0; k < size(hinge); k++) {
@@ -198,7 +198,7 @@ void freeze_separate(const SpatialHinge& hinge, const SpatialHingeState& s, cons
     set_reference(hinge, f);
 }
 
-// Of a hinge without coupling: the flow of its components.
+// Collects times and flags of a hinge without coupling from its components.
 void gather_separate(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHingeState& s, double t0, const double* before,
                      double arrest) {
     s.sliding = false;
@@ -212,7 +212,7 @@ void gather_separate(const SpatialHinge& hinge, const FrozenSpatialHinge& f, Spa
     }
 }
 
-// Flow of a coupled hinge: times, episodes, the softening measure.
+// Updates the times, the episode and the softening measure of a coupled hinge after a flow.
 void follow_flow(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHingeState& s, double t0, const double* w1,
                  const double* flow, double arrest) {
     const bool elastic = form_of(hinge) == Form::elastic_plastic;
@@ -289,12 +289,12 @@ void commit(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHinge
     const bool elastic = form_of(hinge) == Form::elastic_plastic, apart = !coupled(hinge);
     double impulse[most], flow[most], before[most], e[most], q1[most], carried[most];
     law(hinge, f, w1, impulse, nullptr, nullptr);
-    // before it opened in this step
+    // forces and moments before fracture, if it fractures in this step
     for (int k = 0; k < n; k++) carried[k] = !elastic && f.intact > 0 ? impulse[k] / (f.intact * f.h) : f.tau0[k];
     const double held = elastic_energy(hinge, s);
     bool stopped = false;
     for (int k = 0; k < n; k++) stopped = stopped || hinge::stop_response(law_of(hinge, k), f.component[k], w1[k]).impulse != 0;
-    // a hinge at rest stopped when its capacity had given the impulse
+    // a hinge at rest at the end came to rest when its capacity had yielded the impulse
     const double load = load_factor(hinge, f, w1);
     const bool by_itself = form_of(hinge) == Form::set_valued && !stopped && load < 1;
     const double arrest = t0 + (by_itself ? load : 1) * f.h;

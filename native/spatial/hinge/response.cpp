@@ -1,4 +1,4 @@
-// Response of a hinge to its end rates, all else frozen: impulse, tangent, potential, and derivative over the capacities.
+// Response of a hinge to its end rates with everything else frozen: impulse, tangent, potential, and derivative over the capacities.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,10 +10,10 @@ namespace crumple::spatial {
 namespace {
 
 constexpr int most = most_components;
-// Relative errors of impulses down to 1e-9 are asked for; eight roundings of a rate, each 2.2e-16 of it, are as much.
+// Rounding error of eight operations on a rate, 2.2e-16 each, relative to the tolerance of impulses, 1e-9.
 constexpr double rounding_weight = 8 * 2.2e-16 / 1e-9;
 
-// The problem of surface.hpp that a step's rates pose.  Components are x = tau/scale, impulses h scale x.
+// The problem of surface.hpp for the rates of a step.  Components are x = tau/scale, impulses are h scale x.
 struct Trial {
     double scale[most] = {}, y[most] = {}, m[most] = {};
     double y_rate[most] = {};  // dy_k/dw_k
@@ -35,8 +35,8 @@ Flange flange_of(const SpatialHinge& hinge, const FrozenSpatialHinge& f, double 
     return out;
 }
 
-// A component's capacity in the sense of its load.  The tension flange joins both senses of N, so it keeps to plain
-// forces, weighed by the larger capacity.
+// Components are scaled by the capacity in the sense of their load.  The surface of the tension flange contains both senses of N, so
+// it uses plain forces, weighted with the larger capacity.
 Trial trial_of(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w) {
     Trial t;
     const int n = size(hinge);
@@ -80,7 +80,7 @@ void scaled_block(int n, const Trial& t, double factor, const double* block, dou
     }
 }
 
-// Capacity times ramp, the ramp over the power that the hinge would take at full capacity.
+// Capacity times ramp; the argument of the ramp is the power that the hinge would dissipate at full capacity.
 void regularised_law(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* impulse, double* tangent,
                      double* potential) {
     const int n = size(hinge);
@@ -96,7 +96,7 @@ void regularised_law(const SpatialHinge& hinge, const FrozenSpatialHinge& f, con
     if (tangent == nullptr) return;
     scaled_block(n, t, f.h * ramp.value, block, tangent);
     for (int j = 0; j < n; j++) {
-        // at rest no direction is given: that of an ellipsoid holds for all
+        // at zero rates the direction is undefined: the tangent of an ellipsoid is used for all surfaces
         if (p.value == 0) tangent[j * n + j] = f.h * ramp.slope / full * t.scale[j] * t.y_rate[j];
         for (int k = 0; k < n; k++) tangent[j * n + k] += f.h * ramp.slope / full * t.scale[j] * p.x[j] * p.x[k] * t.y_rate[k];
     }
@@ -122,7 +122,7 @@ void coupled_law(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const d
     if (tangent != nullptr) scaled_block(n, t, share, block, tangent);
 }
 
-// Open, what is left of an elastic moment acts as if it fell to zero over the step.
+// Fractured hinge: the remaining elastic moment decreases linearly to zero over the step.
 void open_law(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* impulse, double* tangent,
               double* potential) {
     const int n = size(hinge);
@@ -193,9 +193,9 @@ bool round(const SpatialHinge& hinge) {
     return smooth && coupled(hinge) && hinge.components[0].law.form == Form::set_valued;
 }
 
-// Newton's method on x = y/|y|, the point of the sphere that rates y load, knows directions only as well as |y|: started
-// from rates too small it holds them and can but double |y| a time.  On y = s x, |x| = 1, with x and s as unknowns it takes
-// the direction from the impulse, as on any smooth problem; both have the same solutions and tangents.
+// Newton's method on x = y/|y|, the point of the unit sphere for rates y, changes directions only in proportion to |y|: from rates that
+// are too small it keeps the direction and at best doubles |y| in an iteration.  With x and s as unknowns, y = s x and |x| = 1, the
+// direction follows from the impulse, as in any smooth problem; both forms have the same solutions and tangents.
 bool follow_impulse(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* impulse, double* w) {
     if (falls_open(hinge, f)) return true;
     const int n = size(hinge);
@@ -237,8 +237,8 @@ double load_factor(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const
     return on_flange(hinge) ? gauge(t.flange, x) : gauge(hinge.surface, n, x, nullptr);
 }
 
-// On a flat side of a surface the tangent is as large as in a locked hinge while the rates are not small, so that their
-// rounding counts.
+// On a flat side of a surface the tangent is as large as in a locked hinge although the rates are not small, so that the rounding of
+// the rates matters.
 double impulse_scale(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, int k) {
     const double plain = f.h * (f.component[k].capacity[0] + f.component[k].capacity[1]);
     if (!coupled(hinge) || hinge.components[0].law.form != Form::set_valued || f.reference == 0) return plain;
@@ -264,7 +264,7 @@ void capacity_sensitivity(const SpatialHinge& hinge, const FrozenSpatialHinge& f
         return;
     }
     if (on_flange(hinge)) {
-        // the point is linear in the capacities while it keeps to its side or corner
+        // the point is linear in the capacities as long as it stays on its side or corner
         constexpr double change = 1e-6;
         for (int j = 0; j < n; j++) {
             double ends[2][most];

@@ -9,12 +9,12 @@ namespace crumple::spatial {
 namespace {
 
 constexpr int most = 4;
-// Newton steps on the surface; five or so are usual, more are needed at edges of high powers.
+// Limit of Newton iterations on the surface; about five are usual, more are needed at the edges of surfaces with high powers.
 constexpr int newton_limit = 80;
 constexpr int halvings = 40;
-// Loads below this count as none: their squares and inverses leave the range of numbers.
+// Loads below this count as zero: their squares and inverses would underflow or overflow.
 constexpr double smallest_load = 1e-280;
-// Residual over the load y at which a point counts as found: a few rounding errors of the sum over rows.
+// Residual relative to the load y at which the iteration has converged: a few rounding errors of the sum over rows.
 constexpr double converged = 1e-15;
 
 double to_power(double v, double p) {
@@ -36,7 +36,7 @@ double dot(int n, const double* a, const double* b) {
 
 double length(int n, const double* a) { return std::sqrt(dot(n, a, a)); }
 
-// Solves a x = b by elimination with pivots, a (n x n) and b (n x columns) overwritten.  A zero pivot becomes tiny.
+// Solves a x = b by Gauss elimination with pivoting; a (n x n) and b (n x columns) are overwritten.  A zero pivot is made tiny.
 void solve(int n, double a[][most + 1], double b[][most + 1], int columns) {
     for (int j = 0; j < n; j++) {
         int p = j;
@@ -67,7 +67,7 @@ struct Shape {
     double curvature[most][most] = {};
 };
 
-// p-norm of the rows' forms with gradient and curvature.
+// p-norm of the linear forms a.x of all rows, with gradient and curvature.
 Shape direct_shape(const Surface& s, int n, const double* x, bool curved) {
     Shape out;
     const std::size_t rows = s.rows.size() / static_cast<std::size_t>(n);
@@ -75,7 +75,7 @@ Shape direct_shape(const Surface& s, int n, const double* x, bool curved) {
     double largest = 0;
     for (std::size_t i = 0; i < rows; i++) largest = std::max(largest, std::fabs(dot(n, a + i * static_cast<std::size_t>(n), x)));
     if (largest == 0) return out;
-    // the largest form taken out, so that high powers neither overflow nor vanish
+    // scale by the largest form, so that high powers neither overflow nor underflow
     double total = 0;
     for (std::size_t i = 0; i < rows; i++, a += n) {
         const double ratio = dot(n, a, x) / largest, size = std::fabs(ratio);
@@ -115,7 +115,7 @@ Shape with_torque(const Surface& s, int n, const double* x, Shape d, bool curved
     if (!curved) return out;
     const double bend = (r - 1) / out.g, flat = std::pow(u, r - 2), dd = bend * (flat - by_d * by_d), dt = -bend * by_d * by_t;
     for (int j = 0; j < n; j++) {
-        // without direct load its norm has a kink, which r >= 2 smooths: the rows' plain sum stands for it
+        // at zero direct load its norm has a kink, which r >= 2 smooths: use the plain sum over the rows there
         for (int k = 0; k < n; k++) out.curvature[j][k] = dd * d.gradient[j] * d.gradient[k] + by_d * d.curvature[j][k];
     }
     for (int j = 0; j < n; j++) out.curvature[j][s.torsion] = out.curvature[s.torsion][j] = dt * d.gradient[j];
@@ -135,7 +135,7 @@ Shape shape(const Surface& s, int n, const double* x, bool curved) {
     return s.torsion < 0 ? direct : with_torque(s, n, x, direct, curved);
 }
 
-// The same on the ray through x where g = 1: the gradient stays, the curvature falls as 1/x.
+// The same at the point g = 1 on the ray through x: the gradient is unchanged, the curvature scales with 1/|x|.
 Shape on_surface(int n, Shape at, double* x) {
     for (int j = 0; j < n; j++) {
         x[j] /= at.g;
@@ -151,7 +151,7 @@ double objective(int n, const double* y, const double* m, const double* x) {
     return f;
 }
 
-// Matrix of Newton's method in (x, multiplier): [M + multiplier H, normal; normal^T, 0].
+// Bordered matrix of Newton's method in (x, multiplier): [M + multiplier H, normal; normal^T, 0].
 void bordered(int n, const double* m, double multiplier, const Shape& at, double a[][most + 1]) {
     for (int j = 0; j < n; j++) {
         for (int k = 0; k < n; k++) a[j][k] = multiplier * at.curvature[j][k] + (j == k ? m[j] : 0);
@@ -170,8 +170,8 @@ void inverse_block(int n, const double* m, double multiplier, const Shape& at, d
     }
 }
 
-// Newton's method along the surface: a step in the tangent plane, then along the ray back to g = 1.  The multiplier is that
-// of the radial direction, which is exact at the solution.  The maximum never falls, so it comes in from anywhere.
+// Newton's method on the surface: a step in the tangent plane, then back to g = 1 along the ray.  The multiplier is that of the
+// radial direction, which is exact at the solution.  The objective never decreases, so the iteration converges from any start.
 SurfacePoint on_section(const Surface& s, int n, const double* y, const double* m, const double* guess, double* derivative) {
     SurfacePoint p;
     const double load = length(n, y);
@@ -215,7 +215,7 @@ SurfacePoint on_section(const Surface& s, int n, const double* y, const double* 
             const Shape there = on_surface(n, shape(s, n, trial, true), trial);
             const double f = objective(n, y, m, trial);
             const double multiplier = residual(trial, there, trial_r), remains = length(n, trial_r);
-            // rises as far as the slope promises; close to the top, where a rise drowns in rounding, the residual decides
+            // sufficient increase (Armijo); close to the maximum, where the increase is lost in rounding, the residual decides
             if (!(f >= best + 1e-4 * share * along) && !(remains < 0.5 * left && f >= best - 1e-12 * load)) continue;
             std::copy(trial, trial + n, p.x);
             std::copy(trial_r, trial_r + n, r);
@@ -229,7 +229,7 @@ SurfacePoint on_section(const Surface& s, int n, const double* y, const double* 
     return p;
 }
 
-// Secular equation |y/(m + multiplier)| = 1: the inverse of its left side is concave, so Newton's method rises to the root.
+// Secular equation |y/(m + multiplier)| = 1: the reciprocal of its left side is concave, so Newton's method converges monotonically.
 SurfacePoint on_ellipsoid(int n, const double* y, const double* m, double* derivative) {
     SurfacePoint p;
     bool equal = true;
@@ -238,7 +238,7 @@ SurfacePoint on_ellipsoid(int n, const double* y, const double* m, double* deriv
     if (equal) {
         p.multiplier = load - m[0];
     } else {
-        // no share is above 1, so the multiplier is at least this
+        // no component of x exceeds 1, so the multiplier is at least this
         p.multiplier = 1e-300;
         for (int k = 0; k < n; k++) p.multiplier = std::max(p.multiplier, std::fabs(y[k]) - m[k]);
         for (int iteration = 0; iteration < newton_limit; iteration++) {
@@ -266,7 +266,7 @@ SurfacePoint on_ellipsoid(int n, const double* y, const double* m, double* deriv
     return p;
 }
 
-// Half-planes (along N, along M, bound) for M >= 0, into which the other half is mirrored.
+// Half-planes (coefficient of N, coefficient of M, bound) for M >= 0; M < 0 is mirrored.
 struct Side {
     double a[2], bound;
 };
@@ -294,7 +294,7 @@ double gauge(const Surface& s, int n, const double* x, double* gradient) {
     return g;
 }
 
-// Where g is zero, and for the ellipsoid, the curvature is that of a ball.
+// At g = 0, and for the ellipsoid everywhere, the curvature is the unit matrix.
 double half_square(const Surface& s, int n, const double* x, double* gradient, double* curvature, int stride) {
     const bool section = s.coupling == Coupling::section;
     const Shape at = section ? shape(s, n, x, true) : Shape{};
@@ -341,8 +341,8 @@ double gauge(const Flange& f, const double* x) {
     return g;
 }
 
-// Inside, on one of the polygon's sides, or the best of its corners.  A point on a side is found along it: from the
-// unbounded maximum, far outside, rounding would miss it.
+// The maximum lies inside, on a side of the polygon, or at a corner.  A point on a side is computed along that side: computed from
+// the unconstrained maximum far outside, it would miss the side by rounding.
 SurfacePoint nearest(const Flange& f, const double* y, const double* m, double* derivative) {
     const int order[2] = {f.axial, 1 - f.axial};
     const double sign = y[order[1]] < 0 ? -1 : 1;

@@ -1,8 +1,8 @@
-// Convex surfaces of interaction g = 1, and the points of them that a hinge needs.
+// Convex interaction surfaces g = 1, and the points on them that a hinge law needs.
 //
-// The one problem is
-//     maximise  y.x - 1/2 sum_k m_k x_k^2   subject to   g(x) <= 1,      m_k >= 0,
-// the point of the set nearest to y/m in the metric m, or, for m = 0, the point where y is the outward normal.
+// Every law leads to the problem
+//     maximise  y.x - 1/2 sum_k m_k x_k^2   subject to   g(x) <= 1,      m_k >= 0.
+// Its solution is the point of the set closest to y/m in the metric m, or, for m = 0, the point with outward normal y.
 #pragma once
 
 #include <vector>
@@ -10,33 +10,33 @@
 namespace crumple::spatial {
 
 enum class Coupling {
-    none,            // each component for itself
-    ellipsoid,       // |x|, x the shares of the capacities
-    ball,            // |x| with one capacity, which runs on the angle of the relative rotation
-    section,         // ([sum over rows a of |a.x|^p]^(r/p) + |t|^r)^(1/r), t the torque's share
-    tension_flange,  // the fold turns about its tension flange, see `Flange`
+    none,            // independent components
+    ellipsoid,       // |x|, x the forces and moments relative to their capacities
+    ball,            // |x| with one capacity, a function of the angle of the relative rotation
+    section,         // ([sum over rows a of |a.x|^p]^(r/p) + |t|^r)^(1/r), t the torque relative to its capacity
+    tension_flange,  // the fold rotates about its tension flange, see `Flange`
 };
 
 struct Surface {
     Coupling coupling = Coupling::none;
-    std::vector<double> rows;  // section: (rows, n) over the components in their order; the torque's column is zero
+    std::vector<double> rows;  // section: (rows, n), a column per component in their order; the torque's column is zero
     double power = 2, torque_power = 2;
     int torsion = -1;          // section: component that is the torque, or -1
-    double arm = 0;            // tension flange: its distance from the centroid [m]
+    double arm = 0;            // tension flange: distance of the flange from the centroid [m]
 };
 
-// A maximum: its place x, its value, the multiplier of g <= 1 (zero inside).
+// Solution of the problem: point x, value of the maximum, multiplier of g <= 1 (zero inside).
 struct SurfacePoint {
     double x[4] = {0, 0, 0, 0};
     double value = 0, multiplier = 0;
 };
 
-// g of the ellipsoid, ball or section; gradient may be null
+// g of the ellipsoid, ball or section; `gradient` may be null
 double gauge(const Surface& s, int n, const double* x, double* gradient);
-// g^2/2, smooth where g is zero, with gradient (n) and curvature (n x n, rows `stride` apart); returns g^2
+// g^2/2, which is smooth at g = 0, with gradient (n) and curvature (n x n, rows `stride` apart); returns g^2
 double half_square(const Surface& s, int n, const double* x, double* gradient, double* curvature, int stride);
-// `guess` (null: none): direction in which to start; `derivative` (n x n, null: not wanted): dx/dy, symmetric and positive
-// semidefinite.  Closed form for the ellipsoid with equal m, Newton's method else
+// Solves the problem.  `guess` (null: none): direction of the start point; `derivative` (n x n, null: not computed): dx/dy, symmetric
+// and positive semidefinite.  Closed form for the ellipsoid with equal m, otherwise Newton's method.
 SurfacePoint nearest(const Surface& s, int n, const double* y, const double* m, const double* guess, double* derivative);
 
 // Set of (M, N), N positive in tension: |M| <= top, |M| - N arm <= moment, -crush <= N <= pull.

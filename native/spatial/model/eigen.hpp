@@ -1,4 +1,4 @@
-// Eigenvalues of small symmetric matrices, by Jacobi's rotations.
+// Eigenvalues and eigenvectors of small symmetric matrices by Jacobi rotations.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@ inline void eigenvectors(int n, double* a, double* value, double* v) {
         for (int p = 0; p < n; p++) {
             for (int q = p + 1; q < n; q++) {
                 const double apq = a[p * n + q];
-                // against these two alone: a contact's normal is 1e16 times stiffer than friction on it
+                // relative to these two diagonal entries only: the normal stiffness of a contact is 1e16 times that of its friction
                 if (std::fabs(apq) <= 1e-16 * std::fmax(std::fabs(a[p * n + p]), std::fabs(a[q * n + q]))) continue;
                 diagonal = false;
                 const double theta = (a[q * n + q] - a[p * n + p]) / (2 * apq);

@@ -6,7 +6,7 @@ namespace {
 
 constexpr double two_pi = 6.28318530717958647693;
 
-// half of a rotation by less than half a turn
+// half of a rotation by less than 180 degrees
 Quat half(const Quat& q) { return normalised({q.w + 1, q.v}); }
 
 Vec3 vector(const double* a) { return {a[0], a[1], a[2]}; }
@@ -28,7 +28,7 @@ void locate(const Joint& joint, const Pose& a, const Pose& b, const Target* targ
     Vec3 crossed[3] = {middle.r[0], middle.r[1], middle.r[2]};
     double crossing = 0;
     if (joint.cross) {
-        // held is axis k: the next one stays with the first body, the one after with the second
+        // rotation about axis k is held: axis k + 1 is fixed to the first body, axis k + 2 to the second
         const int k = joint.freedom[joint.held - 1] - 3;
         const Vec3 i = turned(first, axis((k + 1) % 3)), j = turned(second, axis((k + 2) % 3));
         crossed[(k + 1) % 3] = i;
@@ -61,7 +61,7 @@ double target_rate(const Joint& joint, const Pose& a, const JointGeometry& g, co
     const int freedom = joint.freedom[row];
     if (freedom < 3) return target.rate[freedom];
     const Vec3 turn = vector(target.place + 3), speed = vector(target.rate + 3);
-    // angular velocity of a rotation vector that changes
+    // angular velocity from the rate of the rotation vector
     const double angle = norm(turn);
     const double c1 = angle < 1e-4 ? 0.5 : (1 - std::cos(angle)) / (angle * angle);
     const double c2 = angle < 1e-4 ? 1.0 / 6 : (angle - std::sin(angle)) / (angle * angle * angle);

@@ -19,7 +19,7 @@ inline Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a
 inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
 inline Vec3 axis(int k) { return {k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0}; }
 
-// Rows.
+// Matrix by its rows.
 struct Mat3 {
     Vec3 r[3];
 };
@@ -53,7 +53,7 @@ inline Quat normalised(const Quat& q) {
     return {s * q.w, s * q.v};
 }
 
-// columns are the turned axes
+// rotation matrix; its columns are the rotated axes
 inline Mat3 matrix(const Quat& q) {
     const double w = q.w, x = q.v.x, y = q.v.y, z = q.v.z;
     return {{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
@@ -69,12 +69,12 @@ inline Vec3 turned(const Quat& q, Vec3 a) {
 // rotation by a rotation vector [rad]
 inline Quat rotation(Vec3 r) {
     const double angle = norm(r), half = angle / 2;
-    // series below which sin(x)/x is exact to rounding
+    // for small angles the series of sin(x)/x, exact to rounding
     const double s = angle < 1e-4 ? 0.5 - angle * angle / 48 : std::sin(half) / angle;
     return {std::cos(half), s * r};
 }
 
-// rotation vector of a rotation, of length up to pi
+// rotation vector of a rotation, with length up to pi
 inline Vec3 rotation_vector(const Quat& q) {
     const double s = norm(q.v), sign = q.w < 0 ? -1 : 1;
     const double factor = s < 1e-8 ? 2 : 2 * std::atan2(s, std::fabs(q.w)) / s;
@@ -83,7 +83,7 @@ inline Vec3 rotation_vector(const Quat& q) {
 
 inline double angle_between(const Quat& a, const Quat& b) { return norm(rotation_vector(conjugate(a) * b)); }
 
-// of a matrix with orthonormal, right-handed columns (Shepperd's choice of the largest component)
+// quaternion of a matrix with orthonormal, right-handed columns (Shepperd's method: largest component first)
 inline Quat quaternion(const Mat3& m) {
     const double a = m.r[0].x, b = m.r[1].y, c = m.r[2].z;
     Quat q;
@@ -99,14 +99,14 @@ inline Quat quaternion(const Mat3& m) {
     return normalised(q);
 }
 
-// Place of a body: its centre of mass, and its rotation from the start.
+// Position of a body: its centre of mass, and its rotation relative to the start.
 struct Pose {
     Vec3 x;
     Quat q;
     Vec3 at(Vec3 arm) const { return x + turned(q, arm); }
 };
 
-// Motion of a body at its centre, or a moment and a force there, in world axes.
+// Angular velocity and velocity of a body at its centre, or a moment and a force there, in world axes.
 struct Twist {
     Vec3 w, v;
 };

@@ -1,4 +1,4 @@
-// Constants of a spatial model, and the state that a run changes.
+// Constants of a spatial model, and the state of a run.
 #pragma once
 
 #include <vector>
@@ -14,28 +14,28 @@ using std::size_t;
 
 struct Body {
     double mass = 1;
-    Mat3 inertia, inverse;  // about the centre, in the body's frame (the world's at the start)
+    Mat3 inertia, inverse;  // about the centre, in the body's frame (aligned with the world axes at the start)
     Vec3 centre;            // at the start
     bool obstacle = false;  // not part of the structure: its energy counts when it is transferred to the structure
-    bool stand_in = false;  // body of a driven obstacle: its inertia does not count
+    bool stand_in = false;  // body of a driven obstacle: its inertia is a placeholder and its energy does not count
 };
 
-// Force and moment on a body, directions fixed in the world, times a factor of time.
+// Force and moment on a body, with directions fixed in the world, times a function of time.
 struct Load {
     int body = 0;
     Vec3 arm, force, moment;
     Curve value;
 };
 
-// Linear spring with a damper between two points.
+// Linear spring and damper between two points.
 struct Spring {
     int body[2] = {-1, -1};
     Vec3 arm[2];
     double stiffness = 0, length = 0, damping = 0;
 };
 
-// Prescribed displacement of one held freedom of a joint.  The rate is piecewise linear in time and the displacement
-// its integral: were both sampled by themselves, their difference over a short step would be a jerk.
+// Prescribed displacement of one held freedom of a joint.  The rate is piecewise linear in time and the displacement is its integral:
+// if both were sampled independently, their inconsistency over a short step would act as a jerk.
 struct Drive {
     int joint = 0, freedom = 0;
     double start = 0;
@@ -52,8 +52,8 @@ struct Model {
     std::vector<Drive> drives;
     ContactModel contact;
     Vec3 gravity;
-    double length = 1;  // [m] turns displacements into angles for the error measure
-    std::vector<double> breaks;  // [s] after the start of a stage, increasing: where steps end
+    double length = 1;  // [m] reference length that converts displacements to angles in the error measure
+    std::vector<double> breaks;  // [s] after the start of a stage, increasing: times at which steps end
 
     Pose pose(const std::vector<Pose>& poses, int body) const { return body < 0 ? Pose{} : poses[static_cast<size_t>(body)]; }
     Twist twist(const std::vector<Twist>& twists, int body) const {
@@ -61,29 +61,29 @@ struct Model {
     }
 };
 
-// State of a drive in the present stage: one that does not act holds its position.
+// State of a drive in the present stage: an inactive drive holds its position.
 struct DriveStage {
     bool acts = true;
-    double origin = 0;  // displacement when it was halted
+    double origin = 0;  // displacement at the start of the stage
 };
 
 struct State {
     double t = 0, stage_start = 0;
     std::vector<Pose> pose;
-    std::vector<Twist> velocity, acceleration;  // at the centres, world axes; of the last step
-    std::vector<Twist> travel;                  // turn and way of the centres in the last step, world axes
+    std::vector<Twist> velocity, acceleration;  // at the centres, world axes; acceleration: mean of the last step
+    std::vector<Twist> travel;                  // rotation and displacement of the centres in the last step, world axes
     double last_step = 0;                       // length of the last step [s]
     std::vector<SpatialHingeState> hinge;
     std::vector<double> rotation;               // of every hinge component, see JointGeometry::error
-    std::vector<double> turned;                 // the same as hinges count it: for several rotations the sum of their rates,
-                                                // which unlike the rotation vector is what their moments do work on
-    std::vector<double> rate;                   // of the same
-    std::vector<Twist> joint_force;             // moment and force on the second body, in the joint's frame, last step
+    std::vector<double> turned;                 // the same as used by the hinge laws: for several rotations the integral of their
+                                                // rates, which unlike the rotation vector is conjugate to their moments
+    std::vector<double> rate;                   // rates of these
+    std::vector<Twist> joint_force;             // moment and force on the second body, in the joint's frame, mean of the last step
     ContactState contact;
     double external_work = 0, spring_damped = 0;
-    double slowed = 0;                          // kinetic energy that quasi-static stages took away
+    double slowed = 0;                          // kinetic energy that quasi-static stages removed
     double obstacle_work = 0;                   // part of the external work: that on obstacles
-    double load_work = 0, dragged = 0;          // quasi-static: work of loads and gravity on the structure, and what drag took
+    double load_work = 0, dragged = 0;          // quasi-static: work of loads and gravity on the structure, and energy lost to drag
     void work_on(bool obstacle, double work) {
         external_work += work;
         if (obstacle) obstacle_work += work;
@@ -92,10 +92,10 @@ struct State {
 
 struct Energies {
     double kinetic = 0, elastic = 0, dissipated = 0, damped = 0, stop = 0, spring = 0, contact = 0, friction = 0, external_work = 0;
-    double slowed = 0;  // taken out of the motion by quasi-static stages
+    double slowed = 0;  // kinetic energy removed by quasi-static stages
     double obstacle_kinetic = 0, obstacle_work = 0;  // parts of obstacles in the kinetic energy and the external work
     double structure_kinetic() const { return kinetic - obstacle_kinetic; }
-    // energy that obstacles have transferred, up to a constant
+    // energy that obstacles have transferred to the structure, up to a constant
     double given() const { return obstacle_work - obstacle_kinetic; }
     double balance() const {
         return kinetic + elastic + dissipated + damped + stop + spring + contact + friction + slowed - external_work;

@@ -1,4 +1,4 @@
-// Evaluations of the model at rest for a run: motion that fits the joints, inertias felt by hinges, displacements.
+// Evaluations before a run: motion compatible with the joints, effective inertias at hinges, response to loads, displacements.
 #include <algorithm>
 #include <cmath>
 

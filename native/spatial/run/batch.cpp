@@ -88,7 +88,7 @@ std::vector<Twist> twists(const double* rows, size_t row, size_t count, bool& al
     return out;
 }
 
-// A run through the stages of its case, stored in a row.
+// Runs one variant through the stages of its case and stores the end values in its row.
 class Tour {
 public:
     Tour(const Variations& v, size_t row, const Settings& settings, EndValues& out)
@@ -101,7 +101,7 @@ public:
         impulse_ = twists(v.impulse, row, count, all_finite);
         if (all_finite && sensible(model)) simulation_.emplace(std::move(model), settings);
     }
-    // the steps of every stage are kept in `step_records`, where given
+    // stores the steps of every stage in `step_records` unless that is null
     void run(const std::function<bool(double)>& go_on, std::vector<StepRecords>* step_records) {
         Outcome outcome = Outcome::complete;
         for (size_t k = 0; simulation_ && k < of_.stages.size() && outcome == Outcome::complete; k++) {
@@ -193,7 +193,7 @@ EndValues sized(const Case& of, size_t n) {
 EndValues solve_many(const Variations& v, const Settings& settings, int threads, const std::function<bool(double)>& poll) {
     EndValues out = sized(*v.cases.front(), v.count);
     auto solve = [&](size_t row, const std::function<bool(double)>& go_on) { Tour(v, row, settings, out).run(go_on, nullptr); };
-    // a variant takes a millisecond or more, so threads take them one by one
+    // a variant takes a millisecond or more, so threads take one at a time
     share_out(v.count, 1, threads, solve, poll);
     return out;
 }

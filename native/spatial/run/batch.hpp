@@ -1,4 +1,4 @@
-// Many variants of a spatial model, each solved as one run would solve it, on several threads.
+// Solution of many variants of a spatial model on several threads, each exactly as in a single run.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace crumple::spatial {
 
-// A stage, the same for every variant of a case except for the motion that it adds.
+// A stage, the same for every variant of a case except for its added motion.
 struct CaseStage {
     double duration = 0;
     bool quasi_static = false;
-    std::vector<bool> drives, obstacles;  // those that act
+    std::vector<bool> drives, obstacles;  // whether each is active
     std::vector<Condition> until;
 };
 
@@ -26,20 +26,20 @@ struct Case {
 // inertia is a 3 x 3 matrix about the centre, all in world axes at the start
 constexpr size_t body_columns = 13;  // centre (3), mass, inertia (9)
 
-// Values that differ from variant to variant, one row each; a null pointer leaves the model's own values.
+// Values that differ between variants, one row per variant; with a null pointer the model's own values apply.
 struct Variations {
     size_t count = 0;
     std::vector<const Case*> cases;          // alike, see `alike`
-    const int64_t* case_of = nullptr;        // (count)
-    const double* velocity = nullptr;        // (count, stages, bodies, 6): added as a stage begins, at the centres of mass
+    const int64_t* case_of = nullptr;        // (count): index of the case
+    const double* velocity = nullptr;        // (count, stages, bodies, 6): added at the start of a stage, at the centres of mass
     const double* impulse = nullptr;         // (count, stages, bodies, 6)
-    const double* capacity_scale = nullptr;  // (count, hinges): times the model's
-    const double* load_scale = nullptr;      // (count, loads): times the model's
+    const double* capacity_scale = nullptr;  // (count, hinges): factor on the model's capacities
+    const double* load_scale = nullptr;      // (count, loads): factor on the model's loads
     const double* bodies = nullptr;          // (count, bodies, body_columns)
     const double* gravity = nullptr;         // (count, 3)
 };
 
-// Final values of every variant by rows; zeros for a variant that was not solved.
+// Final values, one row per variant; zeros for a variant that was not solved.
 struct EndValues {
     std::vector<double> time;                                     // (count)
     std::vector<double> start;                                    // (count, bodies, 3): centres at the start
@@ -48,19 +48,19 @@ struct EndValues {
     HingeEnergyRecord<double> hinge_energy;
     HingeSummary<double> summary;                                 // (count, hinges)
     EnergyRecord<double> energy;
-    std::vector<double> residual, lost;                           // (count); lost: energy that the joints took from given motion
+    std::vector<double> residual, lost;                           // (count); lost: energy lost in making given motion compatible
     std::vector<int64_t> outcome, steps;
 };
 
 // whether cases have the same bodies, hinges, loads and stages, so that one set of arrays serves all
 bool alike(const Case& a, const Case& b);
-// rows of zeros, not begun
+// end values with rows of zeros for `count` variants
 EndValues sized(const Case& of, size_t count);
-// `poll` gets the share done, now and then, on the calling thread, and returns false to cancel.
+// `poll` is called regularly on the calling thread with the completed share and returns false to cancel.
 EndValues solve_many(const Variations& variations, const Settings& settings, int threads, const std::function<bool(double)>& poll);
 
-// The first variant, a leader, and the others, which take its steps (step_record.hpp), each on its own.  A follower whose
-// equations cannot be solved has the outcome `step_collapsed`.
+// Solves the first variant, the leader, and then the others, which follow its steps (step_record.hpp), each independently.  A follower
+// whose equations cannot be solved has the outcome `step_collapsed`.
 EndValues solve_led(const Variations& variations, const Settings& settings, int threads, const std::function<bool(double)>& poll);
 
 }  // namespace crumple::spatial

@@ -1,4 +1,4 @@
-// A run that takes the steps of another one; see step_record.hpp.
+// Passes of a run that follows the steps of another run, see step_record.hpp.
 #include <cmath>
 
 #include "spatial/run/simulation.hpp"
@@ -22,7 +22,7 @@ bool Stepper::follow_pass() {
         if (!hinge_of(c)) continue;
         const size_t hinge = static_cast<size_t>(hinge_index(c));
         FrozenSpatialHinge& f = frozen_[hinge];
-        // a hinge that rests weighs its rates otherwise than one that slides, and does not rest or slide by itself here
+        // hinges at rest and sliding hinges weight their rates differently; a follower's hinge is in the state of the leader's
         if (f.lead == 0 || leader.lead[hinge] == 0) f.lead = leader.lead[hinge];
         double* w = &w_[static_cast<size_t>(start(c) + system_.links()[c].held)];
         for (int k = 0; k < size(*hinge_of(c)); k++) w[k] = (w[k] - f.lead * f.w0[k]) / (1 - f.lead);

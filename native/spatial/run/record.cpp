@@ -48,7 +48,7 @@ void Simulation::store(Record& r) {
         add(r.joint_force, f.v);
         add(r.joint_force, f.w);
     }
-    // mean since it was last stored: an impact's impulse counts as it should; without impacts that of the last step
+    // mean force since the last stored row, which contains the impulses of impacts; in quasi-static stages that of the last step
     stored_impulse_.resize(model_.contact.obstacles.size());
     state_.contact.impulse.resize(stored_impulse_.size());
     state_.contact.force.resize(stored_impulse_.size());

@@ -1,4 +1,4 @@
-// How loads and drives bound the steps: where steps end, and how long they may be.  See docs/theory/time_functions.md.
+// Step limits by loads and drives: where steps end, and how long they may be.  See docs/theory/time_functions.md.
 #include <algorithm>
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 namespace crumple::spatial {
 
-// Loads and drives that vary bound the steps.
+// Collects the loads and drives that vary with time and therefore limit the steps.
 void Simulation::bound_steps() {
     bound_ = {};
     grouped_.clear();
@@ -27,14 +27,15 @@ void Simulation::bound_steps() {
     weigher_->stage() = stepper_.stage();
 }
 
-// Breaks nearer than the smallest step are passed with what follows.
+// The next break at which a step must end; a break closer than the smallest step is included in the following step.
 double Simulation::next_break() const {
     const double since = state_.t - state_.stage_start;
     const auto next = std::lower_bound(model_.breaks.begin(), model_.breaks.end(), since + settings_.minimum_step * (1 - 1e-6));
     return next == model_.breaks.end() ? INFINITY : state_.stage_start + *next;
 }
 
-// Where breaks bound the steps they still differ between two runs that ask for different numbers of parts.
+// Longest step for the requested number of parts between two breaks: runs with different numbers of parts then differ in their
+// steps even where breaks limit them.
 double Simulation::longest_part() const {
     const std::vector<double>& breaks = model_.breaks;
     if (breaks.empty() || settings_.parts < 2) return INFINITY;
@@ -44,7 +45,7 @@ double Simulation::longest_part() const {
     return std::max((until - since) / settings_.parts, settings_.minimum_step);
 }
 
-// whether a hinge does not turn
+// whether any hinge is at rest
 bool Simulation::resting() const {
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         for (int k = 0; k < size(model_.hinges[j]); k++) {
@@ -54,7 +55,7 @@ bool Simulation::resting() const {
     return false;
 }
 
-// Length of a step, at most h, that sees what loads and drives do within it.
+// Longest step, at most h, that resolves the variation of loads and drives within it.
 StepBound::Step Simulation::resolved(double h) {
     if (bound_.empty()) return {h, 0};
     const double since = state_.t - state_.stage_start, least = std::min(settings_.minimum_step, h);

@@ -9,15 +9,15 @@ namespace crumple::spatial {
 
 namespace {
 
-// Turn [rad] by which a locked hinge may creep; the strongest hinge's work over it is no energy worth balancing.
+// Rotation [rad] by which a locked hinge may creep; the work of the strongest hinge over it is negligible in the energy balance.
 constexpr double negligible_turn = 1e-9;
-// Share of the energy of a given motion that rounding leaves where the joints take it all.
+// Share of the energy of a given motion that remains by rounding if the joints suppress the whole motion.
 constexpr double negligible_share = 1e-9;
-// Rate at which locked hinges may creep, over the accuracy [rad/s]: in 0.1 s 1e-3 of the accuracy, in rad.
+// Rate at which locked hinges may creep relative to the accuracy [rad/s]: in 0.1 s by 1e-3 of the accuracy, in rad; and its limit.
 constexpr double creep_share = 1e-2, widest_creep = 1e-5;
-// Energy of an approach that is not worth an impact, as a share of accuracy times the largest energy.
+// Energy of an approach below which it is not treated as an impact, as a share of accuracy times the largest energy.
 constexpr double negligible_impact = 1e-3;
-// Gap [model lengths, the first times accuracy] below which a contact counts as closed: more than a smallest step goes.
+// Gap [model lengths, the first times accuracy] below which a contact counts as closed: more than the motion in a smallest step.
 constexpr double closed_gap = 1e-3, least_closed_gap = 1e-8;
 }  // namespace
 
@@ -30,14 +30,14 @@ Simulation::Simulation(Model model, const Settings& settings)
     peak_.assign(2 * state_.rotation.size(), 0.0);
 }
 
-// What takes long for many hinges, and must end where a run is cancelled.
+// Preparation that takes long with many hinges and must therefore be cancellable.
 void Simulation::make_ready() {
     if (ready_) return;
     set_damping();
     ready_ = true;
 }
 
-// The inertia that a damper acts on is evaluated at the start.
+// The effective inertia of every damper is evaluated at the start.
 void Simulation::set_damping() {
     critical_.clear();
     for (size_t j = 0; j < model_.hinges.size(); j++) {
@@ -53,8 +53,8 @@ void Simulation::set_damping() {
     set_critical_damping(std::vector<bool>(critical_.size(), true));
 }
 
-// A stop without a damper of its own gets the critical one, c = 2 sqrt(k m), m the inertia felt just before the
-// stop is touched (at the start, should that come without notice).
+// Whether a stop may be touched in the next step.  A stop without a damper in the input gets critical damping, c = 2 sqrt(k m), with the
+// effective inertia m just before contact (m at the start of the run if the contact was not foreseen).
 bool Simulation::touched_soon(const Critical& c) const {
     const SpatialHinge& hinge = model_.hinges[c.hinge];
     const double sign = c.stop == &hinge.components[static_cast<size_t>(c.component)].law.stop[0] ? 1 : -1;
@@ -63,7 +63,7 @@ bool Simulation::touched_soon(const Critical& c) const {
     return gap <= 0 && gap + 2 * h_ * std::fabs(state_.rate[k]) > 0;
 }
 
-// After an accepted step of length h: dampers of stops that may be touched in the next one, and what followers need.
+// After an accepted step of length h: sets the dampers of stops that may be touched in the next one, and records the step for followers.
 void Simulation::record_step(double h) {
     std::vector<bool> soon;
     for (const Critical& c : critical_) soon.push_back(touched_soon(c));
@@ -77,7 +77,7 @@ void Simulation::set_critical_damping(const std::vector<bool>& which) {
     for (size_t i = 0; i < critical_.size(); i++) {
         const Critical& c = critical_[i];
         if (!which[i]) continue;
-        // both stops of a component feel the same
+        // both stops of a component have the same effective inertia
         if (!last || last->hinge != c.hinge || last->component != c.component) {
             inertia = stepper_.effective_inertia(state_, c.hinge, c.component);
         }
@@ -125,15 +125,15 @@ void Simulation::watch(Record& record) {
     if (reference > 0) record.residual = residual_max_ / reference;
 }
 
-// Energy that the structure was given until now: its own at the start, the largest work on it, and the largest that
-// obstacles have given on.  What a heavy obstacle keeps to itself is none of it.
+// Energy supplied to the structure until now: its own at the start, the largest work on it, and the largest energy that obstacles have
+// transferred to it.  Energy that a heavy obstacle keeps is not part of it.
 double Simulation::given(const Energies& e) const {
     return start_.balance() - start_.obstacle_kinetic + std::max(work_max_, std::fabs(e.external_work - e.obstacle_work)) +
            std::max(given_max_, std::fabs(e.given() - start_.given()));
 }
 
-// Before the first step a rigid hinge has no moment and no hinge a sense in which it turns; what it will carry at once
-// is seen by a step that is thrown away.
+// Before the first step a rigid hinge has no moment, and no hinge has a sense of rotation.  A short trial step that is discarded
+// gives the values to report at the start.
 void Simulation::show_first_moments() {
     State probe = state_;
     if (state_.t > 0 || !stepper_.step(probe, 100 * settings_.minimum_step, nullptr)) return;
@@ -151,11 +151,11 @@ void Simulation::show_first_moments() {
     state_.contact.force = probe.contact.force;
 }
 
-// scales of a run to the given time: above which motion is large, below which it is rounding
+// reference values of a run to the given time: above which motion counts as large, below which it is rounding
 void Simulation::prepare(double end) {
     const double duration = end - state_.t;
     advance_.begin(state_.t, duration, stepper_.solves());
-    // the rotation that the strongest hinge would need for all energy: what counts as large before anything has turned
+    // reference rotation before anything has turned: half the rotation in which the strongest hinge would dissipate all kinetic energy
     double strongest = 0;
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         for (int k = 0; k < size(model_.hinges[j]); k++) {
@@ -173,7 +173,7 @@ void Simulation::prepare(double end) {
     double mass = 0;
     for (const Body& body : model_.bodies) mass += body.mass;
     negligible_speed_ = std::sqrt(mass) * settings_.scale_floor * model_.length / std::max(duration, settings_.minimum_step);
-    // the speed at which the strongest hinge would turn by what counts as large before it stops
+    // speed with the kinetic energy that the strongest hinge dissipates over the smallest rotation that counts as large
     large_speed_ = strongest > 0 ? std::sqrt(2 * strongest * settings_.scale_floor) : negligible_speed_;
     end_ = end - state_.stage_start;
     bound_steps();
@@ -197,7 +197,7 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
         prepare(times.back());
         for (const double t : times) {
             const bool reached = t <= state_.t || advance(t, record, poll);
-            // a run that ends early records its last state
+            // a run that ends early records its last state as well
             if (reached || record.time.empty() || record.time.back() < state_.t) store(record);
             if (!reached) break;
         }

@@ -1,4 +1,4 @@
-// A run of a spatial model: stages, adaptive steps to the requested output times, and what they record.
+// A run of a spatial model: stages, adaptive time steps to the requested output times, and the recorded results.
 #pragma once
 
 #include <cmath>
@@ -19,11 +19,11 @@ struct Settings {
     double accuracy = 1e-3;      // allowed error of the motion, relative to the largest rotation
     double minimum_step = 1e-9;  // [s]
     double maximum_step = 1e30;  // [s]
-    int parts = 1;               // least number of steps between two breaks
+    int parts = 1;               // smallest number of steps between two breaks
     double scale_floor = 2e-3;   // [rad] smallest rotation that counts as large
 };
 
-// What ends a stage; see crumple._core.spatial.simulation.Until.
+// Quantity whose value ends a stage; see crumple._core.spatial.simulation.Until.
 enum class Quantity { force, drive_force, work, distance, displacement };
 
 struct Condition {
@@ -32,7 +32,7 @@ struct Condition {
     int index = -1, freedom = 0;
     int body[2] = {-1, -1};
     Vec3 arm[2];
-    double start = 0;  // of the quantity when the stage began
+    double start = 0;  // value of the quantity at the start of the stage
 };
 
 struct Record {
@@ -44,19 +44,19 @@ struct Record {
     std::string reason;
     int ended_by = -1;
     int stuck_body = -1;         // for a run that could not continue: the body with the largest imbalance
-    double lost_time = NAN;      // time at which a quasi-static stage lost its equilibrium for good
-    double residual = 0;         // largest |balance - start| over the energy that the structure was given
-    // speed that loads and drives may have given or taken unseen, over the largest: where hinges rest, a step does not see a pulse
-    // that its mean hides
+    double lost_time = NAN;      // time at which a quasi-static stage lost its equilibrium and did not regain it
+    double residual = 0;         // largest |balance - start| over the energy supplied to the structure
+    // change of speed that unresolved loads and drives may have caused, relative to the largest speed: while hinges are locked, the
+    // error estimate of a step does not show a pulse that vanishes in the mean of the load
     double unseen = 0;
     std::int64_t steps = 0, rejected = 0, forced = 0, solves = 0;
 };
 
-// Error that one step may add [of the error measure].
+// Error allowed in one step, in units of the error measure.
 double step_tolerance(double accuracy);
-// Norm by kinetic energy of the structure's velocities, or of the difference of all bodies' between two states.
+// Kinetic-energy norm of the structure's velocities, or of the difference of the velocities of all bodies between two states.
 double kinetic_norm(const Model& model, const State& a, const State* b);
-// Share of all kinetic energy, that of heavy obstacles included, below which energies are rounding.
+// Share of the total kinetic energy, including that of heavy obstacles, below which energies are rounding.
 constexpr double rounding_share = 1e-10;
 
 class Simulation {
@@ -68,8 +68,8 @@ public:
     const Model& model() const { return model_; }
     Stepper& stepper() { return stepper_; }
     State& state() { return state_; }
-    // Adds velocities and impulses at the centres of mass; returns the energy lost in fitting them to the joints.  After
-    // the start what they add is work.
+    // Adds velocities and impulses at the centres of mass; returns the kinetic energy lost in making them compatible with the joints.
+    // After the start the added energy counts as external work.
     double set_motion(const Twist* velocity, const Twist* impulse);
     void begin_stage(bool quasi_static, const std::vector<bool>& drives, const std::vector<bool>& obstacles,
                      std::vector<Condition> until);
@@ -78,15 +78,15 @@ public:
         make_ready();
         return stepper_.step(state_, h, nullptr);
     }
-    // before the first step; a run does so itself
+    // prepares the first step; `run` calls it
     void make_ready();
-    // runs to the last of the times; `poll` gets the time reached and returns false to cancel
+    // runs to the last of the times; `poll` is called with the present time and returns false to cancel
     Record run(const std::vector<double>& times, const std::function<bool(double)>& poll);
-    // the present state alone
+    // a record of the present state only
     Record present();
-    // steps from now on are stored there; null ends this
+    // stores the steps from now on; null ends it
     void keep(StepRecords* steps) { step_records_ = steps; }
-    // takes the steps that another run of this model or of one near by has kept; false if one cannot be solved
+    // follows the stored steps of another run of this model or of a similar one; false if a step cannot be solved
     bool follow(const StepRecords& steps);
     HingeSummary<double> summary() const;
     // per component: largest rotation and moment
@@ -132,40 +132,40 @@ private:
     Model model_;
     Settings settings_;
     Stepper stepper_;
-    StepBound bound_;                           // by loads and drives
-    std::vector<std::vector<size_t>> grouped_;  // loads of one function of time
-    std::vector<double> moved_;                 // by a unit impulse of each group [kinetic norm]; NaN: not asked yet
-    std::optional<Stepper> weigher_;            // asked for that: what the stepper keeps between steps is not touched
-    double end_ = 0;                            // of the run, from the start of the stage [s]
+    StepBound bound_;                           // step limit by loads and drives
+    std::vector<std::vector<size_t>> grouped_;  // loads grouped by their function of time
+    std::vector<double> moved_;                 // response to a unit impulse of each group [kinetic norm]; NaN: not evaluated yet
+    std::optional<Stepper> weigher_;            // evaluates `moved_` without changing the data that `stepper_` keeps between steps
+    double end_ = 0;                            // end of the run, from the start of the stage [s]
     double unseen_ = 0;                        // see `Record::unseen` [kinetic norm]
     double large_speed_ = 0;                    // kinetic norm that counts as large before anything moves
     State state_, coarse_, fine_, first_;
     std::vector<Twist> guess_;
-    std::vector<Critical> critical_;  // stops whose damper is left to the solver
+    std::vector<Critical> critical_;  // stops that get critical damping
     std::vector<Condition> until_;
     std::vector<double> peak_;        // per component: largest rotation and moment
-    double step_tolerance_;           // of the error measure
+    double step_tolerance_;           // allowed value of the error measure
     double h_ = 0, scale_ = 0, speed_ = 0;
     bool started_ = false;
     Energies start_;                  // at the start of the first run
     double work_max_ = 0,             // largest external work on the structure, either sign
-           given_max_ = 0,            // largest energy that obstacles gave on, either sign
+           given_max_ = 0,            // largest energy that obstacles transferred, either sign
            residual_max_ = 0, balance_ = 0, given_energy_ = 0, negligible_energy_ = 0;
-    double lift_ = 0;                 // of all weights by the model's length [J]
-    double negligible_speed_ = 0;     // kinetic norm that moves bodies by less than what counts as large in the run
-    double closing_ = 0;              // within the step just solved, when an open contact closed; 0 if none did
-    double landing_ = 0;              // step that ends where a contact closes; 0 if none is ahead
-    double largest_energy_ = 0;       // kinetic, of the structure
-    double overshot_ = 0;             // by the condition that last shortened a step; NaN for none
-    int strikes_ = 0;                 // impacts in a row
+    double lift_ = 0;                 // work of lifting all weights by the model's length [J]
+    double negligible_speed_ = 0;     // kinetic norm that moves bodies over the run by less than what counts as large
+    double closing_ = 0;              // time within the step just solved at which an open contact closed; 0 if none did
+    double landing_ = 0;              // length of the step that ends at the closing of a contact; 0 if none is ahead
+    double largest_energy_ = 0;       // largest kinetic energy of the structure
+    double overshot_ = 0;             // value of the condition that last shortened a step; NaN: none
+    int strikes_ = 0;                 // number of consecutive impacts
     Advance advance_;
-    int lost_ = 0;                    // steps of a quasi-static stage out of equilibrium, since this state:
+    int lost_ = 0;                    // consecutive steps of a quasi-static stage out of equilibrium, after this state:
     State held_;
-    std::vector<Vec3> stored_impulse_;  // on every obstacle when last stored, and when that was
+    std::vector<Vec3> stored_impulse_;  // impulse on every obstacle at the last stored row, and the time of that row
     double stored_time_ = -1;
     StepRecords* step_records_ = nullptr;
-    std::vector<Pass> passes_;        // of the step last solved, where they are kept
-    std::int64_t poll_at_ = 0;        // work at which `poll` is asked next
+    std::vector<Pass> passes_;        // passes of the last solved step if steps are stored
+    std::int64_t poll_at_ = 0;        // amount of work at which `poll` is called next
     bool ready_ = false;
 };
 

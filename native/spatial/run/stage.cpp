@@ -1,4 +1,4 @@
-// Stages: their beginning, and the conditions that end them early.
+// Stages: their start, and the conditions that end them early.
 #include <algorithm>
 #include <cmath>
 
@@ -8,15 +8,16 @@ namespace crumple::spatial {
 
 namespace {
 
-// Share of the work of loads that drag takes in a step out of equilibrium.  In equilibrium it is drag m v over the load.
+// A step is out of equilibrium if drag dissipates more than this share of the work of loads.  In equilibrium it is drag m v over the
+// load.
 constexpr double lost_share = 1e-3;
-// Displacement out of equilibrium [rad, model lengths] beyond that of a snap-through, and drag's least share of its work.
+// Displacement out of equilibrium [rad, model lengths] that exceeds a snap-through, and the smallest share of drag in the work over it.
 constexpr double longest_snap = 0.5, snap_share = 5e-2;
-// Consecutive steps out of equilibrium that exceed a snap-through.
+// Number of consecutive steps out of equilibrium that exceeds a snap-through.
 constexpr int most_lost = 1000;
-// Share of the work that drag takes where nothing else resists.
+// Share of drag in the work above which nothing else resists.
 constexpr double unheld_share = 0.999;
-// A condition that ends a stage is met to this share of its value.
+// Relative tolerance of a condition that ends a stage.
 constexpr double met = 1e-4;
 
 }  // namespace
@@ -89,7 +90,7 @@ double Simulation::quantity(const Condition& c, const State& s) const {
     return q - c.start;
 }
 
-// Share of the step after which the first condition is met; above 1 for none.
+// Share of the step after which the first condition is satisfied; above 1 if none is.
 double Simulation::share_of_step(const State& before, const State& after, int* which) const {
     double least = 2;
     for (size_t k = 0; k < until_.size(); k++) {
@@ -106,8 +107,8 @@ double Simulation::share_of_step(const State& before, const State& after, int* w
     return least;
 }
 
-// Whether what passes a threshold has not come nearer to it although the step was shortened: the force on what is rigid until
-// it yields jumps.
+// Whether a quantity that exceeds its threshold has not come closer to it although the step was shortened: a force on a rigid-plastic
+// part jumps.
 bool Simulation::jumps(int which) {
     const Condition& c = until_[static_cast<size_t>(which)];
     const double reached = std::fabs(quantity(c, fine_)), before = overshot_;
@@ -115,8 +116,8 @@ bool Simulation::jumps(int which) {
     return before - reached < 0.1 * (before - std::fabs(c.value));
 }
 
-// Whether the structure goes a long way in a quasi-static stage while loads do more work than it takes up: no equilibrium is
-// near.  Drives end with their motion, so what they do counts as held.
+// Whether the structure moves far in a quasi-static stage while loads do more work than it absorbs: there is no equilibrium nearby.
+// The motion of drives is prescribed, so their work counts as absorbed.
 bool Simulation::lost(const State& before, Record& record) {
     if (!stepper_.stage().quasi_static) return false;
     auto drag_share = [&](const State& since) {

@@ -1,4 +1,4 @@
-// The control of the step: its error from one step and two halves, impacts, shorter steps after an error, ends at breaks.
+// Step control: error estimate from one step and two half steps, impacts, shorter steps if the error is too large, ends at breaks.
 #include <algorithm>
 #include <cmath>
 
@@ -8,20 +8,20 @@ namespace crumple::spatial {
 
 namespace {
 
-// Error that one step may add, measured by the difference between one step and two halves.  The local error goes
-// with h^3 and the error of the whole motion with h^2, so below `loosest_share` the share of a step shrinks with
-// the square root of the accuracy, as in the planar engine.  With the whole accuracy for a step M3 errs by just that.
+// Error allowed in one step, measured by the difference between one step and two half steps.  The local error is proportional to h^3
+// and the error of the whole motion to h^2, so below `loosest_share` the error allowed in a step is reduced by a further factor, the
+// square root of accuracy/loosest_share, as in the planar kernel.  With the full accuracy for each step, problem M3 just reaches it.
 constexpr double loosest_share = 1e-3, step_share = 0.4;
 
-// The same out of equilibrium in a quasi-static stage, where without inertia the path is only an estimate.
+// The same out of equilibrium in a quasi-static stage, where the path is only an estimate because inertia is neglected.
 constexpr double lost_tolerance = 2e-2;
 
 constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
 constexpr std::int64_t poll_interval = 20'000;  // solves times rows between calls of `poll`: some 10 ms
-// Impacts in a row that only what cannot give way leads to; and those after which nothing bounces.  Restitution between parts that
-// lock one another gives impacts without end, each with a little less energy: their limit is contact that stays.
+// Number of consecutive impacts that shows that something cannot give way; and the number after which restitution is switched off.
+// Restitution between parts that lock each other gives endless impacts with decreasing energy; their limit is persistent contact.
 constexpr int most_strikes = 1000, most_bounces = 200;
-// Steps are not shortened below this many smallest ones to end where a contact closes.
+// Steps are not shortened below this multiple of the smallest step to end at the closing of a contact.
 constexpr double shortest_landing = 4;
 
 }  // namespace
@@ -52,18 +52,18 @@ double Simulation::error(const State& coarse, const State& fine) const {
     if (speed > 0) e = std::max(e, kinetic_norm(model_, coarse, &fine) / speed);
     e /= lost_ > 0 ? std::max(step_tolerance_, lost_tolerance) : step_tolerance_;
     if (stepper_.stage().quasi_static) return e;
-    // a step that leaves more energy unbalanced than the accuracy allows is not resolved
+    // an energy imbalance above the accuracy counts as an error of the step
     return std::max(e, unbalance(fine) / settings_.accuracy);
 }
 
-// Energy that a step leaves unbalanced, over what the structure was given.
+// Energy imbalance of a step relative to the energy supplied to the structure.
 double Simulation::unbalance(const State& fine) const {
     const Energies after = energies(model_, fine);
     const double reference = std::max(given(after), negligible_energy_ + lift_ * scale_ + rounding_share * after.kinetic);
     return reference > 0 ? std::fabs(after.balance() - balance_) / reference : 0;
 }
 
-// one step and two halves; the halves know from the whole how the velocities change
+// one step and two half steps; the half steps get the change of the velocities from the full step
 bool Simulation::solve(double h) {
     coarse_ = state_;
     passes_.clear();
@@ -83,7 +83,7 @@ bool Simulation::solve(double h) {
     return true;
 }
 
-// The step of an impact: so short that nothing but velocities changes.
+// The step of an impact: so short that only velocities change.
 bool Simulation::strike(Record& record) {
     stepper_.contacts().set_bounces(strikes_ < most_bounces);
     const bool solved = stepper_.step(state_, settings_.minimum_step, nullptr);
@@ -116,8 +116,8 @@ bool Simulation::failed(double e, bool smallest, Record& record) const {
     return true;
 }
 
-// Whether a smallest step that is not accurate may be taken: where it loses the balance of energy no number after it would mean
-// anything.
+// Whether an inaccurate step of the smallest length may be accepted: not if it violates the energy balance, because no later result
+// would be meaningful.
 bool Simulation::force(Record& record) const {
     record.forced++;
     if (stepper_.stage().quasi_static || unbalance(fine_) <= refused_share) return true;

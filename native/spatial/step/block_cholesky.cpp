@@ -14,12 +14,12 @@ namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-// Rows of a node, at most: six of a joint.
+// Largest number of rows of a node: six, of a joint.
 constexpr int most_block = 6;
-// Share of the diagonal below which a difference is no number; where a pivot is put up to it, refinement has to correct.
+// Share of the diagonal below which a pivot is rounding; smaller pivots are raised to it, and refinement corrects the solution.
 constexpr double rounding = 2.2e-16;
 
-// Sizes known to the compiler for the commonest blocks: six rows of joints, three of contacts.
+// Compile-time sizes of the most common blocks: six rows of joints, three of contacts.
 template <int N>
 struct Fixed {
     operator int() const { return N; }
@@ -36,7 +36,7 @@ inline void with_size(int n, Use use) {
     }
 }
 
-// Rows of the later node are contiguous in a block, so that the innermost loops run over them without sums.
+// The index of the node eliminated later runs fastest in a block, so that the innermost loops have no reductions and vectorise.
 // target (m x n) -= b (k x m)^T a (k x n)
 template <class N, class M, class K>
 inline void subtract_product(double* target, const double* a, const double* b, N n, M m, K k) {
@@ -132,7 +132,7 @@ void BlockCholesky::eliminate(const std::vector<int>& size, std::vector<std::vec
         }
         columns.push_back(column);
     }
-    // places of the blocks, column by column
+    // positions of the blocks, column by column
     size_t next = 0;
     first_.assign(1, 0);
     below_.clear();
@@ -173,7 +173,7 @@ size_t BlockCholesky::block(int a, int b) const {
 
 void BlockCholesky::clear() { std::fill(values_.begin(), values_.end(), 0.0); }
 
-// Lower triangle in place.
+// Cholesky factor of a diagonal block, in its lower triangle, and the reciprocals of the pivots.
 void BlockCholesky::factor_diagonal(int node, const double* floor, const char* redundant) {
     const int n = size_[at(node)];
     double* a = &values_[diagonal_[at(node)]];
@@ -181,7 +181,7 @@ void BlockCholesky::factor_diagonal(int node, const double* floor, const char* r
     for (int j = 0; j < n; j++) {
         double pivot = a[j * n + j];
         for (int k = 0; k < j; k++) pivot -= a[j * n + k] * a[j * n + k];
-        // `reciprocal` held the diagonal before elimination
+        // up to here `reciprocal` holds the diagonal before elimination
         if (redundant[j]) {
             a[j * n + j] = 0;
             reciprocal[j] = 0;

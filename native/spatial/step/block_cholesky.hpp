@@ -1,7 +1,7 @@
-// Cholesky factors of a sparse symmetric matrix of small dense blocks, one node per connection of bodies.
+// Cholesky factorisation of a sparse symmetric matrix of small dense blocks, with one node per connection of bodies.
 //
-// The pattern is analysed once: nodes are eliminated in the order of least degree, and every product of two blocks
-// knows where it goes, so factoring is a pass over flat lists and allocates nothing.  A chain costs O(N).
+// The pattern is analysed once: nodes are eliminated in minimum degree order, and the target of every product of two blocks
+// is stored, so that factorisation is a pass over flat lists without allocation.  A chain costs O(N).
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@ using std::size_t;
 
 class BlockCholesky {
 public:
-    // `size`: rows of every node; `cliques`: sets of nodes that are coupled with one another (all around one body)
+    // `size`: number of rows of every node; `cliques`: sets of nodes that are all coupled with each other (those at one body)
     void analyse(const std::vector<int>& size, const std::vector<std::vector<int>>& cliques);
-    // where the block of two coupled nodes starts: rows of the one that is eliminated later run fastest
+    // start of the block of two coupled nodes; the row index of the node eliminated later runs fastest
     size_t block(int a, int b) const;
     bool later(int a, int b) const { return place_[static_cast<size_t>(a)] > place_[static_cast<size_t>(b)]; }
     double* values() { return values_.data(); }
@@ -23,7 +23,7 @@ public:
     int start(int node) const { return start_[static_cast<size_t>(node)]; }
     int rows() const { return start_.back(); }
     void clear();
-    // Rows that are redundant get nothing.  A row with a floor has pivots of at least that, others of at least rounding.
+    // Redundant rows get a zero solution.  The pivot of a row with a floor is at least that floor, of others at least rounding.
     void factor(const std::vector<double>& floor, const std::vector<char>& redundant);
     void solve(double* x) const;
 
@@ -40,7 +40,7 @@ private:
     void factor_diagonal(int node, const double* floor, const char* redundant);
 
     std::vector<int> size_, start_, order_, place_;
-    std::vector<size_t> diagonal_, first_, first_update_;  // per node; per place in the order
+    std::vector<size_t> diagonal_, first_, first_update_;  // per node; per position in the order of elimination
     std::vector<Entry> below_;
     std::vector<Update> update_;
     std::vector<double> values_, inverse_;  // blocks; reciprocals of the pivots

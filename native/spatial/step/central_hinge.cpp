@@ -8,7 +8,7 @@ namespace crumple::spatial {
 namespace {
 
 constexpr int most = most_components;
-// Share of the way to the boundary that a step goes.
+// Largest share of the distance to the boundary that a step takes (step to the boundary rule).
 constexpr double inside = 0.99;
 
 const Surface ellipsoid{Coupling::ellipsoid, {}, 2, 2, -1, 0};
@@ -117,7 +117,7 @@ CentralPoint near_path(const SpatialHinge& hinge, const FrozenSpatialHinge& f, c
             const double y = weight(p, f, k, w[k]) * seen(p, f, k, w[k]);
             square += y * y;
         }
-        // where s is about the rate
+        // draw x inside to where s is about as large as the rate
         const double most_share = std::sqrt(1 - mu / std::max(2 * mu, std::sqrt(square)));
         const double g = gauge(*p.surface, p.n, out.x + p.first, nullptr), kept = std::min(g, most_share);
         for (int k = p.first; k < p.first + p.n && g > kept; k++) out.x[k] *= kept / g;

@@ -1,9 +1,9 @@
-// The end velocities of a step along the central path: for steps in which many hinges lock, slide and turn at once.
+// End velocities of a step by path following (interior-point method): for steps in which many hinges lock and slide at once.
 //
-// Every hinge has a point of its own (central.hpp); the bodies' velocities are those of the problem linearised at the points, so
-// only the points know how far along the path they are.  Newton steps go on while mu falls; each point goes as far towards its
-// next one as keeps it inside, by itself, or, where that loses the way, all by the same share.  The end of the path is a
-// start for full steps on the laws themselves, which decide alone whether the step is solved.
+// Every hinge has its own point on the path (central_hinge.hpp); the bodies' velocities are the solution of the problem linearised at
+// these points.  Newton iterations continue while mu is reduced.  Each point moves towards its next one as far as it stays inside,
+// independently of the others or, if that fails, all points by the same share.  The end of the path is the start for full Newton
+// steps on the laws themselves, whose convergence alone decides whether the step is solved.
 #include <algorithm>
 #include <cmath>
 
@@ -13,24 +13,26 @@ namespace crumple::spatial {
 
 namespace {
 
-// mu where a path begins, where one is kept for the passes to come, and where one ends, over the largest rate.
+// mu at the start of a path, at the point kept for the following passes, and at the end, relative to the largest rate.
 constexpr double path_begin = 1e-1, path_kept = 1e-4, path_end = 1e-11;
-// At the end s (1 - g^2) is within this factor of mu, and all points went at least this share of their way.
+// At the end the mean s (1 - g^2) is within this factor of the final mu, and all points took at least this share of their last step.
 constexpr double close_to_end = 2, nearly_whole = 0.7;
-// mu falls by the first factor where all points went half their way, by the second where they went a tenth of it.
+// Reduction of mu if all points took half of their step: independently (`fast`), by the same share (`fast_together`); and if they took
+// a tenth of it (`slow`).
 constexpr double fast = 0.03, fast_together = 0.1, slow = 0.3;
 constexpr double half_way = 0.5, some_way = 0.1;
-// Newton steps before a path is lost, each way; and growth of the mean s (1 - g^2) that indicates the same.
+// Limits of the Newton iterations with independent and with common shares; and growth of the mean s (1 - g^2) that shows divergence.
 constexpr int path_limit = 16, path_limit_together = 60;
 constexpr double lost = 10;
-// full steps on the laws, from the path's end
+// limit of full Newton steps on the laws from the end of the path
 constexpr int polish_limit = 12;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
 }  // namespace
 
-// Points as the last path of this step left them, or from the moments of the last step and the guessed rates; the largest rate.
+// Start points: those kept from the last path of this step, or from the moments of the last step and the guessed rates.  Returns the
+// largest rate.
 double Stepper::enter_path(bool warm) {
     double largest = 0;
     on_path_.assign(connections_.size(), 0);
@@ -55,7 +57,7 @@ double Stepper::enter_path(bool warm) {
     return largest;
 }
 
-// One Newton step; the mean of s (1 - g^2), and the least share of its way that a point went.
+// One Newton iteration; returns the mean of s (1 - g^2), and in `least` the smallest share of its step that a point took.
 double Stepper::step_on_path(bool together, double& least) {
     solve_once();
     velocity_.swap(next_);
@@ -83,7 +85,7 @@ double Stepper::step_on_path(bool together, double& least) {
     return sum / parts;
 }
 
-// Rates at which the laws are linearised from here.
+// Sets the rates at which the laws themselves are linearised after the path.
 void Stepper::leave_path() {
     for (size_t c = 0; c < connections_.size(); c++) {
         if (!on_path_[c]) continue;

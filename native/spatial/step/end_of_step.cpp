@@ -8,14 +8,14 @@ namespace crumple::spatial {
 
 namespace {
 
-// Newton steps that bring positions back to the held rows; the matrix is that of the end before projection.
+// Limit of Newton iterations that project positions onto the held rows; the matrix is that of the end before projection.
 constexpr int projection_limit = 4;
-// Share of the model's length to which held points meet: rounding.
+// Tolerance of the gap between held points as a share of the model's length: rounding.
 constexpr double gap_tolerance = 1e-14;
-// The same, or angle [rad]: with a larger gap after its Newton steps the projection counts as unsolvable.  Where there is a solution
-// they go to rounding; a drive against what cannot give way misses by all its way, however short the steps.
+// Gap [model lengths or rad] after these iterations above which the projection has no solution.  If there is one, the gap converges to
+// rounding; for a drive against something that cannot move it is the whole displacement of the drive, however short the step.
 constexpr double unsolvable_gap = 1e-6;
-// Rates of held rows at the end of a step, relative to the speed.
+// Tolerance of the rates of held rows at the end of a step, relative to the speed.
 constexpr double projection_tolerance = 1e-12;
 
 size_t at(int i) { return static_cast<size_t>(i); }
@@ -118,7 +118,7 @@ void Stepper::turn_hinges(State& s) {
     }
 }
 
-// Gravity and loads act over the true way of their points; and what drag takes in quasi-static stages.
+// Work of gravity and loads over the true displacement of their points, and the energy lost to drag in quasi-static stages.
 void Stepper::work_of_loads(State& s, double h) {
     double on_structure = 0;
     for (size_t i = 0; i < end_.size(); i++) {
@@ -142,8 +142,8 @@ void Stepper::work_of_loads(State& s, double h) {
     }
 }
 
-// Positions and velocities back to the held rows at the end of the step, the nearest in kinetic energy with the laws'
-// tangents kept: a locked hinge stays locked.  False where they cannot be met.
+// Projects positions and velocities onto the held rows at the end of the step: the closest ones in the kinetic-energy norm with the
+// tangents of the laws kept, so that a locked hinge stays locked.  False if the held rows cannot be satisfied.
 bool Stepper::project_positions(State& s, double h) {
     const std::vector<Link>& links = system_.links();
     bool any = false;
@@ -190,7 +190,7 @@ bool Stepper::project_positions(State& s, double h) {
     return true;
 }
 
-// Whether the held rows are met where they were last located.
+// Whether the held rows are satisfied at the positions where they were last located.
 bool Stepper::meets() const {
     for (size_t c = 0; c < connections_.size(); c++) {
         for (int i = 0; i < system_.links()[c].held; i++) {
@@ -202,7 +202,7 @@ bool Stepper::meets() const {
     return true;
 }
 
-// Impulses of the projection belong to the step: those of drives do work, because their rates are not zero.
+// The impulses of the projection are part of the step: those of drives do work, because their rates are not zero.
 void Stepper::project_rates(State& s, double h) {
     const std::vector<Link>& links = system_.links();
     rates(rows_, velocity_.data(), x_.data());
@@ -238,14 +238,14 @@ bool Stepper::drives_obstacle(size_t joint) const {
     return body >= 0 && model_.bodies[at(body)].obstacle;
 }
 
-// Energy that drag takes from a body in a quasi-static step: all that the step's inertia has at its end.
+// Energy that a body loses to drag in a quasi-static step: the kinetic energy of the step's inertia at its end.
 double Stepper::inertial_energy(size_t body) const {
     const Body& b = model_.bodies[body];
     const Vec3 w = velocity_[body].w;
     return inertia() * (b.mass * dot(velocity_[body].v, velocity_[body].v) + dot(w, inertia_[body] * w)) / 2;
 }
 
-// Work that a drive spends in a quasi-static step on the inertia that stands in for an obstacle: no energy of anything.
+// Work of a drive in a quasi-static step on the placeholder inertia of an obstacle, which is not counted as energy.
 double Stepper::stand_in_energy(size_t joint) const {
     return stage_.quasi_static && drives_obstacle(joint) ? inertial_energy(at(model_.joints[joint].body[1])) : 0;
 }

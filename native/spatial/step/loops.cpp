@@ -7,15 +7,15 @@ namespace crumple::spatial {
 
 namespace {
 
-// Remaining length of a row of H below which it depends on others: what is left of independent ones is at least 1e-4 where hinges
-// have been moved off dead centres, and rounding some 1e-15.
+// Remaining length of a row of H below which it depends on others: the remainder of independent rows is at least 1e-4 if hinges
+// have been moved off dead centres; rounding is about 1e-15.
 constexpr double dependent = 1e-9;
-// Turn [rad] of a body after which the choice of rows is made anew: within it the worst row kept loses 1 - cos of this.
+// Rotation [rad] of a body after which the rows are chosen again: up to it the worst row kept loses 1 - cos of this angle.
 constexpr double fresh = 0.1;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-// Eight sums, so that the processor need not wait for one.
+// Scalar product in eight partial sums, to hide the latency of additions.
 double product(const double* a, const double* b, size_t n) {
     double part[8] = {};
     size_t k = 0;
@@ -26,7 +26,7 @@ double product(const double* a, const double* b, size_t n) {
     return ((part[0] + part[4]) + (part[1] + part[5])) + ((part[2] + part[6]) + (part[3] + part[7]));
 }
 
-// Takes out of a row its part along a direction of length 1; that part.
+// Subtracts from a row its component along a unit vector; returns that component.
 double project(double* row, const double* along, size_t n) {
     const double part = product(row, along, n);
     if (part == 0) return 0;
@@ -95,7 +95,7 @@ bool Loops::find(const std::vector<JointGeometry>& geometry, const std::vector<P
     return true;
 }
 
-// Relative motion that a joint leaves: along and about the directions across its held ones.
+// Relative motions that a joint leaves free: along and about the directions perpendicular to its held ones.
 void Loops::free_parts(size_t j, const JointGeometry& g) {
     const Joint& joint = model_.joints[j];
     Vec3 held[2][3];
@@ -118,7 +118,7 @@ void Loops::free_parts(size_t j, const JointGeometry& g) {
     }
 }
 
-// Rate along a held row of the motions of the tree's joints on both ways to the root.
+// Coefficients of a held row: its rate for the motions of the tree's joints on the paths from both bodies to the root.
 void Loops::equation(size_t j, const JointGeometry& g, int r, double* out) const {
     const Joint& joint = model_.joints[j];
     const bool turns = joint.freedom[r] >= 3;
@@ -140,11 +140,11 @@ void Loops::equation(size_t j, const JointGeometry& g, int r, double* out) const
     }
 }
 
-// Gram and Schmidt, the largest remaining row first; a row that a projection halves is projected once more.
+// Gram-Schmidt orthogonalisation, largest remaining row first; a row whose length falls below half is orthogonalised again.
 void Loops::choose(size_t rows) {
     const auto row = [&](size_t i) { return &matrix_[i * columns_]; };
     std::vector<size_t> left(rows);
-    // squared lengths, and those of them that were last summed rather than reduced
+    // squared lengths as updated by projections, and as last computed from the row itself
     std::vector<double> length(rows), summed(rows);
     for (size_t i = 0; i < rows; i++) {
         left[i] = i;
@@ -152,7 +152,7 @@ void Loops::choose(size_t rows) {
     }
     for (const size_t place : place_) redundant_[place] = 1;
     while (!left.empty()) {
-        // the first of equals, though rounding sets them apart
+        // of rows that are equal up to rounding choose the first
         size_t best = 0;
         for (size_t i = 1; i < left.size(); i++) {
             if (length[left[i]] > length[left[best]] * (1 + dependent)) best = i;

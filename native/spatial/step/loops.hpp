@@ -1,11 +1,11 @@
-// Which held rows others hold already: the rank of the loops' equations.
+// Redundant held rows: the rank of the loops' constraint equations.
 //
-// A spanning tree of the joints carries every body.  A held row of a joint beyond the tree closes a loop; as a function of the free
-// rates of the joints along it, it is a row of a matrix H (unit: rad/s and, over the model's length, m/s).  Rows of H that depend
-// on others are redundant.  They are found by orthogonalisation of H itself, the largest remaining row first: with J M^-1 J^T,
-// which has the squares, rounding of a well-conditioned loop passes what an independent row of another has left, and a row that is
-// wrongly kept gets impulses without bounds.  Turning with the structure, another choice of rows becomes the best one, so the choice
-// is made anew when a body has turned by `fresh`.
+// A spanning tree of the joints connects all bodies.  A held row of a joint outside the tree closes a loop; as a function of the free
+// rates of the joints along the loop, it is a row of a matrix H (unit: rad/s and, divided by the model's length, m/s).  Rows of H that
+// depend on others are redundant.  They are found by orthogonalisation of H itself, largest remaining row first.  In J M^-1 J^T, which
+// contains the squares, the rounding errors of a well-conditioned loop can exceed the remainder of an independent row of another loop,
+// and a redundant row that is kept gets unbounded impulses.  As the structure rotates, another choice of rows becomes the best one, so
+// the choice is repeated when a body has rotated by `fresh`.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ namespace crumple::spatial {
 class Loops {
 public:
     explicit Loops(const Model& model);
-    // Per joint and held row whether it is redundant, at the places where `geometry` has been located; true if this was found anew.
+    // Finds which held rows are redundant at the positions where `geometry` has been located; true if the choice was made again.
     bool find(const std::vector<JointGeometry>& geometry, const std::vector<Pose>& pose);
     bool redundant(size_t joint, int row) const { return redundant_[first_[joint] + static_cast<size_t>(row)] != 0; }
 
@@ -28,7 +28,7 @@ private:
         int depth = 0;
     };
     struct Part {
-        Twist twist;  // of the outer body against the inner one, of the point below
+        Twist twist;  // of the outer body relative to the inner one, at the point below
         Vec3 point;
     };
     void free_parts(size_t joint, const JointGeometry& g);
@@ -37,12 +37,12 @@ private:
 
     const Model& model_;
     std::vector<Branch> branch_;                  // per body
-    std::vector<size_t> closing_, first_, column_;  // joints beyond the tree; per joint its first row and column
+    std::vector<size_t> closing_, first_, column_;  // joints outside the tree; per joint its first row and column
     std::vector<Part> part_;                      // per column
     std::vector<char> redundant_;                 // per held row of all joints
     std::vector<Pose> found_at_;
     std::vector<double> matrix_;                  // rows of H
-    std::vector<size_t> place_;                   // of its rows among all held ones
+    std::vector<size_t> place_;                   // index of each of its rows among all held rows
     size_t columns_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// The end velocities of a step: semismooth Newton on the convex potential that the frozen laws and bodies make.
+// End velocities of a step: semismooth Newton method on the convex potential of stepper.hpp with all laws frozen.
 #include <algorithm>
 #include <cmath>
 
@@ -10,19 +10,19 @@ namespace crumple::spatial {
 
 namespace {
 
-// Full Newton steps before the guaranteed way is taken, and before the central path is tried; they fail only by cycling.
+// Limits of full Newton steps before the globally convergent method, and before the central path; they fail only by cycling.
 constexpr int full_step_limit = 32, full_step_limit_before_path = 12;
-// Newton steps per width of the ramps before the step is given up and shortened: a fixed number, and some per hinge,
-// since in the worst case (an impulse on the end of a long chain) hinges lock and release one at a time.
+// Limit of Newton iterations for each width of the ramps before the time step is shortened: a fixed number and some per hinge, because
+// in the worst case (an impulse on the end of a long chain) hinges lock and release one at a time.
 constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
-constexpr double narrowing = 1e-1;  // of the widening: from the largest rate down by this factor a time
-// Relative accuracy of a law's impulse; piecewise linear laws reach rounding, curved ones converge to this.  At widened ramps
-// it only has to show which hinges slide.
+constexpr double narrowing = 1e-1;  // factor between successive widths of the ramps, starting at the largest rate
+// Relative tolerance of a law's impulse; piecewise linear laws reach rounding, curved ones converge to this.  With widened ramps
+// the solution only has to show which hinges slide.
 constexpr double impulse_tolerance = 1e-9, widened_tolerance = 1e-1;
-// Energy that a Newton step could still move, relative to the kinetic energy: below it is rounding.
+// Energy that a Newton iteration could still change, relative to the kinetic energy; smaller values are rounding.
 constexpr double energy_rounding = 1e-14;
-constexpr double no_energy = 1e-60;  // [J]: what friction leaves of a speed dies away below the smallest number
-// Rates of held rows and of stiff laws are met to this share of the speed; what is left is projected out at the step's end.
+constexpr double no_energy = 1e-60;  // [J]: speeds that decay by friction would otherwise end below the smallest number
+// Tolerance of the rates of held rows and of stiff laws relative to the speed; the rest is projected out at the end of the step.
 constexpr double rate_tolerance = 1e-10;
 
 size_t at(int i) { return static_cast<size_t>(i); }
@@ -41,14 +41,14 @@ void Stepper::respond(size_t link, const double* w, double* impulse, double* tan
     spatial::respond(model_.hinges[hinge], frozen_[hinge], w, impulse, tangent, nullptr);
 }
 
-// above 1: a locked hinge must give way
+// load factor of a hinge: above 1 it must flow
 double Stepper::load(size_t link, const double* w) const {
     if (!is(link, Kind::joint)) return 0;
     const size_t hinge = at(hinge_index(link));
     return load_factor(model_.hinges[hinge], frozen_[hinge], w);
 }
 
-// Rates that a law sees, a w_0 + (1 - a) w for a coupled hinge that slides on; see `FrozenSpatialHinge::lead`.
+// Rates in a law: a w_0 + (1 - a) w for a coupled hinge that continues to slide, see `FrozenSpatialHinge::lead`.
 void Stepper::seen_rate(size_t link, const double* w, double* seen) const {
     const int n = system_.links()[link].laws;
     const FrozenSpatialHinge* f = hinge_of(link) ? &frozen_[at(hinge_index(link))] : nullptr;
@@ -56,7 +56,7 @@ void Stepper::seen_rate(size_t link, const double* w, double* seen) const {
     for (int k = 0; k < n; k++) seen[k] = lead > 0 ? lead * f->w0[k] + (1 - lead) * w[k] : w[k];
 }
 
-// Multiplies the rates that a law sees.
+// Multiplies the rates in a law (seen_rate).
 void Stepper::scale_rate(size_t link, double factor, double* w) const {
     const int n = system_.links()[link].laws;
     double seen[most_components];
@@ -66,7 +66,7 @@ void Stepper::scale_rate(size_t link, double factor, double* w) const {
     for (int k = 0; k < n; k++) w[k] = lead > 0 ? (factor * seen[k] - lead * f->w0[k]) / (1 - lead) : factor * w[k];
 }
 
-// Full steps are tried first, unless they cycled before in this step, then the central path; the guaranteed way is the last.
+// Full Newton steps first, unless they cycled before in this step; then the central path; the globally convergent method last.
 bool Stepper::newton() {
     tolerance_ = impulse_tolerance;
     energy_ = 0;
@@ -75,12 +75,12 @@ bool Stepper::newton() {
     }
     const std::vector<Twist> velocity = velocity_;
     const std::vector<double> w = w_;
-    // iterations that cycled may have moved far away
+    // iterations that cycled may have moved far from the start
     auto restart = [&] {
         velocity_ = velocity;
         w_ = w;
     };
-    // without inertia a locked hinge is so stiff that the rates which unlock it drown in rounding: wide ramps first
+    // without inertia a locked hinge is so stiff that the rates that release it are lost in rounding: begin with wide ramps
     if (stage_.quasi_static) return narrow_ramps();
     if (!all_set_valued_) {
         if (descend(newton_steps(), false)) return true;
@@ -100,12 +100,12 @@ bool Stepper::newton() {
 
 int Stepper::newton_steps() const { return newton_limit + newton_limit_per_hinge * static_cast<int>(frozen_.size()); }
 
-// A locked hinge is nearly infinitely stiff, so a line search at the true ramps unlocks hinges one at a time.  So the ramps are
-// widened and narrowed in steps, each a good start for the next, with line search.
+// A locked hinge is almost infinitely stiff, so a line search with the true ramps releases hinges one at a time.  The ramps are
+// therefore widened and narrowed in stages (continuation), each solved with line search from the solution of the previous one.
 bool Stepper::narrow_ramps() {
     double width = 1;
     for (size_t c = 0; c < connections_.size(); c++) {
-        // a contact's normal rate is no slip
+        // the normal rate of a contact is not a slip
         const Link& link = system_.links()[c];
         for (int i = is(c, Kind::contact) ? 1 : 0; i < link.rows(); i++) width = std::max(width, std::fabs(w_[at(start(c) + i)]));
     }
@@ -130,14 +130,14 @@ void Stepper::widen(double width, bool& narrowest) {
         FrozenSpatialHinge& f = frozen_[at(hinge_index(c))];
         const double least = least_width(hinge), wanted = std::max(width, least);
         double* w = &w_[at(start(c) + system_.links()[c].held)];
-        // inside the ramp the moment is kept, so the rate shrinks with the width
+        // within the ramp the moment is kept: the rate is reduced in proportion to the width
         if (wanted < f.width && load(c, w) < 1) scale_rate(c, wanted / f.width, w);
         spatial::widen(hinge, f, wanted);
         if (wanted > least) narrowest = false;
     }
 }
 
-// A law, or a point of the path in its place, as impulse = offset + tangent w.
+// Linearisation of a law, or of its point on the central path, as impulse = offset + tangent w.
 void Stepper::tangent_of(size_t link, double* offset, double* tangent) const {
     const Link& l = system_.links()[link];
     const int n = l.laws;
@@ -161,7 +161,7 @@ void Stepper::tangent_of(size_t link, double* offset, double* tangent) const {
     }
 }
 
-// The tangent D = Q d Q^T as root Q sqrt(d), and what the law gives beyond it.
+// Stores the tangent D = Q d Q^T by its root Q sqrt(d), and the offset of the law.
 void Stepper::linearise(size_t link) {
     const Link& l = system_.links()[link];
     const int n = l.laws, first = start(link) + l.held;
@@ -182,7 +182,7 @@ void Stepper::linearise(size_t link) {
     }
 }
 
-// Newton steps, either full (no guarantee) or with exact line search on the potential (always downhill).
+// Newton iterations, either with full steps (not guaranteed to converge) or with exact line search on the potential (descent).
 bool Stepper::descend(int limit, bool full_steps) {
     for (int iteration = 0; iteration < limit && solves_ < last_solve_; iteration++) {
         solve_once();
@@ -197,7 +197,7 @@ bool Stepper::descend(int limit, bool full_steps) {
         if (full_steps) {
             take_full_step();
         } else if (iteration == 0 || slope <= 0) {
-            // the first step leads to the held rows
+            // the first step is taken in full: it satisfies the held rows
             velocity_.swap(next_);
             w_.swap(w_next_);
         } else {
@@ -209,7 +209,7 @@ bool Stepper::descend(int limit, bool full_steps) {
     return false;
 }
 
-// velocities, rates and impulses with every law's tangent at w_
+// solves for velocities, rates and impulses with the tangent of every law at w_
 void Stepper::solve_once() {
     pause();
     const std::vector<Link>& links = system_.links();
@@ -235,7 +235,7 @@ void Stepper::solve_once() {
     }
     system_.solve(x_.data(), rate_tolerance * speed_);
     system_.push(x_.data(), next_.data());
-    // rates: stiff directions from their own unknown, which keeps the digits of a locked hinge
+    // rates: in stiff directions from their own unknown, which preserves the digits of a locked hinge
     rates(rows_, next_.data(), w_next_.data());
     for (size_t c = 0; c < links.size(); c++) {
         const int first = start(c), held = links[c].held, n = links[c].laws;
@@ -260,13 +260,13 @@ void Stepper::solve_once() {
     }
 }
 
-// Whether the true impulses agree with their tangents at the new rates; `slope`: of the potential along the step.
+// Whether the nonlinear impulses agree with their linearisation at the new rates; `slope`: of the potential along the step.
 bool Stepper::balanced(double& slope) {
     const std::vector<Link>& links = system_.links();
     bool all = true;
     double moved = 0, furthest = 0;
     slope = 0;
-    // friction on a point that is hardly pressed counts against the strongest contact
+    // friction at a contact with a small normal impulse is compared with the strongest contact
     double struck = 0;
     for (size_t i = 0; i < contacts_.size(); i++) struck = std::max(struck, -impulse_[contact_rows() + 3 * i]);
     for (size_t c = 0; c < links.size(); c++) {
@@ -292,14 +292,14 @@ bool Stepper::balanced(double& slope) {
     return all || moved <= energy_rounding * energy_ + no_energy;
 }
 
-// A contact that would slide back is first put to rest.
+// Sets the tangential rates of a contact that would reverse its slip to zero first.
 void Stepper::stop_reversing(size_t link) {
     const double *w = &w_[at(start(link))], width = contacts_.frozen(at(connections_[link].index)).width;
     double* next = &w_next_[at(start(link))];
     if (std::hypot(w[1], w[2]) > width && w[1] * next[1] + w[2] * next[2] < 0) next[1] = next[2] = 0;
 }
 
-// Whether a sliding hinge would turn back; if it slides on its next rates follow its impulse.
+// Whether a sliding hinge would reverse; if it continues and has a round surface, its next rates follow its impulse.
 bool Stepper::reverses(size_t link) {
     const size_t first = at(start(link) + system_.links()[link].held);
     const SpatialHinge* hinge = hinge_of(link);
@@ -311,9 +311,9 @@ bool Stepper::reverses(size_t link) {
     return along < 0;
 }
 
-// Takes the whole Newton step, except that a hinge which would reverse is first put to rest, and that of
-// neighbouring locked hinges loaded beyond their capacity only the one loaded most is released: the moment falls
-// beside it, and releasing all of them would only send most back.
+// Takes the full Newton step with two exceptions: a hinge that would reverse is set to zero rates first, and of neighbouring locked
+// hinges that are overloaded only the one with the largest overload is released, because its release reduces the moments of its
+// neighbours and most of them would lock again.
 void Stepper::take_full_step() {
     const std::vector<Link>& links = system_.links();
     std::fill(overload_.begin(), overload_.end(), 0.0);
@@ -347,7 +347,7 @@ void Stepper::take_full_step() {
     w_.swap(w_next_);
 }
 
-// Root of the potential's slope along next_ - velocity_, in (0, 1); the slope grows along the way.
+// Line search: root in (0, 1) of the slope of the potential along next_ - velocity_; the slope is non-decreasing.
 double Stepper::search(double slope_end) {
     const std::vector<Link>& links = system_.links();
     double curvature = 0, linear_end = 0;
@@ -374,8 +374,8 @@ double Stepper::search(double slope_end) {
         return f;
     };
     double lo = 0, hi = 1, f_lo = slope(0), f_hi = slope_end;
-    if (!(f_lo < 0)) return 1;  // rounding: nothing to gain
-    // secant with halved weights (Illinois), bisection every third time: ramps of locked hinges are narrow
+    if (!(f_lo < 0)) return 1;  // not a descent direction by rounding
+    // secant method with halved weights (Illinois), bisection every third time because ramps of locked hinges are narrow
     int side = 0;
     for (int k = 0; k < 60 && hi - lo > 1e-14 * hi; k++) {
         double a = k % 3 == 2 ? (lo + hi) / 2 : lo - f_lo * (hi - lo) / (f_hi - f_lo);

@@ -1,4 +1,4 @@
-// What a pass over a step takes from the one before it.
+// Information that a pass over a step takes from the previous pass.
 #include <algorithm>
 
 #include "spatial/step/stepper.hpp"
@@ -11,8 +11,8 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 }  // namespace
 
-// Whether a coupled hinge came to rest or turned back in a step that took it for sliding on: it weighs its rates otherwise
-// then, see `FrozenSpatialHinge::lead`.
+// Whether a coupled hinge came to rest or reversed in a step that assumed continued sliding: its rates then have another weight, see
+// `FrozenSpatialHinge::lead`.
 bool Stepper::turned_back() {
     bool any = false;
     for (size_t c = 0; c < connections_.size(); c++) {
@@ -28,8 +28,8 @@ bool Stepper::turned_back() {
     return any;
 }
 
-// Newton's method starts from the guess, but hinges that the last pass found locked start so: their rates are their shares of
-// the capacity, far below what a guess is good for.  The frozen laws know only the guess.
+// Newton's method starts from the guess, but hinges that were locked in the last pass start with the rates of that pass: these are far
+// below the accuracy of a guess and give the hinges' shares of their capacity.  The laws are frozen with the guess alone.
 void Stepper::keep_locked() {
     for (size_t c = 0; solved_ && c < connections_.size(); c++) {
         const size_t first = at(start(c) + system_.links()[c].held);

@@ -7,18 +7,19 @@ namespace crumple::spatial {
 
 namespace {
 
-// Passes over what a step freezes: the second takes it at the middle of the motion that the first found, which makes the
-// step second order.  More follow only until friction agrees with the contacts' normal impulses.
+// Passes over the frozen quantities of a step: the second evaluates them at the middle of the motion found by the first, which makes
+// the step second-order accurate.  More follow only until friction agrees with the normal impulses of the contacts.
 constexpr int passes = 2, most_passes = 20;
-// Linear solves of a step, over the Newton steps that one width of the ramps may take: all widths of two passes, and some more.
+// Limit of the linear solves of a step relative to the Newton iterations allowed for one width of the ramps: enough for all widths in
+// two passes, and some more.
 constexpr int most_solves = 20;
 
-// Rates over the speed that no impact reaches; more costs digits.
+// Rate, relative to the speed, that is never reached in an impact; larger values cost digits.
 constexpr double unreached = 1e3;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-// Weight of the end rate that makes a damper's step over z = h c/m decay by e^-z.
+// Weight of the end rate with which a damped rate decays by e^-z over a step, z = h c/m.
 double end_weight(double z) { return z < 1e-3 ? 0.5 + z / 12 : 1 / (1 - std::exp(-z)) - 1 / z; }
 
 Mat3 world(const Quat& q, const Mat3& m) {
@@ -56,7 +57,7 @@ Stepper::Stepper(const Model& model) : model_(model), contacts_(model.contact), 
     for (auto* v : {&free_, &velocity_, &next_, &direction_, &momentum_, &guess_}) v->resize(bodies);
     worst_near_.assign(bodies, 0.0);
     stage_.drives.resize(model.drives.size());
-    // redundancy of the held rows, hinges free
+    // find the redundant held rows, with all hinges free
     inertia_.resize(bodies);
     const State s = start();
     locate_all(s, s.pose, 0, rows_, error_.data());
@@ -68,7 +69,7 @@ Stepper::Stepper(const Model& model) : model_(model), contacts_(model.contact), 
     }
 }
 
-// the links of joints, springs and present contacts, and room for their rows
+// sets the links of joints, springs and present contacts, and resizes the arrays of their rows
 void Stepper::link_all() {
     while (!connections_.empty() && is(connections_.size() - 1, Kind::contact)) connections_.pop_back();
     std::vector<Link> links;
@@ -154,7 +155,7 @@ void Stepper::locate_spring(const Spring& spring, const std::vector<Pose>& poses
     row = {t, cross(pa - a.x, t), cross(pb - b.x, t)};
 }
 
-// rows of all links at the given places, the state's drives at time t
+// rows of all links at the given poses, with the drives of the state's stage at time t
 void Stepper::locate_all(const State& s, const std::vector<Pose>& poses, double t, std::vector<Row>& rows, double* error) {
     for (size_t c = 0; c < connections_.size(); c++) {
         const size_t index = at(connections_[c].index), first = at(start(c));
@@ -202,7 +203,7 @@ void Stepper::set_mobilities(const std::vector<Pose>& poses) {
     }
 }
 
-// middle and end of the motion, and the velocities without impulses of joints
+// predicts the poses at the middle and the end, and the impulses of gravity and loads
 void Stepper::predict(const State& s, double h, const std::vector<Twist>& end) {
     for (size_t i = 0; i < model_.bodies.size(); i++) {
         const Twist mean = 0.5 * (s.velocity[i] + end[i]);
@@ -218,8 +219,8 @@ void Stepper::predict(const State& s, double h, const std::vector<Twist>& end) {
     }
 }
 
-// V*: change of momentum between the true ends of the step, (I_1 w_1) - (I_0 w_0), for the inertia of the midpoint.  Drag has no
-// momentum: a quasi-static step gives V* the impulses alone.
+// V*: accounts for the change of angular momentum between start and end, (I_1 w_1) - (I_0 w_0), with the inertia of the midpoint.  In
+// a quasi-static step V* follows from the impulses alone, because drag has no momentum.
 void Stepper::set_free(const State& s) {
     for (size_t i = 0; i < free_.size(); i++) {
         if (stage_.quasi_static) {
@@ -233,7 +234,7 @@ void Stepper::set_free(const State& s) {
     }
 }
 
-// which held rows are redundant at the places where they have just been located
+// finds the redundant held rows at the positions where they have just been located
 void Stepper::find_redundant(const std::vector<Pose>& poses) {
     loops_.find(geometry_, poses);
     for (size_t c = 0; c < connections_.size(); c++) {
@@ -243,7 +244,7 @@ void Stepper::find_redundant(const std::vector<Pose>& poses) {
     }
 }
 
-// the system with held rows alone, laws free
+// sets up the system with held rows only, without laws
 void Stepper::hold_rows() {
     for (size_t c = 0; c < connections_.size(); c++) {
         const Link& link = system_.links()[c];
@@ -251,8 +252,8 @@ void Stepper::hold_rows() {
     }
 }
 
-// Brings the predicted middle back to the held rows.  Needed where redundant constraints leave mobility only at
-// consistent places: Bricard's mechanism is locked at any other.
+// Projects the predicted middle onto the held rows.  Needed if redundant constraints leave mobility only at consistent
+// positions: Bricard's mechanism is locked at any other.
 void Stepper::project_middle(const State& s, double t) {
     locate_all(s, middle_, t, rows_, error_.data());
     set_mobilities(middle_);
@@ -271,7 +272,7 @@ void Stepper::project_middle(const State& s, double t) {
     }
 }
 
-// rates that the rows must have at the end of the step
+// sets the bias c of all rows and the target rates of the held rows at the end of the step
 void Stepper::aim(const State& s, double h) {
     rates(rows_, s.velocity.data(), bias_.data());
     for (size_t k = 0; k < bias_.size(); k++) bias_[k] -= rate0_[k];
@@ -293,7 +294,7 @@ void Stepper::aim(const State& s, double h) {
     }
 }
 
-// rate along a row for a unit impulse along it, of both bodies by themselves
+// mobility: rate along a row for a unit impulse along it, with both bodies free
 double Stepper::mobility(size_t link, const Row& row) const {
     double sum = 0;
     for (int side = 0; side < 2; side++) {
@@ -310,7 +311,7 @@ void Stepper::freeze(const State& s, double h) {
     for (size_t c = 0; c < connections_.size(); c++) {
         const size_t index = at(connections_[c].index), first = at(start(c));
         if (is(c, Kind::contact)) {
-            // stiff against the true inertia
+            // stiff relative to the true inertia
             contacts_.freeze(index, inertia() * mobility(c, rows_[first]));
             continue;
         }
@@ -332,7 +333,7 @@ void Stepper::freeze(const State& s, double h) {
         frozen_[at(hinge)] = spatial::freeze(model_.hinges[at(hinge)], s.hinge[at(hinge)], h, &s.turned[k], &rate0_[first + held],
                                            &w_[first + held]);
         spatial::widen(model_.hinges[at(hinge)], frozen_[at(hinge)], least_width(model_.hinges[at(hinge)]));
-        // once is enough: a hinge that turned back in one pass and on in the next would go on so
+        // one reversal is enough: a hinge that reverses in one pass and slides on in the next would alternate forever
         if (turned_back_[at(hinge)]) frozen_[at(hinge)].lead = 0;
     }
 }
@@ -359,24 +360,24 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess) {
         kept_mu_ = 0;
         full_steps_ = true;
     }
-    // a guess comes from a step that has just been solved
+    // a guess is the result of a step that has just been solved
     solved_ = solved_ && guess;
     bool settled = true;
     for (int pass = guess ? 1 : 0; pass < passes || (!settled && pass < most_passes); pass++) {
-        // positions, free-flight velocities and loads at the predicted middle
+        // predict the middle of the step: positions and loads
         predict(s, h, guess_);
         if (redundant_ > 0 || system_.redundant() > 0) project_middle(s, s.t + h / 2);
         set_mobilities(middle_);
         set_free(s);
-        // directions there, and the rates they must have
+        // locate the rows there, and set their target rates
         locate_all(s, middle_, s.t + h / 2, rows_, error_.data());
         aim(s, h);
         w_.swap(w_next_);
         rates(rows_, guess_.data(), w_.data());
         for (size_t k = 0; k < w_.size(); k++) w_[k] += bias_[k];
-        // capacities, rate factors and stops
+        // freeze capacities, rate factors and stops
         freeze(s, h);
-        // end velocities
+        // solve for the end velocities
         keep_locked();
         solved_ = followed_ ? follow_pass() : newton();
         if (!solved_) return false;

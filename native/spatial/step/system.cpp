@@ -7,7 +7,7 @@ namespace crumple::spatial {
 namespace {
 
 constexpr int refinements = 4;
-// Unknowns of laws are refined to this share of themselves.
+// Relative tolerance to which the unknowns of laws are refined.
 constexpr double law_tolerance = 1e-6, tiny = 1e-300;
 
 size_t at(int i) { return static_cast<size_t>(i); }
@@ -133,17 +133,17 @@ void System::solve(double* x, double tolerance) {
             const int first = start(c), held = links_[c].held, count = links_[c].rows();
             double largest = 0;
             for (int i = held; i < count; i++) largest = std::max(largest, std::fabs(x[first + i]));
-            // what impulses take is J M^-1 J^T x, with its sign turned
+            // the change of the rates by the impulses is -J M^-1 J^T x
             for (int i = 0; i < count; i++) {
                 const size_t k = at(first + i);
                 residual_[k] += rhs_[k] - (i < held ? 0 : x[k]);
                 const double left = std::fabs(residual_[k]);
-                // a locked hinge's unknown is small beside what cancels in it
+                // the unknown of a locked hinge is small compared with the terms that cancel in it
                 if (i < held) worst = std::max(worst, left / (tolerance + tiny));
                 else if (left > law_tolerance * largest) worst = std::max(worst, left / (law_tolerance * largest + tiny));
             }
         }
-        // rounding: no better to be had
+        // stop if converged, or if rounding prevents further improvement
         if (!(worst > 1) || worst > last / 4) return;
         last = worst;
         correction_ = residual_;

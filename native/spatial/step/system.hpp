@@ -1,13 +1,14 @@
-// The linear problem of a Newton step, in impulses along rows that link bodies two by two.
+// The linear problem of a Newton step for the impulses x along rows that link pairs of bodies.
 //
 //     (J M^-1 J^T + diag) x = rhs,      v -= M^-1 J^T x
 //
-// Held rows have nothing on the diagonal; those that others make redundant get no impulse, and are met because they are
-// consistent.  Rows of a law come with the root of its tangent, J^ = L^T J with D = L L^T, and 1 on the diagonal:
-// well conditioned from a free (D = 0) to a locked hinge (D huge).  Refinement takes rounding out.
+// Held rows have diag = 0; redundant held rows get no impulse and are satisfied because the constraints are consistent.  The rows of
+// a law are multiplied by the root of its tangent, J^ = L^T J with D = L L^T, and have diag = 1: well conditioned from a free (D = 0)
+// to a locked hinge (D very large).  Iterative refinement removes rounding errors.
 //
-// Redundant is a matter of the loops' geometry alone, see loops.hpp.  Pivots do not show it: hinges that lock a loop leave a held row a
-// pivot of 1/D beside the mobility, as small as a redundant one's except for the digits that determine the moments in the loop.
+// Redundancy depends only on the geometry of the loops, see loops.hpp.  Pivots do not show it: hinges that lock a loop give a held row
+// a pivot of 1/D relative to the mobility, as small as that of a redundant row except for the digits that determine the moments in
+// the loop.
 #pragma once
 
 #include <vector>
@@ -35,17 +36,17 @@ public:
     }
     // held row k gets no impulse
     void set_redundant(int k, bool is) { redundant_[static_cast<size_t>(k)] = is; }
-    // assembles and factors
+    // assembles and factorises the matrix
     void factor();
     // number of redundant held rows
     int redundant() const;
     int redundant(size_t link) const;
-    // x: right-hand side in, impulses out, refined until the held rows are met within `tolerance`
+    // x: right-hand side on input, impulses on output, refined until the held rows are satisfied within `tolerance`
     void solve(double* x, double tolerance);
-    // rates along the rows, and what impulses along the rows take from the velocities
+    // rates along the rows; and `push`: subtracts the effect of impulses along the rows from the velocities
     void rates(const Twist* v, double* out) const;
     void push(const double* x, Twist* v);
-    // the same for other rows of the same links: `row` per row, from impulses of laws only if `laws_only`
+    // the same with other rows of the same links; only the impulses of laws if `laws_only`
     void push(const std::vector<Row>& rows, const double* x, bool laws_only, Twist* v);
     Twist mobility(size_t i, const Twist& impulse) const {
         return {bodies_[i].inverse_inertia * impulse.w, bodies_[i].inverse_mass * impulse.v};
@@ -58,7 +59,7 @@ private:
         double inverse_mass = 1;
         Mat3 inverse_inertia;
     };
-    // a link's rows at one of its bodies: as they are, six numbers a row, and times the inverse mass, number by number
+    // rows of a link at one of its bodies: p as they are, six numbers per row; q times the inverse mass, row index running fastest
     struct Side {
         double p[6 * most_rows], q[6 * most_rows];
     };
