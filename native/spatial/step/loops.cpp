@@ -142,7 +142,7 @@ void Loops::equation(size_t j, const JointGeometry& g, int r, double* out) const
 
 // Gram-Schmidt orthogonalisation, largest remaining row first; a row whose length falls below half is orthogonalised again.
 void Loops::choose(size_t rows) {
-    const auto row = [&](size_t i) { return &matrix_[i * columns_]; };
+    const auto row = [&](size_t i) { return matrix_.data() + i * columns_; };
     std::vector<size_t> left(rows);
     // squared lengths as updated by projections, and as last computed from the row itself
     std::vector<double> length(rows), summed(rows);
