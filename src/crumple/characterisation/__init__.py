@@ -4,11 +4,13 @@ from crumple.characterisation.bending import Bending
 from crumple.characterisation.curve import LawCurve
 from crumple.characterisation.solving import Characterised, characterise
 from crumple.characterisation.store import LawStore
+from crumple.characterisation.torsion import Torsion
 
 __all__ = [
     "Bending",
     "Characterised",
     "LawCurve",
     "LawStore",
+    "Torsion",
     "characterise",
 ]

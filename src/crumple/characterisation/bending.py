@@ -10,7 +10,9 @@ import numpy as np
 from crumple.analysis import Analysis
 from crumple.characterisation.curve import LawCurve, law_curve
 from crumple.characterisation.resolution import NOMINAL, Resolution
+from crumple.characterisation.sub_model import is_mirrored, largest_side
 from crumple.errors import InputError, Problem
+from crumple.hinge.measured.place_hash import Load, place_hash
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.result import Result
@@ -65,6 +67,26 @@ class Bending:
     resolution: Resolution = NOMINAL
 
     @property
+    def load(self) -> Load:
+        """Bending."""
+        return "bending"
+
+    @property
+    def place(self) -> str:
+        """Hash of the place."""
+        return place_hash(self.section, self.material, self.axis, self.angle)
+
+    @property
+    def one_law(self) -> bool:
+        """Whether both senses have one law: those of a straight member that is its own mirror image."""
+        return self.angle is None and is_mirrored(self.section, self.axis)
+
+    @property
+    def watched_from(self) -> float:
+        """Plastic rotation [rad] from which the kinetic energy is watched."""
+        return math.radians(2.0)
+
+    @property
     def title(self) -> str:
         """One line for people."""
         if self.angle is None:
@@ -103,17 +125,30 @@ class Bending:
         """End rotation [rad]."""
         return OVERSHOOT * self.largest + ELASTIC_TURN * max(self.length_factor, 1.0)
 
+    @property
+    def size(self) -> float:
+        """Length of the elements [m]."""
+        return self.resolution.element_size(self.section, self.axis)
+
+    @property
+    def length(self) -> float:
+        """Length of both pieces [m]."""
+        return 2.0 * self.piece
+
+    @property
+    def duration(self) -> float:
+        """Time of the turn [s]."""
+        return self.resolution.duration(self.section, self.material, self.axis, self.length, self.turn)
+
     def analysis(self) -> Analysis:
         """Input of the shell solver."""
-        duration = self.resolution.duration(
-            self.section, self.material, self.axis, 2.0 * self.piece, self.turn
-        )
+        duration = self.duration
         near, far = 0.5 * self.gauge, self.piece - 0.5 * self.gauge
         return Analysis(
             title=f"Sub-model: {self.title}",
             structure=self._structure(duration),
             duration=duration,
-            shell={"element_size": self.resolution.element_size(self.section, self.axis)},
+            shell={"element_size": self.size},
             outputs={
                 "every": duration / OUTPUTS,
                 "nodes": ["turned"],
@@ -182,11 +217,6 @@ class Bending:
         """
         held, turned = (result[f"support.{name}.moment.{self.axis}"] for name in ("held", "turned"))
         return 0.5 * self.sense * (held - turned)
-
-
-def largest_side(section: Section) -> float:
-    """Largest extent of the outer outline [m]."""
-    return float(np.ptp(section.outer_outline(), axis=0).max())
 
 
 def _second_piece(angle: float, axis: Axis) -> tuple[Floats, Floats]:

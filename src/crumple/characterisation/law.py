@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from crumple.characterisation.bending import Bending
 from crumple.characterisation.curve import LawCurve
+from crumple.characterisation.sub_model import SubModel
 from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
-from crumple.hinge.measured.place_hash import PLACE, place_hash
+from crumple.hinge.measured.place_hash import PLACE
 from crumple.hinge.measured.stored import StoredCurve, StoredLaw
 from crumple.version import __version__
 
@@ -15,7 +15,7 @@ CITATION = "shell sub-model, docs/theory/characterisation.md"
 
 
 def law_of(
-    model: Bending, curve: LawCurve, opposite: LawCurve | None, facts: dict[str, str], error: float | None
+    model: SubModel, curve: LawCurve, opposite: LawCurve | None, facts: dict[str, str], error: float | None
 ) -> StoredLaw:
     """Law of a sub-model, ready for its file.
 
@@ -42,7 +42,7 @@ def law_of(
     origin = {
         "method": "shell",
         **model.origin,
-        PLACE: place_hash(model.section, material, model.axis, model.angle),
+        PLACE: model.place,
         "material": f"E {material.youngs_modulus / 1e9:g} GPa, yield {material.yield_stress / 1e6:g} MPa",
         "made_by": f"crumple {__version__}, crumple characterise",
         **facts,

@@ -1,4 +1,4 @@
-"""Sub-models that a structure needs: each distinct section, material and axis, and each distinct corner."""
+"""Sub-models that a structure needs: each distinct section, material and load, and each distinct corner."""
 
 from __future__ import annotations
 
@@ -7,11 +7,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from crumple.characterisation.bending import Bending
-from crumple.characterisation.solving import FINER, is_mirrored
-from crumple.hinge.measured.place_hash import place_hash
+from crumple.characterisation.solving import FINER
+from crumple.characterisation.sub_model import SubModel
+from crumple.characterisation.torsion import Torsion
 from crumple.section import Axis
 from crumple.structure import Structure, hinge_places, planar
 from crumple.structure.bending import bending_axis
+from crumple.structure.hinges.automatic import twists
 from crumple.structure.hinges.corners import corners, untreated
 
 PER_ELEMENT_STEP = 1.2e-7
@@ -32,7 +34,7 @@ class Needed:
         Members, or nodes of corners, that have it.
     """
 
-    model: Bending
+    model: SubModel
     place: str
     where: tuple[str, ...]
 
@@ -42,14 +44,10 @@ class Needed:
         Elements times steps, both from the element size: a mesh r times finer takes r^3 as long.
         """
         model = self.model
-        size = model.resolution.element_size(model.section, model.axis)
-        length = 2.0 * model.piece
-        duration = model.resolution.duration(model.section, model.material, model.axis, length, model.turn)
-        elements = model.section.area / model.section.thickness * length / size**2
+        elements = model.section.area / model.section.thickness * model.length / model.size**2
         speed = math.sqrt(model.material.youngs_modulus / model.material.density)
-        once = PER_ELEMENT_STEP * elements * duration * speed / size
-        both = model.angle is not None or not is_mirrored(model.section, model.axis)
-        runs = (2.0 if both else 1.0) + (sum(ratio**3 for ratio in FINER) if converge else 0.0)
+        once = PER_ELEMENT_STEP * elements * model.duration * speed / model.size
+        runs = (1.0 if model.one_law else 2.0) + (sum(ratio**3 for ratio in FINER) if converge else 0.0)
         return once * runs
 
 
@@ -65,8 +63,8 @@ def needed(structure: Structure, largest: float) -> tuple[Needed, ...]:
     """
     found: dict[str, Needed] = {}
 
-    def add(model: Bending, where: str) -> None:
-        place = place_hash(model.section, model.material, model.axis, model.angle)
+    def add(model: SubModel, where: str) -> None:
+        place = model.place
         known = found[place].where if place in found else ()
         # a square tube bends about both axes in the same way
         if where not in known:
@@ -78,6 +76,8 @@ def needed(structure: Structure, largest: float) -> tuple[Needed, ...]:
         axes: tuple[Axis, ...] = (bending_axis(structure, name),) if planar(structure) else ("y", "z")
         for axis in axes:
             add(Bending(section, material, axis, largest=largest), name)
+        if not planar(structure) and twists(structure, name):
+            add(Torsion(section, material, largest=largest), name)
     for node, corner in corners(structure).items():
         section, material = structure.section_of(corner.first), structure.material_of(corner.first)
         add(Bending(section, material, corner.axis, angle=corner.angle, largest=largest), node)

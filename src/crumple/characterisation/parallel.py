@@ -9,9 +9,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from crumple.characterisation.bending import Bending
 from crumple.characterisation.solving import characterise
 from crumple.characterisation.store import LawStore
+from crumple.characterisation.sub_model import SubModel
 from crumple.errors import CrumpleError
 from crumple.processes import Report, in_processes
 
@@ -37,13 +37,13 @@ class Done:
 
 @dataclass(frozen=True)
 class _Job:
-    model: Bending
+    model: SubModel
     folder: Path
     converge: bool
 
 
 def characterise_all(
-    models: Sequence[Bending],
+    models: Sequence[SubModel],
     folder: Path,
     *,
     workers: int,

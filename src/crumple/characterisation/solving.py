@@ -8,19 +8,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from crumple.analysis import solve
-from crumple.characterisation.bending import Bending
 from crumple.characterisation.curve import LawCurve
 from crumple.characterisation.law import law_of
+from crumple.characterisation.sub_model import Model, SubModel
 from crumple.errors import InputError, Problem, Status
 from crumple.hinge.measured.stored import StoredLaw
-from crumple.numeric.arrays import Floats
 from crumple.result import Result
-from crumple.section import Axis, Section
 
 MOST_KINETIC = 0.02
-"""Kinetic over internal energy after `AFTER`: above, the sub-model is solved again, more slowly."""
-AFTER = np.deg2rad(2.0)
-"""Rotation of the law from which the kinetic energy is watched [rad]."""
+"""Kinetic over internal energy at which the sub-model is solved again, more slowly."""
 ATTEMPTS = 3
 """Times that a sub-model is slowed down before it is given up."""
 FINER = (1.25, 1.5625)
@@ -55,7 +51,7 @@ class Characterised:
 
 
 def characterise(
-    model: Bending,
+    model: SubModel,
     *,
     converge: bool = False,
     threads: int = 1,
@@ -89,7 +85,7 @@ def characterise(
     docs/theory/characterisation.md.  Verified in tests/verification/characterisation.
     """
 
-    def solved(one: Bending, what: str) -> tuple[Result, LawCurve, float, Bending]:
+    def solved(one: Model, what: str) -> tuple[Result, LawCurve, float, Model]:
         def report(share: float) -> None:
             if progress is not None:
                 progress(what, share)
@@ -101,7 +97,7 @@ def characterise(
             if not result.status.ok:
                 raise InputError(Problem(f"the sub-model ended early: {result.reason}", one.title))
             curve = one.curve(result)
-            kinetic = kinetic_share(result, curve)
+            kinetic = kinetic_share(result, curve.energy_at(one.watched_from))
             if kinetic <= MOST_KINETIC:
                 return result, curve, kinetic, one
             slower = one.resolution.slowness * 1.2 * float(np.sqrt(kinetic / MOST_KINETIC))
@@ -111,7 +107,7 @@ def characterise(
 
     result, curve, kinetic, slow = solved(model, "nominal mesh")
     opposite = None
-    if model.angle is not None or not is_mirrored(model.section, model.axis):
+    if not model.one_law:
         opposite = solved(replace(slow, sense=-model.sense), "other sense")[1]
     error = None
     if converge:
@@ -132,10 +128,10 @@ def characterise(
     return Characterised(law_of(model, curve, opposite, facts, error), curve, result, kinetic, error)
 
 
-def kinetic_share(result: Result, curve: LawCurve) -> float:
-    """Largest kinetic over internal energy once the law has taken the work of its first 2 degrees [-]."""
+def kinetic_share(result: Result, work: float) -> float:
+    """Largest kinetic over internal energy [-] once the law has taken a work [J]."""
     internal = result["energy.elastic"] + result["energy.dissipated"]
-    later = result["energy.dissipated"] >= curve.energy_at(float(AFTER))
+    later = result["energy.dissipated"] >= work
     if not later.any():
         return 0.0
     return float((result["energy.kinetic"][later] / internal[later]).max())
@@ -155,13 +151,3 @@ def energy_error(nominal: LawCurve, fine: LawCurve, finest: LawCurve) -> float:
     order = np.clip(np.log(np.maximum(first, 1e-300) / second) / np.log(ratio), 1.0, 2.0)
     limit = three + (three - two) / (ratio**order - 1.0)
     return float(np.abs((one - limit) / limit).max())
-
-
-def is_mirrored(section: Section, axis: Axis) -> bool:
-    """Whether a section is its own mirror image about an axis of bending: both senses have one law then."""
-    points = section.outline()
-    across = 1 if axis == "y" else 0
-    image: Floats = points.copy()
-    image[:, across] *= -1.0
-    apart = np.linalg.norm(points[:, None] - image[None, :], axis=2).min(axis=0)
-    return bool(apart.max() < 1e-6 * np.ptp(points, axis=0).max())

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from crumple.analysis import input_hash
-from crumple.characterisation.bending import Bending
+from crumple.characterisation.sub_model import SubModel
 from crumple.hinge.measured.law_file import read_law, write_law
 from crumple.hinge.measured.stored import StoredLaw
 from crumple.portable import replacing
@@ -33,12 +33,12 @@ class LawStore:
 
     folder: Path
 
-    def path(self, model: Bending) -> Path:
+    def path(self, model: SubModel) -> Path:
         """File of a sub-model's law."""
         words = re.sub(r"[^a-z0-9]+", "-", model.title.lower()).strip("-")
         return self.folder / f"{words[:80]}-{METHOD}-{input_hash(model.analysis())[:16]}.law.yaml"
 
-    def law(self, model: Bending) -> StoredLaw | None:
+    def law(self, model: SubModel) -> StoredLaw | None:
         """Law of a sub-model, or None where it is not there.
 
         Raises
@@ -49,7 +49,7 @@ class LawStore:
         path = self.path(model)
         return read_law(path.read_text(encoding="utf-8"), str(path)) if path.is_file() else None
 
-    def keep(self, model: Bending, law: StoredLaw) -> Path:
+    def keep(self, model: SubModel, law: StoredLaw) -> Path:
         """Write a law; the file appears whole or not at all."""
         self.folder.mkdir(parents=True, exist_ok=True)
         path = self.path(model)

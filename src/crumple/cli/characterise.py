@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
@@ -11,11 +11,13 @@ from crumple.cli.console.characterise_file import characterise_file
 from crumple.cli.console.named import MATERIAL_HELP, SECTION_HELP
 
 if TYPE_CHECKING:
-    from crumple.characterisation import Bending, Characterised, LawCurve
+    from crumple.characterisation import Characterised, LawCurve
+    from crumple.characterisation.sub_model import SubModel
 
 ROTATIONS = (0, 1, 2, 5, 10, 15, 20, 25, 30, 40, 50, 60)
 """Rotations of the table [deg]."""
-SMALLEST, LARGEST = 0.0873, 1.0473
+LOADS = ("bending", "torsion")
+SMALLEST, LARGEST = 0.0872, 1.0473
 """Plastic rotation up to which a law can be requested: 5 to 60 degrees [rad], with room for rounding."""
 STEEPEST = 2.3563
 """Largest angle of a corner: 135 degrees [rad], with room for rounding."""
@@ -33,6 +35,9 @@ def characterise(
     material: Annotated[
         str | None, typer.Option(help=f"Of a section. {MATERIAL_HELP}", show_default=False)
     ] = None,
+    load: Annotated[
+        str, typer.Option(help="What folds it: bending, or torsion of a straight member.")
+    ] = "bending",
     axis: Annotated[
         str, typer.Option(help="Bending axis y or z, along the moment vector; y compresses the width.")
     ] = "y",
@@ -82,7 +87,7 @@ def characterise(
     if material is None:
         todo = "add --material, or give an input file such as frame.yaml"
         raise InputError(Problem("a section needs its material", section, "", todo, "--material"))
-    model = _model(section, material, axis, sense, angle, to)
+    model = _model(section, material, _Place(load, axis, sense, angle, to))
     laws = LawStore(store)
     law = laws.law(model)
     if law is None or (converge and law.validity.uncertainty is None):
@@ -96,26 +101,49 @@ def characterise(
         _show(model, law, laws.path(model))
 
 
-def _model(section: str, material: str, axis: str, sense: str, angle: str | None, to: str) -> Bending:
-    from crumple.characterisation import Bending
+class _Place(NamedTuple):
+    """Place and load as given."""
+
+    load: str
+    axis: str
+    sense: str
+    angle: str | None
+    to: str
+
+
+def _model(section: str, material: str, given: _Place) -> SubModel:
+    from crumple.characterisation import Bending, Torsion
     from crumple.cli.console.named import material_of, section_of
     from crumple.errors import InputError, Problem
     from crumple.section.section import checked_axis
-    from crumple.units import parse_quantity
 
     senses = {"+": 1, "-": -1}
-    if sense not in senses:
-        raise InputError(Problem("the sense is unknown", sense, "+ or -", "choose one", "--sense"))
-    largest = _largest(to)
+    if given.sense not in senses:
+        raise InputError(Problem("the sense is unknown", given.sense, "+ or -", "choose one", "--sense"))
+    if given.load not in LOADS:
+        raise InputError(Problem("the load is unknown", given.load, ", ".join(LOADS), "choose one", "--load"))
+    sense, largest, corner = senses[given.sense], _largest(given.to), _corner(given.angle)
     shape, (metal, _) = section_of(section), material_of(material)
-    which = checked_axis(axis)
+    if given.load == "bending":
+        return Bending(shape, metal, checked_axis(given.axis), sense, corner, largest)
+    if corner is not None:
+        what, todo = "a corner has a law of bending alone", "leave --load or --angle out"
+        raise InputError(Problem(what, given.load, "bending", todo, "--load"))
+    return Torsion(shape, metal, sense, largest)
+
+
+def _corner(angle: str | None) -> float | None:
+    """Angle of a corner [rad]."""
+    from crumple.errors import InputError, Problem
+    from crumple.units import parse_quantity
+
     corner = None if angle is None else parse_quantity(angle, "rad")
     if corner is not None and not 0.0 < corner <= STEEPEST:
         allowed, todo = "above 0 deg, at most 135 deg", "0 would be a straight member: leave --angle out"
         raise InputError(
             Problem("the angle of the corner is out of range", angle or "", allowed, todo, "--angle")
         )
-    return Bending(shape, metal, which, senses[sense], corner, largest)
+    return corner
 
 
 def _largest(to: str) -> float:
@@ -129,7 +157,7 @@ def _largest(to: str) -> float:
     return largest
 
 
-def _solved(model: Bending, converge: bool, threads: int | None) -> Characterised:
+def _solved(model: SubModel, converge: bool, threads: int | None) -> Characterised:
     from crumple.characterisation import characterise as characterised
     from crumple.cli.console.progress import progress_bar
     from crumple.portable import available_cores, stop_on_interrupt
@@ -157,7 +185,7 @@ def _picture(done: Characterised, path: Path) -> None:
         path.with_suffix(".svg").write_text(drawing, encoding="utf-8")
 
 
-def _curve(model: Bending, law: Any) -> LawCurve:
+def _curve(model: SubModel, law: Any) -> LawCurve:
     """Curve of a law in the sense of the model."""
     import numpy as np
 
@@ -168,7 +196,7 @@ def _curve(model: Bending, law: Any) -> LawCurve:
     return LawCurve(rotation, moment, work, law.elastic_stiffness)
 
 
-def _print_json(model: Bending, law: Any, path: Path) -> None:
+def _print_json(model: SubModel, law: Any, path: Path) -> None:
     import json
 
     curve = _curve(model, law)
@@ -188,7 +216,7 @@ def _print_json(model: Bending, law: Any, path: Path) -> None:
     typer.echo(json.dumps(content, indent=2, allow_nan=False))
 
 
-def _show(model: Bending, law: Any, path: Path) -> None:
+def _show(model: SubModel, law: Any, path: Path) -> None:
     import numpy as np
     from rich.console import Console
     from rich.table import Table
@@ -210,7 +238,14 @@ def _show(model: Bending, law: Any, path: Path) -> None:
     text = "not estimated (--converge)" if error is None else f"{error:.1%} of the energy"
     console.print(f"Error from the mesh: {text}", markup=False)
     console.print(
-        f"Law file: {path}   use it with `law: {{type: file, file: {path.name}}}`",
+        f"Law file: {path}   {_use(model, path)}",
         soft_wrap=True,
         markup=False,
     )
+
+
+def _use(model: SubModel, path: Path) -> str:
+    """How a structure uses the law."""
+    if model.load == "bending":
+        return f"use it with `law: {{type: file, file: {path.name}}}`"
+    return f"use it with `--laws {path.parent}`"

@@ -8,7 +8,8 @@ import pytest
 from crumple.characterisation import Bending, LawCurve, LawStore, characterise
 from crumple.characterisation.law import law_of
 from crumple.characterisation.resolution import Resolution
-from crumple.characterisation.solving import energy_error, is_mirrored
+from crumple.characterisation.solving import energy_error
+from crumple.characterisation.sub_model import is_mirrored
 from crumple.errors import InputError
 from crumple.hinge.measured.law_file import read_law, write_law
 from crumple.material import Material

@@ -28,7 +28,7 @@ def characterise_file(
     missing = _missing(every, store, converge)
     for one in every:
         state = f"missing, about {_time(one.seconds(converge=converge))}" if one in missing else "stored"
-        typer.echo(f"{_names(one.where)}: {one.model.title.split(', closed')[0]}: {state}")
+        typer.echo(f"{_names(one.where)}: {_title(one)}: {state}")
     for node, reason in left_out(structure).items():
         typer.echo(f"{node}: no law of this corner can be computed: {reason}")
     if not missing:
@@ -97,6 +97,11 @@ def _solve(missing: list[Needed], store: Path, workers: int, converge: bool) -> 
         raise typer.Exit(130)
     typer.echo(f"{found} laws added to {store}. Use them with --laws {store}")
     return failed == 0
+
+
+def _title(one: Needed) -> str:
+    """What a sub-model is, without the sense: both are solved where they differ."""
+    return one.model.title.split(", closed")[0].split(", sense")[0]
 
 
 def _names(names: Sequence[str]) -> str:

@@ -12,13 +12,15 @@ import json
 import math
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
 from crumple.material import Material
 from crumple.section import Axis, RectangularTube, Section
 
+Load = Literal["bending", "torsion"]
+"""What a place is loaded by."""
 DIGITS = 10
 """Significant digits by which places differ: a length given in inches and the same in mm are one place."""
 LENGTH = 16
@@ -29,7 +31,14 @@ CORNER = "corner"
 """Key of the corner's angle in the origin of a law file; a law without it is that of a straight member."""
 
 
-def place_hash(section: Section, material: Material, axis: Axis = "y", angle: float | None = None) -> str:
+def place_hash(
+    section: Section,
+    material: Material,
+    axis: Axis = "y",
+    angle: float | None = None,
+    *,
+    load: Load = "bending",
+) -> str:
     """Hash of a straight member's fold, or of a mitred corner, 16 hexadecimal digits.
 
     Parameters
@@ -40,17 +49,21 @@ def place_hash(section: Section, material: Material, axis: Axis = "y", angle: fl
         Axis of the section about which it bends.
     angle
         Angle between the members' axes [rad]; None: a straight member.
+    load
+        Load that folds it; torsion is about the member's own axis, so the axis is left out.
 
     Notes
     -----
     Circular and square tubes are the same about both axes, so the axis is left out for these.
     """
-    content = {
+    content: dict[str, Any] = {
         "section": _plain(section),
         "material": _plain(material),
-        "axis": "any" if _same_about_both(section) else axis,
+        "axis": "any" if load != "bending" or _same_about_both(section) else axis,
         "angle": None if angle is None else round(math.degrees(angle), 3),
     }
+    # the hash of bending was defined before there were other loads
+    content |= {} if load == "bending" else {"load": load}
     text = json.dumps(content, sort_keys=True, separators=(",", ":"), allow_nan=False)
     return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]
 

@@ -11,7 +11,6 @@ A corner whose law is stored has one hinge at its node in place of the candidate
 from __future__ import annotations
 
 import math
-from typing import Literal
 
 import numpy as np
 
@@ -33,7 +32,9 @@ def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
     if asked.axis is None and asked.axes is None:
         flat = planar(structure)
         keys |= (
-            {"axis": bending_axis(structure, member)} if flat else {"axes": _axes_in_space(structure, member)}
+            {"axis": bending_axis(structure, member)}
+            if flat
+            else {"axes": ("y", "z", "x") if twists(structure, member) else ("y", "z")}
         )
     axes = (keys["axis"],) if keys["axis"] else tuple(axis for axis in keys["axes"] if axis != "x")
     stations = automatic_stations(structure, member, axes, asked.spacing)
@@ -46,16 +47,15 @@ def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
     return tuple(sorted(found, key=lambda hinge: float(hinge.at)))
 
 
-def _axes_in_space(structure: StructureParts, member: str) -> tuple[Axis | Literal["x"], ...]:
-    """Both bending axes, and of a closed section twist.
+def twists(structure: StructureParts, member: str) -> bool:
+    """Whether the automatic hinges of a member in space twist besides bending about both axes.
 
     A closed section mostly yields in torsion before it bends about its strong axis.  An open one warps: its
     plastic torque, which neglects that, is far too small.
     """
     from crumple.section.wall_section import walls_of  # noqa: PLC0415  (only structures in space need walls)
 
-    closed = bool(walls_of(structure.section_of(member)).skeleton.cells)
-    return ("y", "z", "x") if closed else ("y", "z")
+    return bool(walls_of(structure.section_of(member)).skeleton.cells)
 
 
 def automatic_stations(

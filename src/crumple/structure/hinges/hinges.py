@@ -24,6 +24,7 @@ from crumple.hinge import (
 )
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis
+from crumple.structure.hinges.law_choice import stored_component
 from crumple.structure.hinges.places import (
     MADE,
     HingePlace,
@@ -31,6 +32,7 @@ from crumple.structure.hinges.places import (
     law_of,
     law_spec,
     member_hinge_places,
+    stored_twist,
 )
 from crumple.structure.hinges.shares import (
     AxisShares,
@@ -232,8 +234,9 @@ def spatial_record_of(
     def record_about(axis: Axis) -> HingeRecord:
         return _bending(structure, about_axis(place, axis), shares)[1]
 
-    section, material = structure.section_of(place.member), structure.material_of(place.member)
-    return spatial_hinge_record(place.keys, record_about, place.axis, (section, material), shares)
+    metal = structure.section_of(place.member), structure.material_of(place.member)
+    torsion = stored_component(structure, place.member, "torsion") if stored_twist(place) else None
+    return spatial_hinge_record(place.keys, record_about, place.axis, metal, shares, torsion=torsion)
 
 
 def _placed(structure: StructureParts, place: HingePlace, shares: HingeShares) -> PlacedHinge:

@@ -121,6 +121,11 @@ def holds_rotation(structure: StructureParts, node: str, direction: Floats) -> b
     return all(freedom in held for freedom in needed)
 
 
+def stored_twist(place: HingePlace) -> bool:
+    """Whether a hinge twists by a stored law if there is one: it names none of its own."""
+    return "x" in (place.keys.axes or ()) and place.keys.twist is None
+
+
 def law_spec(structure: StructureParts, place: HingePlace) -> LawKeys:
     """Law that a hinge refers to: the one it names, else a stored one, a formula, or an estimate."""
     asked = automatic_law(structure, place.law)

@@ -6,7 +6,14 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from crumple.hinge import HingeRecord, SofteningVariable, build_axial_law, build_torsion_law, record_of
+from crumple.hinge import (
+    HingeLaw,
+    HingeRecord,
+    SofteningVariable,
+    build_axial_law,
+    build_torsion_law,
+    record_of,
+)
 from crumple.hinge.axial.axial_collapse import AxialCollapse
 from crumple.hinge.record.spatial_record import Coupling, Freedom, HingeComponent, SpatialHingeRecord
 from crumple.hinge.record.spatial_recording import spatial_record
@@ -32,6 +39,8 @@ def spatial_hinge_record(
     axis: BendingAxis,
     metal: tuple[Section, Material],
     shares: HingeShares,
+    *,
+    torsion: HingeLaw | None = None,
 ) -> SpatialHingeRecord:
     """Record of a hinge.
 
@@ -47,6 +56,8 @@ def spatial_hinge_record(
         Section and material of its member.
     shares
         Lengths of member that it stands for.
+    torsion
+        Stored law of its twist, where the keys name none.
 
     Raises
     ------
@@ -58,7 +69,9 @@ def spatial_hinge_record(
     components = [HingeComponent(BENDING[about], record_about(about)) for about in bending]
     first = components[0].record
     if "x" in (keys.axes or ()):
-        components.append(HingeComponent(Freedom.X, _twist(keys.twist or Twist(), first, metal, shares)))
+        law = torsion if keys.twist is None else None
+        twist = _twist(law or _torsion_law(keys.twist or Twist(), metal, shares), first, metal, shares)
+        components.append(HingeComponent(Freedom.X, twist))
     if keys.axial is not None:
         components.append(HingeComponent(Freedom.AXIAL, _axial(keys.axial, first, metal, shares)))
     coupling = Coupling(keys.coupling or "section")
@@ -88,11 +101,15 @@ def _like(
     )
 
 
+def _torsion_law(keys: Twist, metal: tuple[Section, Material], shares: HingeShares) -> HingeLaw:
+    section, material = metal
+    return build_torsion_law(keys.law, section, material, shares.stretch, **keys.own)
+
+
 def _twist(
-    keys: Twist, first: HingeRecord, metal: tuple[Section, Material], shares: HingeShares
+    law: HingeLaw, first: HingeRecord, metal: tuple[Section, Material], shares: HingeShares
 ) -> HingeRecord:
     section, material = metal
-    law = build_torsion_law(keys.law, section, material, shares.stretch, **keys.own)
     elastic = material.shear_modulus * section.torsion_constant / shares.twist
     return _like(first, law, elastic)
 

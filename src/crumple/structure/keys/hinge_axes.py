@@ -110,7 +110,7 @@ class HingeAxes(Spec):
     laws: AxisLaws | None = None
     """Laws of single bending axes in place of `law`."""
     twist: Twist | None = None
-    """What it carries in twist, with x among the axes; without it the plastic torque of the section."""
+    """What it carries in twist, with x among the axes; without it a stored law, else the plastic torque."""
     axial: Annotated[AxialSlip | None, BeforeValidator(_yes, json_schema_input_type=bool | AxialSlip)] = None
     """Whether it also yields or folds along the member; `true`: yields."""
     coupling: CouplingName | None = None

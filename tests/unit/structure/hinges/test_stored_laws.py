@@ -111,6 +111,22 @@ def test_in_space_the_corner_law_acts_in_its_plane_alone(tmp_path):
     assert all(c.record.form.value == "set-valued" for c in corner.spatial.components)
 
 
+def test_in_space_twist_has_its_stored_law_unless_the_input_names_one(tmp_path):
+    aside = [{"nodes": ["c"], "translation": (0.0, 1.0, -3.0)}]
+    torsion = law_text(place_hash(SECTION, METAL, load="torsion"), 1200.0, 1200.0)
+    store = stored(tmp_path, STRAIGHT, torsion)
+
+    def torques(**parts):
+        whole = frame(laws=store, initial_velocity=aside, **parts)
+        twists = [c for h in placed_hinges(whole) for c in h.spatial.components if c.freedom.name == "X"]
+        return {float(c.record.positive.moment[0]) for c in twists}, torsion in used_texts(whole)
+
+    assert torques() == ({1200.0}, True)
+    own, used = torques(hinges={"axes": ("x", "y", "z"), "twist": {"law": "plastic", "torque": 900.0}})
+    assert own == {900.0}
+    assert not used
+
+
 def test_the_spring_of_a_corner_adds_to_the_flexibility_of_its_members(tmp_path):
     """Elastic members share their own length among their own hinges, with or without the corner."""
     elastic = {"law": {"type": "auto", "form": "elastic-plastic"}}

@@ -1,0 +1,95 @@
+"""What every sub-model offers: input of the shell solver, the law measured in its result, and its place."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar, Protocol, TypeVar
+
+import numpy as np
+
+from crumple.analysis import Analysis
+from crumple.characterisation.curve import LawCurve
+from crumple.characterisation.resolution import Resolution
+from crumple.hinge.measured.place_hash import Load
+from crumple.material import Material
+from crumple.numeric.arrays import Floats
+from crumple.result import Result
+from crumple.section import Axis, Section
+
+
+class SubModel(Protocol):
+    """A piece of a structure that is solved by shells for the law of its fold; a frozen dataclass.
+
+    Attributes
+    ----------
+    section, material, sense, resolution
+        See `Bending`.
+    load
+        What it is loaded by.
+    title
+        One line for people.
+    origin
+        Entries of the law file on the place.
+    place
+        Hash of the place, by which structures find the law.
+    one_law
+        Whether both senses have the same law, so that one of them is solved.
+    watched_from
+        Plastic rotation [rad], or shortening [m], from which the kinetic energy is watched.
+    size, length, duration
+        Length of the elements [m], of the sub-model [m], and the time simulated [s].
+    """
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
+    @property
+    def section(self) -> Section: ...
+    @property
+    def material(self) -> Material: ...
+    @property
+    def sense(self) -> int: ...
+    @property
+    def resolution(self) -> Resolution: ...
+    @property
+    def load(self) -> Load: ...
+    @property
+    def title(self) -> str: ...
+    @property
+    def origin(self) -> dict[str, str]: ...
+    @property
+    def place(self) -> str: ...
+    @property
+    def one_law(self) -> bool: ...
+    @property
+    def watched_from(self) -> float: ...
+    @property
+    def size(self) -> float: ...
+    @property
+    def length(self) -> float: ...
+    @property
+    def duration(self) -> float: ...
+
+    def analysis(self) -> Analysis:
+        """Input of the shell solver."""
+        ...
+
+    def curve(self, result: Result) -> LawCurve:
+        """Law measured in the solved sub-model; `InputError` if it did not fold where it should."""
+        ...
+
+
+Model = TypeVar("Model", bound=SubModel)
+
+
+def largest_side(section: Section) -> float:
+    """Largest extent of the outer outline [m]."""
+    return float(np.ptp(section.outer_outline(), axis=0).max())
+
+
+def is_mirrored(section: Section, axis: Axis) -> bool:
+    """Whether a section is its own mirror image about an axis of bending: both senses have one law then."""
+    points = section.outline()
+    across = 1 if axis == "y" else 0
+    image: Floats = points.copy()
+    image[:, across] *= -1.0
+    apart = np.linalg.norm(points[:, None] - image[None, :], axis=2).min(axis=0)
+    return bool(apart.max() < 1e-6 * np.ptp(points, axis=0).max())
