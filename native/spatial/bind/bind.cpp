@@ -141,13 +141,15 @@ void add_spring(Model& model, const nb::tuple& t) {
 void add_contact(Model& model, const nb::dict& d) {
     ContactModel& contact = model.contact;
     for (nb::handle h : entry<nb::list>(d, "capsules")) {
-        const nb::tuple t = fields(h, 4, "a capsule has body, two ends, radius");
+        const nb::tuple t = fields(h, 5, "a capsule has body, two ends, radius, crush force");
         const int body = entry<int>(t, 0);
         require_body(model, body, true);
         const Vec3 c = centre(model, body);
         const double radius = entry<double>(t, 3);
         require(radius >= 0, "the radius of a capsule must not be negative");
-        contact.capsules.push_back({body, {vector(t[1]) - c, vector(t[2]) - c, radius}});
+        const double crush_force = entry<double>(t, 4);
+        require(crush_force > 0, "the crush force of a capsule must be positive");
+        contact.capsules.push_back({body, {vector(t[1]) - c, vector(t[2]) - c, radius}, crush_force});
     }
     const int capsules = static_cast<int>(contact.capsules.size());
     for (nb::handle h : entry<nb::list>(d, "obstacles")) {
@@ -313,6 +315,14 @@ bool step(Simulation& s, double h) {
     return s.step(h);
 }
 
+nb::list crushed(Simulation& s) {
+    nb::list out;
+    for (const Contacts::Crushed& c : s.stepper().contacts().crushed(s.state().contact)) {
+        out.append(nb::make_tuple(c.obstacle, c.first, c.second, c.depth));
+    }
+    return out;
+}
+
 std::pair<int, int> freedoms(Simulation& s) {
     const int held = s.stepper().held_rows(), redundant = s.stepper().redundant();
     return {6 * static_cast<int>(s.model().bodies.size()) - held + redundant, redundant};
@@ -333,6 +343,7 @@ void bind(nb::module_& m) {
         .def("stage", alone(&stage))
         .def("run", alone(&run), nb::arg("times"), nb::arg("poll") = nb::none())
         .def("step", alone(&step))
+        .def("crushed", alone(&crushed))
         .def("freedoms", alone(&freedoms))
         .def("redundant", alone(+[](Simulation& s) { return s.stepper().redundant_rows(); }))
         .def_prop_ro("time", alone(+[](Simulation& s) { return s.state().t; }));

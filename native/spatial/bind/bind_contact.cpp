@@ -27,8 +27,8 @@ nb::list find_touches(const nb::dict& solid, const Doubles& first, const Doubles
     return out;
 }
 
-nb::tuple answer(double friction, double inverse_mass, double normal_impulse, const Doubles& rates) {
-    const FrozenContact f = freeze({friction, 0}, inverse_mass, normal_impulse);
+nb::tuple answer(double friction, double inverse_mass, double normal_impulse, const Doubles& rates, double cap) {
+    const FrozenContact f = freeze({friction, 0}, inverse_mass, normal_impulse, cap);
     double impulse[3], tangent[9], potential;
     if (rates.size() != 3) throw nb::value_error("a contact has three rates");
     respond(f, rates.data(), impulse, tangent, &potential);
@@ -64,7 +64,7 @@ void bind_contact(nb::module_& m) {
     m.def("touches", &find_touches, nb::arg("solid"), nb::arg("first"), nb::arg("second"), nb::arg("radius"),
           "Points of contact of a capsule with a solid: (gap, normal, point, slot) each.");
     m.def("contact_response", &answer, nb::arg("friction"), nb::arg("inverse_mass"), nb::arg("normal_impulse"),
-          nb::arg("rates"), "Impulse (3), tangent (9) and potential of a frozen contact.");
+          nb::arg("rates"), nb::arg("cap") = INFINITY, "Impulse (3), tangent (9) and potential of a frozen contact.");
     m.def("allowed_rate", &allowed_rate, nb::arg("restitution"), nb::arg("gap"), nb::arg("rate"), nb::arg("h"),
           nb::arg("closed"), nb::arg("rest"), "Normal rate that a step allows at its end.");
 }

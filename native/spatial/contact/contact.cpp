@@ -10,12 +10,13 @@ double allowed_rate(double restitution, double gap, double rate, double h, doubl
     return rate < -rest ? -restitution * rate : 0;
 }
 
-FrozenContact freeze(const ContactLaw& law, double inverse_mass, double normal_impulse) {
-    return {softness * inverse_mass, law.friction * std::max(normal_impulse, 0.0), creep_rate};
+FrozenContact freeze(const ContactLaw& law, double inverse_mass, double normal_impulse, double cap) {
+    return {softness * inverse_mass, cap, law.friction * std::max(normal_impulse, 0.0), creep_rate};
 }
 
 void respond(const FrozenContact& f, const double* w, double* impulse, double* tangent, double* potential) {
-    const double approach = std::min(0.0, w[0]), normal = approach / f.compliance;
+    const double approach = std::min(0.0, w[0]), normal = std::max(approach / f.compliance, -f.cap);
+    const bool crushes = normal <= -f.cap;
     const double slip = std::hypot(w[1], w[2]);
     const bool sliding = slip > f.width;
     const double slope = f.limit / (sliding ? slip : f.width);
@@ -26,7 +27,7 @@ void respond(const FrozenContact& f, const double* w, double* impulse, double* t
     }
     if (tangent) {
         std::fill(tangent, tangent + 9, 0.0);
-        if (approach < 0) tangent[0] = 1 / f.compliance;
+        if (approach < 0 && !crushes) tangent[0] = 1 / f.compliance;
         // sliding friction changes only with the direction of slip
         const double u = sliding ? w[1] / slip : 0, v = sliding ? w[2] / slip : 0;
         tangent[4] = slope * (1 - u * u);
@@ -34,7 +35,8 @@ void respond(const FrozenContact& f, const double* w, double* impulse, double* t
         tangent[8] = slope * (1 - v * v);
     }
     if (potential) {
-        *potential = normal * approach / 2 + (sliding ? f.limit * (slip - f.width / 2) : slope * slip * slip / 2);
+        *potential = (crushes ? normal * (approach - normal * f.compliance / 2) : normal * approach / 2) +
+                     (sliding ? f.limit * (slip - f.width / 2) : slope * slip * slip / 2);
     }
 }
 

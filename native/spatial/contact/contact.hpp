@@ -6,9 +6,12 @@
 //   impact             a = -e r_0, r_0 the rate at the start, e the restitution
 //   open by a gap g    a = -max(0, 2 g/h + r_0): it may close, but with trapezoidal motion not overlap at the end
 // With this relative rate w, the impulse P is the gradient of a convex potential, and -P acts on the second body:
-//   normal     P_n = min(0, w_n/c),  c a compliance, `softness` times the inverse effective mass
+//   normal     P_n = max(-F h, min(0, w_n/c)),  c a compliance, `softness` times the inverse effective mass, F the force at which
+//              walls crush at the point of contact (infinite for a rigid contact)
 //   friction   P_t = L w_t/max(|w_t|, width),  L = mu times the normal impulse found by the last pass over the step
 #pragma once
+
+#include <cmath>
 
 #include "spatial/contact/contact_geometry.hpp"
 
@@ -21,6 +24,7 @@ struct ContactLaw {
 // A contact over one step.
 struct FrozenContact {
     double compliance = 1;  // [m/s per N s]
+    double cap = INFINITY;  // largest normal impulse [N s]
     double limit = 0;       // of friction [N s]
     double width = 0;       // half-width of the ramp of friction [m/s]; widened while a step is solved
 };
@@ -34,7 +38,7 @@ constexpr double creep_rate = 1e-6;
 // allowed rate from gap and normal rate at the start of a step of length h; a gap up to `closed` counts as closed, an approach up to
 // `rest` is not an impact
 double allowed_rate(double restitution, double gap, double rate, double h, double closed, double rest);
-FrozenContact freeze(const ContactLaw& law, double inverse_mass, double normal_impulse);
+FrozenContact freeze(const ContactLaw& law, double inverse_mass, double normal_impulse, double cap);
 // impulse P (3), its derivative (3 x 3, symmetric, positive semidefinite), and its potential; any may be null
 void respond(const FrozenContact& f, const double* w, double* impulse, double* tangent, double* potential);
 

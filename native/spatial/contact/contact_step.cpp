@@ -52,7 +52,7 @@ void Stepper::push_obstacles(State& s, double h) {
 
 // Error of a link's law row that the projection corrects: the overlap of a closed contact.
 double Stepper::overlap(size_t link) const {
-    if (!is(link, Kind::contact)) return 0;
+    if (!is(link, Kind::contact) || contacts_.crushes(at(connections_[link].index))) return 0;
     const size_t k = at(start(link));
     return error_[k] < -contacts_.closed_gap() && impulse_[k] < 0 ? error_[k] : 0;
 }
@@ -60,7 +60,8 @@ double Stepper::overlap(size_t link) const {
 // Sets whether the state after a step of length h, whose rows have just been located, approaches a closed contact (impact).
 void Stepper::see_contacts(State& s, double h) {
     s.contact.impact = false;
-    if (contacts_.overlooked(s.pose)) s.contact.closing = h / 2;
+    if (contacts_.overlooked(s.pose, s.contact)) s.contact.closing = h / 2;
+    if (contacts_.size() > 0) contacts_.crush(&error_[contact_rows()], s.contact);
     if (stage_.quasi_static || contacts_.size() == 0) return;
     rates(rows_, s.velocity.data(), x_.data());
     const size_t first = contact_rows();
@@ -73,7 +74,7 @@ void Stepper::look_for_impact(State& s) {
     set_mobilities(s.pose);
     const size_t first = contact_rows();
     for (size_t i = 0; i < contacts_.size(); i++) {
-        contacts_.freeze(i, mobility(connections_.size() - contacts_.size() + i, rows_[first + 3 * i]));
+        contacts_.freeze(i, mobility(connections_.size() - contacts_.size() + i, rows_[first + 3 * i]), 0);
     }
     see_contacts(s, 0);
 }

@@ -144,8 +144,8 @@ bool Contacts::gather(const std::vector<Pose>& pose, const std::vector<Twist>& v
     before_.swap(active_);
     active_.clear();
     const double reach = look_ahead(pose, velocity, h, gain);
-    for (size_t p = 0; p < obstacle_pairs_; p++) find(p, pose, reach);
-    for (const size_t p : near_) find(p, pose, reach);
+    for (size_t p = 0; p < obstacle_pairs_; p++) find(p, pose, reach, offset(p, state));
+    for (const size_t p : near_) find(p, pose, reach, offset(p, state));
     // normal impulses that the forces of the last step would give
     auto held = state.held.begin();
     for (Active& c : active_) {
@@ -164,20 +164,21 @@ bool Contacts::among(const std::vector<Active>& contacts, int64_t key) {
     return found != contacts.end() && found->key == key;
 }
 
-bool Contacts::overlooked(const std::vector<Pose>& pose) const {
+bool Contacts::overlooked(const std::vector<Pose>& pose, const ContactState& state) const {
     auto overlaps = [&](size_t p) {
         const Pair& pair = pairs_[p];
         if (!pair.present) return false;
+        const double closed = offset(p, state);
         const Solid solid = solid_at(pair, pose);
         const Segment segment = placed(model_.capsules[at(pair.capsule)], pose);
-        if (least_gap(solid, segment) - pair.offset > -closed_gap_) return false;
+        if (least_gap(solid, segment) - closed > -closed_gap_) return false;
         Touch touch[most_touches];
         const int n = touches(solid, segment, touch);
         double known = 0, unknown = 0;
         for (int k = 0; k < n; k++) {
             const bool is_known = among(active_, static_cast<int64_t>(p) * most_touches + touch[k].slot);
             double& least = is_known ? known : unknown;
-            least = std::min(least, touch[k].gap - pair.offset);
+            least = std::min(least, touch[k].gap - closed);
         }
         return unknown < known - closed_gap_;
     };
@@ -187,16 +188,16 @@ bool Contacts::overlooked(const std::vector<Pose>& pose) const {
     return std::any_of(near_.begin(), near_.end(), overlaps);
 }
 
-void Contacts::find(size_t p, const std::vector<Pose>& pose, double reach) {
+void Contacts::find(size_t p, const std::vector<Pose>& pose, double reach, double offset) {
     const Pair& pair = pairs_[p];
     if (!pair.present) return;
     const Solid solid = solid_at(pair, pose);
     const Segment& segment = placed_[at(pair.capsule)];
-    if (least_gap(solid, segment) - pair.offset > kept * reach) return;
+    if (least_gap(solid, segment) - offset > kept * reach) return;
     Touch touch[most_touches];
     const int n = touches(solid, segment, touch);
     for (int k = 0; k < n; k++) {
-        const double gap = touch[k].gap - pair.offset;
+        const double gap = touch[k].gap - offset;
         const int64_t key = static_cast<int64_t>(p) * most_touches + touch[k].slot;
         if (gap > reach && (gap > kept * reach || !among(before_, key))) continue;
         Active c{};
@@ -205,6 +206,7 @@ void Contacts::find(size_t p, const std::vector<Pose>& pose, double reach) {
         c.body[0] = pair.obstacle < 0 ? model_.capsules[at(pair.solid)].body : model_.obstacles[at(pair.obstacle)].body;
         c.body[1] = model_.capsules[at(pair.capsule)].body;
         c.gap = gap;
+        c.offset = offset;
         c.normal = touch[k].normal;
         c.point = touch[k].point;
         Vec3 second;
@@ -226,7 +228,7 @@ void Contacts::locate(size_t i, const std::vector<Pose>& pose, Row* rows, double
         if (touch[k].slot != slot || dot(touch[k].normal, c.normal) <= 0) continue;
         axes[0] = touch[k].normal;
         point = touch[k].point;
-        *gap = touch[k].gap - pair.offset;
+        *gap = touch[k].gap - c.offset;
     }
     // the tangents at the start, projected onto this plane
     const Vec3 along = c.tangent - dot(c.tangent, axes[0]) * axes[0];
@@ -236,21 +238,54 @@ void Contacts::locate(size_t i, const std::vector<Pose>& pose, Row* rows, double
     for (int k = 0; k < 3; k++) rows[k] = {axes[k], cross(a, axes[k]), cross(b, axes[k])};
 }
 
+double Contacts::crush_force(const Pair& pair) const {
+    const double own = model_.capsules[at(pair.capsule)].crush_force;
+    return pair.obstacle < 0 ? std::min(own, model_.capsules[at(pair.solid)].crush_force) : own;
+}
+
+void Contacts::crush(const double* gap, ContactState& state) const {
+    std::vector<double> deeper;
+    for (size_t i = 0; i < active_.size(); i++) {
+        if (!crushes(i) || gap[3 * i] >= 0) continue;
+        deeper.resize(pairs_.size(), 0);
+        deeper[active_[i].pair] = std::max(deeper[active_[i].pair], -gap[3 * i]);
+    }
+    if (deeper.empty()) return;
+    state.crushed.resize(pairs_.size(), 0);
+    for (size_t p = 0; p < pairs_.size(); p++) state.crushed[p] += deeper[p];
+}
+
+std::vector<Contacts::Crushed> Contacts::crushed(const ContactState& state) const {
+    std::vector<Crushed> out;
+    for (size_t p = 0; p < state.crushed.size(); p++) {
+        if (state.crushed[p] > 0) out.push_back({pairs_[p].obstacle, pairs_[p].solid, pairs_[p].capsule, state.crushed[p]});
+    }
+    return out;
+}
+
 double Contacts::rest_rate(const Active& c) const {
     return std::max(least_approach, std::sqrt(2 * c.inverse_mass * negligible_energy_));
 }
 
 double Contacts::allowed(size_t i, double h, double start_rate, double unbounded) const {
     const Active& c = active_[i];
-    const double restitution = bounces_ ? law(c).restitution : 0;
+    const double restitution = bounces_ && !crushes(i) ? law(c).restitution : 0;
     if (unbounded < 0 && restitution > 0 && c.gap <= closed_gap_ && start_rate >= -rest_rate(c)) return unbounded;
     return allowed_rate(restitution_share_ * restitution, c.gap, start_rate, h, closed_gap_, rest_rate(c));
 }
 
-void Contacts::freeze(size_t i, double inverse_mass) {
+void Contacts::freeze(size_t i, double inverse_mass, double h) {
     Active& c = active_[i];
     c.inverse_mass = inverse_mass;
-    c.frozen = spatial::freeze(law(c), inverse_mass, c.normal_impulse);
+    const double cap = crushes(i) ? crush_force(pairs_[c.pair]) * h : INFINITY;
+    c.frozen = spatial::freeze(law(c), inverse_mass, c.normal_impulse, cap);
+}
+
+void Contacts::widen(size_t i, double width) {
+    Active& c = active_[i];
+    c.frozen.width = std::max(width, creep_rate);
+    c.frozen.compliance = softness * c.inverse_mass;
+    if (crushes(i)) c.frozen.compliance = std::max(c.frozen.compliance, width / c.frozen.cap);
 }
 
 bool Contacts::settle(const double* impulse, const double* rate0, const double* rate) {
@@ -265,7 +300,7 @@ bool Contacts::settle(const double* impulse, const double* rate0, const double* 
         largest = std::max(largest, found);
         // a point that sticks within both friction limits does not depend on them
         const double mu = law(c).friction, held = std::hypot(impulse[3 * i + 1], impulse[3 * i + 2]);
-        if (held >= slides * mu * std::min(found, c.normal_impulse)) change = std::max(change, std::fabs(found - c.normal_impulse));
+        if (mu > 0 && held >= slides * mu * std::min(found, c.normal_impulse)) change = std::max(change, std::fabs(found - c.normal_impulse));
         c.normal_impulse = found;
     }
     if (work < -rounding * scale && restitution_share_ > 0) {
@@ -319,7 +354,7 @@ void Contacts::push(size_t i, double h, const Row* rows, const double* impulse, 
 
 bool Contacts::impact_follows(const double* gap, const double* rate) const {
     for (size_t i = 0; i < active_.size(); i++) {
-        if (gap[3 * i] <= closed_gap_ && rate[3 * i] < -rest_rate(active_[i])) return true;
+        if (!crushes(i) && gap[3 * i] <= closed_gap_ && rate[3 * i] < -rest_rate(active_[i])) return true;
     }
     return false;
 }

@@ -20,6 +20,7 @@ using std::size_t;
 struct Capsule {
     int body = 0;
     Segment segment;
+    double crush_force = INFINITY;  // at which its wall crushes under a contact [N]; infinite: rigid
 };
 
 // Solid on a body (-1: the ground), relative to the body's centre, in its frame.
@@ -52,6 +53,7 @@ struct ContactState {
     double dissipated = 0, friction = 0;  // [J]
     std::vector<Vec3> impulse, force;     // on every obstacle: since the start [N s]; mean over the last step [N]
     bool impact = false;                  // bodies approach at a closed contact: the next step is an impact, of the smallest length
+    std::vector<double> crushed;          // depth to which walls are crushed, per pair [m]; empty while none is
     double closing = 0;                   // after a step: time from its start at which its first open contact closed; 0 if none did
 };
 
@@ -76,8 +78,9 @@ public:
     // Normal rate that a step of length h allows, from the rate at its start.  `unbounded`: in an impact, a rate that is never reached,
     // for contacts with restitution that bodies do not approach now: their impact follows next; 0 in other steps.
     double allowed(size_t i, double h, double start_rate, double unbounded) const;
-    void freeze(size_t i, double inverse_mass);
-    FrozenContact& frozen(size_t i) { return active_[i].frozen; }
+    void freeze(size_t i, double inverse_mass, double h);
+    // sets the half-width of its ramps [m/s]: of friction, and of the approach at which its walls crush; at least the smallest one
+    void widen(size_t i, double width);
     const FrozenContact& frozen(size_t i) const { return active_[i].frozen; }
     // Stores the result of a pass: impulses and rates at the start and end (3 each).  False if another pass is needed: the normal
     // impulses used for friction have changed, or an impact gained energy and its restitution must be reduced.
@@ -91,7 +94,17 @@ public:
     // whether an impact follows, from the gaps and rates (3 each, only the first is used) at the end of the step
     bool impact_follows(const double* gap, const double* rate) const;
     // whether points overlap that were not within the search distance
-    bool overlooked(const std::vector<Pose>& pose) const;
+    bool overlooked(const std::vector<Pose>& pose, const ContactState& state) const;
+    // whether the walls of a contact crush: then it has no impacts, and its overlap is not removed
+    bool crushes(size_t i) const { return std::isfinite(crush_force(pairs_[active_[i].pair])); }
+    // walls of pairs that overlap by these gaps (of 3 rows each, the first is used) are crushed by as much
+    void crush(const double* gap, ContactState& state) const;
+    // obstacle (-1: none), capsules (the first -1 with an obstacle), and depth [m] of every crushed pair
+    struct Crushed {
+        int obstacle, first, second;
+        double depth;
+    };
+    std::vector<Crushed> crushed(const ContactState& state) const;
     double closed_gap() const { return closed_gap_; }
     // without bounces every impact has zero restitution, and contacts at rest act together with it
     void set_bounces(bool bounces) { bounces_ = bounces; }
@@ -113,7 +126,7 @@ private:
         int64_t key;
         size_t pair;
         int body[2];
-        double gap, inverse_mass, normal_impulse;
+        double gap, inverse_mass, normal_impulse, offset;
         Vec3 normal, tangent, point;  // at the start of the step
         FrozenContact frozen;
     };
@@ -127,10 +140,15 @@ private:
         return obstacle < 0 ? model_.between : model_.obstacles[static_cast<size_t>(obstacle)].law;
     }
     double rest_rate(const Active& c) const;
+    double crush_force(const Pair& pair) const;
+    // gap of the undeformed surfaces at which a pair is in contact
+    double offset(size_t pair, const ContactState& state) const {
+        return pairs_[pair].offset - (state.crushed.empty() ? 0 : state.crushed[pair]);
+    }
     void appear(Pair& pair, const std::vector<Pose>& pose);
     double look_ahead(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double h, double gain);
     void sweep(double margin);
-    void find(size_t pair, const std::vector<Pose>& pose, double reach);
+    void find(size_t pair, const std::vector<Pose>& pose, double reach, double offset);
     static bool among(const std::vector<Active>& contacts, int64_t key);
 
     const ContactModel& model_;

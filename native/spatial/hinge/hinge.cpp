@@ -26,13 +26,34 @@ double first_capacity(const SpatialHinge& hinge, int k, int sense) {
     return law_of(hinge, k).scale * curve_of(law_of(hinge, k), sense).at(0, hint);
 }
 
-// Work D_0(e) of a proportional rotation by e at the initial capacities.
-double measure(const SpatialHinge& hinge, const double* e) {
+// Work D_0(e) of a proportional rotation by e at the initial capacities, and the point of the surface where it is found.  `guess`: such a
+// point for a similar e, or null.
+SurfacePoint measure_from(const SpatialHinge& hinge, const double* e, const double* guess) {
     const int n = size(hinge);
     const double none[most] = {};
     double y[most];
     for (int k = 0; k < n; k++) y[k] = e[k] * first_capacity(hinge, k, e[k] < 0 ? 1 : 0);
-    return nearest(hinge.surface, n, y, none, nullptr, nullptr).value;
+    return nearest(hinge.surface, n, y, none, guess, nullptr);
+}
+
+double measure(const SpatialHinge& hinge, const double* e) { return measure_from(hinge, e, nullptr).value; }
+
+bool softens(const SpatialHinge& hinge) {
+    for (const Component& c : hinge.components) {
+        for (const hinge::Curve* curve : {&c.law.positive, &c.law.negative}) {
+            for (const double value : curve->values()) {
+                if (value != curve->values().front()) return true;
+            }
+        }
+    }
+    return false;
+}
+
+bool rated(const SpatialHinge& hinge) {
+    for (const Component& c : hinge.components) {
+        if (std::isfinite(c.law.rate_reference)) return true;
+    }
+    return false;
 }
 
 // Plastic rotation that determines the softening of a coupled hinge: the integrated rates; for the ball the relative rotation itself,
@@ -68,9 +89,16 @@ void set_coupled_capacity(const SpatialHinge& hinge, const SpatialHingeState& s,
         for (int k = 0; k < n; k++) hinge::set_capacity(law_of(hinge, k), s.component[k], flow[k], f.hint[k], f.component[k]);
         return;
     }
+    if (!softens(hinge)) {
+        for (int k = 0; k < n; k++) {
+            for (int sense = 0; sense < 2; sense++) f.component[k].capacity[sense] = first_capacity(hinge, k, sense);
+        }
+        return;
+    }
     double end[most] = {};
     for (int k = 0; k < n; k++) end[k] = e[k] + flow[k];
-    double from = measure(hinge, e), to = measure(hinge, end), held = 0;
+    const bool follows = hinge.surface.coupling == Coupling::section;
+    double from = follows ? s.work : measure(hinge, e), to = measure_from(hinge, end, follows ? s.along : nullptr).value, held = 0;
     switch (law_of(hinge, 0).softening) {
         case Softening::rotation: break;
         case Softening::accumulated: from = s.softening, to = s.softening + measure(hinge, flow); break;
@@ -94,6 +122,7 @@ void set_coupled_capacity(const SpatialHinge& hinge, const SpatialHingeState& s,
 
 // Rate factors.  For coupled components the rate is the one about their own axis that alone would dissipate the total power.
 void apply_rate_factor(const SpatialHinge& hinge, const double* rate, FrozenSpatialHinge& f) {
+    if (!rated(hinge) && !on_flange(hinge)) return;
     const double power = on_flange(hinge) ? 0 : measure(hinge, rate);
     for (int k = 0; k < size(hinge); k++) {
         for (int sense = 0; sense < 2; sense++) {
@@ -324,7 +353,12 @@ void commit(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHinge
         gather_separate(hinge, f, s, t0, before, arrest);
     } else {
         follow_flow(hinge, f, s, t0, w1, flow, arrest);
-        if (!on_flange(hinge) && law_of(hinge, 0).softening == Softening::peak) s.softening = std::max(s.softening, measure(hinge, e));
+        if (!on_flange(hinge)) {
+            const SurfacePoint reached = measure_from(hinge, e, s.along);
+            s.work = reached.value;
+            std::copy_n(reached.x, n, s.along);
+            if (law_of(hinge, 0).softening == Softening::peak) s.softening = std::max(s.softening, s.work);
+        }
     }
     s.rotation_max = std::max(s.rotation_max, length_of_rotation(hinge, q1));
     if (s.fracture_time < 0 && length_of_rotation(hinge, e) >= hinge.fracture) {

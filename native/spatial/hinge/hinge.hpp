@@ -49,6 +49,8 @@ struct SpatialHinge {
 struct SpatialHingeState {
     hinge::HingeState component[most_components];
     double softening = 0;       // coupled: the measure s [J], largest or accumulated
+    double work = 0;            // coupled by a section's surface: D_0(e) of the plastic rotation e so far [J]
+    double along[most_components] = {};  // the point of the surface where it is found
     double episode = 0, accumulated = 0;  // coupled: plastic work since the hinge last came to rest, and in total [J]
     double rotation_max = 0;    // largest length of the rotation vector [rad]
     double opening_time = -1, rest_time = 0;  // start of the first plastic flow (-1: none yet), end of the last one [s]

@@ -17,15 +17,24 @@ constexpr double smallest_load = 1e-280;
 // Residual relative to the load y at which the iteration has converged: a few rounding errors of the sum over rows.
 constexpr double converged = 1e-15;
 
+// v^p for v >= 0; multiples of one half, which fits use, without the general power, which takes most of the time otherwise
 double to_power(double v, double p) {
-    if (p == 1) return v;
     const int whole = static_cast<int>(p);
-    if (whole != p) return std::pow(v, p);
-    double result = 1;
+    const double rest = p - whole;
+    if (rest != 0 && rest != 0.5) return std::pow(v, p);
+    double result = rest == 0 ? 1 : std::sqrt(v);
     for (int k = whole; k > 0; k >>= 1, v *= v) {
         if (k & 1) result *= v;
     }
     return result;
+}
+
+// v^(1/p)
+double root_of(double v, double p) {
+    if (p == 2) return std::sqrt(v);
+    if (p == 4) return std::sqrt(std::sqrt(v));
+    if (p == 16) return std::sqrt(std::sqrt(std::sqrt(std::sqrt(v))));
+    return std::pow(v, 1 / p);
 }
 
 double dot(int n, const double* a, const double* b) {
@@ -68,12 +77,13 @@ struct Shape {
 };
 
 // p-norm of the linear forms a.x of all rows, with gradient and curvature.
-Shape direct_shape(const Surface& s, int n, const double* x, bool curved) {
+template <int n>
+Shape direct_shape(const Surface& s, const double* x, bool curved) {
     Shape out;
-    const std::size_t rows = s.rows.size() / static_cast<std::size_t>(n);
+    const std::size_t rows = s.rows.size() / n;
     const double* a = s.rows.data();
     double largest = 0;
-    for (std::size_t i = 0; i < rows; i++) largest = std::max(largest, std::fabs(dot(n, a + i * static_cast<std::size_t>(n), x)));
+    for (std::size_t i = 0; i < rows; i++) largest = std::max(largest, std::fabs(dot(n, a + i * n, x)));
     if (largest == 0) return out;
     // scale by the largest form, so that high powers neither overflow nor underflow
     double total = 0;
@@ -87,7 +97,7 @@ Shape direct_shape(const Surface& s, int n, const double* x, bool curved) {
             for (int k = 0; k <= j; k++) out.curvature[j][k] += low * a[j] * a[k];
         }
     }
-    const double root = std::pow(total, 1 / s.power);
+    const double root = root_of(total, s.power);
     out.g = largest * root;
     const double slope_scale = root / total, bend = (s.power - 1) * root / (total * largest);
     for (int j = 0; j < n; j++) out.gradient[j] *= slope_scale;
@@ -107,13 +117,13 @@ Shape with_torque(const Surface& s, int n, const double* x, Shape d, bool curved
     const double t = std::fabs(torque), top = std::max(d.g, t);
     Shape out;
     if (top == 0) return out;
-    out.g = top * std::pow(std::pow(d.g / top, r) + std::pow(t / top, r), 1 / r);
+    out.g = top * root_of(to_power(d.g / top, r) + to_power(t / top, r), r);
     const double u = d.g / out.g, v = t / out.g, sign = torque < 0 ? -1 : 1;
-    const double by_d = std::pow(u, r - 1), by_t = sign * std::pow(v, r - 1);
+    const double flat = to_power(u, r - 2), flat_t = to_power(v, r - 2), by_d = flat * u, by_t = sign * flat_t * v;
     for (int j = 0; j < n; j++) out.gradient[j] = by_d * d.gradient[j];
     out.gradient[s.torsion] = by_t;
     if (!curved) return out;
-    const double bend = (r - 1) / out.g, flat = std::pow(u, r - 2), dd = bend * (flat - by_d * by_d), dt = -bend * by_d * by_t;
+    const double bend = (r - 1) / out.g, dd = bend * (flat - by_d * by_d), dt = -bend * by_d * by_t;
     for (int j = 0; j < n; j++) {
         // at zero direct load its norm has a kink, which r >= 2 smooths: use the plain sum over the rows there
         for (int k = 0; k < n; k++) out.curvature[j][k] = dd * d.gradient[j] * d.gradient[k] + by_d * d.curvature[j][k];
@@ -126,12 +136,15 @@ Shape with_torque(const Surface& s, int n, const double* x, Shape d, bool curved
             }
         }
     }
-    out.curvature[s.torsion][s.torsion] = bend * (std::pow(v, r - 2) - by_t * by_t);
+    out.curvature[s.torsion][s.torsion] = bend * (flat_t - by_t * by_t);
     return out;
 }
 
 Shape shape(const Surface& s, int n, const double* x, bool curved) {
-    const Shape direct = direct_shape(s, n, x, curved);
+    const Shape direct = n == 1   ? direct_shape<1>(s, x, curved)
+                         : n == 2 ? direct_shape<2>(s, x, curved)
+                         : n == 3 ? direct_shape<3>(s, x, curved)
+                                  : direct_shape<4>(s, x, curved);
     return s.torsion < 0 ? direct : with_torque(s, n, x, direct, curved);
 }
 

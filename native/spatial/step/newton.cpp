@@ -121,7 +121,7 @@ bool Stepper::narrow_ramps() {
 void Stepper::widen(double width, bool& narrowest) {
     narrowest = true;
     for (size_t i = 0; i < contacts_.size(); i++) {
-        contacts_.frozen(i).width = std::max(width, creep_rate);
+        contacts_.widen(i, width);
         if (width > creep_rate) narrowest = false;
     }
     for (size_t c = 0; c < connections_.size(); c++) {

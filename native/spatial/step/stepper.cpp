@@ -312,7 +312,7 @@ void Stepper::freeze(const State& s, double h) {
         const size_t index = at(connections_[c].index), first = at(start(c));
         if (is(c, Kind::contact)) {
             // stiff relative to the true inertia
-            contacts_.freeze(index, inertia() * mobility(c, rows_[first]));
+            contacts_.freeze(index, inertia() * mobility(c, rows_[first]), h);
             continue;
         }
         if (is(c, Kind::spring)) {

@@ -239,12 +239,16 @@ class SpatialObstacle:
 
 @dataclass(frozen=True, eq=False)
 class SpatialCapsule:
-    """Segment with a radius on a body, ends in the world at the start; a sphere where both are the same."""
+    """Segment with a radius on a body, ends in the world at the start; a sphere where both are the same.
+
+    `crush_force` is the force at which its wall crushes under a contact [N]; infinite: it is rigid.
+    """
 
     body: int
     first: Floats
     second: Floats
     radius: float
+    crush_force: float = math.inf
 
 
 @dataclass(frozen=True, eq=False)

@@ -236,6 +236,11 @@ class SpatialSimulation:
         return np.array(self._kernel.redundant())
 
     @property
+    def crushed(self) -> list[tuple[int, int, int, float]]:
+        """Obstacle (-1: none), capsules (the first -1 with an obstacle) and depth [m] of crushed contacts."""
+        return self._kernel.crushed()
+
+    @property
     def time(self) -> float:
         """Time reached [s]."""
         return self._kernel.time
@@ -264,7 +269,9 @@ def as_dict(model: SpatialModel) -> dict[str, Any]:
         ],
         "drives": [_drive(drive) for drive in model.drives],
         "obstacles": [_obstacle(obstacle) for obstacle in model.obstacles],
-        "capsules": [(c.body, _list(c.first), _list(c.second), c.radius) for c in model.capsules],
+        "capsules": [
+            (c.body, _list(c.first), _list(c.second), c.radius, c.crush_force) for c in model.capsules
+        ],
         "pairs": [list(pair) for pair in model.contact.pairs],
         "contact": (model.contact.friction, model.contact.restitution),
         "gravity": list(model.gravity),

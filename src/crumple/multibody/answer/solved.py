@@ -53,6 +53,26 @@ class HingeHistory:
         return self.columns[name]
 
 
+@dataclass(frozen=True)
+class CrushedContact:
+    """Walls that were crushed at a contact.
+
+    Attributes
+    ----------
+    member, other
+        The member, and what it touched: ``obstacle NAME`` or ``member NAME``.
+    depth
+        By how much the member and what it touched are closer than their outlines allow [m].
+    force
+        At which the walls were crushed [N].
+    """
+
+    member: str
+    other: str
+    depth: float
+    force: float
+
+
 @dataclass(frozen=True, eq=False)
 class Solved:
     """One run of a kernel.
@@ -78,6 +98,8 @@ class Solved:
         Channels that this kernel gives beside.
     stages
         Name, start and end [s], and what ended it, of every stage.
+    crushed
+        Contacts whose walls were crushed; without any, contacts are rigid.
     stepping_seconds
         Wall time of the stepping alone [s].
     """
@@ -100,6 +122,7 @@ class Solved:
     stepping_seconds: float
     further: tuple[Channel, ...] = ()
     stages: tuple[StageSummary, ...] = ()
+    crushed: tuple[CrushedContact, ...] = ()
 
     @property
     def balance(self) -> Floats:

@@ -56,12 +56,15 @@ class Touching:
         Owner of every drive, in the model's order: a support or an obstacle.
     velocity
         Velocity at the start of every body after those of the linkage [m/s], (obstacle bodies, 3).
+    members
+        Member of every capsule.
     """
 
     model: SpatialModel
     joint: dict[str, int]
     drives: tuple[str, ...]
     velocity: Floats
+    members: tuple[str, ...] = ()
 
 
 def with_obstacles(
@@ -117,7 +120,8 @@ def with_obstacles(
         capsules=tuple(capsules),
         contact=pairs,
     )
-    return Touching(touching_model, joint, tuple(names), np.array(velocity, float).reshape(-1, 3))
+    moving = np.array(velocity, float).reshape(-1, 3)
+    return Touching(touching_model, joint, tuple(names), moving, tuple(member))
 
 
 def _shape(obstacle: Obstacle, body: int, touching: tuple[int, ...] | None) -> SpatialObstacle:
@@ -191,7 +195,7 @@ def member_capsules(
     capsules, owner = [], []
     for name, pieces in of_member.items():
         frame, nodes = structure.frame_of(name), structure.members[name].nodes
-        places, radius = _rows(structure.section_of(name).outer_outline())
+        places, radius = capsule_rows(structure.section_of(name).outer_outline())
         # the round end of a capsule coincides with a free end of the member, and rounds a corner
         inset = [radius if ends[node] == 1 else 0.0 for node in nodes]
         for piece in pieces:
@@ -209,7 +213,7 @@ def member_capsules(
     return capsules, owner
 
 
-def _rows(outline: Floats) -> tuple[Floats, float]:
+def capsule_rows(outline: Floats) -> tuple[Floats, float]:
     """Places of a member's capsules in its section [m], (rows, 2), and their radius [m]."""
     low, high = outline.min(axis=0), outline.max(axis=0)
     centre, size = (low + high) / 2.0, high - low

@@ -16,7 +16,7 @@ from crumple.hinge import Freedom
 from crumple.multibody.answer.crush import crush_of
 from crumple.multibody.answer.forces import on_second
 from crumple.multibody.answer.poses import SpatialPoses
-from crumple.multibody.answer.solved import HingeHistory, Solved
+from crumple.multibody.answer.solved import CrushedContact, HingeHistory, Solved
 from crumple.multibody.bodies.rigid import lump_mass, piece_mass
 from crumple.multibody.checks.crushing import crushing_cautions
 from crumple.multibody.checks.names import named
@@ -40,6 +40,9 @@ FAST = 4.0
 lever doubles that again."""
 IMPACT = 0.1
 """Energy lost in rigid impacts relative to the energy input, above which a warning is given."""
+CRUSHED = 0.01
+"""Depth to which walls are crushed at a contact over the smaller side of the section, above which a caution
+says so."""
 STRUCK = 0.5
 """The same share, above which the mean force of the impact is compared with the force that folds a member."""
 
@@ -71,6 +74,7 @@ def physics_cautions(structure: Structure, solved: Solved) -> tuple[Caution, ...
         *impact_losses(solved, total),
         *jammed_folds(solved),
         *closed_crush_zones(structure, solved),
+        *crushed_walls(structure, solved),
     )
 
 
@@ -219,6 +223,9 @@ def moving_mass(structure: Structure, solved: Solved) -> float:
 def impact_losses(solved: Solved, total: float) -> Iterator[Caution]:
     """Energy that was lost in impacts between rigid bodies."""
     lost = _lost_in_impacts(solved)
+    where = "impacts between rigid bodies, which store no elastic energy and do not fold at the impact"
+    if solved.crushed:
+        where = "walls that are crushed at contacts, since nothing else can give way"
     if lost > IMPACT * total:
         yield Caution(
             "impact_loss",
@@ -226,9 +233,8 @@ def impact_losses(solved: Solved, total: float) -> Iterator[Caution]:
             IMPACT * total,
             "J",
             "",
-            f"{lost:.4g} J of {total:.4g} J energy input ({lost / total:.0%}) are lost in impacts between "
-            "rigid bodies, which store no elastic energy and do not fold at the impact; a shell run shows "
-            "where it goes.",
+            f"{lost:.4g} J of {total:.4g} J energy input ({lost / total:.0%}) are lost in {where}; a shell "
+            "run shows where it goes.",
         )
 
 
@@ -272,6 +278,28 @@ def closed_crush_zones(structure: Structure, solved: Solved) -> Iterator[Caution
             f"{format_quantity(crush.length, 'm', 3)}, and its folds are closed at "
             f"{format_quantity(crush.stroke, 'm', 3)}. The forces from then on are those of the stop.",
         )
+
+
+def crushed_walls(structure: Structure, solved: Solved) -> Iterator[Caution]:
+    """Members whose walls were crushed at a contact because nothing else could give way."""
+    deepest: dict[str, CrushedContact] = {}
+    for contact in sorted(solved.crushed, key=lambda contact: contact.depth):
+        limit = CRUSHED * float(np.ptp(structure.section_of(contact.member).outer_outline(), axis=0).min())
+        if contact.depth > limit:
+            deepest[contact.member] = contact
+    if not deepest:
+        return
+    loads = _span([contact.force / 1e3 for contact in deepest.values()])
+    depths = _span([contact.depth * 1e3 for contact in deepest.values()])
+    pressing = " and ".join(sorted({contact.other for contact in deepest.values()}))
+    text = (
+        f"{named('Member', list(deepest))} cannot give way where {pressing} "
+        f"press{'es' if pressing.count(' ') == 1 else ''}: walls are crushed there by {depths} mm at the "
+        f"squash load, {loads} kN, an upper bound of what they carry; a shell run shows how they fail."
+    )
+    for member, contact in deepest.items():
+        limit = CRUSHED * float(np.ptp(structure.section_of(member).outer_outline(), axis=0).min())
+        yield Caution("crushed_contact", contact.depth, limit, "m", f"member {member}", text)
 
 
 def _span(values: list[float]) -> str:

@@ -26,6 +26,7 @@ from crumple.multibody.checks.infinitesimal import dead_centre_notes
 from crumple.multibody.checks.stuck_drives import stuck_drives, stuck_note
 from crumple.multibody.run import Run, output_times, refuse_unbegun, step_bounds
 from crumple.multibody.spatial.case import added_motion, kernel_stage, recorded_hinges
+from crumple.multibody.spatial.crushing_contacts import crushed_contacts, with_crushing
 from crumple.multibody.spatial.model import spatial_model, support_drives
 from crumple.multibody.spatial.off_dead_centres import off_dead_centres, with_held_moments
 from crumple.multibody.spatial.stages import (
@@ -78,9 +79,8 @@ class SpatialSolver:
         owners = tuple(name for name, _ in support_drives(structure, self.linkage, longest))
         touching = with_obstacles(structure, self.linkage, plain, owners, longest)
         self._model, self._dead_centres = touching.model, dead_centres(self.linkage)
-        self._aside = False
-        model, self._holding = off_dead_centres(self._model, self.linkage, self._dead_centres)
-        self._touching = replace(touching, model=model)
+        self._touching = touching
+        self._touch(aside=False, crushing=False)
 
     @property
     def moving(self) -> bool:
@@ -106,16 +106,27 @@ class SpatialSolver:
 
         Where several ways go on from the start, loads mostly decide for one.  Where they do not, the motion
         is a mixture that soon cannot go on; the run is then repeated with hinges a little aside of their
-        places, which leaves one way.
+        places, which leaves one way.  What then still presses on parts that cannot give way crushes their
+        walls.
         """
-        solved = self._run_once(accuracy, poll, ends_only)
-        failed = solved.outcome in (Outcome.STEP_COLLAPSED, Outcome.STALLED, Outcome.NOT_FINITE)
-        if self._aside or not self._dead_centres.aside or not failed:
-            return solved
-        self._aside = True
-        model, self._holding = off_dead_centres(self._model, self.linkage, self._dead_centres, aside=True)
-        self._touching = replace(self._touching, model=model)
-        return self._run_once(accuracy, poll, ends_only)
+        first = solved = self._run_once(accuracy, poll, ends_only)
+        if _failed(solved) and self._dead_centres.aside and not self._aside:
+            self._touch(aside=True, crushing=self._crushing)
+            solved = self._run_once(accuracy, poll, ends_only)
+        if _failed(solved) and self._touching.model.capsules and not self._crushing:
+            self._touch(aside=self._aside, crushing=True)
+            solved = self._run_once(accuracy, poll, ends_only)
+        if _failed(solved) and solved is not first:
+            self._touch(aside=False, crushing=False)
+            return first
+        return solved
+
+    def _touch(self, *, aside: bool, crushing: bool) -> None:
+        """Prepare the model, with hinges aside of dead centres, and with walls that crush under contacts."""
+        self._aside, self._crushing = aside, crushing
+        model, self._holding = off_dead_centres(self._model, self.linkage, self._dead_centres, aside=aside)
+        touching = replace(self._touching, model=model)
+        self._touching = with_crushing(self._structure, touching) if crushing else touching
 
     def _run_once(self, accuracy: float, poll: Poll | None, ends_only: bool) -> Solved:
         model, settings = self._touching.model, self._run.settings
@@ -166,7 +177,7 @@ class SpatialSolver:
         )
         if stuck:
             record = replace(record, reason=f"{record.reason}. {stuck_note(stuck)}")
-        return self._solved(record, stages, (given, lost, seconds))
+        return self._solved(record, stages, (given, lost, seconds), simulation.crushed)
 
     def _begin(
         self, simulation: SpatialSimulation, stage: Stage, before: SpatialRecord | None
@@ -185,7 +196,11 @@ class SpatialSolver:
         return energy, simulation.set_motion(velocity, impulse)
 
     def _solved(
-        self, record: SpatialRecord, stages: list[StageSummary], sums: tuple[float, float, float]
+        self,
+        record: SpatialRecord,
+        stages: list[StageSummary],
+        sums: tuple[float, float, float],
+        crushed: list[tuple[int, int, int, float]],
     ) -> Solved:
         poses = SpatialHistory(self.linkage, record)
         given, lost, seconds = sums
@@ -221,6 +236,7 @@ class SpatialSolver:
                 *self._obstacle_channels(record),
             ),
             stages=tuple(stages) if self._run.stages else (),
+            crushed=tuple(crushed_contacts(self._structure, self._touching, crushed)),
         )
 
     def _obstacle_channels(self, record: SpatialRecord) -> Iterator[Channel]:
@@ -235,6 +251,10 @@ class SpatialSolver:
                 columns["velocity"] = record.velocity[:, body, 3:]
             for quantity, values in columns.items():
                 yield from channels_along(f"obstacle.{name}.{quantity}", values)
+
+
+def _failed(solved: Solved) -> bool:
+    return solved.outcome in (Outcome.STEP_COLLAPSED, Outcome.STALLED, Outcome.NOT_FINITE)
 
 
 def _stage_times(grid: Floats, begin: float, end: float) -> Floats:

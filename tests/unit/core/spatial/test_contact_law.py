@@ -11,10 +11,10 @@ RATE = st.floats(-2.0, 2.0)
 INVERSE_MASS = 0.5
 
 
-def answer(rates, friction=0.4, normal=3.0):
+def answer(rates, friction=0.4, normal=3.0, cap=np.inf):
     """Impulse (3,), tangent (3, 3) and potential at rates (normal, two tangents)."""
     impulse, tangent, potential = _kernels.spatial.contact_response(
-        friction, INVERSE_MASS, normal, list(map(float, rates))
+        friction, INVERSE_MASS, normal, list(map(float, rates)), cap
     )
     return np.array(impulse), np.array(tangent).reshape(3, 3), potential
 
@@ -43,6 +43,21 @@ def test_impulse_and_tangent_are_derivatives_of_the_potential(normal, first, sec
         np.testing.assert_allclose(
             (above[0] - below[0]) / 2e-5, tangent[k], atol=1e-4 * np.abs(tangent).max()
         )
+
+
+@given(normal=st.floats(0.1, 2.0), first=RATE, cap=st.floats(1e-3, 10.0))
+def test_a_wall_that_crushes_bounds_the_impulse(normal, first, cap):
+    """Approach beyond the compliance of the contact gives the largest impulse; the potential follows it."""
+    rates = np.array([-normal, first, 0.5])
+    impulse, tangent, _ = answer(rates, cap=cap)
+    assert impulse[0] == -cap
+    assert tangent[0, 0] == 0.0
+    step = np.array([1e-5, 0.0, 0.0])
+    slope = (answer(rates + step, cap=cap)[2] - answer(rates - step, cap=cap)[2]) / 2e-5
+    assert slope == pytest.approx(-cap, rel=1e-6)
+    # at the approach where it begins to crush both branches agree
+    limit = np.array([-1e-8 * INVERSE_MASS * cap, first, 0.5])
+    assert answer(limit, cap=cap)[2] == pytest.approx(answer(limit)[2], rel=1e-12)
 
 
 def test_sticks_below_the_limit():

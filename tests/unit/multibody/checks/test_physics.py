@@ -156,10 +156,11 @@ def test_a_crash_box_that_bottoms_out_is_a_caution():
 
 def test_energy_lost_in_rigid_impacts_is_a_caution_from_a_tenth():
     energy = {"contact": np.array([0.0, 11.0])}
-    (found,) = physics.impact_losses(SimpleNamespace(energy=energy), 100.0)
+    (found,) = physics.impact_losses(SimpleNamespace(energy=energy, crushed=()), 100.0)
     assert (found.code, found.value, found.limit) == ("impact_loss", 11.0, 10.0)
     assert "(11%)" in found.text
-    assert not list(physics.impact_losses(SimpleNamespace(energy={"contact": np.array([0.0, 9.0])}), 100.0))
+    no_impact = SimpleNamespace(energy={"contact": np.array([0.0, 9.0])}, crushed=())
+    assert not list(physics.impact_losses(no_impact, 100.0))
 
 
 def test_a_violation_changes_the_status(monkeypatch):

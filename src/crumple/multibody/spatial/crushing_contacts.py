@@ -1,0 +1,60 @@
+"""Contacts whose walls crush, for parts that a rigid contact drives against what cannot give way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from crumple.multibody.answer.solved import CrushedContact
+from crumple.multibody.bodies.obstacle_bodies import Touching, capsule_rows
+from crumple.section import plastic_interaction
+from crumple.structure import Structure
+
+
+def with_crushing(structure: Structure, touching: Touching) -> Touching:
+    """The same model with walls that crush under every contact, at the squash load of their member.
+
+    Capsules side by side in a section share it.  Of two members in contact the weaker one counts.  The squash
+    load, area times yield stress, is an upper bound of what a wall carries under a contact; see
+    docs/theory/rigid_contact.md.
+    """
+    force = {
+        member: _squash_load(structure, member)
+        / len(capsule_rows(structure.section_of(member).outer_outline())[0])
+        for member in set(touching.members)
+    }
+    capsules = (
+        replace(capsule, crush_force=force[member])
+        for capsule, member in zip(touching.model.capsules, touching.members, strict=True)
+    )
+    return replace(touching, model=replace(touching.model, capsules=tuple(capsules)))
+
+
+def crushed_contacts(
+    structure: Structure, touching: Touching, crushed: Sequence[tuple[int, int, int, float]]
+) -> Iterator[CrushedContact]:
+    """What the kernel reports as crushed, by the names of the input.
+
+    Parameters
+    ----------
+    structure, touching
+        The structure, and its model.
+    crushed
+        Obstacle, capsules and depth [m] of every crushed contact, as `SpatialSimulation.crushed`.
+    """
+    obstacles = list(structure.obstacles)
+    for obstacle, first, second, depth in crushed:
+        member = touching.members[second]
+        if obstacle >= 0:
+            yield CrushedContact(
+                member, f"obstacle {obstacles[obstacle]}", depth, _squash_load(structure, member)
+            )
+            continue
+        other = touching.members[first]
+        force = min(_squash_load(structure, name) for name in (member, other))
+        yield CrushedContact(member, f"member {other}", depth, force)
+
+
+def _squash_load(structure: Structure, member: str) -> float:
+    """Area times yield stress of a member [N]."""
+    return plastic_interaction(structure.section_of(member), structure.material_of(member)).squash_force
