@@ -368,36 +368,6 @@ void commit(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHinge
     }
 }
 
-double elastic_energy(const SpatialHinge& hinge, const SpatialHingeState& s) {
-    double sum = 0;
-    for (int k = 0; k < size(hinge); k++) sum += hinge::elastic_energy(law_of(hinge, k), s.component[k]);
-    return sum;
-}
-
-double stop_energy(const SpatialHinge& hinge, const double* q) {
-    double sum = 0;
-    for (int k = 0; k < size(hinge); k++) sum += hinge::stop_energy(law_of(hinge, k), q[k]);
-    return sum;
-}
-
-double dissipated(const SpatialHinge& hinge, const SpatialHingeState& s) {
-    double sum = 0;
-    for (int k = 0; k < size(hinge); k++) sum += s.component[k].dissipated;
-    return sum;
-}
-
-double damped(const SpatialHinge& hinge, const SpatialHingeState& s) {
-    double sum = 0;
-    for (int k = 0; k < size(hinge); k++) sum += s.component[k].damped;
-    return sum;
-}
-
-double stop_dissipated(const SpatialHinge& hinge, const SpatialHingeState& s) {
-    double sum = 0;
-    for (int k = 0; k < size(hinge); k++) sum += s.component[k].stop_dissipated;
-    return sum;
-}
-
 bool turning(const SpatialHinge& hinge, const SpatialHingeState& s) {
     if (!coupled(hinge)) {
         bool any = false;

@@ -279,21 +279,6 @@ SurfacePoint on_ellipsoid(int n, const double* y, const double* m, double* deriv
     return p;
 }
 
-// Half-planes (coefficient of N, coefficient of M, bound) for M >= 0; M < 0 is mirrored.
-struct Side {
-    double a[2], bound;
-};
-
-void sides(const Flange& f, Side* out) {
-    out[0] = {{0, 1}, f.top};
-    out[1] = {{-f.arm, 1}, f.moment};
-    out[2] = {{-1, 0}, f.crush};
-    out[3] = {{1, 0}, f.pull};
-    out[4] = {{0, -1}, 0};
-}
-
-constexpr int flange_sides = 5;
-
 }  // namespace
 
 double gauge(const Surface& s, int n, const double* x, double* gradient) {
@@ -343,71 +328,6 @@ SurfacePoint nearest(const Surface& s, int n, const double* y, const double* m, 
     for (int k = 0; k < n * n && derivative != nullptr; k++) derivative[k] = 0;
     for (int k = 0; k < n && derivative != nullptr; k++) derivative[k * n + k] = m[k] > 0 ? 1 / m[k] : 0;
     return p;
-}
-
-double gauge(const Flange& f, const double* x) {
-    const double at[2] = {x[f.axial], std::fabs(x[1 - f.axial])};
-    Side side[flange_sides];
-    sides(f, side);
-    double g = 0;
-    for (int i = 0; i < flange_sides - 1; i++) g = std::max(g, dot(2, side[i].a, at) / side[i].bound);
-    return g;
-}
-
-// The maximum lies inside, on a side of the polygon, or at a corner.  A point on a side is computed along that side: computed from
-// the unconstrained maximum far outside, it would miss the side by rounding.
-SurfacePoint nearest(const Flange& f, const double* y, const double* m, double* derivative) {
-    const int order[2] = {f.axial, 1 - f.axial};
-    const double sign = y[order[1]] < 0 ? -1 : 1;
-    const double load[2] = {y[order[0]], sign * y[order[1]]}, metric[2] = {m[order[0]], m[order[1]]};
-    SurfacePoint p;
-    double x[2] = {0, 0}, block[4] = {0, 0, 0, 0}, best = -1;
-    auto finish = [&] {
-        p.value = objective(2, load, metric, x);
-        for (int i = 0; i < 2; i++) {
-            p.x[order[i]] = i == 0 ? x[0] : sign * x[1];
-            for (int j = 0; j < 2 && derivative != nullptr; j++) derivative[2 * order[i] + order[j]] = (i == j ? 1 : sign) * block[2 * i + j];
-        }
-        return p;
-    };
-    Side side[flange_sides];
-    sides(f, side);
-    bool inside = metric[0] > 0 && metric[1] > 0;
-    if (inside) {
-        for (int i = 0; i < 2; i++) x[i] = load[i] / metric[i], block[3 * i] = 1 / metric[i];
-        for (const Side& s : side) inside = inside && dot(2, s.a, x) <= s.bound;
-        if (inside) return finish();
-        block[0] = block[3] = 0;
-    }
-    for (int i = 0; i < flange_sides - 1; i++) {
-        const double* a = side[i].a;
-        const double square = dot(2, a, a), foot[2] = {a[0] * side[i].bound / square, a[1] * side[i].bound / square}, along[2] = {-a[1], a[0]};
-        double low = -1e300, high = 1e300;
-        for (int j = 0; j < flange_sides; j++) {
-            const double slope = dot(2, side[j].a, along), left = side[j].bound - dot(2, side[j].a, foot);
-            if (j == i || (slope == 0 && left >= 0)) continue;
-            if (slope == 0) high = -1e300;
-            if (slope > 0) high = std::min(high, left / slope);
-            if (slope < 0) low = std::max(low, left / slope);
-        }
-        if (!(low <= high)) continue;
-        const double stiffness = metric[0] * along[0] * along[0] + metric[1] * along[1] * along[1];
-        const double pull[2] = {load[0] - metric[0] * foot[0], load[1] - metric[1] * foot[1]};
-        const double place = stiffness > 0 ? dot(2, along, pull) / stiffness : high;
-        for (const double s : {place, low, high}) {
-            const double at[2] = {foot[0] + s * along[0], foot[1] + s * along[1]};
-            const double outward = a[0] * (load[0] - metric[0] * at[0]) + a[1] * (load[1] - metric[1] * at[1]);
-            const bool between = s > low && s < high;
-            if (s == place && !(between && outward >= 0)) continue;
-            const double value = objective(2, load, metric, at);
-            if (!between && !(value > best)) continue;
-            best = value, x[0] = at[0], x[1] = at[1], p.multiplier = outward / square;
-            if (!between) continue;
-            for (int j = 0; j < 4; j++) block[j] = along[j / 2] * along[j % 2] / stiffness;
-            return finish();
-        }
-    }
-    return finish();
 }
 
 }  // namespace crumple::spatial

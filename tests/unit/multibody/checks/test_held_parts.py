@@ -58,7 +58,7 @@ def test_what_stays_clear_of_it_is_not(shape):
 
 
 def test_a_ball_that_wedges_what_cannot_slip_crushes_it():
-    """Pressed ever nearer to its hinge the post cannot give way: its wall is crushed, and a caution says so."""
+    """Pressed ever nearer to its hinge the post cannot give way: a caution says that its wall is crushed."""
     result = solve(loads(TEXT.format(shape=BALL.format(height="230 mm"), more="")))
     assert result.status is Status.COMPLETE
     (caution,) = (caution for caution in result.cautions if caution.code == "crushed_contact")
