@@ -6,7 +6,7 @@ fold is Bredt's torque with the shear yield stress, T_p = 2 A_m t s_y/sqrt(3), w
 slowly, within 3 %. An L-frame of these tubes that is pushed out of its plane takes less work with the law
 than with constant torque, and is nearer to its shell model (534 J, see test_l_frame_out_of_plane).
 
-Kind: closed form; invariant.  Source: textbook (Bredt's formula); derived here.
+Kind: closed form; invariant.  Source: textbook; derived here.
 """
 
 import math
