@@ -210,6 +210,10 @@ class Bending:
         curve = law_curve(plastic, moment, self.largest)
         return curve if flexibility == 0.0 else curve.with_stiffness(1.0 / flexibility)
 
+    def measured(self, result: Result, curve: LawCurve) -> dict[str, str]:
+        """Nothing more."""
+        return {}
+
     def _moment(self, result: Result) -> Floats:
         """Moment in the middle [N m]: the mean of both ends, free of inertia to first order.
 

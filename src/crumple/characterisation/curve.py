@@ -1,5 +1,7 @@
 """A law measured in a sub-model: plastic rotation, moment, and the work done so far.
 
+In axial crushing shortening [m] stands for rotation, and force [N] for moment.
+
 The histories of a shell run hold small vibrations.  They are averaged so that the work is kept: within each
 interval of plastic rotation the moment of the law is the work done there over the interval.
 """
@@ -15,7 +17,7 @@ from crumple.numeric.arrays import Floats
 
 FIRST = 1e-3
 """Plastic rotation [rad] below which the section still yields through; the law is constant up to there."""
-INTERVAL = np.deg2rad(0.5)
+INTERVAL = float(np.deg2rad(0.5))
 """Plastic rotation over which the moment is averaged [rad]."""
 
 
@@ -53,7 +55,9 @@ class LawCurve:
         return float(np.interp(rotation, self.rotation, self.moment))
 
 
-def law_curve(rotation: Floats, moment: Floats, largest: float) -> LawCurve:
+def law_curve(
+    rotation: Floats, moment: Floats, largest: float, *, first: float = FIRST, interval: float = INTERVAL
+) -> LawCurve:
     """Law from histories of plastic rotation and moment.
 
     Parameters
@@ -64,11 +68,13 @@ def law_curve(rotation: Floats, moment: Floats, largest: float) -> LawCurve:
         Moment at these times [N m], (n,).
     largest
         Where the law ends [rad]; earlier where the histories end earlier.
+    first, interval
+        Rotation up to which the law is constant, and over which the moment is averaged [rad].
 
     Returns
     -------
     LawCurve
-        Points every half degree, or closer in short histories.
+        Points at every interval, or closer in short histories.
 
     Raises
     ------
@@ -84,12 +90,12 @@ def law_curve(rotation: Floats, moment: Floats, largest: float) -> LawCurve:
     reached = np.maximum.accumulate(np.maximum(rotation, 0.0))
     work = np.concatenate([[0.0], np.cumsum(0.5 * (moment[1:] + moment[:-1]) * np.diff(rotation))])
     end = min(float(reached[-1]), largest)
-    if end < 10 * FIRST:
+    if end < 10 * first:
         what, todo = "the sub-model did not turn plastically", "turn it further (--to)"
         raise InputError(
-            Problem(what, f"{np.degrees(end):.3g} deg", f"{np.degrees(10 * FIRST):.2g} deg", todo)
+            Problem(what, f"{np.degrees(end):.3g} deg", f"{np.degrees(10 * first):.2g} deg", todo)
         )
-    steps = np.linspace(FIRST, end, max(int(np.ceil((end - FIRST) / INTERVAL)), 4) + 1)
+    steps = np.linspace(first, end, max(int(np.ceil((end - first) / interval)), 4) + 1)
     new = np.concatenate([[True], np.diff(reached) > 0.0])
     done = np.interp(steps, reached[new], work[new])
     middle = 0.5 * (steps[1:] + steps[:-1])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from crumple.characterisation.crush import Crush
 from crumple.characterisation.curve import LawCurve
 from crumple.characterisation.sub_model import SubModel
 from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
@@ -37,6 +38,9 @@ def law_of(
     """
     positive, negative = (curve, opposite) if model.sense > 0 else (opposite, curve)
     points = [_points(one if one is not None else curve) for one in (positive, negative)]
+    slip = isinstance(model, Crush)
+    if isinstance(model, Crush):
+        points[0] = ((0.0,), (model.squash_force,))
     reach = min(float(one.rotation[-1]) for one in (curve, opposite) if one is not None)
     material = model.material
     origin = {
@@ -47,7 +51,8 @@ def law_of(
         "made_by": f"crumple {__version__}, crumple characterise",
         **facts,
     }
-    basis = f"shell sub-model solved up to a plastic rotation of {math.degrees(reach):.0f} deg"
+    far = f"shortening of {1e3 * reach:.4g} mm" if slip else f"rotation of {math.degrees(reach):.0f} deg"
+    basis = f"shell sub-model solved up to a plastic {far}"
     return StoredLaw(
         title=model.title,
         law="shell",
@@ -57,6 +62,7 @@ def law_of(
         validity=Validity(reach, basis, (), error),
         softening_variable=SofteningVariable.PEAK,
         elastic_stiffness=curve.stiffness,
+        slip=slip,
     )
 
 

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from crumple.characterisation.bending import Bending
+from crumple.characterisation.crush import Crush
 from crumple.characterisation.solving import FINER
 from crumple.characterisation.sub_model import SubModel
 from crumple.characterisation.torsion import Torsion
@@ -15,6 +16,7 @@ from crumple.structure import Structure, hinge_places, planar
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges.automatic import twists
 from crumple.structure.hinges.corners import corners, untreated
+from crumple.structure.hinges.places import member_hinge_places, stored_loads
 
 PER_ELEMENT_STEP = 1.2e-7
 """Processor time of one element in one step [s]: 74 s for both senses of a corner of 4600 elements."""
@@ -78,6 +80,8 @@ def needed(structure: Structure, largest: float) -> tuple[Needed, ...]:
             add(Bending(section, material, axis, largest=largest), name)
         if not planar(structure) and twists(structure, name):
             add(Torsion(section, material, largest=largest), name)
+        if any("crush" in stored_loads(place) for place in member_hinge_places(structure, name)):
+            add(Crush(section, material), name)
     for node, corner in corners(structure).items():
         section, material = structure.section_of(corner.first), structure.material_of(corner.first)
         add(Bending(section, material, corner.axis, angle=corner.angle, largest=largest), node)

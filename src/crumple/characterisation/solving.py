@@ -121,11 +121,18 @@ def characterise(
         ]
         error = energy_error(curve, *finer)
     facts = {
+        **slow.measured(result, curve),
         "mesh": f"{slow.resolution.elements:g} elements along half a fold",
-        "kinetic_energy": f"at most {kinetic:.2%} of the internal energy after 2 deg",
+        "kinetic_energy": f"at most {kinetic:.2%} of the internal energy after {_amount(slow)}",
         "energy_residual": f"{result.energy_residual:.2g} of the energy input",
     }
     return Characterised(law_of(model, curve, opposite, facts, error), curve, result, kinetic, error)
+
+
+def _amount(model: SubModel) -> str:
+    """Rotation or shortening from which the kinetic energy is watched."""
+    at = model.watched_from
+    return f"{1e3 * at:.3g} mm" if model.load == "crush" else f"{np.degrees(at):.3g} deg"
 
 
 def kinetic_share(result: Result, work: float) -> float:

@@ -76,6 +76,10 @@ class SubModel(Protocol):
         """Law measured in the solved sub-model; `InputError` if it did not fold where it should."""
         ...
 
+    def measured(self, result: Result, curve: LawCurve) -> dict[str, str]:
+        """Further entries of the law file that were measured."""
+        ...
+
 
 Model = TypeVar("Model", bound=SubModel)
 

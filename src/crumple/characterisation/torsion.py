@@ -177,3 +177,7 @@ class Torsion:
         torque = 0.5 * self.sense * (held - turned)
         twist = self.sense * result["node.turned.rotation.x"]
         return law_curve(np.asarray(twist - self._flexibility * torque), torque, self.largest)
+
+    def measured(self, result: Result, curve: LawCurve) -> dict[str, str]:
+        """Nothing more."""
+        return {}

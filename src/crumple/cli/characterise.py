@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 ROTATIONS = (0, 1, 2, 5, 10, 15, 20, 25, 30, 40, 50, 60)
 """Rotations of the table [deg]."""
-LOADS = ("bending", "torsion")
+LOADS = ("bending", "torsion", "crush")
 SMALLEST, LARGEST = 0.0872, 1.0473
 """Plastic rotation up to which a law can be requested: 5 to 60 degrees [rad], with room for rounding."""
 STEEPEST = 2.3563
@@ -36,7 +36,7 @@ def characterise(
         str | None, typer.Option(help=f"Of a section. {MATERIAL_HELP}", show_default=False)
     ] = None,
     load: Annotated[
-        str, typer.Option(help="What folds it: bending, or torsion of a straight member.")
+        str, typer.Option(help="What folds it: bending, or torsion or crush of a straight member.")
     ] = "bending",
     axis: Annotated[
         str, typer.Option(help="Bending axis y or z, along the moment vector; y compresses the width.")
@@ -112,7 +112,7 @@ class _Place(NamedTuple):
 
 
 def _model(section: str, material: str, given: _Place) -> SubModel:
-    from crumple.characterisation import Bending, Torsion
+    from crumple.characterisation import Bending, Crush, Torsion
     from crumple.cli.console.named import material_of, section_of
     from crumple.errors import InputError, Problem
     from crumple.section.section import checked_axis
@@ -129,7 +129,7 @@ def _model(section: str, material: str, given: _Place) -> SubModel:
     if corner is not None:
         what, todo = "a corner has a law of bending alone", "leave --load or --angle out"
         raise InputError(Problem(what, given.load, "bending", todo, "--load"))
-    return Torsion(shape, metal, sense, largest)
+    return Crush(shape, metal) if given.load == "crush" else Torsion(shape, metal, sense, largest)
 
 
 def _corner(angle: str | None) -> float | None:
@@ -200,6 +200,11 @@ def _print_json(model: SubModel, law: Any, path: Path) -> None:
     import json
 
     curve = _curve(model, law)
+    keys, units = ("rotation", "moment"), {"rotation": "rad, plastic", "moment": "N*m"}
+    if law.slip:
+        keys, units = ("shortening", "force"), {"shortening": "m, plastic", "force": "N"}
+    else:
+        units["elastic_stiffness"] = "N*m/rad"
     content = {
         "title": law.title,
         "law_file": str(path),
@@ -207,11 +212,11 @@ def _print_json(model: SubModel, law: Any, path: Path) -> None:
         "error": law.validity.uncertainty,
         "elastic_stiffness": law.elastic_stiffness,
         "curve": {
-            "rotation": curve.rotation.tolist(),
-            "moment": curve.moment.tolist(),
+            keys[0]: curve.rotation.tolist(),
+            keys[1]: curve.moment.tolist(),
             "energy": curve.energy.tolist(),
         },
-        "units": {"rotation": "rad, plastic", "moment": "N*m", "energy": "J", "elastic_stiffness": "N*m/rad"},
+        "units": {**units, "energy": "J"},
     }
     typer.echo(json.dumps(content, indent=2, allow_nan=False))
 
@@ -225,12 +230,14 @@ def _show(model: SubModel, law: Any, path: Path) -> None:
     console = Console(highlight=False)
     console.print(law.title, style="bold", markup=False)
     table = Table()
-    for heading in ("Plastic rotation, deg", "Moment, N*m", "Energy, J"):
+    for heading in ("Shortening, mm", "Force, kN") if law.slip else ("Plastic rotation, deg", "Moment, N*m"):
         table.add_column(heading, justify="right")
-    for degrees in ROTATIONS:
-        at = float(np.deg2rad(degrees))
-        if at <= curve.rotation[-1] * (1.0 + 1e-9):
-            table.add_row(f"{degrees:g}", f"{curve.moment_at(at):.4g}", f"{curve.energy_at(at):.4g}")
+    table.add_column("Energy, J", justify="right")
+    scale, end = (1e-3, 1e-3) if law.slip else (1.0, float(np.deg2rad(1.0))), curve.rotation[-1]
+    every = np.linspace(0.0, end, 11) / scale[1] if law.slip else np.array(ROTATIONS)
+    for at in every[every * scale[1] <= end * (1.0 + 1e-9)].tolist():
+        moment, energy = curve.moment_at(at * scale[1]), curve.energy_at(at * scale[1])
+        table.add_row(f"{at:.4g}", f"{moment * scale[0]:.4g}", f"{energy:.4g}")
     console.print(table)
     for key, text in law.origin:
         console.print(f"{key}: {text}", style="dim", markup=False)

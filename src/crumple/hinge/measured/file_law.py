@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
+from crumple.errors import InputError, Problem
 from crumple.hinge.measured.embedding import FileName, with_law_read
 from crumple.hinge.measured.law_file import read_law
 from crumple.hinge.measured.stored import StoredLaw
@@ -45,9 +46,13 @@ class FileLaw:
         Raises
         ------
         InputError
-            With lines, if the text is not a law file.
+            With lines, if the text is not a law file; if it is a law of axial crushing.
         """
-        return read_law(text)
+        law = read_law(text)
+        if law.slip:
+            what, todo = "this law acts along the member", "use it from a store of laws (--laws FOLDER)"
+            raise InputError(Problem(what, law.title, "a law of bending or torsion", todo, "file"))
+        return law
 
     @staticmethod
     def embedded(given: dict[str, Any], folder: Path | None) -> dict[str, Any]:

@@ -29,6 +29,8 @@ _KEYS = (
     *("jamming_angle", "rate", "stop", "curve", "lower", "upper"),
 )
 _NONE = "none"
+UNITS = {False: {"rotation": "rad", "moment": "N*m"}, True: {"slip": "m", "force": "N"}}
+"""Units of the points of a curve, by whether it is a law along the member."""
 
 
 def stored_law(
@@ -93,7 +95,7 @@ def write_law(law: StoredLaw) -> str:
         f"  trust: {law.source.trust.name.lower()}",
         f"  note: {_quoted(law.source.note)}",
         "range:",
-        f"  rotation_max: {_number(law.validity.rotation_max, 'rad')}",
+        f"  rotation_max: {_number(law.validity.rotation_max, 'm' if law.slip else 'rad')}",
         f"  basis: {_quoted(law.validity.basis)}",
         f"  uncertainty: {_number(law.validity.uncertainty, '')}",
         "  warnings:" + ("" if law.validity.warnings else " []"),
@@ -103,10 +105,10 @@ def write_law(law: StoredLaw) -> str:
         f"jamming_angle: {_number(law.jamming_angle, 'rad')}",
         *_rate_lines(law.rate),
         *_stop_lines(law.stop),
-        *_curve_lines("curve", law.curve, law.sampling_error),
+        *_curve_lines("curve", law.curve, law),
     ]
     for name, edge in (("lower", law.lower), ("upper", law.upper)):
-        lines += [] if edge is None else _curve_lines(name, edge, law.sampling_error)
+        lines += [] if edge is None else _curve_lines(name, edge, law)
     return HEAD + "\n".join(lines) + "\n"
 
 
@@ -140,14 +142,17 @@ def read_law(text: str, file: str = "") -> StoredLaw:
     origin.take("method")
     source.only(("citation", "trust", "note"))
     limits.only(("rotation_max", "basis", "uncertainty", "warnings"))
+    slip = "slip" in top.group("curve").group("units").entries
     validity = Validity(
-        _needed(limits.number("rotation_max", "rad")),
+        _needed(limits.number("rotation_max", "m" if slip else "rad")),
         limits.text("basis"),
         limits.texts("warnings"),
         limits.number("uncertainty", "1", none=True),
     )
-    curve, error = _curve(top.group("curve"))
-    edges = [_curve(top.group(name))[0] if name in top.entries else None for name in ("lower", "upper")]
+    curve, error = _curve(top.group("curve"), slip)
+    lower, upper = (
+        _curve(top.group(name), slip)[0] if name in top.entries else None for name in ("lower", "upper")
+    )
     return StoredLaw(
         top.text("title"),
         top.text("law"),
@@ -161,7 +166,9 @@ def read_law(text: str, file: str = "") -> StoredLaw:
         _rate(top),
         _stop(top),
         error,
-        *edges,
+        lower,
+        upper,
+        slip,
     )
 
 
@@ -214,10 +221,11 @@ def _stop_lines(stop: Stop | None) -> list[str]:
     ]
 
 
-def _curve_lines(name: str, curve: StoredCurve, error: float) -> Iterable[str]:
+def _curve_lines(name: str, curve: StoredCurve, law: StoredLaw) -> Iterable[str]:
+    units = ", ".join(f"{key}: {unit}" for key, unit in UNITS[law.slip].items())
     yield f"{name}:"
-    yield "  units: {rotation: rad, moment: N*m}"
-    yield f"  sampling_error: {error!r}"
+    yield f"  units: {{{units}}}"
+    yield f"  sampling_error: {law.sampling_error!r}"
     for sense, points in (("positive", curve.positive), ("negative", curve.negative)):
         if sense == "negative" and points == curve.positive:
             yield "  negative: mirror"
@@ -251,10 +259,11 @@ def _stop(top: Group) -> Stop | None:
     return Stop(_needed(rotation), _needed(stiffness), _needed(exponent), damping, _needed(penetration))
 
 
-def _curve(group: Group) -> tuple[StoredCurve, float]:
+def _curve(group: Group, slip: bool) -> tuple[StoredCurve, float]:
     group.only(("units", "sampling_error", "positive", "negative"))
     units = group.group("units")
-    for name, unit in (("rotation", "rad"), ("moment", "N*m")):
+    units.only(tuple(UNITS[slip]))
+    for name, unit in UNITS[slip].items():
         if units.text(name) != unit:
             units.refuse(units.take(name), "the points of a law file are in SI units", unit)
     error = _needed(group.number("sampling_error", "1"))

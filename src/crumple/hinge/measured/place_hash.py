@@ -19,7 +19,7 @@ import numpy as np
 from crumple.material import Material
 from crumple.section import Axis, RectangularTube, Section
 
-Load = Literal["bending", "torsion"]
+Load = Literal["bending", "torsion", "crush"]
 """What a place is loaded by."""
 DIGITS = 10
 """Significant digits by which places differ: a length given in inches and the same in mm are one place."""
@@ -50,7 +50,7 @@ def place_hash(
     angle
         Angle between the members' axes [rad]; None: a straight member.
     load
-        Load that folds it; torsion is about the member's own axis, so the axis is left out.
+        Load that folds it; without an axis for torsion and crushing.
 
     Notes
     -----

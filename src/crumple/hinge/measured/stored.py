@@ -6,7 +6,7 @@ with source, range, band, rate and stop.  See crumple.hinge.measured.law_file fo
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
@@ -60,6 +60,9 @@ class StoredLaw:
         Bound of the relative error of the curve against the law it was made from [-].
     lower, upper
         Capacities at the edges of the band, where they are not the nominal one times a factor.
+    slip
+        Whether it is a law along the member: force [N] in place of moment, lengthening (negative sense:
+        shortening) [m] in place of rotation.
 
     References
     ----------
@@ -82,6 +85,7 @@ class StoredLaw:
     sampling_error: float = 0.0
     lower: StoredCurve | None = None
     upper: StoredCurve | None = None
+    slip: bool = False
 
     def at(self, bound: Bound) -> StoredLaw:
         """Law of a bound: the stored curve, or the nominal one times 1 -+ the uncertainty."""
@@ -93,20 +97,8 @@ class StoredLaw:
             factor = float(scaled.moment_capacity(0.0)) / float(self.moment_capacity(0.0))
             stored = StoredCurve(*(_times(points, factor) for points in _both(self.curve)))
         edge = Validity(self.validity.rotation_max, self.validity.basis, self.validity.warnings)
-        return StoredLaw(
-            f"{self.title}, {bound.value}",
-            self.law,
-            self.origin,
-            stored,
-            self.source,
-            edge,
-            self.softening_variable,
-            self.elastic_stiffness,
-            self.jamming_angle,
-            self.rate,
-            self.stop,
-            self.sampling_error,
-        )
+        title = f"{self.title}, {bound.value}"
+        return replace(self, title=title, curve=stored, validity=edge, lower=None, upper=None)
 
     @property
     def band(self) -> Band:

@@ -32,7 +32,7 @@ from crumple.structure.hinges.places import (
     law_of,
     law_spec,
     member_hinge_places,
-    stored_twist,
+    stored_loads,
 )
 from crumple.structure.hinges.shares import (
     AxisShares,
@@ -235,8 +235,16 @@ def spatial_record_of(
         return _bending(structure, about_axis(place, axis), shares)[1]
 
     metal = structure.section_of(place.member), structure.material_of(place.member)
-    torsion = stored_component(structure, place.member, "torsion") if stored_twist(place) else None
-    return spatial_hinge_record(place.keys, record_about, place.axis, metal, shares, torsion=torsion)
+    stored = {load: stored_component(structure, place.member, load) for load in stored_loads(place)}
+    return spatial_hinge_record(
+        place.keys,
+        record_about,
+        place.axis,
+        metal,
+        shares,
+        torsion=stored.get("torsion"),
+        crush=stored.get("crush"),
+    )
 
 
 def _placed(structure: StructureParts, place: HingePlace, shares: HingeShares) -> PlacedHinge:

@@ -18,7 +18,7 @@ from crumple.structure.hinges.corner_laws import corner_laws, corner_name
 from crumple.structure.hinges.corners import corners
 from crumple.structure.hinges.hinges import plastic_hinges
 from crumple.structure.hinges.law_choice import automatic_law, component_text, stored_texts
-from crumple.structure.hinges.places import HingePlace, hinge_places, law_of, stored_twist
+from crumple.structure.hinges.places import HingePlace, hinge_places, law_of, stored_loads
 from crumple.structure.hinges.shares import about_axis, axes_of
 from crumple.structure.parts import StructureParts
 
@@ -51,8 +51,8 @@ def used_texts(structure: StructureParts) -> tuple[str, ...]:
             about = about_axis(place, axis)
             text = stored_text_of(structure, about, law_of(structure, about))
             found |= set() if text is None else {text}
-        torsion = component_text(structure, place.member, "torsion") if stored_twist(place) else None
-        found |= set() if torsion is None else {torsion}
+        others = (component_text(structure, place.member, load) for load in stored_loads(place))
+        found |= {text for text in others if text is not None}
     return tuple(sorted(found))
 
 

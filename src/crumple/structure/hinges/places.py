@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from crumple import hinge
 from crumple.hinge import HingeLaw
+from crumple.hinge.measured.place_hash import Load
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section, half_fold_length
@@ -121,9 +122,12 @@ def holds_rotation(structure: StructureParts, node: str, direction: Floats) -> b
     return all(freedom in held for freedom in needed)
 
 
-def stored_twist(place: HingePlace) -> bool:
-    """Whether a hinge twists by a stored law if there is one: it names none of its own."""
-    return "x" in (place.keys.axes or ()) and place.keys.twist is None
+def stored_loads(place: HingePlace) -> tuple[Load, ...]:
+    """Loads besides bending for which a hinge uses a stored law if there is one: it names no law for them."""
+    keys = place.keys
+    twists = "x" in (keys.axes or ()) and keys.twist is None
+    shortens = keys.axial is not None and keys.axial.yields
+    return (*(("torsion",) if twists else ()), *(("crush",) if shortens else ()))
 
 
 def law_spec(structure: StructureParts, place: HingePlace) -> LawKeys:

@@ -15,6 +15,8 @@ from crumple.hinge import (
     record_of,
 )
 from crumple.hinge.axial.axial_collapse import AxialCollapse
+from crumple.hinge.measured.stored import StoredLaw
+from crumple.hinge.measured.stored_crushing import StoredCrushing
 from crumple.hinge.record.spatial_record import Coupling, Freedom, HingeComponent, SpatialHingeRecord
 from crumple.hinge.record.spatial_recording import spatial_record
 from crumple.material import Material
@@ -23,6 +25,7 @@ from crumple.structure.keys.hinge_axes import AxialSlip, BendingAxis, HingeAxes,
 from crumple.structure.remembered import remembered
 
 if TYPE_CHECKING:
+    from crumple.hinge import AxialLaw
     from crumple.section import InteractionFit, PlasticInteraction
     from crumple.structure.hinges.shares import HingeShares
 
@@ -41,6 +44,7 @@ def spatial_hinge_record(
     shares: HingeShares,
     *,
     torsion: HingeLaw | None = None,
+    crush: StoredLaw | None = None,
 ) -> SpatialHingeRecord:
     """Record of a hinge.
 
@@ -56,8 +60,8 @@ def spatial_hinge_record(
         Section and material of its member.
     shares
         Lengths of member that it stands for.
-    torsion
-        Stored law of its twist, where the keys name none.
+    torsion, crush
+        Stored laws of its twist and its shortening, where the keys name none.
 
     Raises
     ------
@@ -73,7 +77,7 @@ def spatial_hinge_record(
         twist = _twist(law or _torsion_law(keys.twist or Twist(), metal, shares), first, metal, shares)
         components.append(HingeComponent(Freedom.X, twist))
     if keys.axial is not None:
-        components.append(HingeComponent(Freedom.AXIAL, _axial(keys.axial, first, metal, shares)))
+        components.append(HingeComponent(Freedom.AXIAL, _axial(keys.axial, crush, first, metal, shares)))
     coupling = Coupling(keys.coupling or "section")
     several = len(components) > 1
     return spatial_record(
@@ -115,14 +119,22 @@ def _twist(
 
 
 def _axial(
-    keys: AxialSlip, first: HingeRecord, metal: tuple[Section, Material], shares: HingeShares
+    keys: AxialSlip,
+    stored: StoredLaw | None,
+    first: HingeRecord,
+    metal: tuple[Section, Material],
+    shares: HingeShares,
 ) -> HingeRecord:
     (section, material), length = metal, shares.stretch
     stiffness = material.youngs_modulus * section.area / length
     squash = _interaction(section, material).squash_force
     tension = keys.tension or squash
+    crushing: AxialLaw | None = None
     if keys.law is not None:
         crushing = build_axial_law(keys.law, section, material)
+    elif keys.yields and stored is not None:
+        crushing = StoredCrushing.of(stored)
+    if crushing is not None:
         law = AxialCollapse.of(crushing, length, tension=tension, closed_stiffness=stiffness)
     else:
         law = AxialCollapse.given(

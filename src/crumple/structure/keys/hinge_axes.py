@@ -59,7 +59,7 @@ class AxialSlip(Spec):
 
     law: AxialName | None = None
     """Law of axial crushing over the stretch of member that the hinge stands for; without it, and without
-    'mean', the walls yield in both senses and do not fold."""
+    'mean', a stored law, else the walls yield in both senses and do not fold."""
     peak: PositiveForce | None = None
     """Largest force in compression, in place of a law."""
     mean: PositiveForce | None = None
@@ -68,6 +68,11 @@ class AxialSlip(Spec):
     """Shortening at which the folds are closed."""
     tension: PositiveForce | None = None
     """Force in tension; without it that at which all walls yield."""
+
+    @property
+    def yields(self) -> bool:
+        """Whether it names no folding: a stored law is used if there is one, else the walls yield."""
+        return self.law is None and self.mean is None
 
     @model_validator(mode="after")
     def _whole(self) -> AxialSlip:
@@ -112,7 +117,7 @@ class HingeAxes(Spec):
     twist: Twist | None = None
     """What it carries in twist, with x among the axes; without it a stored law, else the plastic torque."""
     axial: Annotated[AxialSlip | None, BeforeValidator(_yes, json_schema_input_type=bool | AxialSlip)] = None
-    """Whether it also yields or folds along the member; `true`: yields."""
+    """Whether it also yields or folds along the member; `true`: folds by a stored law, else yields."""
     coupling: CouplingName | None = None
     """How its axes share the capacity: the interaction of the section's walls (default), an ellipsoid, none,
     a ball (one curve over the angle of rotation), or a fold about its tension flange."""

@@ -1,0 +1,222 @@
+"""Sub-model that is crushed along its axis: a straight member between two rigid ends that come nearer."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple.analysis import Analysis
+from crumple.characterisation.curve import LawCurve, law_curve
+from crumple.characterisation.folds import fold_count, stroke
+from crumple.characterisation.resolution import NOMINAL, Resolution
+from crumple.errors import InputError, Problem
+from crumple.hinge.measured.place_hash import Load, place_hash
+from crumple.material import Material
+from crumple.numeric.arrays import Floats
+from crumple.result import Result
+from crumple.section import Axis, Section, plastic_interaction
+from crumple.structure import Structure
+
+SIDES = 3.0
+"""Length over the mean side of the section: longer pieces bend sideways instead of folding."""
+KINK = math.radians(0.2)
+"""Angle by which the two halves meet, about the strong axis: walls then fold in turns outwards and inwards,
+not all outwards, which takes more work [rad]."""
+OUTPUTS = 800
+"""Points in time at which the sub-model is measured."""
+MEAN = 0.35
+"""Mean crushing force over the squash force, for the time of the crush alone."""
+SLOWER = 1.5
+"""Slowness over that of bending: the force is small between two folds, the kinetic energy is not."""
+WATCHED = 0.05
+"""Shortening over the length from which the kinetic energy is watched."""
+INTERVALS = 150
+"""Points of the law over the length of the sub-model."""
+ASIDE = 0.25
+"""Displacement of the middle across the axis, over the smaller side, at which the piece bends, not folds."""
+
+
+@dataclass(frozen=True)
+class Crush:
+    """A straight piece three mean sides long, held at one end and pushed along its axis.
+
+    Attributes
+    ----------
+    section, material
+        Of the piece.
+    largest
+        Largest shortening over the length [-]; the law ends earlier if the folds close.
+    length_factor
+        Length over the usual one.
+    resolution
+        How finely and how slowly it is solved.
+
+    References
+    ----------
+    docs/theory/characterisation.md.
+    """
+
+    section: Section
+    material: Material
+    largest: float = 0.8
+    length_factor: float = 1.0
+    resolution: Resolution = NOMINAL
+
+    @property
+    def load(self) -> Load:
+        """Axial crushing."""
+        return "crush"
+
+    @property
+    def sense(self) -> int:
+        """Shortening is the negative sense of an axial slip."""
+        return -1
+
+    @property
+    def one_law(self) -> bool:
+        """Lengthening has no sub-model: the walls yield."""
+        return True
+
+    @property
+    def title(self) -> str:
+        """One line for people."""
+        return f"{self.section.title}, axial crushing"
+
+    @property
+    def place(self) -> str:
+        """Hash of the place."""
+        return place_hash(self.section, self.material, load=self.load)
+
+    @property
+    def origin(self) -> dict[str, str]:
+        """Entries of the law file on the place."""
+        kink = f"kink of {math.degrees(KINK):.2g} deg in the middle, about {self._strong}"
+        gauge = f"{1e3 * self.length!r} mm"
+        return {"section": self.section.title, "load": self.load, "gauge": gauge, "imperfection": kink}
+
+    @property
+    def watched_from(self) -> float:
+        """Shortening [m] from which the kinetic energy is watched."""
+        return WATCHED * self.length
+
+    @property
+    def squash_force(self) -> float:
+        """Force at which all walls yield [N]."""
+        return float(plastic_interaction(self.section, self.material).squash_force)
+
+    @property
+    def size(self) -> float:
+        """Length of the elements [m]: as for a bending fold as wide as the mean side, 1.3 H."""
+        return 1.3 * 0.5 * self.wave / self.resolution.elements
+
+    @property
+    def length(self) -> float:
+        """Length between the rigid ends [m]: three mean sides."""
+        side = self._mean_side + float(self.section.thickness)
+        return SIDES * self.length_factor * side
+
+    @property
+    def wave(self) -> float:
+        """Length of a fold along the member, 2 H = 1.97 c^(2/3) t^(1/3) [m], c the mean side."""
+        return 1.966 * math.cbrt(self._mean_side**2 * self.section.thickness)
+
+    @property
+    def duration(self) -> float:
+        """T = slowness sqrt(m d/P) [s] for a shortening d against the force P."""
+        mass = self.section.mass_per_length(self.material.density) * self.length
+        shortening = self.largest * self.length
+        mean = MEAN * self.squash_force
+        return SLOWER * self.resolution.slowness * math.sqrt(mass * shortening / mean)
+
+    @property
+    def _mean_side(self) -> float:
+        """Mean mid-line side of the outline's box [m]."""
+        return 0.5 * float(np.ptp(self.section.outer_outline(), axis=0).sum()) - float(self.section.thickness)
+
+    @property
+    def _strong(self) -> Axis:
+        """Axis about which the section is stiffer."""
+        return "y" if self.section.second_moment("y") > self.section.second_moment("z") else "z"
+
+    def analysis(self) -> Analysis:
+        """Input of the shell solver."""
+        half, duration = 0.5 * self.length, self.duration
+        aside = half * math.tan(0.5 * KINK)
+        pushing = {"x0": 0.0, "h0": 0.0, "x1": duration, "h1": -self.largest * self.length}
+        piece = {"section": "section", "material": "metal", "up": (0.0, 0.0, 1.0)}
+        structure = Structure(
+            materials={"metal": self.material},
+            sections={"section": self.section},
+            nodes={
+                "held": (-half, 0.0, 0.0),
+                "middle": (0.0, 0.0, aside) if self._strong == "y" else (0.0, aside, 0.0),
+                "pushed": (half, 0.0, 0.0),
+            },
+            members={
+                "first": {"nodes": ("held", "middle"), **piece},
+                "second": {"nodes": ("middle", "pushed"), **piece},
+            },
+            supports={
+                "held": {"node": "held", "fix": "all"},
+                "pushed": {
+                    "node": "pushed",
+                    "fix": ["y", "z", "rx", "ry", "rz"],
+                    "motion": {"x": {"havsin": pushing}},
+                },
+            },
+        )
+        return Analysis(
+            title=f"Sub-model: {self.title}",
+            structure=structure,
+            duration=duration,
+            shell={"element_size": self.size},
+            outputs={"every": duration / OUTPUTS, "nodes": ["middle", "pushed"], "pictures": [duration]},
+        )
+
+    def curve(self, result: Result) -> LawCurve:
+        """Law measured in the solved sub-model: force against shortening, up to the closing of the folds.
+
+        Raises
+        ------
+        InputError
+            If the piece bent as a whole.
+        """
+        shortening, force = self._histories(result)
+        self._check_straight(result)
+        end = stroke(shortening, force, self.wave)
+        interval = self.length / INTERVALS
+        return law_curve(shortening, force, end, first=0.1 * interval, interval=interval)
+
+    def measured(self, result: Result, curve: LawCurve) -> dict[str, str]:
+        """Peak force, mean force over the stroke, and folds, as entries of the law file."""
+        shortening, force = self._histories(result)
+        first = force[shortening <= self.wave]
+        end = float(curve.rotation[-1])
+        open_ = end > 0.99 * float(shortening.max())
+        return {
+            "peak_force": f"{1e-3 * float(first.max()):.5g} kN",
+            "mean_force": f"{1e-3 * float(curve.energy[-1]) / end:.5g} kN over {1e3 * end:.4g} mm",
+            "folds": f"{fold_count(result, self.section.thickness)} when shortened by "
+            f"{1e3 * float(shortening.max()):.4g} mm" + (", not closed" if open_ else ""),
+        }
+
+    def _histories(self, result: Result) -> tuple[Floats, Floats]:
+        """Shortening less the elastic one [m], and compression [N], the mean of both ends."""
+        held, pushed = (result[f"support.{name}.force.x"] for name in ("held", "pushed"))
+        force = 0.5 * (pushed - held)
+        elastic = force * self.length / (self.material.youngs_modulus * self.section.area)
+        return np.asarray(-result["node.pushed.displacement.x"] - elastic), force
+
+    def _check_straight(self, result: Result) -> None:
+        across = np.hypot(*(result[f"node.middle.displacement.{axis}"] for axis in "yz"))
+        smaller = float(np.ptp(self.section.outer_outline(), axis=0).min())
+        if across.max() > ASIDE * smaller:
+            what, todo = (
+                "the sub-model bent sideways instead of folding",
+                "describe its hinges by bending alone",
+            )
+            came = f"{1e3 * float(across.max()):.3g} mm in the middle"
+            allowed = f"at most {1e3 * ASIDE * smaller:.3g} mm"
+            raise InputError(Problem(what, came, allowed, todo, where=self.title))
