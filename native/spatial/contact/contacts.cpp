@@ -24,6 +24,8 @@ constexpr double slides = 0.999;
 // Upper bound of the rate without a contact's impulse relative to the rates with it.  The rate without impulse is estimated with the
 // mobility of both bodies alone; locked bodies yield much less to an impulse, and then the closing time follows from their rates.
 constexpr double implausible = 1e3;
+// Number of passes after which the friction limit is the mean of those of the last two: with strong friction it may alternate.
+constexpr int steady_passes = 4;
 // Relative gain of energy that is attributed to rounding.
 constexpr double rounding = 1e-9;
 
@@ -141,6 +143,7 @@ double Contacts::look_ahead(const std::vector<Pose>& pose, const std::vector<Twi
 bool Contacts::gather(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double h, double gain,
                       const ContactState& state) {
     restitution_share_ = 1;
+    passes_ = 0;
     before_.swap(active_);
     active_.clear();
     const double reach = look_ahead(pose, velocity, h, gain);
@@ -301,8 +304,9 @@ bool Contacts::settle(const double* impulse, const double* rate0, const double* 
         // a point that sticks within both friction limits does not depend on them
         const double mu = law(c).friction, held = std::hypot(impulse[3 * i + 1], impulse[3 * i + 2]);
         if (mu > 0 && held >= slides * mu * std::min(found, c.normal_impulse)) change = std::max(change, std::fabs(found - c.normal_impulse));
-        c.normal_impulse = found;
+        c.normal_impulse = passes_ < steady_passes ? found : (found + c.normal_impulse) / 2;
     }
+    passes_++;
     if (work < -rounding * scale && restitution_share_ > 0) {
         restitution_share_ = restitution_share_ < least_bounce ? 0 : less_bounce * restitution_share_;
         return false;

@@ -161,6 +161,7 @@ private:
     std::vector<Active> active_, before_;
     double closed_gap_ = 1e-6, negligible_energy_ = 0, restitution_share_ = 1;
     bool bounces_ = true;
+    int passes_ = 0;                       // over the present step so far
 };
 
 }  // namespace crumple::spatial

@@ -10,8 +10,9 @@ namespace crumple::spatial {
 
 namespace {
 
-// Limits of full Newton steps before the globally convergent method, and before the central path; they fail only by cycling.
-constexpr int full_step_limit = 32, full_step_limit_before_path = 12;
+// Limits of full Newton steps before the globally convergent method, before the central path, and if they failed before in the same
+// step; they fail only by cycling.
+constexpr int full_step_limit = 32, full_step_limit_before_path = 12, full_step_limit_after_cycle = 8;
 // Limit of Newton iterations for each width of the ramps before the time step is shortened: a fixed number and some per hinge, because
 // in the worst case (an impulse on the end of a long chain) hinges lock and release one at a time.
 constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
@@ -85,7 +86,8 @@ bool Stepper::newton() {
     if (!all_set_valued_) {
         if (descend(newton_steps(), false)) return true;
     } else if (!has_paths_ || contacts_.size() > 0) {
-        if (descend(full_step_limit, true)) return true;
+        if (descend(full_steps_ ? full_step_limit : full_step_limit_after_cycle, true)) return true;
+        full_steps_ = false;
     } else {
         if (full_steps_ && descend(full_step_limit_before_path, true)) return true;
         full_steps_ = false;

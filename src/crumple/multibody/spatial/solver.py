@@ -113,7 +113,8 @@ class SpatialSolver:
         if _failed(solved) and self._dead_centres.aside and not self._aside:
             self._touch(aside=True, crushing=self._crushing)
             solved = self._run_once(accuracy, poll, ends_only)
-        if _failed(solved) and self._touching.model.capsules and not self._crushing:
+        lost = solved.residual > self._run.settings.energy_residual_bound
+        if (_failed(solved) or lost) and self._touching.model.capsules and not self._crushing:
             self._touch(aside=self._aside, crushing=True)
             solved = self._run_once(accuracy, poll, ends_only)
         if _failed(solved) and solved is not first:
