@@ -8,7 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from crumple.analysis import solve
+from crumple.characterisation.bending import Bending
 from crumple.characterisation.curve import LawCurve
+from crumple.characterisation.interaction import interaction_errors
 from crumple.characterisation.law import law_of
 from crumple.characterisation.sub_model import Model, SubModel
 from crumple.errors import InputError, Problem, Status
@@ -54,6 +56,7 @@ def characterise(
     model: SubModel,
     *,
     converge: bool = False,
+    interaction: bool = False,
     threads: int = 1,
     progress: Callable[[str, float], None] | None = None,
     cancel: Callable[[], bool] | None = None,
@@ -66,6 +69,9 @@ def characterise(
         What folds.
     converge
         Solve two finer meshes too, and state the error of the energy.
+    interaction
+        Of a straight member in bending: solve it with axial force and about an oblique axis too, and state
+        the error of the ways in which hinges combine these; without effect for other models.
     threads
         Threads of the shell solver.
     progress
@@ -84,36 +90,16 @@ def characterise(
     ----------
     docs/theory/characterisation.md.  Verified in tests/verification/characterisation.
     """
-
-    def solved(one: Model, what: str) -> tuple[Result, LawCurve, float, Model]:
-        def report(share: float) -> None:
-            if progress is not None:
-                progress(what, share)
-
-        for _ in range(ATTEMPTS):
-            result = solve(one.analysis(), "shell", threads, report, cancel)
-            if result.status is Status.CANCELLED:
-                raise KeyboardInterrupt
-            if not result.status.ok:
-                raise InputError(Problem(f"the sub-model ended early: {result.reason}", one.title))
-            curve = one.curve(result)
-            kinetic = kinetic_share(result, curve.energy_at(one.watched_from))
-            if kinetic <= MOST_KINETIC:
-                return result, curve, kinetic, one
-            slower = one.resolution.slowness * 1.2 * float(np.sqrt(kinetic / MOST_KINETIC))
-            one = replace(one, resolution=replace(one.resolution, slowness=slower))
-        what_failed = f"kinetic energy is {kinetic:.1%} of the internal energy"
-        raise InputError(Problem(what_failed, one.title, f"at most {MOST_KINETIC:.0%}"))
-
-    result, curve, kinetic, slow = solved(model, "nominal mesh")
+    solver = _Solver(threads, progress, cancel)
+    result, curve, kinetic, slow = solver.run(model, "nominal mesh")
     opposite = None
     if not model.one_law:
-        opposite = solved(replace(slow, sense=-model.sense), "other sense")[1]
+        opposite = solver.run(replace(slow, sense=-model.sense), "other sense")[1]
     error = None
     if converge:
         elements = slow.resolution.elements
         finer = [
-            solved(
+            solver.run(
                 replace(slow, resolution=replace(slow.resolution, elements=ratio * elements)),
                 f"mesh {ratio:.3g} times finer",
             )[1]
@@ -126,7 +112,40 @@ def characterise(
         "kinetic_energy": f"at most {kinetic:.2%} of the internal energy after {_amount(slow)}",
         "energy_residual": f"{result.energy_residual:.2g} of the energy input",
     }
+    if interaction and isinstance(model, Bending) and model.angle is None:
+        facts |= interaction_errors(model, lambda one: solver.run(one, one.title)[1])
     return Characterised(law_of(model, curve, opposite, facts, error), curve, result, kinetic, error)
+
+
+@dataclass(frozen=True)
+class _Solver:
+    """Solves sub-models slowly enough."""
+
+    threads: int
+    progress: Callable[[str, float], None] | None
+    cancel: Callable[[], bool] | None
+
+    def run(self, one: Model, what: str) -> tuple[Result, LawCurve, float, Model]:
+        """Result, curve, share of kinetic energy, and the model as slow as it was solved."""
+
+        def report(share: float) -> None:
+            if self.progress is not None:
+                self.progress(what, share)
+
+        for _ in range(ATTEMPTS):
+            result = solve(one.analysis(), "shell", self.threads, report, self.cancel)
+            if result.status is Status.CANCELLED:
+                raise KeyboardInterrupt
+            if not result.status.ok:
+                raise InputError(Problem(f"the sub-model ended early: {result.reason}", one.title))
+            curve = one.curve(result)
+            kinetic = kinetic_share(result, curve.energy_at(one.watched_from))
+            if kinetic <= MOST_KINETIC:
+                return result, curve, kinetic, one
+            slower = one.resolution.slowness * 1.2 * float(np.sqrt(kinetic / MOST_KINETIC))
+            one = replace(one, resolution=replace(one.resolution, slowness=slower))
+        what_failed = f"kinetic energy is {kinetic:.1%} of the internal energy"
+        raise InputError(Problem(what_failed, one.title, f"at most {MOST_KINETIC:.0%}"))
 
 
 def _amount(model: SubModel) -> str:

@@ -16,57 +16,27 @@ from crumple.result import Result
 from crumple.section import Axis, Section
 
 
-class SubModel(Protocol):
-    """A piece of a structure that is solved by shells for the law of its fold; a frozen dataclass.
+class Solvable(Protocol):
+    """What shells solve slowly, and a curve is read from.
 
     Attributes
     ----------
-    section, material, sense, resolution
-        See `Bending`.
-    load
-        What it is loaded by.
     title
         One line for people.
-    origin
-        Entries of the law file on the place.
-    place
-        Hash of the place, by which structures find the law.
-    one_law
-        Whether both senses have the same law, so that one of them is solved.
+    resolution
+        How finely and how slowly it is solved.
     watched_from
         Plastic rotation [rad], or shortening [m], from which the kinetic energy is watched.
-    size, length, duration
-        Length of the elements [m], of the sub-model [m], and the time simulated [s].
     """
 
     __dataclass_fields__: ClassVar[dict[str, Any]]
 
     @property
-    def section(self) -> Section: ...
-    @property
-    def material(self) -> Material: ...
-    @property
-    def sense(self) -> int: ...
+    def title(self) -> str: ...
     @property
     def resolution(self) -> Resolution: ...
     @property
-    def load(self) -> Load: ...
-    @property
-    def title(self) -> str: ...
-    @property
-    def origin(self) -> dict[str, str]: ...
-    @property
-    def place(self) -> str: ...
-    @property
-    def one_law(self) -> bool: ...
-    @property
     def watched_from(self) -> float: ...
-    @property
-    def size(self) -> float: ...
-    @property
-    def length(self) -> float: ...
-    @property
-    def duration(self) -> float: ...
 
     def analysis(self) -> Analysis:
         """Input of the shell solver."""
@@ -76,12 +46,53 @@ class SubModel(Protocol):
         """Law measured in the solved sub-model; `InputError` if it did not fold where it should."""
         ...
 
+
+class SubModel(Solvable, Protocol):
+    """A piece of a structure that is solved by shells for the law of its fold; a frozen dataclass.
+
+    Attributes
+    ----------
+    section, material, sense
+        See `Bending`.
+    load
+        What it is loaded by.
+    origin
+        Entries of the law file on the place.
+    place
+        Hash of the place, by which structures find the law.
+    one_law
+        Whether both senses have the same law, so that one of them is solved.
+    size, length, duration
+        Length of the elements [m], of the sub-model [m], and the time simulated [s].
+    """
+
+    @property
+    def section(self) -> Section: ...
+    @property
+    def material(self) -> Material: ...
+    @property
+    def sense(self) -> int: ...
+    @property
+    def load(self) -> Load: ...
+    @property
+    def origin(self) -> dict[str, str]: ...
+    @property
+    def place(self) -> str: ...
+    @property
+    def one_law(self) -> bool: ...
+    @property
+    def size(self) -> float: ...
+    @property
+    def length(self) -> float: ...
+    @property
+    def duration(self) -> float: ...
+
     def measured(self, result: Result, curve: LawCurve) -> dict[str, str]:
         """Further entries of the law file that were measured."""
         ...
 
 
-Model = TypeVar("Model", bound=SubModel)
+Model = TypeVar("Model", bound=Solvable)
 
 
 def largest_side(section: Section) -> float:

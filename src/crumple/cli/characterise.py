@@ -54,6 +54,13 @@ def characterise(
     converge: Annotated[
         bool, typer.Option(help="Solve two finer meshes too and state the error; some six times the work.")
     ] = False,
+    interaction: Annotated[
+        bool,
+        typer.Option(
+            help="Bend a straight member with axial force (0.2 of squash) and about 45 deg too, and state "
+            "the error of the couplings of hinges; some five times the work."
+        ),
+    ] = False,
     store: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder of the law files.")] = Path("laws"),
     threads: Annotated[
         int | None,
@@ -90,8 +97,13 @@ def characterise(
     model = _model(section, material, _Place(load, axis, sense, angle, to))
     laws = LawStore(store)
     law = laws.law(model)
-    if law is None or (converge and law.validity.uncertainty is None):
-        done = _solved(model, converge, threads)
+    lacking = converge and law is not None and law.validity.uncertainty is None
+    if interaction and (model.load != "bending" or angle is not None):
+        what, todo = "--interaction is for straight members in bending", "leave it out"
+        raise InputError(Problem(what, model.title, "", todo, "--interaction"))
+    lacking = lacking or (interaction and law is not None and "axial_tension" not in dict(law.origin))
+    if law is None or lacking:
+        done = _solved(model, threads, converge=converge, interaction=interaction)
         law = done.law
         path = laws.keep(model, law)
         _picture(done, path)
@@ -157,7 +169,7 @@ def _largest(to: str) -> float:
     return largest
 
 
-def _solved(model: SubModel, converge: bool, threads: int | None) -> Characterised:
+def _solved(model: SubModel, threads: int | None, *, converge: bool, interaction: bool) -> Characterised:
     from crumple.characterisation import characterise as characterised
     from crumple.cli.console.progress import progress_bar
     from crumple.portable import available_cores, stop_on_interrupt
@@ -170,7 +182,14 @@ def _solved(model: SubModel, converge: bool, threads: int | None) -> Characteris
 
         cores = threads or available_cores()
         try:
-            return characterised(model, converge=converge, threads=cores, progress=progress, cancel=cancel)
+            return characterised(
+                model,
+                converge=converge,
+                interaction=interaction,
+                threads=cores,
+                progress=progress,
+                cancel=cancel,
+            )
         except KeyboardInterrupt:
             typer.echo("Stopped; no law was stored.", err=True)
             raise typer.Exit(130) from None

@@ -1,0 +1,109 @@
+"""Error of the ways in which a hinge combines axial force and bending, or bending about both axes.
+
+Sub-models with combined loads are compared with what a hinge would carry that has the law of each load
+alone, over the same rotation.  The error is that of the work, hinge over shells less one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from crumple.characterisation.bending import Bending
+from crumple.characterisation.combined import Combined
+from crumple.characterisation.curve import LawCurve
+from crumple.numeric.arrays import Floats
+from crumple.section import plastic_interaction
+
+SHARE = 0.2
+"""Axial force over the squash force."""
+COMPARED = (math.radians(10.0), math.radians(30.0))
+"""Plastic rotations up to which the work is compared [rad]."""
+POINTS = 400
+
+
+def interaction_errors(model: Bending, solved: Callable[[Combined], LawCurve]) -> dict[str, str]:
+    """Errors of the interaction as entries of the law file of a straight member.
+
+    Parameters
+    ----------
+    model
+        Straight member bent about one of its axes.
+    solved
+        Solves a sub-model and gives its curve.
+
+    Returns
+    -------
+    dict
+        Sentences by key: ``axial_compression``, ``axial_tension``, and ``oblique_45_deg`` if it is not round.
+
+    References
+    ----------
+    docs/theory/characterisation.md.  Verified in tests/verification/characterisation/test_interaction.py.
+    """
+    angle = 0.0 if model.axis == "y" else math.pi / 2.0
+    base = Combined(model.section, model.material, angle, 0.0, model.largest, model.resolution)
+    alone = solved(base)
+    found = {}
+    for name, share in (("compression", -SHARE), ("tension", SHARE)):
+        combined = replace(base, share=share)
+        shells = solved(combined)
+        walls = _errors(shells, partial(_with_walls, combined, alone))
+        flange = _errors(shells, partial(_about_flange, combined, model, alone))
+        found[f"axial_{name}"] = f"{SHARE:g} of squash: coupling section {walls}; tension-flange {flange}"
+    if model.section.kind != "circular_tube":
+        other = solved(replace(base, angle=math.pi / 2.0 - angle))
+        about = (alone, other) if model.axis == "y" else (other, alone)
+        oblique = replace(base, angle=math.pi / 4.0)
+        errors = _errors(solved(oblique), partial(_oblique, oblique, about))
+        found["oblique_45_deg"] = f"coupling section {errors}"
+    return found
+
+
+def _errors(shells: LawCurve, hinge: Callable[[Floats], Floats]) -> str:
+    """Error of the work of a hinge's moments, up to each rotation that the shells reached."""
+    words = []
+    for end in COMPARED:
+        if end > shells.rotation[-1] * (1.0 + 1e-6):
+            continue
+        at = np.linspace(0.0, end, POINTS)
+        moment = hinge(at)
+        work = float((0.5 * (moment[1:] + moment[:-1]) * np.diff(at)).sum())
+        # adding zero turns -0 into 0
+        error = round(work / shells.energy_at(end) - 1.0, 2) + 0.0
+        words.append(f"{error:+.0%} to {math.degrees(end):.0f} deg")
+    return "work " + ", ".join(words)
+
+
+def _capacity(alone: LawCurve, at: Floats) -> Floats:
+    return np.asarray(np.interp(at, alone.rotation, alone.moment))
+
+
+def _with_walls(model: Combined, alone: LawCurve, at: Floats) -> Floats:
+    """Capacity times the share that the walls' plastic interaction leaves to the moment."""
+    outline = plastic_interaction(model.section, model.material).force_moment_curve(model.angle)
+    upper = outline[outline[:, 1] >= 0.0]
+    upper = upper[np.argsort(upper[:, 0])]
+    left = np.interp([model.force, 0.0], upper[:, 0], upper[:, 1])
+    return np.asarray(_capacity(alone, at) * left[0] / left[1])
+
+
+def _about_flange(model: Combined, bending: Bending, alone: LawCurve, at: Floats) -> Floats:
+    """|M| + N_c b/2 <= C(theta), |M| <= C(0): docs/theory/spatial_hinge.md."""
+    arm = (bending.section.bending_depth(bending.axis) - bending.section.thickness) / 2.0
+    capacity = _capacity(alone, at)
+    return np.asarray(np.clip(capacity + model.force * arm, 0.0, capacity[0]))
+
+
+def _oblique(model: Combined, about: tuple[LawCurve, LawCurve], at: Floats) -> Floats:
+    """Largest moment about the axis in the set of the walls, scaled to the capacities about y and z."""
+    cos, sin = math.cos(model.angle), math.sin(model.angle)
+    outline = plastic_interaction(model.section, model.material).moment_curve()
+    largest = np.abs(outline).max(axis=0)
+    capacity = np.stack([_capacity(about[0], cos * at), _capacity(about[1], sin * at)], axis=1)
+    parts = (outline / largest)[None] * (capacity * [cos, sin])[:, None]
+    return np.asarray(parts.sum(axis=2).max(axis=1))

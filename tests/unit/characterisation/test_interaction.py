@@ -1,0 +1,90 @@
+"""Errors of the couplings of hinges: of a fold that combines its loads as a coupling says, they are zero."""
+
+import math
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from crumple.characterisation import Bending, LawCurve, characterise
+from crumple.characterisation.combined import Combined
+from crumple.characterisation.interaction import interaction_errors
+from crumple.characterisation.resolution import Resolution
+from crumple.cli.main import app
+from crumple.material import Material
+from crumple.section import CircularTube, RectangularTube, plastic_interaction
+
+STEEL = Material("steel", 210e9, 0.3, 7850.0, 488e6)
+TUBE = RectangularTube(width=0.050, depth=0.050, thickness=0.0015)
+ROTATION = np.linspace(0.0, math.radians(30.0), 61)
+
+
+def softening(factor=1.0, added=0.0):
+    """A made-up fold whose moment falls from 2000 to 1000 N m."""
+    moment = np.minimum((2000.0 - 1000.0 * ROTATION / ROTATION[-1]) * factor + added, 2000.0)
+    energy = np.concatenate([[0.0], np.cumsum(0.5 * (moment[1:] + moment[:-1]) * np.diff(ROTATION))])
+    return LawCurve(ROTATION, moment, energy)
+
+
+def test_a_fold_about_its_tension_flange_has_no_error_of_that_coupling():
+    arm = (0.050 - 0.0015) / 2.0
+
+    def solved(model: Combined) -> LawCurve:
+        return softening(added=model.force * arm)
+
+    found = interaction_errors(Bending(TUBE, STEEL), solved)
+    for key in ("axial_compression", "axial_tension"):
+        assert found[key].endswith("tension-flange work +0% to 10 deg, +0% to 30 deg")
+    assert "coupling section work +" in found["axial_compression"]
+    assert "coupling section work -" in found["axial_tension"]
+
+
+def test_a_fold_that_interacts_like_its_walls_has_no_error_of_that_coupling():
+    outline = plastic_interaction(TUBE, STEEL).force_moment_curve("y")
+    upper = outline[outline[:, 1] > 0.0]
+    upper = upper[np.argsort(upper[:, 0])]
+    squash = plastic_interaction(TUBE, STEEL).squash_force
+    left = float(np.interp(0.2 * squash, *upper.T)) / float(upper[:, 1].max())
+
+    def solved(model: Combined) -> LawCurve:
+        return softening(left if model.share else 1.0)
+
+    found = interaction_errors(Bending(TUBE, STEEL), solved)
+    assert "coupling section work +0% to 10 deg, +0% to 30 deg" in found["axial_tension"]
+
+
+def test_round_sections_have_no_oblique_axis():
+    found = interaction_errors(Bending(CircularTube(0.05, 0.0015), STEEL), lambda model: softening())
+    assert set(found) == {"axial_compression", "axial_tension"}
+
+
+def test_the_force_acts_before_the_turn_and_the_moment_includes_its_arm():
+    model = Combined(TUBE, STEEL, math.pi / 4.0, -0.2)
+    structure = model.analysis().structure
+    assert model.force == pytest.approx(-0.2 * plastic_interaction(TUBE, STEEL).squash_force)
+    middle = structure.nodes["middle"]
+    # the middle moves away from the line of the force, at right angles to the axis of rotation
+    assert middle[1] == pytest.approx(-middle[2])
+    zero = np.zeros(200)
+    turned = np.linspace(0.0, 0.7, 200)
+    history = {
+        f"node.{n}.rotation.{a}": s * turned * math.sqrt(0.125)
+        for n, s in (("held", -1), ("turned", 1))
+        for a in "yz"
+    }
+    history |= {f"support.{n}.moment.{a}": zero for n in ("held", "turned") for a in "yz"}
+    history |= {"support.held.force.x": zero + model.force}
+    history |= {"node.middle.displacement.y": zero - 0.01, "node.middle.displacement.z": zero + 0.01}
+    arm = math.hypot(0.01, 0.01) + model.half * math.tan(math.radians(0.1))
+    assert model.curve(history).moment[5] == pytest.approx(-model.force * arm, rel=1e-6)
+
+
+def test_a_coarse_law_states_the_errors_and_the_command_refuses_it_for_corners():
+    model = Bending(TUBE, STEEL, largest=math.radians(10.0), resolution=Resolution(3.0, 5.0))
+    origin = dict(characterise(model, interaction=True).law.origin)
+    assert "tension-flange work" in origin["axial_compression"]
+    assert "to 10 deg" in origin["oblique_45_deg"]
+    assert "to 30 deg" not in origin["oblique_45_deg"]
+    command = ["characterise", "rectangular_tube 50x50x1.5 mm", "--material", "yield 488 MPa, E 210 GPa"]
+    found = CliRunner().invoke(app, [*command, "--interaction", "--angle", "90 deg"])
+    assert "--interaction is for straight members" in str(found.exception)
