@@ -140,16 +140,17 @@ class SimpleText:
     def _inline(self, text: str, place: Place) -> Any:
         """Value of a text on one line."""
         if text[0] not in "[{":
-            if _WHOLE.fullmatch(text) is None:
+            if text not in self._values and _WHOLE.fullmatch(text) is None:
                 raise _NotSimpleError
             return self._text_value(text)
-        tokens, at = [], 0
-        while at < len(text):
-            match = _TOKEN.match(text, at)
-            if match is None:
+        tokens, end = [], 0
+        for match in _TOKEN.finditer(text):
+            if match.start() != end:
                 raise _NotSimpleError
             tokens.append(match[1])
-            at = match.end()
+            end = match.end()
+        if end < len(text):
+            raise _NotSimpleError
         value, used = self._collection(tokens, 0, place)
         if used != len(tokens):
             raise _NotSimpleError

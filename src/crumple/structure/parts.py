@@ -111,6 +111,8 @@ class StructureParts(Spec):
         """Whether a member's nodes exist and its axes are defined; always so in a sound structure."""
         if member not in self.members or not all(node in self.nodes for node in self.members[member].nodes):
             return False
+        if ("frame", member) in self.kept:
+            return True
         try:
             self.frame_of(member)
         except ValueError:
@@ -119,7 +121,8 @@ class StructureParts(Spec):
 
     def frame_of(self, member: str) -> Frame:
         """Origin, axes and length of a member at the start."""
-        return self.kept.once("frame", member, lambda: self._frame_of(member))
+        found: Frame | None = self.kept.get(("frame", member))
+        return self.kept.once("frame", member, lambda: self._frame_of(member)) if found is None else found
 
     def _frame_of(self, member: str) -> Frame:
         spec = self.members[member]

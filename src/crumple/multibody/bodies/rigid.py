@@ -31,6 +31,10 @@ class RigidMass:
     inertia: Floats
 
 
+NOTHING = RigidMass(0.0, np.zeros(3), np.zeros((3, 3)))
+"""A piece without length."""
+
+
 def combined(parts: list[RigidMass]) -> RigidMass:
     """One rigid body made of several (parallel axis theorem)."""
     mass = sum(part.mass for part in parts)
@@ -38,6 +42,7 @@ def combined(parts: list[RigidMass]) -> RigidMass:
         return RigidMass(0.0, np.zeros(3), sum((part.inertia for part in parts), np.zeros((3, 3))))
     if len(parts) == 1:
         return parts[0]
+    parts = [part for part in parts if part is not NOTHING]
     centre = sum((part.mass * part.centre for part in parts), np.zeros(3)) / mass
     inertia, unit = np.zeros((3, 3)), np.eye(3)
     for part in parts:
@@ -48,6 +53,8 @@ def combined(parts: list[RigidMass]) -> RigidMass:
 
 def piece_mass(structure: Structure, member: str, start: float, end: float) -> RigidMass:
     """Mass of a member between two stations [m]: a uniform bar with its section's own rotary inertia."""
+    if start == end:
+        return NOTHING
     material = structure.material_of(member)
     return _bar(structure.frame_of(member), structure.section_of(member), material.density, start, end)
 

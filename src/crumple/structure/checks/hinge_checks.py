@@ -11,7 +11,7 @@ from itertools import pairwise, product
 from crumple.errors import InputError, Problem
 from crumple.hinge.registry import BENDING
 from crumple.structure.hinges.hinges import spatial_record_of
-from crumple.structure.hinges.places import HingePlace, holds_rotation, law_of, member_hinge_places
+from crumple.structure.hinges.places import HingePlace, alike_law, holds_rotation, law_of, member_hinge_places
 from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import Names, outside
 
@@ -22,6 +22,7 @@ APART = 1e-6
 def place_problems(structure: StructureParts, known: Mapping[str, Names]) -> Iterator[Problem]:
     """Places, names and laws of hinges."""
     where: dict[str, list[str]] = defaultdict(list)
+    sound: set[tuple[str, str, str, str]] = set()
     reported: set[Problem] = set()
     for name in sound_members(structure):
         places, length = member_hinge_places(structure, name), structure.frame_of(name).length
@@ -32,13 +33,14 @@ def place_problems(structure: StructureParts, known: Mapping[str, Names]) -> Ite
         # one message for the many hinges between equal bars, and for those that one `auto` puts into many
         # members
         for place in {(place.where, place.axis): place for place in places}.values():
-            found = [
-                problem
-                for problem in _law_problems(structure, place, known["hinge_laws"])
-                if problem not in reported
-            ]
+            alike = alike_law(structure, place) if place.keys.plain else None
+            if alike in sound:
+                continue
+            found = list(_law_problems(structure, place, known["hinge_laws"]))
+            if alike is not None and not found:
+                sound.add(alike)
+            yield from (problem for problem in found if problem not in reported)
             reported.update(found)
-            yield from found
         for first, second in pairwise(places):
             if second.station - first.station < APART * length:
                 what = f"the hinges '{first.name}' and '{second.name}' are at the same position"

@@ -84,7 +84,9 @@ def member_shares(
 
     def along(takes_part: Callable[[HingePlace], bool]) -> dict[str, float]:
         own = [place for place in places if takes_part(place)]
-        lengths = tributary_lengths([place.station for place in own], length, rigid) if own else []
+        if not own:
+            return {}
+        lengths = tributary_lengths([place.station for place in own], length, rigid)
         return {place.name: share for place, share in zip(own, lengths, strict=True)}
 
     axial = along(lambda place: place.keys.axial is not None)
