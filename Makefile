@@ -1,7 +1,8 @@
 # Everything a fresh clone needs is Python >= 3.11 with its headers and venv, a C++17 compiler and make.
 #
 #   make demo     solve the first example with both engines, compare, and say where the report is (AXIS=strong)
-#   make test     unit, verification and regression tests, and 300 random inputs
+#   make test     unit, verification and regression tests, 300 random inputs, and whether every refusal of the
+#                 code is reached by them or listed in tests/fuzz/unreached.txt
 #   make fuzz     attack it with N random inputs (N=2000); findings in out/fuzz
 #   make check    format, lint, types, import contract, sizes, circles of imports
 #   make verify   slow verification too, native code under sanitizers, lowest and newest versions of what users
@@ -45,7 +46,8 @@ out/tube_upright.yaml: examples/01_tube_bending.yaml
 	sed -e 's/roll: 0 deg /roll: 90 deg/' -e 's/weak axis/strong axis/' $< > $@
 
 test: $(VENV)/installed-test
-	$(BIN)/python -m pytest -m "not slow" $(PARALLEL)
+	$(BIN)/python -m pytest -m "not slow" $(PARALLEL) --sites build/sites.json
+	$(BIN)/python -m tests.fuzz.sites build/sites.json
 
 fuzz: $(VENV)/installed-test
 	$(BIN)/python -m tests.fuzz $(N) --seed $(SEED)

@@ -22,10 +22,15 @@ RecordFigure = Callable[..., None]
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--figures", metavar="FILE", help="write figures and outcomes of the verification tests")
+    parser.addoption("--sites", metavar="FILE", help="write the refusals of the code that were reached")
 
 
 def pytest_configure(config: pytest.Config) -> None:
     config.stash[_MODULES] = {}
+    if config.getoption("--sites"):
+        from tests.fuzz.sites import Recorder
+
+        config.pluginmanager.register(Recorder(config))
 
 
 @pytest.fixture

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from tests.fuzz.strategies import law_texts
 
 from crumple.analysis import Analysis, check, input_hash, loads, solve
 from crumple.comparison.rating.curve_file import read_curves
@@ -53,13 +54,27 @@ def attack_bytes(content: bytes) -> str:
     return first_message(problems) if problems else ""
 
 
+def beside(text: str) -> None:
+    """Write the files that an input file names: good ones, whatever earlier cases wrote there."""
+    if "curve.csv" in text:
+        Path("curve.csv").write_text("rotation [deg], moment [N*m]\n0, 0\n2, 900\n10, 700\n30, 500\n")
+    if "law.yaml" in text or "store" in text:
+        for name, content in (("law.yaml", law_texts()[0]), ("store/a.yaml", law_texts()[0])):
+            Path(name).parent.mkdir(exist_ok=True)
+            Path(name).write_text(content, encoding="utf-8")
+        Path("bad_store").mkdir(exist_ok=True)
+        Path("bad_store/a.yaml").write_text("crumple_law: 1\n", encoding="utf-8")
+
+
 def attack_input(text: str) -> str:
     """An input file: read, hash, lower to the multibody model."""
+    beside(text)
     return attack_bytes(text.encode("utf-8", "surrogatepass"))
 
 
 def attack_shell(text: str) -> str:
     """An input file: mesh it and lower it to shells."""
+    beside(text)
     Path("case.yaml").write_text(text, encoding="utf-8", errors="surrogatepass")
     problems = check("case.yaml", "shell")
     return first_message(problems) if problems else ""
@@ -68,6 +83,7 @@ def attack_shell(text: str) -> str:
 def attack_solve(text: str) -> str:
     """An input file: solve it with bodies and hinges, for some seconds at most."""
     analysis: list[Analysis] = []
+    beside(text)
     message = refused(lambda: analysis.append(loads(text)))
     if message:
         return message
@@ -136,6 +152,60 @@ def attack_kernel(payload: tuple[str, Any]) -> str:
     return ""
 
 
+def attack_call(case: tuple[str, list[int]]) -> str:
+    """A public function."""
+    from tests.fuzz.calls import call
+
+    return refused(lambda: call(*case))
+
+
+def attack_command(words: list[str]) -> str:
+    """A command line."""
+    from tests.fuzz.commands import spoken
+
+    message: list[str] = []
+    return refused(lambda: message.append(spoken(words))) or plain("".join(message))
+
+
+def attack_variants(case: tuple[str, dict[str, Any]]) -> str:
+    """An input file solved with changed parameters, or its sensitivities."""
+    from crumple.multibody import Run, sensitivities, solve_variants
+
+    text, parameters = case
+    end = time.monotonic() + PATIENCE
+
+    def run() -> None:
+        analysis = loads(text)
+        given = Run(
+            analysis.duration,
+            analysis.output_interval,
+            analysis.multibody,
+            analysis.outputs,
+            stages=analysis.stages,
+        )
+        late = {"cancel": lambda: time.monotonic() > end}
+        if all(np.ndim(value) == 0 for value in parameters.values()):
+            sensitivities(analysis.structure, given, parameters, **late)
+        else:
+            table = solve_variants(analysis.structure, given, parameters, threads=1, **late)
+            assert all(isinstance(status, Status) for status in table.status)
+
+    return refused(run)
+
+
+def attack_result(edits: Any) -> str:
+    """A result file, changed."""
+    from tests.fuzz.result_base import base, changed
+
+    from crumple.result.store import read
+
+    content = base()
+    if edits is None:
+        return refused(lambda: read("none"))
+    Path("result.vtkhdf").write_bytes(changed(content, edits))
+    return refused(lambda: read("result.vtkhdf"))
+
+
 def attack_self(code: str) -> str:
     """Python code that crashes or hangs: whether the worker reports it."""
     from tests.fuzz.child import limit
@@ -153,6 +223,10 @@ ATTACKS: dict[str, Callable[[Any], str]] = {
     "curve": attack_curve,
     "restart": attack_restart,
     "kernel": attack_kernel,
+    "call": attack_call,
+    "command": attack_command,
+    "variants": attack_variants,
+    "result": attack_result,
     "self-test": attack_self,
 }
 """By kind."""

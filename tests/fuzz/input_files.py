@@ -13,6 +13,7 @@ from typing import Any
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 from tests.fuzz.mutation import Edit, Pool, edited
+from tests.fuzz.parts import PARTS, changed_frame
 
 from crumple.analysis import InputFile
 from crumple.analysis.reading import read_text
@@ -161,10 +162,11 @@ def pool() -> Pool:
 
 def input_files(good: Sequence[Mapping[str, Any]], *, most: int = 3) -> SearchStrategy[str]:
     """Texts of input files: a frame or a good file with at most so many changes."""
-    count = st.sampled_from([0, *range(1, most + 1)])
+    count = st.sampled_from([0, 0, *range(1, most + 1)])
     some = count.flatmap(lambda n: st.lists(changes(), min_size=n, max_size=n))
     # by their numbers: reports of Hypothesis then stay short
-    data = st.one_of(frames(), st.sampled_from(range(len(good))).map(lambda one: good[one]))
+    given = st.sampled_from(range(len(good))).map(lambda one: good[one])
+    data = st.one_of(frames(), given, frames_with_parts())
     return st.tuples(data, some).map(lambda both: written(edited(both[0], both[1], pool())))
 
 
@@ -235,6 +237,12 @@ LAWS += [
 ]
 STEPS = [(4, 0, 0), (0, 0, 4), (3, 0, 3), (0, 3, 0), (5, 0, -2), (2, 2, 2)]
 GRADES = st.sampled_from(["S235", "S355", "DP600"])
+
+
+@st.composite
+def frames_with_parts(draw: Any) -> dict[str, Any]:
+    """A frame with one more part."""
+    return changed_frame(draw, draw(st.sampled_from(PARTS)), draw(frames()))
 
 
 @st.composite

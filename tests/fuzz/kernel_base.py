@@ -79,7 +79,10 @@ SPATIAL: dict[str, Any] = {
         "drives": [(0, 2, [0.0, 1e-3], [0.0, 1.0], 0.0)],
         "loads": [(1, [2.0, 0.0, 0.0], [0.0, 0.0, 10.0], [0.0] * 3, [0.0], [1.0])],
         "springs": [(-1, 1, [2.0, 0.0, 1.0], [2.0, 0.0, 0.0], 1e3, 1.0, 0.0)],
-        "capsules": [(0, [0.0] * 3, [1.0, 0.0, 0.0], 0.02), (1, [1.1, 0.0, 0.0], [2.0, 0.0, 0.0], 0.02)],
+        "capsules": [
+            (0, [0.0] * 3, [1.0, 0.0, 0.0], 0.02, 1e4),
+            (1, [1.1, 0.0, 0.0], [2.0, 0.0, 0.0], 0.02, np.inf),
+        ],
         "obstacles": [],
         "contact": (0.1, 0.0),
         "pairs": [[0, 1]],
@@ -141,6 +144,7 @@ def spatial(edits: Any) -> None:
     run.stage(*given["stage"])
     run.step(given["step"])
     run.run(given["run"], _patience())
+    run.crushed()
     k.surface_point(*given["point"])
 
 

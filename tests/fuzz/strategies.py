@@ -11,7 +11,19 @@ from typing import Any
 
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
-from tests.fuzz.input_files import KEYS, NUMBERS, bases, changed_text, edits, flow, input_files
+from tests.fuzz.commands import commands
+from tests.fuzz.input_files import (
+    KEYS,
+    NUMBERS,
+    bases,
+    changed_text,
+    edits,
+    flow,
+    frames,
+    frames_with_parts,
+    input_files,
+    written,
+)
 from tests.fuzz.worker import Case
 
 ROOT = Path(__file__).parents[2]
@@ -44,7 +56,7 @@ VALUES = st.recursive(
 def texts() -> SearchStrategy[bytes]:
     """Any bytes, any text, heaps of pieces of YAML, any values under known keys, changed good files."""
     known = st.dictionaries(st.sampled_from(KEYS), VALUES, max_size=6)
-    written = known.map(
+    heads = known.map(
         lambda groups: "crumple: 1\n" + "".join(f"{key}: {flow(value)}\n" for key, value in groups.items())
     )
     pieces = st.lists(st.sampled_from([*PIECES, *KEYS]), max_size=60).map("".join)
@@ -53,7 +65,7 @@ def texts() -> SearchStrategy[bytes]:
         st.text(max_size=200),
         pieces,
         pieces.map("crumple: 1\n{}".format),
-        written,
+        heads,
         changed_text(good, PIECES),
         good,
     )
@@ -165,6 +177,43 @@ def kernel_calls() -> SearchStrategy[tuple[str, Any]]:
     return st.tuples(rooms, st.lists(changes, max_size=3))
 
 
+def calls() -> SearchStrategy[tuple[str, list[int]]]:
+    """Calls of public functions, most arguments good."""
+    from tests.fuzz.calls import CALLS
+
+    number = st.one_of(st.just(0), st.just(0), st.just(0), st.integers(0, 12))
+    return st.tuples(st.sampled_from(sorted(CALLS)), st.lists(number, max_size=8))
+
+
+PARAMETERS = ["materials.metal.yield_stress", "sections.s.thickness", "masses.m.mass", "nodes.n1.0", "loads"]
+PARAMETERS += ["initial_velocity", "gravity", "impulses", "hinges.h0.capacity", "hinges.h1.capacity"]
+PARAMETERS += ["materials.no.x", "nodes.n1", "nodes.n1.9", "hinges.no.capacity", "title", "", "a..b"]
+PARAMETERS += ["supports.a.fix", "members.m0.roll", "members.m0.bars.number", "sections.s.type"]
+
+
+def varied() -> SearchStrategy[tuple[str, dict[str, Any]]]:
+    """A frame and values of its parameters: lists for variants, single ones for sensitivities."""
+    number = st.sampled_from([1.0, 1.1, 0.9, 0.1, 4e8, 0.002, 0.0, -1.0, 1e300, float("nan")])
+    several = st.lists(number, min_size=1, max_size=3)
+    names = st.sampled_from([*PARAMETERS[:8] * 2, *PARAMETERS])
+    parameters = st.one_of(
+        st.dictionaries(names, several, min_size=1, max_size=2),
+        st.dictionaries(names, st.one_of(st.none(), st.none(), number), min_size=1, max_size=2),
+    )
+    return st.tuples(st.one_of(frames(), frames(), frames_with_parts()).map(written), parameters)
+
+
+def results() -> SearchStrategy[Any]:
+    """Changes of a result file: bytes, its end, its entries."""
+    entry = st.tuples(st.integers(0, 10**6), st.sampled_from(["drop", "set", "short", "attribute"]))
+    return st.one_of(
+        st.just([]),
+        st.none(),
+        st.lists(entry, min_size=1, max_size=2),
+        st.lists(st.tuples(st.integers(0, 10**6), st.integers(0, 255)), min_size=1, max_size=3),
+    )
+
+
 def cases(kind: str) -> SearchStrategy[Case]:
     """Cases of one kind."""
     payload: SearchStrategy[Any] = {
@@ -177,5 +226,9 @@ def cases(kind: str) -> SearchStrategy[Case]:
         "curve": curves,
         "restart": restarts,
         "kernel": kernel_calls,
+        "call": calls,
+        "command": commands,
+        "variants": varied,
+        "result": results,
     }[kind]()
     return payload.map(lambda one: Case(kind, one))

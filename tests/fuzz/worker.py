@@ -22,6 +22,8 @@ from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from typing import Any
 
+from tests.fuzz.sites import REACHED
+
 MEMORY = 2_000_000_000
 """Address space of the worker [byte]; not limited on systems without `resource`."""
 SECONDS = 20.0
@@ -56,14 +58,14 @@ class Outcome:
     detail
         Traceback of a finding.
     sites
-        Source places (file in the package, line) of a refusal that had not been reported before.
+        Refusals of the code that it reached and that had not been reported before.
     """
 
     accepted: bool = False
     message: str = ""
     finding: str = ""
     detail: str = ""
-    sites: set[tuple[str, int]] = field(default_factory=set)
+    sites: set[str] = field(default_factory=set)
 
 
 @cache
@@ -101,6 +103,7 @@ class Worker:
         except (EOFError, ConnectionResetError):
             return self._ended(case)
         assert isinstance(outcome, Outcome)
+        REACHED.update(outcome.sites)
         return outcome
 
     def _start(self) -> Connection:

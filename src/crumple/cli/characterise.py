@@ -94,6 +94,9 @@ def characterise(
     if material is None:
         todo = "add --material, or give an input file such as frame.yaml"
         raise InputError(Problem("a section needs its material", section, "", todo, "--material"))
+    if only_list:
+        what, todo = "a section has nothing to list", "omit --list, or give an input file without --material"
+        raise InputError(Problem(what, section, "an input file", todo, "--list"))
     model = _model(section, material, _Place(load, axis, sense, angle, to))
     laws = LawStore(store)
     law = laws.law(model)

@@ -12,6 +12,8 @@ the damper then acts fully from first touch.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -46,15 +48,15 @@ def impact(x: ArrayLike, v: ArrayLike, x1: float, k: float, e: float, cmax: floa
     Raises
     ------
     InputError
-        If k, cmax or d is negative, or e is below 1.
+        If k, cmax or d is negative, e is below 1, or one of them is not finite.
 
     References
     ----------
     IMPACT as documented for ADAMS and MotionSolve.
     """
-    if not (k >= 0.0 and e >= 1.0 and cmax >= 0.0 and d >= 0.0):
+    if not (0.0 <= k < math.inf and 1.0 <= e < math.inf and 0.0 <= cmax < math.inf and 0.0 <= d < math.inf):
         came = f"k = {k:g}, e = {e:g}, cmax = {cmax:g}, d = {d:g}"
-        raise InputError(f"impact and bistop need k, cmax and d >= 0 and e >= 1, not {came}")
+        raise InputError(f"impact and bistop need finite k, cmax and d >= 0 and e >= 1, not {came}")
     position, rate = np.broadcast_arrays(np.asarray(x, np.float64), np.asarray(v, np.float64))
     penetration = np.maximum(x1 - position, 0.0)
     damper = step(position, x1 - d, 1.0, x1, 0.0) if x1 - d < x1 else np.ones_like(position)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from crumple.errors import InputError, Problem
 from crumple.numeric.arrays import Floats
 from crumple.section.geometry.assembly import skeleton_of
 from crumple.section.geometry.plates import plates_of
@@ -227,10 +228,12 @@ def angle_of(axis: Axis | float) -> float:
     Raises
     ------
     InputError
-        If it is a name that is neither "y" nor "z".
+        If it is a name that is neither "y" nor "z", or an angle that is not finite.
     """
     if isinstance(axis, str):
         return 0.0 if checked_axis(axis) == "y" else math.pi / 2.0
+    if not math.isfinite(axis):
+        raise InputError(Problem("the angle of the axis is not finite", f"{axis:g} rad", "an angle"))
     return float(axis)
 
 

@@ -50,6 +50,7 @@ def test_law_is_solved_once_and_kept(tmp_path, monkeypatch):
         (["--to", "2 deg"], "rotation is out of range"),
         (["--sense", "up"], "sense is unknown"),
         (["--axis", "x"], "axis"),
+        (["--list"], "a section has nothing to list"),
     ],
 )
 def test_what_cannot_be_is_refused(options, what, tmp_path):

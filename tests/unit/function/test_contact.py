@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -76,3 +78,9 @@ def test_refuses_numbers_that_make_no_stop(numbers) -> None:
 def test_bistop_refuses_crossed_ends() -> None:
     with pytest.raises(InputError, match="x1 < x2"):
         bistop(0.0, 0.0, 1.0, 1.0, K, E, CMAX, D)
+
+
+@pytest.mark.parametrize("wrong", [{"k": math.inf}, {"e": math.inf}, {"cmax": math.nan}, {"d": math.inf}])
+def test_stiffness_and_damping_must_be_finite(wrong: dict[str, float]) -> None:
+    with pytest.raises(InputError, match="need finite k"):
+        impact(0.0, 0.0, 0.0, **{"k": K, "e": E, "cmax": CMAX, "d": D} | wrong)

@@ -106,7 +106,8 @@ def rating(
     Raises
     ------
     InputError
-        If the curves share too short an interval, or the reference is zero or not finite.
+        If values and times differ in number, the curves share too short an interval, or the reference is
+        constant or not finite.
 
     References
     ----------
@@ -114,6 +115,10 @@ def rating(
     published package objective-rating-metrics in tests/verification/comparison/test_rating.py.
     """
     t_reference, t_curve = np.asarray(reference_time, float), np.asarray(time, float)
+    whole, values = np.asarray(reference, float), np.asarray(values, float)
+    if t_reference.shape != whole.shape or t_curve.shape != values.shape or not whole.size * values.size:
+        came = f"{t_reference.size} times, {whole.size} values; {t_curve.size} times, {values.size} values"
+        raise _refused("a curve needs as many values as times", came, "one value or more for each curve")
     begin = max(t_reference[0], t_curve[0]) if start is None else start
     finish = min(t_reference[-1], t_curve[-1]) if end is None else end
     rate = min(SAMPLING_RATE, MOST / max(finish - begin, 1e-9))
@@ -125,8 +130,8 @@ def rating(
             "at least 2 ms",
         )
     sampled = begin + np.arange(number) / rate
-    a = np.interp(sampled, t_reference, np.asarray(reference, float))
-    b = np.interp(sampled, t_curve, np.asarray(values, float))
+    a = np.interp(sampled, t_reference, whole)
+    b = np.interp(sampled, t_curve, values)
     if not (np.isfinite(a).all() and np.isfinite(b).all()):
         raise _refused("a curve is not finite", "NaN or infinity", "numbers")
     if not np.ptp(a) > 0.0:

@@ -81,6 +81,10 @@ class MeasuredBand:
         return float(np.max(self.coverage * self.deviation / self.mean))
 
 
+SHORTEST_WINDOW = 1e-3
+"""Shortest window of smoothing over the length of the curve: the grid has ten points for each window."""
+
+
 def smoothed(abscissa: Curve, ordinate: Curve, window: float) -> tuple[Floats, Floats]:
     """Curve smoothed over a window.
 
@@ -101,7 +105,7 @@ def smoothed(abscissa: Curve, ordinate: Curve, window: float) -> tuple[Floats, F
     Raises
     ------
     InputError
-        If the window is not positive or longer than the curve.
+        If the window is longer than the curve or below a thousandth of it.
 
     Notes
     -----
@@ -109,8 +113,9 @@ def smoothed(abscissa: Curve, ordinate: Curve, window: float) -> tuple[Floats, F
     """
     x, y = _forward(abscissa, ordinate)
     length = float(x[-1] - x[0])
-    if not 0.0 < window <= length:
-        allowed, todo = f"above 0, at most {length:g}", "start with a tenth of the curve"
+    if not SHORTEST_WINDOW * length <= window <= length:
+        allowed = f"{SHORTEST_WINDOW * length:g} to {length:g}"
+        todo = "start with a tenth of the curve"
         what = "the window is out of range"
         raise InputError(Problem(what, f"{window:g}", allowed, todo, "window"))
     half = 5

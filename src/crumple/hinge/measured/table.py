@@ -123,8 +123,8 @@ def plastic_part(
     Raises
     ------
     InputError
-        If the rise has fewer than two points between 20 and 60 % of the peak and no stiffness is given, or
-        the curve has no plastic part.
+        If the rise has fewer than two points between 20 and 60 % of the peak and no stiffness is given, the
+        given one is not positive, or the curve has no plastic part.
 
     Notes
     -----
@@ -136,6 +136,13 @@ def plastic_part(
     zero = 0.0
     if elastic_stiffness is None:
         elastic_stiffness, zero = _elastic_line(total[: peak + 1], moment[: peak + 1])
+    elif not 0.0 < elastic_stiffness < math.inf:
+        what, todo = (
+            "the elastic stiffness must be positive",
+            "give the slope of the elastic rise, or omit it",
+        )
+        came = f"{elastic_stiffness:g} N m/rad"
+        raise InputError(Problem(what, came, "above 0 N m/rad, finite", todo, "elastic_stiffness"))
     plastic = total - zero - moment / elastic_stiffness
     on_line = np.flatnonzero(plastic[: peak + 1] <= ON_THE_LINE * moment[peak] / elastic_stiffness)
     first = int(on_line[-1]) if on_line.size else 0

@@ -76,7 +76,7 @@ def untreated(structure: StructureParts) -> Mapping[str, str]:
 def _corners(structure: StructureParts) -> tuple[dict[str, Corner], dict[str, str]]:
     found, reasons = {}, {}
     for node, members in structure.members_at.items():
-        if len(members) < 2 or not all(structure.has_line(name) for name in members):
+        if len(members) < 2 or not all(_whole(structure, name) for name in members):
             continue
         answer = _corner(structure, node, members)
         if isinstance(answer, Corner):
@@ -84,6 +84,17 @@ def _corners(structure: StructureParts) -> tuple[dict[str, Corner], dict[str, st
         elif answer:
             reasons[node] = answer
     return found, reasons
+
+
+def _whole(structure: StructureParts, name: str) -> bool:
+    """Whether a member's line, section and metals are there; always so in a sound structure."""
+    member = structure.members[name]
+    section = structure.sections.get(member.section)
+    if section is None or not structure.has_line(name):
+        return False
+    return all(
+        metal in structure.materials for metal in (member.material, *section.named_materials().values())
+    )
 
 
 def _corner(structure: StructureParts, node: str, members: list[str]) -> Corner | str:

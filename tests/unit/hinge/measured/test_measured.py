@@ -123,3 +123,10 @@ def test_mistakes_of_all_files_at_once_and_by_name():
         smoothed([0.0, 0.5, 1.0], [0.0, 1.0, 2.0], 2.0)
     with pytest.raises(InputError, match="dynamic factor"):
         measured_band([specimen()], dynamic_factor=0.5)
+
+
+def test_a_window_far_shorter_than_the_curve_is_refused_before_its_grid_is_made():
+    x = np.linspace(0.0, 1.0, 50)
+    assert len(smoothed(x, x, 1e-3)[0]) == 10_001
+    with pytest.raises(InputError, match="window is out of range"):
+        smoothed(x, x, 1e-12)

@@ -91,6 +91,9 @@ def test_rise_without_points_needs_a_stiffness():
         plastic_part([0.0, 0.02, 0.3], [0.0, 1000.0, 500.0])
     with pytest.raises(InputError, match="elastic line"):
         plastic_part(*measured(slack=0.0), 500e3)
+    for stiffness in (0.0, -1.0, np.inf, np.nan):
+        with pytest.raises(InputError, match="stiffness must be positive"):
+            plastic_part(*measured(slack=0.0), stiffness)
 
 
 def test_law_of_a_measured_curve():

@@ -184,3 +184,9 @@ def test_root_of_a_jump_and_of_ends():
     assert rising_root(lambda x: -1.0 if x < 0.7 else 2.0, 0.0, 1.0, 0.0) == pytest.approx(0.7, abs=1e-12)
     assert rising_root(lambda x: x + 1.0, 0.0, 1.0, 0.0) == 0.0
     assert rising_root(lambda x: x - 2.0, 0.0, 1.0, 0.0) == 1.0
+
+
+@pytest.mark.parametrize("angle", [np.nan, np.inf])
+def test_an_angle_that_is_not_finite_is_refused(angle):
+    with pytest.raises(InputError, match="angle of the axis is not finite"):
+        moment_capacity(RectangularTube(0.06, 0.04, 0.002), STEEL, angle)

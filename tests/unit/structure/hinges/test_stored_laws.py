@@ -7,6 +7,7 @@ import pytest
 from tests.support.multibody.frames import STEEL, TUBE, member
 from tests.support.stored_laws import law_text, store_of
 
+from crumple.errors import InputError
 from crumple.hinge.measured.place_hash import place_hash
 from crumple.material import Material
 from crumple.section import RectangularTube, half_fold_length
@@ -50,6 +51,13 @@ def test_without_a_store_nothing_changes(tmp_path):
     assert [h.name for h in placed_hinges(plain)] == [h.name for h in placed_hinges(empty)]
     assert all(h.law.name == "kecman" for h in placed_hinges(empty))
     assert {use.origin for use in law_uses(plain).values()} == {"formula"}
+
+
+@pytest.mark.parametrize(("key", "kind"), [("material", "material"), ("section", "section")])
+def test_a_store_does_not_hide_that_a_member_at_a_corner_names_nothing(key, kind, tmp_path):
+    arm = {"nodes": ("b", "c"), **PLAIN, key: "no"}
+    with pytest.raises(InputError, match=f"there is no {kind} 'no'"):
+        frame({"post": {"nodes": ("a", "b"), **PLAIN}, "arm": arm}, laws=stored(tmp_path, MITRE))
 
 
 def test_members_use_the_law_of_their_section_and_a_corner_its_own(tmp_path):
