@@ -193,13 +193,7 @@ class Bending:
         InputError
             If nothing folded between the planes.
         """
-        moment = self._moment(result)
-        pieces = result["first"] + result["second"]
-        between = self.sense * (result[f"node.turned.rotation.{self.axis}"] - pieces)
-        stiffness = self.material.youngs_modulus * self.section.second_moment(self.axis)
-        own = between - moment * self.gauge / stiffness
-        flexibility = 0.0 if self.angle is None else max(_elastic_flexibility(own, moment), 0.0)
-        plastic = own - flexibility * moment
+        plastic, moment, flexibility = self._plastic(result)
         if plastic.max() < 0.5 * self.largest:
             what, todo = "the sub-model folded elsewhere", "give these hinges a law of their own"
             if self.angle is not None:
@@ -209,6 +203,20 @@ class Bending:
             raise InputError(Problem(what, came, "", todo, where=self.title))
         curve = law_curve(plastic, moment, self.largest)
         return curve if flexibility == 0.0 else curve.with_stiffness(1.0 / flexibility)
+
+    def histories(self, result: Result) -> tuple[Floats, Floats]:
+        """Plastic rotation of the fold [rad] and moment [N m] at the times of the result."""
+        return self._plastic(result)[:2]
+
+    def _plastic(self, result: Result) -> tuple[Floats, Floats, float]:
+        """Plastic rotation, moment, and the flexibility of a corner's own that was taken off."""
+        moment = self._moment(result)
+        pieces = result["first"] + result["second"]
+        between = self.sense * (result[f"node.turned.rotation.{self.axis}"] - pieces)
+        stiffness = self.material.youngs_modulus * self.section.second_moment(self.axis)
+        own = between - moment * self.gauge / stiffness
+        flexibility = 0.0 if self.angle is None else max(_elastic_flexibility(own, moment), 0.0)
+        return own - flexibility * moment, moment, flexibility
 
     def measured(self, result: Result, curve: LawCurve) -> dict[str, str]:
         """Nothing more."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from crumple.characterisation.bending import Bending
 from crumple.characterisation.crush import Crush
+from crumple.characterisation.rate import FASTER, rate_pair
 from crumple.characterisation.solving import FINER
 from crumple.characterisation.sub_model import SubModel
 from crumple.characterisation.torsion import Torsion
@@ -50,7 +51,9 @@ class Needed:
         speed = math.sqrt(model.material.youngs_modulus / model.material.density)
         once = PER_ELEMENT_STEP * elements * model.duration * speed / model.size
         runs = (1.0 if model.one_law else 2.0) + (sum(ratio**3 for ratio in FINER) if converge else 0.0)
-        return once * runs
+        # at rest, with rate, and with rate three times as fast
+        rate = 0.0 if rate_pair(model.material) is None or model.load == "crush" else 1.0 + 1.0 / FASTER
+        return once * (runs + rate)
 
 
 def needed(structure: Structure, largest: float) -> tuple[Needed, ...]:

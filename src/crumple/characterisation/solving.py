@@ -12,9 +12,11 @@ from crumple.characterisation.bending import Bending
 from crumple.characterisation.curve import LawCurve
 from crumple.characterisation.interaction import interaction_errors
 from crumple.characterisation.law import law_of
-from crumple.characterisation.sub_model import Model, SubModel
+from crumple.characterisation.rate import Turned, at_rest, faster, rate_law, rate_pair
+from crumple.characterisation.sub_model import Model, Solvable, SubModel
 from crumple.errors import InputError, Problem, Status
 from crumple.hinge.measured.stored import StoredLaw
+from crumple.material import CowperSymonds
 from crumple.result import Result
 
 MOST_KINETIC = 0.02
@@ -91,7 +93,9 @@ def characterise(
     docs/theory/characterisation.md.  Verified in tests/verification/characterisation.
     """
     solver = _Solver(threads, progress, cancel)
-    result, curve, kinetic, slow = solver.run(model, "nominal mesh")
+    pair = rate_pair(model.material)
+    static = model if pair is None else at_rest(model)
+    result, curve, kinetic, slow = solver.run(static, "nominal mesh")
     opposite = None
     if not model.one_law:
         opposite = solver.run(replace(slow, sense=-model.sense), "other sense")[1]
@@ -112,9 +116,13 @@ def characterise(
         "kinetic_energy": f"at most {kinetic:.2%} of the internal energy after {_amount(slow)}",
         "energy_residual": f"{result.energy_residual:.2g} of the energy input",
     }
-    if interaction and isinstance(model, Bending) and model.angle is None:
-        facts |= interaction_errors(model, lambda one: solver.run(one, one.title)[1])
-    return Characterised(law_of(model, curve, opposite, facts, error), curve, result, kinetic, error)
+    if interaction and isinstance(slow, Bending) and slow.angle is None:
+        facts |= interaction_errors(slow, lambda one: solver.run(one, one.title)[1])
+    law = law_of(model, curve, opposite, facts, error)
+    moving = replace(slow, material=model.material)
+    if pair is not None and isinstance(moving, Turned):
+        law = solver.with_rate(law, moving, pair, curve)
+    return Characterised(law, curve, result, kinetic, error)
 
 
 @dataclass(frozen=True)
@@ -125,19 +133,24 @@ class _Solver:
     progress: Callable[[str, float], None] | None
     cancel: Callable[[], bool] | None
 
-    def run(self, one: Model, what: str) -> tuple[Result, LawCurve, float, Model]:
-        """Result, curve, share of kinetic energy, and the model as slow as it was solved."""
+    def result(self, one: Solvable, what: str) -> Result:
+        """Result of a sub-model that reached its end."""
 
         def report(share: float) -> None:
             if self.progress is not None:
                 self.progress(what, share)
 
+        result = solve(one.analysis(), "shell", self.threads, report, self.cancel)
+        if result.status is Status.CANCELLED:
+            raise KeyboardInterrupt
+        if not result.status.ok:
+            raise InputError(Problem(f"the sub-model ended early: {result.reason}", one.title))
+        return result
+
+    def run(self, one: Model, what: str) -> tuple[Result, LawCurve, float, Model]:
+        """Result, curve, share of kinetic energy, and the model as slow as it was solved."""
         for _ in range(ATTEMPTS):
-            result = solve(one.analysis(), "shell", self.threads, report, self.cancel)
-            if result.status is Status.CANCELLED:
-                raise KeyboardInterrupt
-            if not result.status.ok:
-                raise InputError(Problem(f"the sub-model ended early: {result.reason}", one.title))
+            result = self.result(one, what)
             curve = one.curve(result)
             kinetic = kinetic_share(result, curve.energy_at(one.watched_from))
             if kinetic <= MOST_KINETIC:
@@ -146,6 +159,15 @@ class _Solver:
             one = replace(one, resolution=replace(one.resolution, slowness=slower))
         what_failed = f"kinetic energy is {kinetic:.1%} of the internal energy"
         raise InputError(Problem(what_failed, one.title, f"at most {MOST_KINETIC:.0%}"))
+
+    def with_rate(self, law: StoredLaw, model: Turned, pair: CowperSymonds, static: LawCurve) -> StoredLaw:
+        """The law with the rate law of its fold, and its check in the origin."""
+        runs = (model, faster(model))
+        first, second = (
+            self.result(one, what) for one, what in zip(runs, ("strain rate", "another speed"), strict=True)
+        )
+        rate, sentence = rate_law(pair, static, ((runs[0], first), (runs[1], second)))
+        return replace(law, rate=rate, origin=(*law.origin, ("rate", sentence)))
 
 
 def _amount(model: SubModel) -> str:

@@ -17,7 +17,7 @@ from crumple.hinge.measured.law_file import read_law, write_law
 from crumple.hinge.measured.stored import StoredLaw
 from crumple.portable import replacing
 
-METHOD = 2
+METHOD = 3
 """Number of the way in which sub-models are built and measured: laws of another method are computed again."""
 
 

@@ -18,6 +18,7 @@ from crumple.characterisation.sub_model import is_mirrored, largest_side
 from crumple.errors import InputError, Problem
 from crumple.hinge.measured.place_hash import Load, place_hash
 from crumple.material import Material
+from crumple.numeric.arrays import Floats
 from crumple.result import Result
 from crumple.section import AXES, Section, plastic_interaction, walls_of
 from crumple.structure import Structure
@@ -173,10 +174,15 @@ class Torsion:
 
     def curve(self, result: Result) -> LawCurve:
         """Law measured in the solved sub-model: torque against plastic twist of the whole length."""
+        twist, torque = self.histories(result)
+        return law_curve(twist, torque, self.largest)
+
+    def histories(self, result: Result) -> tuple[Floats, Floats]:
+        """Plastic twist [rad] and torque [N m] at the times of the result."""
         held, turned = (result[f"support.{name}.moment.x"] for name in ("held", "turned"))
         torque = 0.5 * self.sense * (held - turned)
         twist = self.sense * result["node.turned.rotation.x"]
-        return law_curve(np.asarray(twist - self._flexibility * torque), torque, self.largest)
+        return np.asarray(twist - self._flexibility * torque), torque
 
     def measured(self, result: Result, curve: LawCurve) -> dict[str, str]:
         """Nothing more."""

@@ -1,15 +1,14 @@
 """Mean forces and folds of crushed tubes are those of kinematic models, and of longer sub-models.
 
 Sub-models of 488 MPa on coarse meshes (4 elements where bending has half a fold). The mean force over the
-effective stroke of square and circular tubes is that of Abramowicz and Jones and of Alexander within 10 %:
-the models, which neglect hardening as the sub-models do, agree with tests about as well. The peak is the
+effective stroke of square and circular tubes is that of the kinematic models in docs/theory/axial_crushing.md
+(Abramowicz and Jones; Alexander), which do not harden either, within 10 %. The peak is the
 squash force within 2 %. The number of folds is the length over their wave length 2 H = 1.97 c^(2/3) t^(1/3)
 (Wierzbicki and Abramowicz), within 1. A sub-model a third longer has the same mean force within 10 %: the
 order in which walls fold differs. A column in the multibody model takes the work of its sub-model up to the
 end of the stroke, within 5 %.
 
-Kind: published values; invariant.  Source: Wierzbicki & Abramowicz (1983), Abramowicz & Jones (1986),
-Alexander (1960), as quoted in docs/theory/axial_crushing.md; derived here.
+Kind: published; invariant.  Source: quoted; derived here.
 """
 
 import pytest

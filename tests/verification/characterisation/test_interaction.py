@@ -6,7 +6,7 @@ largest moment is that of limit analysis within 5 %. A tube of thin walls (50x50
 later: its fold rotates about the tension flange, so that tension increases and compression reduces the work
 by more than 30 % up to 30 degrees, where the walls' interaction has 5 %.
 
-Kind: closed form; invariant.  Source: limit analysis, docs/theory/interaction.md; derived here.
+Kind: closed form; invariant.  Source: derived here; derived here.
 """
 
 import math
