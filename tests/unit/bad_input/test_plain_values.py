@@ -27,6 +27,12 @@ outputs: {nodes: [tip]}
         ("at: root", "at: ''", "members.beam.hinges[0].at", "neither a node nor a distance"),
         ("at: root", f"at: {'x' * 65}", "members.beam.hinges[0].at", "neither a node nor a distance"),
         ("section: tube,", "section: tube, up: [0, 0, 0],", "members.beam.up", "the direction is zero"),
+        (
+            "analysis:",
+            "obstacles: {o: {type: plane, point: [0 m, 0 m, 9 m], normal: [0, 0, 0], mass: 9 kg}}\nanalysis:",
+            "obstacles.o.normal",
+            "the direction is zero",
+        ),
         ("law: constant", "law: {type: measured, files: 3}", "law.files", "a list of files is needed"),
         (
             "outputs: {",

@@ -16,7 +16,7 @@ from crumple.multibody.answer.solved import Poll
 from crumple.multibody.planar.case import PlanarCase
 from crumple.multibody.variants.batch import Batch, hinge_names
 from crumple.multibody.variants.factors import checked_names
-from crumple.multibody.variants.moved import Moved, MovedEnds, cases_beside, step_of
+from crumple.multibody.variants.moved import Moved, MovedEnds, cases_beside, factor_step, step_of
 from crumple.numeric.arrays import Floats
 from crumple.structure import Outputs, Structure
 
@@ -83,7 +83,7 @@ def _beside(
     """Cases with a parameter above and below its value, and the difference of the parameter."""
     factor = _scaled(base, name)
     if factor is not None:
-        step = RELATIVE_STEP if step is None else step
+        step = factor_step(name, step, RELATIVE_STEP)
         return factor(1.0 + step), factor(1.0 - step), 2.0 * step
     step = step_of(base, name, step, RELATIVE_STEP)
     above, below = cases_beside(batch, base, name, step)

@@ -18,7 +18,7 @@ from crumple.multibody.answer.solved import Poll
 from crumple.multibody.run import Run
 from crumple.multibody.variants.batch import Batch, Case, hinge_names, part_of
 from crumple.multibody.variants.factors import checked_names, is_factor
-from crumple.multibody.variants.moved import Moved, MovedEnds, cases_beside, step_of
+from crumple.multibody.variants.moved import Moved, MovedEnds, cases_beside, factor_step, step_of
 from crumple.numeric.arrays import Floats
 from crumple.portable import available_cores
 from crumple.structure import Structure
@@ -104,7 +104,7 @@ def _refuse_events(structure: Structure, run: Run) -> None:
 def _move(batch: Batch, base: Case, rows: _Rows, name: str, step: float | None) -> None:
     """Two rows for a parameter."""
     if is_factor(name):
-        step = RELATIVE_STEP if step is None else step
+        step = factor_step(name, step, RELATIVE_STEP)
         for end in (1.0 + step, 1.0 - step):
             rows.add(0, name, end)
         rows.widths.append(2.0 * step)

@@ -45,13 +45,17 @@ class MovedEnds:
     residual: float
 
 
+SMALLEST_STEP = 1e-9
+"""Smallest step over the value; below, the difference of two answers is rounding."""
+
+
 def step_of(base: Case, name: str, step: float | None, share: float) -> float:
     """Step by which a path of the input is changed in both directions: as given, or a share of its value.
 
     Raises
     ------
     InputError
-        If its value is zero and no step is given.
+        If its value is zero and no step is given, or the step is lost in rounding.
     """
     value = value_at(base.structure, name)
     if step is None:
@@ -59,7 +63,29 @@ def step_of(base: Case, name: str, step: float | None, share: float) -> float:
     if not step > 0.0:
         what, todo = "the step of a parameter that is zero is not defined", "give its step: {path: step}"
         raise InputError(Problem(what, f"{name} = {value:g}", "a step > 0", todo, name))
+    if step < SMALLEST_STEP * abs(value):
+        raise _lost(name, step, f"at least {SMALLEST_STEP * abs(value):g}")
     return step
+
+
+def factor_step(name: str, step: float | None, share: float) -> float:
+    """Step by which a factor is moved from 1 in both directions: as given, or the share.
+
+    Raises
+    ------
+    InputError
+        If the step is lost in rounding, or is not below 1.
+    """
+    if step is None:
+        return share
+    if not SMALLEST_STEP <= step < 1.0:
+        raise _lost(name, step, f"{SMALLEST_STEP:g} to below 1")
+    return step
+
+
+def _lost(name: str, step: float, allowed: str) -> InputError:
+    what, todo = "the step of this parameter is out of range", "give another step, or none"
+    return InputError(Problem(what, f"{step:g}", allowed, todo, name))
 
 
 def cases_beside(batch: Batch, base: Case, name: str, step: float) -> tuple[Case, Case]:

@@ -109,6 +109,10 @@ class Obstacle(Spec):
         if given or self.turning is not None:
             key = "motion" if given else "turning"
             refuse("an obstacle with a mass is not driven", key=key, todo=f"remove 'mass' or '{key}'")
+        usual = self._across()
+        if self.guide is None and not any(self.velocity) and usual is not None and not any(usual):
+            # a plane without a direction has a refusal of its own
+            return self
         direction = self.guide_direction
         if direction is None:
             todo = "add 'guide', for example [1, 0, 0]"

@@ -23,13 +23,29 @@ STAGES += "impulses: [{node: tip, impulse: [0 N*s, 0 N*s, 1 N*s]}]}]"
 
 def run_of(text=FRAME):
     analysis = loads(text)
-    return analysis.structure, Run(analysis.duration, analysis.output_interval, stages=analysis.stages)
+    return analysis.structure, Run(
+        analysis.duration, analysis.output_interval, analysis.multibody, stages=analysis.stages
+    )
 
 
 def test_a_parameter_that_is_zero_needs_a_step():
     with pytest.raises(InputError, match="zero is not defined"):
         sensitivities(*run_of(), "gravity.2")
     assert sensitivities(*run_of(), {"gravity.2": 0.1}).status is Status.COMPLETE
+
+
+@pytest.mark.parametrize("kernel", ["tree", "spatial"])
+@pytest.mark.parametrize("steps", [{"gravity": 0.0}, {"gravity": 1.0}, {"gravity": float("nan")}])
+def test_the_step_of_a_factor_is_a_share_of_it(steps, kernel):
+    text = FRAME.replace("duration: 2 ms", f"duration: 2 ms, multibody: {{kernel: {kernel}}}")
+    with pytest.raises(InputError, match="step of this parameter is out of range"):
+        sensitivities(*run_of(text), steps)
+
+
+def test_a_step_that_rounding_swallows_is_refused():
+    # its derivative would be zero
+    with pytest.raises(InputError, match="step of this parameter is out of range"):
+        sensitivities(*run_of(), {"masses.load.mass": 1e-20})
 
 
 def test_a_number_of_bars_is_no_parameter():
