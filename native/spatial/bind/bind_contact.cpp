@@ -31,7 +31,7 @@ nb::tuple answer(double friction, double inverse_mass, double normal_impulse, co
     const FrozenContact f = freeze({friction, 0}, inverse_mass, normal_impulse, cap);
     double impulse[3], tangent[9], potential;
     if (rates.size() != 3) throw nb::value_error("a contact has three rates");
-    respond(f, rates.data(), impulse, tangent, &potential);
+    respond(f, 3, rates.data(), impulse, tangent, &potential);
     return nb::make_tuple(Doubles(impulse, impulse + 3), Doubles(tangent, tangent + 9), potential);
 }
 

@@ -14,9 +14,22 @@ FrozenContact freeze(const ContactLaw& law, double inverse_mass, double normal_i
     return {softness * inverse_mass, cap, law.friction * std::max(normal_impulse, 0.0), creep_rate};
 }
 
-void respond(const FrozenContact& f, const double* w, double* impulse, double* tangent, double* potential) {
+namespace {
+
+// potential of the normal impulse
+double pressed(const FrozenContact& f, double approach, double normal) { return normal * (approach - normal * f.compliance / 2); }
+
+}  // namespace
+
+void respond(const FrozenContact& f, size_t n, const double* w, double* impulse, double* tangent, double* potential) {
     const double approach = std::min(0.0, w[0]), normal = std::max(approach / f.compliance, -f.cap);
     const bool crushes = normal <= -f.cap;
+    if (n == 1) {
+        if (impulse) impulse[0] = normal;
+        if (tangent) tangent[0] = approach < 0 && !crushes ? 1 / f.compliance : 0;
+        if (potential) *potential = pressed(f, approach, normal);
+        return;
+    }
     const double slip = std::hypot(w[1], w[2]);
     const bool sliding = slip > f.width;
     const double slope = f.limit / (sliding ? slip : f.width);
@@ -35,7 +48,7 @@ void respond(const FrozenContact& f, const double* w, double* impulse, double* t
         tangent[8] = slope * (1 - v * v);
     }
     if (potential) {
-        *potential = (crushes ? normal * (approach - normal * f.compliance / 2) : normal * approach / 2) +
+        *potential = pressed(f, approach, normal) +
                      (sliding ? f.limit * (slip - f.width / 2) : slope * slip * slip / 2);
     }
 }

@@ -12,10 +12,13 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 
 #include "spatial/contact/contact_geometry.hpp"
 
 namespace crumple::spatial {
+
+using std::size_t;
 
 struct ContactLaw {
     double friction = 0, restitution = 0;
@@ -39,7 +42,8 @@ constexpr double creep_rate = 1e-6;
 // `rest` is not an impact
 double allowed_rate(double restitution, double gap, double rate, double h, double closed, double rest);
 FrozenContact freeze(const ContactLaw& law, double inverse_mass, double normal_impulse, double cap);
-// impulse P (3), its derivative (3 x 3, symmetric, positive semidefinite), and its potential; any may be null
-void respond(const FrozenContact& f, const double* w, double* impulse, double* tangent, double* potential);
+// impulse P (n), its derivative (n x n, symmetric, positive semidefinite), and its potential; any may be null.  n rates: 3, or the normal
+// rate alone
+void respond(const FrozenContact& f, size_t n, const double* w, double* impulse, double* tangent, double* potential);
 
 }  // namespace crumple::spatial

@@ -18,8 +18,8 @@ size_t at(int i) { return static_cast<size_t>(i); }
 void Stepper::allow_closing(double h) {
     const size_t first = contact_rows();
     for (size_t i = 0; i < contacts_.size(); i++) {
-        allowed_[i] = contacts_.allowed(i, h, rate0_[first + 3 * i], unbounded_);
-        bias_[first + 3 * i] -= allowed_[i];
+        allowed_[i] = contacts_.allowed(i, h, rate0_[first + contacts_.rows() * i], unbounded_);
+        bias_[first + contacts_.rows() * i] -= allowed_[i];
     }
 }
 
@@ -27,7 +27,7 @@ void Stepper::allow_closing(double h) {
 bool Stepper::settle() {
     if (contacts_.size() == 0) return true;
     const size_t first = contact_rows();
-    for (size_t i = 0; i < contacts_.size(); i++) w_[first + 3 * i] += allowed_[i];
+    for (size_t i = 0; i < contacts_.size(); i++) w_[first + contacts_.rows() * i] += allowed_[i];
     return contacts_.settle(&impulse_[first], &rate0_[first], &w_[first]);
 }
 
@@ -42,9 +42,10 @@ void Stepper::push_obstacles(State& s, double h) {
     for (size_t i = 0; i < contacts_.size(); i++) {
         const size_t link = connections_.size() - contacts_.size() + i, first = at(start(link));
         const Tangent& t = tangent_[link];
+        const size_t n = contacts_.rows();
         double impulse[3] = {};
-        for (size_t k = 0; k < 3; k++) {
-            for (size_t j = 0; j < 3; j++) impulse[j] += t.value[k] * t.vectors[3 * j + k] * x_[first + k];
+        for (size_t k = 0; k < n; k++) {
+            for (size_t j = 0; j < n; j++) impulse[j] += t.value[k] * t.vectors[n * j + k] * x_[first + k];
         }
         contacts_.push(i, h, &rows_[first], impulse, s.contact);
     }
@@ -74,7 +75,7 @@ void Stepper::look_for_impact(State& s) {
     set_mobilities(s.pose);
     const size_t first = contact_rows();
     for (size_t i = 0; i < contacts_.size(); i++) {
-        contacts_.freeze(i, mobility(connections_.size() - contacts_.size() + i, rows_[first + 3 * i]), 0);
+        contacts_.freeze(i, mobility(connections_.size() - contacts_.size() + i, rows_[first + contacts_.rows() * i]), 0);
     }
     see_contacts(s, 0);
 }

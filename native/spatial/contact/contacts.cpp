@@ -47,6 +47,9 @@ Solid as_solid(const Segment& s) {
 }  // namespace
 
 Contacts::Contacts(const ContactModel& model) : model_(model), placed_(model.capsules.size()) {
+    bool rubs = !model.pairs.empty() && model.between.friction > 0;
+    for (const Obstacle& o : model.obstacles) rubs = rubs || o.law.friction > 0;
+    rows_ = rubs ? 3 : 1;
     for (size_t o = 0; o < model.obstacles.size(); o++) {
         for (const int c : model.obstacles[o].capsules) pairs_.push_back({static_cast<int>(o), -1, c});
     }
@@ -219,7 +222,7 @@ void Contacts::find(size_t p, const std::vector<Pose>& pose, double reach, doubl
 }
 
 // If the point of contact is lost or has passed through the solid, it stays at its position at the start of the step.
-void Contacts::locate(size_t i, const std::vector<Pose>& pose, Row* rows, double* gap) const {
+void Contacts::locate(size_t i, const std::vector<Pose>& pose, Row* out, double* gap) const {
     const Active& c = active_[i];
     const Pair& pair = pairs_[c.pair];
     Touch touch[most_touches];
@@ -238,7 +241,7 @@ void Contacts::locate(size_t i, const std::vector<Pose>& pose, Row* rows, double
     axes[1] = (1 / norm(along)) * along;
     axes[2] = cross(axes[0], axes[1]);
     const Vec3 a = point - placed(pose, c.body[0]).x, b = point - placed(pose, c.body[1]).x;
-    for (int k = 0; k < 3; k++) rows[k] = {axes[k], cross(a, axes[k]), cross(b, axes[k])};
+    for (size_t k = 0; k < rows(); k++) out[k] = {axes[k], cross(a, axes[k]), cross(b, axes[k])};
 }
 
 double Contacts::crush_force(const Pair& pair) const {
@@ -249,9 +252,9 @@ double Contacts::crush_force(const Pair& pair) const {
 void Contacts::crush(const double* gap, ContactState& state) const {
     std::vector<double> deeper;
     for (size_t i = 0; i < active_.size(); i++) {
-        if (!crushes(i) || gap[3 * i] >= 0) continue;
+        if (!crushes(i) || gap[rows() * i] >= 0) continue;
         deeper.resize(pairs_.size(), 0);
-        deeper[active_[i].pair] = std::max(deeper[active_[i].pair], -gap[3 * i]);
+        deeper[active_[i].pair] = std::max(deeper[active_[i].pair], -gap[rows() * i]);
     }
     if (deeper.empty()) return;
     state.crushed.resize(pairs_.size(), 0);
@@ -295,14 +298,14 @@ bool Contacts::settle(const double* impulse, const double* rate0, const double* 
     double largest = 0, change = 0, work = 0, scale = 0;
     for (size_t i = 0; i < active_.size(); i++) {
         Active& c = active_[i];
-        for (size_t k = 3 * i; k < 3 * i + 3; k++) {
+        for (size_t k = rows() * i; k < rows() * (i + 1); k++) {
             work += impulse[k] * (rate0[k] + rate[k]) / 2;
             scale += std::fabs(impulse[k]) * (std::fabs(rate0[k]) + std::fabs(rate[k]));
         }
-        const double found = -impulse[3 * i];
+        const double found = -impulse[rows() * i];
         largest = std::max(largest, found);
         // a point that sticks within both friction limits does not depend on them
-        const double mu = law(c).friction, held = std::hypot(impulse[3 * i + 1], impulse[3 * i + 2]);
+        const double mu = law(c).friction, held = mu > 0 ? std::hypot(impulse[rows() * i + 1], impulse[rows() * i + 2]) : 0;
         if (mu > 0 && held >= slides * mu * std::min(found, c.normal_impulse)) change = std::max(change, std::fabs(found - c.normal_impulse));
         c.normal_impulse = passes_ < steady_passes ? found : (found + c.normal_impulse) / 2;
     }
@@ -314,7 +317,7 @@ bool Contacts::settle(const double* impulse, const double* rate0, const double* 
     return change <= settled_change * largest;
 }
 
-void Contacts::commit(double h, bool from_rest, const Row* rows, const double* impulse, const double* rate0,
+void Contacts::commit(double h, bool from_rest, const Row* at_middle, const double* impulse, const double* rate0,
                       const double* rate, ContactState& state) const {
     state.held.clear();
     state.force.assign(model_.obstacles.size(), Vec3{});
@@ -322,15 +325,17 @@ void Contacts::commit(double h, bool from_rest, const Row* rows, const double* i
     state.closing = 0;
     for (size_t i = 0; i < active_.size(); i++) {
         const Active& c = active_[i];
-        const double *p = impulse + 3 * i, *w0 = rate0 + 3 * i, *w1 = rate + 3 * i;
+        const size_t n = rows();
+        const double *p = impulse + n * i, *w0 = rate0 + n * i, *w1 = rate + n * i;
         // friction acts against the slip at the end of the step: if an impact reverses the slip, the work on the mean rate has the wrong
         // sign and is counted with the impact
-        const double slid = p[1] * (w0[1] + w1[1]) / 2 + p[2] * (w0[2] + w1[2]) / 2;
+        double slid = 0;
+        for (size_t k = 1; k < n; k++) slid += p[k] * (w0[k] + w1[k]) / 2;
         state.friction += std::max(slid, 0.0);
         state.dissipated += p[0] * (w0[0] + w1[0]) / 2 + std::min(slid, 0.0);
         if (p[0] == 0) continue;
         state.held.push_back({c.key, -p[0] / h});
-        push(i, h, rows + 3 * i, p, state);
+        push(i, h, at_middle + n * i, p, state);
         if (c.gap <= closed_gap_) continue;
         if (from_rest) {
             // the motion without the impulse cannot be estimated from the drives: halve the step
@@ -348,17 +353,18 @@ void Contacts::commit(double h, bool from_rest, const Row* rows, const double* i
     }
 }
 
-void Contacts::push(size_t i, double h, const Row* rows, const double* impulse, ContactState& state) const {
+void Contacts::push(size_t i, double h, const Row* at_middle, const double* impulse, ContactState& state) const {
     const int obstacle = pairs_[active_[i].pair].obstacle;
     if (obstacle < 0) return;
-    const Vec3 sum = impulse[0] * rows[0].t + impulse[1] * rows[1].t + impulse[2] * rows[2].t;
+    Vec3 sum;
+    for (size_t k = 0; k < rows(); k++) sum = sum + impulse[k] * at_middle[k].t;
     state.impulse[at(obstacle)] = state.impulse[at(obstacle)] + sum;
     state.force[at(obstacle)] = state.force[at(obstacle)] + (1 / h) * sum;
 }
 
 bool Contacts::impact_follows(const double* gap, const double* rate) const {
     for (size_t i = 0; i < active_.size(); i++) {
-        if (!crushes(i) && gap[3 * i] <= closed_gap_ && rate[3 * i] < -rest_rate(active_[i])) return true;
+        if (!crushes(i) && gap[rows() * i] <= closed_gap_ && rate[rows() * i] < -rest_rate(active_[i])) return true;
     }
     return false;
 }

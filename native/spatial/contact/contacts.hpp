@@ -1,8 +1,8 @@
 // All contacts of a model during a step: points of contact, their rows, and their state.
 //
 // Candidates are pairs of a solid (an obstacle or another capsule) and a capsule; bounding boxes with a margin select the pairs that
-// can meet soon.  Every point of contact within the search distance of the step is a link of three rows (normal, two tangents) between
-// the bodies of the solid and the capsule.  A pair that overlaps when it first appears (at the start, or with a new stage) is accepted
+// can meet soon.  Every point of contact within the search distance of the step is a link of three rows (normal, two tangents; without
+// friction in the model the normal alone) between the bodies of the solid and the capsule.  A pair that overlaps when it first appears (at the start, or with a new stage) is accepted
 // as it is: its gap is measured from there, and it may not come closer.
 #pragma once
 
@@ -72,9 +72,11 @@ public:
     bool gather(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double h, double gain,
                 const ContactState& state);
     size_t size() const { return active_.size(); }
+    // rows of every contact
+    size_t rows() const { return rows_; }
     const int* bodies(size_t i) const { return active_[i].body; }
-    // three rows and the gap at other poses
-    void locate(size_t i, const std::vector<Pose>& pose, Row* rows, double* gap) const;
+    // rows and the gap at other poses
+    void locate(size_t i, const std::vector<Pose>& pose, Row* out, double* gap) const;
     // Normal rate that a step of length h allows, from the rate at its start.  `unbounded`: in an impact, a rate that is never reached,
     // for contacts with restitution that bodies do not approach now: their impact follows next; 0 in other steps.
     double allowed(size_t i, double h, double start_rate, double unbounded) const;
@@ -82,22 +84,24 @@ public:
     // sets the half-width of its ramps [m/s]: of friction, and of the approach at which its walls crush; at least the smallest one
     void widen(size_t i, double width);
     const FrozenContact& frozen(size_t i) const { return active_[i].frozen; }
-    // Stores the result of a pass: impulses and rates at the start and end (3 each).  False if another pass is needed: the normal
+    // Stores the result of a pass: impulses and rates at the start and end (`rows` each).  False if another pass is needed: the normal
     // impulses used for friction have changed, or an impact gained energy and its restitution must be reduced.
     bool settle(const double* impulse, const double* rate0, const double* rate);
     // after the last pass: energies, forces on obstacles, and the time at which open contacts closed (`from_rest`: the step starts at
     // rest); rows as in the step
-    void commit(double h, bool from_rest, const Row* rows, const double* impulse, const double* rate0, const double* rate,
+    void commit(double h, bool from_rest, const Row* at_middle, const double* impulse, const double* rate0, const double* rate,
                 ContactState& state) const;
-    // adds an impulse (3) of a step of length h to the force on the obstacle of a contact
-    void push(size_t i, double h, const Row* rows, const double* impulse, ContactState& state) const;
-    // whether an impact follows, from the gaps and rates (3 each, only the first is used) at the end of the step
+    // adds an impulse (`rows`) of a step of length h to the force on the obstacle of a contact
+    void push(size_t i, double h, const Row* at_middle, const double* impulse, ContactState& state) const;
+    // whether an impact follows, from the gaps and rates (`rows` each, only the first is used) at the end of the step
     bool impact_follows(const double* gap, const double* rate) const;
     // whether points overlap that were not within the search distance
     bool overlooked(const std::vector<Pose>& pose, const ContactState& state) const;
+    // whether a contact has ramps that are to be widened: of friction, or of walls that crush
+    bool ramps(size_t i) const { return rows_ == 3 || crushes(i); }
     // whether the walls of a contact crush: then it has no impacts, and its overlap is not removed
     bool crushes(size_t i) const { return std::isfinite(crush_force(pairs_[active_[i].pair])); }
-    // walls of pairs that overlap by these gaps (of 3 rows each, the first is used) are crushed by as much
+    // walls of pairs that overlap by these gaps (`rows` each, the first is used) are crushed by as much
     void crush(const double* gap, ContactState& state) const;
     // obstacle (-1: none), capsules (the first -1 with an obstacle), and depth [m] of every crushed pair
     struct Crushed {
@@ -161,6 +165,7 @@ private:
     std::vector<Active> active_, before_;
     double closed_gap_ = 1e-6, negligible_energy_ = 0, restitution_share_ = 1;
     bool bounces_ = true;
+    size_t rows_ = 3;
     int passes_ = 0;                       // over the present step so far
 };
 

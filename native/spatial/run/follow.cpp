@@ -17,6 +17,8 @@ void Stepper::keep_pass(bool settled) {
 
 bool Stepper::follow_pass() {
     const Pass& leader = (*followed_)[next_pass_];
+    // another number of rows: friction in one of both models alone
+    if (leader.rates.size() != w_.size()) return false;
     w_ = leader.rates;
     for (size_t c = 0; c < connections_.size(); c++) {
         if (!hinge_of(c)) continue;

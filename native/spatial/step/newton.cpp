@@ -10,8 +10,7 @@ namespace crumple::spatial {
 
 namespace {
 
-// Limits of full Newton steps before the globally convergent method, before the central path, and if they failed before in the same
-// step; they fail only by cycling.
+// Limits of full Newton steps, which fail only by cycling: before other methods, before the central path, later in the same step.
 constexpr int full_step_limit = 32, full_step_limit_before_path = 12, full_step_limit_after_cycle = 8;
 // Limit of Newton iterations for each width of the ramps before the time step is shortened: a fixed number and some per hinge, because
 // in the worst case (an impulse on the end of a long chain) hinges lock and release one at a time.
@@ -20,8 +19,7 @@ constexpr double narrowing = 1e-1;  // factor between successive widths of the r
 // Relative tolerance of a law's impulse; piecewise linear laws reach rounding, curved ones converge to this.  With widened ramps
 // the solution only has to show which hinges slide.
 constexpr double impulse_tolerance = 1e-9, widened_tolerance = 1e-1;
-// Energy that a Newton iteration could still change, relative to the kinetic energy; smaller values are rounding.
-constexpr double energy_rounding = 1e-14;
+constexpr double energy_rounding = 1e-14;  // energy that a Newton iteration could still change, over the kinetic energy: rounding
 constexpr double no_energy = 1e-60;  // [J]: speeds that decay by friction would otherwise end below the smallest number
 // Tolerance of the rates of held rows and of stiff laws relative to the speed; the rest is projected out at the end of the step.
 constexpr double rate_tolerance = 1e-10;
@@ -32,7 +30,7 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 void Stepper::respond(size_t link, const double* w, double* impulse, double* tangent) const {
     const size_t index = at(connections_[link].index);
-    if (is(link, Kind::contact)) return spatial::respond(contacts_.frozen(index), w, impulse, tangent, nullptr);
+    if (is(link, Kind::contact)) return spatial::respond(contacts_.frozen(index), contacts_.rows(), w, impulse, tangent, nullptr);
     if (is(link, Kind::spring)) {
         impulse[0] = spring_force_[index] + spring_tangent_[index] * w[0];
         if (tangent) tangent[0] = spring_tangent_[index];
@@ -124,7 +122,7 @@ void Stepper::widen(double width, bool& narrowest) {
     narrowest = true;
     for (size_t i = 0; i < contacts_.size(); i++) {
         contacts_.widen(i, width);
-        if (width > creep_rate) narrowest = false;
+        if (width > creep_rate && contacts_.ramps(i)) narrowest = false;
     }
     for (size_t c = 0; c < connections_.size(); c++) {
         if (!hinge_of(c)) continue;
@@ -270,7 +268,7 @@ bool Stepper::balanced(double& slope) {
     slope = 0;
     // friction at a contact with a small normal impulse is compared with the strongest contact
     double struck = 0;
-    for (size_t i = 0; i < contacts_.size(); i++) struck = std::max(struck, -impulse_[contact_rows() + 3 * i]);
+    for (size_t i = 0; i < contacts_.size(); i++) struck = std::max(struck, -impulse_[contact_rows() + contacts_.rows() * i]);
     for (size_t c = 0; c < links.size(); c++) {
         const int first = start(c) + links[c].held, n = links[c].laws;
         if (n == 0) continue;
@@ -298,7 +296,7 @@ bool Stepper::balanced(double& slope) {
 void Stepper::stop_reversing(size_t link) {
     const double *w = &w_[at(start(link))], width = contacts_.frozen(at(connections_[link].index)).width;
     double* next = &w_next_[at(start(link))];
-    if (std::hypot(w[1], w[2]) > width && w[1] * next[1] + w[2] * next[2] < 0) next[1] = next[2] = 0;
+    if (contacts_.rows() == 3 && std::hypot(w[1], w[2]) > width && w[1] * next[1] + w[2] * next[2] < 0) next[1] = next[2] = 0;
 }
 
 // Whether a sliding hinge would reverse; if it continues and has a round surface, its next rates follow its impulse.

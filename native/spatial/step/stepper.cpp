@@ -83,7 +83,7 @@ void Stepper::link_all() {
         }
     }
     for (size_t i = 0; i < contacts_.size(); i++) {
-        links.push_back({{contacts_.bodies(i)[0], contacts_.bodies(i)[1]}, 0, 3});
+        links.push_back({{contacts_.bodies(i)[0], contacts_.bodies(i)[1]}, 0, static_cast<int>(contacts_.rows())});
         connections_.push_back({Kind::contact, static_cast<int>(i)});
     }
     system_.analyse(model_.bodies.size(), links);
