@@ -125,12 +125,17 @@ def _solve(
     with _discarding(), stop_on_interrupt() as cancel:
         try:
             with progress_bar("solving") as progress:
+
+                def asked() -> bool:
+                    progress.preparing()
+                    return cancel()
+
                 result = solve(
                     source.analysis,
                     fidelity=fidelity.value,
                     threads=threads or (available_cores() if is_shell else 1),
                     progress=progress,
-                    cancel=cancel,
+                    cancel=asked,
                     long_run=long_run_of(folder, restart, progress) if is_shell else None,
                 )
         except InputError as error:

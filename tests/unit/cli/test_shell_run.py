@@ -115,3 +115,12 @@ def test_news_go_to_standard_error_where_there_is_no_terminal(monkeypatch, capsy
     watch(MOMENT)
     bar(0.5)
     assert "of 100 ms" in capsys.readouterr().err
+
+
+def test_lowering_is_shown_until_the_first_fraction(monkeypatch, capsys) -> None:
+    monkeypatch.setattr("crumple.cli.console.progress.STATUS_INTERVAL", -1.0)
+    bar = Bar("solving")
+    bar.preparing()
+    bar(0.0)
+    bar.preparing()
+    assert capsys.readouterr().err == "lowering\nsolving: 0 %\n"

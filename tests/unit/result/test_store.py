@@ -124,6 +124,14 @@ def test_histories_leave_nan_empty_and_quote_names():
     assert text == 'time [s],"odd, ""name"" [m]"\n0.0,1.0\n0.5,\n1.0,inf\n'
 
 
+def test_numbers_of_histories_read_back_to_the_same_bits():
+    values = np.array([-0.0, 1e-9, 5e-324, 1.7976931348623157e308, 0.1 + 0.2, 1e16, 123456789.125, -np.inf])
+    channels = {"x": Channel("x", "m", values)}
+    rows = histories_csv(tube_result(time=np.arange(8.0), channels=channels)).splitlines()[1:]
+    read = np.array([float(row.split(",")[1]) for row in rows])
+    np.testing.assert_array_equal(read.view(np.uint64), values.view(np.uint64))
+
+
 def test_the_grid_follows_the_specification(tube, tmp_path):
     """Read every step by the rules of the VTKHDF specification alone."""
     write(tube, tmp_path)

@@ -20,6 +20,9 @@ PATIENCE = 0.4
 STATUS_INTERVAL = 10.0
 """Wall time between two status lines if there is no terminal for a progress bar [s]."""
 
+LOWERING = "lowering"
+"""What is shown before the first fraction: the model is being built from the input."""
+
 
 class Bar:
     """Call it with the fraction done, 0 to 1; without a terminal it writes a line at intervals."""
@@ -28,8 +31,20 @@ class Bar:
         self._title, self._started = title, time.monotonic()
         self._reported, self._text = self._started, ""
         self._bar: Progress | None = None
+        self._begun = False
 
     def __call__(self, fraction: float) -> None:
+        if not self._begun:
+            self._begun = True
+            self.describe(self._text)
+        self._show(fraction)
+
+    def preparing(self) -> None:
+        """Say that the model is being lowered, until the first fraction is given; call it at intervals."""
+        if not self._begun:
+            self._show(0.0)
+
+    def _show(self, fraction: float) -> None:
         if not sys.stderr.isatty():
             self._report(fraction)
             return
@@ -40,15 +55,20 @@ class Bar:
             from rich.progress import Progress
 
             self._bar = Progress(console=Console(stderr=True), transient=True)
-            self._bar.add_task(self._title, total=1.0)
+            self._bar.add_task(self._now, total=1.0)
             self._bar.start()
         self._bar.update(self._bar.task_ids[0], completed=fraction)
+
+    @property
+    def _now(self) -> str:
+        """What is being done."""
+        return self._text or (self._title if self._begun else LOWERING)
 
     def describe(self, text: str) -> None:
         """Show a status text: beside the bar, or in the next status line."""
         self._text = text
         if self._bar is not None:
-            self._bar.update(self._bar.task_ids[0], description=text)
+            self._bar.update(self._bar.task_ids[0], description=self._now)
 
     def stop(self) -> None:
         """Remove the bar."""
@@ -62,7 +82,8 @@ class Bar:
         self._reported = now
         spent = now - self._started
         left = f", about {duration(spent * (1.0 - fraction) / fraction)} left" if fraction > 0.0 else ""
-        print(self._text or f"{self._title}: {100.0 * fraction:.3g} %{left}", file=sys.stderr, flush=True)
+        share = f": {100.0 * fraction:.3g} %{left}" if self._begun and not self._text else ""
+        print(f"{self._now}{share}", file=sys.stderr, flush=True)
 
 
 def duration(seconds: float) -> str:
