@@ -27,7 +27,7 @@ from tests.support.multibody.chains import (
     softening_law,
     wheel,
 )
-from tests.support.structures import cantilever, constant_law
+from tests.support.structures import STEEL, cantilever, constant_law
 
 from crumple._core.planar.simulation import (
     JointKind,
@@ -43,7 +43,7 @@ from crumple._core.planar.simulation import (
 from crumple._core.planar.tangent import TreeDirection, solve_tangent
 from crumple.errors import InputError, Status
 from crumple.multibody import Run, sensitivities, solve_variants
-from crumple.structure import MultibodySettings, Outputs, changed, value_at
+from crumple.structure import MultibodySettings, Outputs, Structure, changed, placed_hinges, value_at
 
 INERTIA, MOMENT, RATE = 2.0, 500.0, 10.0
 LOOSE = 1e3
@@ -284,6 +284,62 @@ def test_structure_against_variants(name, record_figure):
         slope = found[quantity][name] * value
         scale = max(abs(found.quantities[quantity]), abs(difference))
         record_figure(f"{quantity} by {name}", slope, difference, 2e-3 * scale)
+
+
+def elastic_portal():
+    """Portal that stays elastic; the hinges of each member share its flexibility with an elastic joint."""
+    law = {"type": "constant", "form": "elastic-plastic"}
+
+    def member(first, second, **keys):
+        ends = [
+            {"name": f"{first}{second}-{node}", "at": node, "offset": 0.05, "law": law}
+            for node in (first, second)
+        ]
+        return {"nodes": (first, second), "section": "tube", "material": "steel", "hinges": ends, **keys}
+
+    return Structure(
+        materials={"steel": STEEL},
+        sections={"tube": {"type": "square_tube", "side": 0.05, "thickness": 0.003}},
+        nodes={"a": (0.0, 0.0, 0.0), "b": (0.0, 0.0, 1.0), "c": (1.2, 0.0, 1.0), "d": (1.2, 0.0, 0.0)},
+        members={
+            "ab": member("a", "b", up=(1, 0, 0)),
+            "bc": member("b", "c"),
+            "cd": member("c", "d", up=(1, 0, 0)),
+        },
+        supports={node: {"node": node, "fix": "all"} for node in "ad"},
+        masses={"payload": {"node": "b", "mass": 40.0}},
+        initial_velocity=[{"nodes": ["b"], "translation": (0.3, 0.0, 0.0)}],
+    )
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "sections.tube.thickness",
+        "materials.steel.youngs_modulus",
+        "masses.payload.mass",
+        "nodes.c.0",
+        "members.ab.hinges.0.offset",
+    ],
+)
+def test_elastic_portal_against_variants(name, record_figure):
+    portal = elastic_portal()
+    assert [h.name for h in placed_hinges(portal) if not h.plastic] == [
+        "ab elastic",
+        "bc elastic",
+        "cd elastic",
+    ]
+    # a vibration: at the usual accuracy the number of steps, and with it the phase, changes between variants
+    run = Run(5e-3, 5e-3, MultibodySettings(accuracy=1e-6), Outputs(nodes=("b",)))
+    value = value_at(portal, name)
+    e = 1e-4
+    table = solve_variants(portal, run, {name: [value * (1 + e), value * (1 - e)]})
+    found = sensitivities(portal, run, [name])
+    for quantity in ("energy.elastic", "energy.kinetic", "node.b.displacement.x", "hinge.ab-a.moment"):
+        difference = (table[quantity][0] - table[quantity][1]) / (2 * e)
+        slope = found[quantity][name] * value
+        scale = max(abs(found.quantities[quantity]), abs(difference))
+        record_figure(f"{quantity} by {name}", slope, difference, 1e-4 * scale)
 
 
 def test_a_parameter_of_value_zero_needs_a_step():
