@@ -3,6 +3,7 @@
 from crumple.characterisation.bending import Bending
 from crumple.characterisation.crush import Crush
 from crumple.characterisation.curve import LawCurve
+from crumple.characterisation.out_of_plane import OutOfPlane
 from crumple.characterisation.solving import Characterised, characterise
 from crumple.characterisation.store import LawStore
 from crumple.characterisation.torsion import Torsion
@@ -13,6 +14,7 @@ __all__ = [
     "Crush",
     "LawCurve",
     "LawStore",
+    "OutOfPlane",
     "Torsion",
     "characterise",
 ]

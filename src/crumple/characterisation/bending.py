@@ -163,7 +163,7 @@ class Bending:
     def _structure(self, duration: float) -> Structure:
         """One end held, the other turned about the axis and free to move: one moment everywhere."""
         kink = self.sense * KINK if self.angle is None else self.angle
-        along, across = _second_piece(kink, self.axis)
+        along, across = second_piece(kink, self.axis)
         held = [f"r{axis}" for axis in "xyz" if axis != self.axis]
         turning = {"x0": 0.0, "h0": 0.0, "x1": duration, "h1": self.sense * self.turn}
         piece = {"section": "section", "material": "metal"}
@@ -215,7 +215,7 @@ class Bending:
         between = self.sense * (result[f"node.turned.rotation.{self.axis}"] - pieces)
         stiffness = self.material.youngs_modulus * self.section.second_moment(self.axis)
         own = between - moment * self.gauge / stiffness
-        flexibility = 0.0 if self.angle is None else max(_elastic_flexibility(own, moment), 0.0)
+        flexibility = 0.0 if self.angle is None else max(elastic_flexibility(own, moment), 0.0)
         return own - flexibility * moment, moment, flexibility
 
     def measured(self, result: Result, curve: LawCurve) -> dict[str, str]:
@@ -231,7 +231,7 @@ class Bending:
         return 0.5 * self.sense * (held - turned)
 
 
-def _second_piece(angle: float, axis: Axis) -> tuple[Floats, Floats]:
+def second_piece(angle: float, axis: Axis) -> tuple[Floats, Floats]:
     """Direction of the second piece, turned by an angle about the section's axis, and of its section's z."""
     cos, sin = math.cos(angle), math.sin(angle)
     if axis == "y":
@@ -239,7 +239,7 @@ def _second_piece(angle: float, axis: Axis) -> tuple[Floats, Floats]:
     return np.array([cos, sin, 0.0]), np.array([0.0, 0.0, 1.0])
 
 
-def _elastic_flexibility(rotation: Floats, moment: Floats) -> float:
+def elastic_flexibility(rotation: Floats, moment: Floats) -> float:
     """Rotation over moment in the elastic rise [rad/(N m)]: slope of a straight line fitted there."""
     peak = int(np.argmax(moment))
     share = moment[: peak + 1] / moment[peak]

@@ -8,16 +8,18 @@ from dataclasses import dataclass
 
 from crumple.characterisation.bending import Bending
 from crumple.characterisation.crush import Crush
+from crumple.characterisation.out_of_plane import OutOfPlane
 from crumple.characterisation.rate import FASTER, rate_pair
 from crumple.characterisation.solving import FINER
-from crumple.characterisation.sub_model import SubModel
+from crumple.characterisation.sub_model import SubModel, is_mirrored
 from crumple.characterisation.torsion import Torsion
 from crumple.section import Axis
 from crumple.structure import Structure, hinge_places, planar
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges.automatic import twists
 from crumple.structure.hinges.corners import corners, untreated
-from crumple.structure.hinges.places import member_hinge_places, stored_loads
+from crumple.structure.hinges.places import member_hinge_places
+from crumple.structure.hinges.stored_loads import stored_loads
 
 PER_ELEMENT_STEP = 1.2e-7
 """Processor time of one element in one step [s]: 74 s for both senses of a corner of 4600 elements."""
@@ -88,6 +90,9 @@ def needed(structure: Structure, largest: float) -> tuple[Needed, ...]:
     for node, corner in corners(structure).items():
         section, material = structure.section_of(corner.first), structure.material_of(corner.first)
         add(Bending(section, material, corner.axis, angle=corner.angle, largest=largest), node)
+        out_of_plane = None if planar(structure) else corner.place_out_of_plane(structure)
+        if out_of_plane is not None and is_mirrored(section, "z" if corner.axis == "y" else "y"):
+            add(OutOfPlane(section, material, corner.axis, corner.angle, largest), node)
     return tuple(found.values())
 
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 ROTATIONS = (0, 1, 2, 5, 10, 15, 20, 25, 30, 40, 50, 60)
 """Rotations of the table [deg]."""
-LOADS = ("bending", "torsion", "crush")
+LOADS = ("bending", "torsion", "crush", "out-of-plane")
 SMALLEST, LARGEST = 0.0872, 1.0473
 """Plastic rotation up to which a law can be requested: 5 to 60 degrees [rad], with room for rounding."""
 STEEPEST = 2.3563
@@ -36,7 +36,10 @@ def characterise(
         str | None, typer.Option(help=f"Of a section. {MATERIAL_HELP}", show_default=False)
     ] = None,
     load: Annotated[
-        str, typer.Option(help="What folds it: bending, or torsion or crush of a straight member.")
+        str,
+        typer.Option(
+            help="What folds it: bending; torsion or crush of a straight member; out-of-plane of a corner."
+        ),
     ] = "bending",
     axis: Annotated[
         str, typer.Option(help="Bending axis y or z, along the moment vector; y compresses the width.")
@@ -127,7 +130,7 @@ class _Place(NamedTuple):
 
 
 def _model(section: str, material: str, given: _Place) -> SubModel:
-    from crumple.characterisation import Bending, Crush, Torsion
+    from crumple.characterisation import Bending, Crush, OutOfPlane, Torsion
     from crumple.cli.console.named import material_of, section_of
     from crumple.errors import InputError, Problem
     from crumple.section.section import checked_axis
@@ -141,9 +144,14 @@ def _model(section: str, material: str, given: _Place) -> SubModel:
     shape, (metal, _) = section_of(section), material_of(material)
     if given.load == "bending":
         return Bending(shape, metal, checked_axis(given.axis), sense, corner, largest)
-    if corner is not None:
-        what, todo = "a corner has a law of bending alone", "leave --load or --angle out"
-        raise InputError(Problem(what, given.load, "bending", todo, "--load"))
+    if given.load == "out-of-plane" and corner is not None:
+        return OutOfPlane(shape, metal, checked_axis(given.axis), corner, largest)
+    if (given.load == "out-of-plane") != (corner is not None):
+        what, todo = (
+            "the load does not fit the place",
+            "add --angle for out-of-plane, leave it out for others",
+        )
+        raise InputError(Problem(what, given.load, "", todo, "--load"))
     return Crush(shape, metal) if given.load == "crush" else Torsion(shape, metal, sense, largest)
 
 

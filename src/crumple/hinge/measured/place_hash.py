@@ -19,7 +19,7 @@ import numpy as np
 from crumple.material import Material
 from crumple.section import Axis, RectangularTube, Section
 
-Load = Literal["bending", "torsion", "crush"]
+Load = Literal["bending", "torsion", "crush", "out-of-plane"]
 """What a place is loaded by."""
 DIGITS = 10
 """Significant digits by which places differ: a length given in inches and the same in mm are one place."""
@@ -59,7 +59,7 @@ def place_hash(
     content: dict[str, Any] = {
         "section": _plain(section),
         "material": _plain(material),
-        "axis": "any" if load != "bending" or _same_about_both(section) else axis,
+        "axis": "any" if load in ("torsion", "crush") or _same_about_both(section) else axis,
         "angle": None if angle is None else round(math.degrees(angle), 3),
     }
     # the hash of bending was defined before there were other loads

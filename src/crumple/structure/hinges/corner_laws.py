@@ -12,7 +12,7 @@ from crumple.structure.hinges.asked import automatic_of
 from crumple.structure.hinges.corners import Corner, corners
 from crumple.structure.hinges.law_choice import automatic_law, stored_text, with_type
 from crumple.structure.keys.hinge_axes import AxisLaws
-from crumple.structure.keys.law import LawKeys
+from crumple.structure.keys.law import LawKeys, LawReference
 from crumple.structure.keys.member import Hinge
 from crumple.structure.parts import StructureParts
 
@@ -91,10 +91,25 @@ def corner_hinges(structure: StructureParts, member: str, keys: Mapping[str, Any
         if keys["axes"] is None:
             own = {**keys, "axis": corner.axis, "law": law}
         else:
-            rest = {axis: keys["law"] for axis in keys["axes"] if axis in ("y", "z")}
+            aside = _out_of_plane(structure, corner, keys["law"])
+            rest = {axis: aside for axis in keys["axes"] if axis in ("y", "z")}
             # the first bending axis is the one that is reported
             axes = (corner.axis, *(axis for axis in keys["axes"] if axis != corner.axis))
             own = {**keys, "axes": axes, "law": None, "laws": AxisLaws(**{**rest, corner.axis: law})}
         station = 0.0 if nodes[0] == node else length
         found.append(Hinge.model_construct(name=corner_name(node), at=station, **own))
     return found
+
+
+def _out_of_plane(
+    structure: StructureParts, corner: Corner, asked: LawReference | None
+) -> LawReference | None:
+    """Law about the other bending axis of a corner's hinge: that out of its plane if it is stored."""
+    law, text = automatic_law(structure, asked), out_of_plane_text(structure, corner)
+    return asked if law is None or text is None else with_type(law, "file", text=text)
+
+
+def out_of_plane_text(structure: StructureParts, corner: Corner) -> str | None:
+    """Text of the stored law of a corner out of its plane."""
+    place = corner.place_out_of_plane(structure)
+    return None if place is None else stored_text(structure, place)

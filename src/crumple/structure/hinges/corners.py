@@ -20,6 +20,8 @@ from crumple.structure.parts import StructureParts
 
 LEAST, STEEPEST = math.radians(5.0), math.radians(135.0)
 """Angles of corners that have a sub-model."""
+NEARLY_RIGHT = math.radians(15.0)
+"""Difference from a right angle up to which a law out of the plane is used."""
 ALONG = 1e-4
 """Component of a unit vector below which it does not point along another."""
 ALIKE = 1e-6
@@ -55,6 +57,16 @@ class Corner:
         """Hash of the place, by which a store knows its law."""
         section, material = structure.section_of(self.first), structure.material_of(self.first)
         return place_hash(section, material, self.axis, self.angle)
+
+    def place_out_of_plane(self, structure: StructureParts) -> str | None:
+        """Hash of the place out of the corner's plane; None where no law acts about its axes.
+
+        Both axes of a member in the corner's plane have the law of the sub-model at a right angle alone.
+        """
+        if abs(self.angle - math.pi / 2.0) > NEARLY_RIGHT:
+            return None
+        section, material = structure.section_of(self.first), structure.material_of(self.first)
+        return place_hash(section, material, self.axis, self.angle, load="out-of-plane")
 
     def zone(self, structure: StructureParts) -> float:
         """Distance from the node within which its law stands for all folds [m]: one side and half a fold."""

@@ -24,7 +24,6 @@ from crumple.hinge import (
 )
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis
-from crumple.structure.hinges.law_choice import stored_component
 from crumple.structure.hinges.places import (
     MADE,
     HingePlace,
@@ -32,7 +31,6 @@ from crumple.structure.hinges.places import (
     law_of,
     law_spec,
     member_hinge_places,
-    stored_loads,
 )
 from crumple.structure.hinges.shares import (
     AxisShares,
@@ -42,6 +40,7 @@ from crumple.structure.hinges.shares import (
     moment_free_ends,
 )
 from crumple.structure.hinges.spatial_hinges import BENDING, spatial_hinge_record
+from crumple.structure.hinges.stored_loads import laws_of_loads
 from crumple.structure.keys.law import LawKeys, Stops
 from crumple.structure.parts import StructureParts
 from crumple.structure.remembered import remembered
@@ -235,7 +234,7 @@ def spatial_record_of(
         return _bending(structure, about_axis(place, axis), shares)[1]
 
     metal = structure.section_of(place.member), structure.material_of(place.member)
-    stored = {load: stored_component(structure, place.member, load) for load in stored_loads(place)}
+    stored = laws_of_loads(structure, place)
     return spatial_hinge_record(
         place.keys,
         record_about,

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from crumple.hinge.bending.estimate import formula_or_estimate
-from crumple.hinge.measured.law_file import read_law
 from crumple.hinge.measured.library import by_place
 from crumple.hinge.measured.place_hash import Load, place_hash
-from crumple.hinge.measured.stored import StoredLaw
 from crumple.hinge.registry import AUTO
 from crumple.section import Axis
 from crumple.structure.keys.law import LawKeys, LawReference
@@ -48,12 +46,6 @@ def chosen_law(structure: StructureParts, member: str, axis: Axis, asked: LawKey
         return plain_law(kind) if asked == plain_law(AUTO) else with_type(asked, kind)
 
     return structure.kept.once("chosen law", (spec.section, spec.material, axis, asked), choose)
-
-
-def stored_component(structure: StructureParts, member: str, load: Load) -> StoredLaw | None:
-    """Stored law of a straight member's fold under a load other than bending."""
-    text = component_text(structure, member, load)
-    return None if text is None else structure.kept.once("read law", text, lambda: read_law(text))
 
 
 def component_text(structure: StructureParts, member: str, load: Load) -> str | None:

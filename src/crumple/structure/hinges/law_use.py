@@ -17,9 +17,10 @@ from crumple.hinge.measured.stored import StoredLaw
 from crumple.structure.hinges.corner_laws import corner_laws, corner_name
 from crumple.structure.hinges.corners import corners
 from crumple.structure.hinges.hinges import plastic_hinges
-from crumple.structure.hinges.law_choice import automatic_law, component_text, stored_texts
-from crumple.structure.hinges.places import HingePlace, hinge_places, law_of, stored_loads
+from crumple.structure.hinges.law_choice import automatic_law, stored_texts
+from crumple.structure.hinges.places import HingePlace, hinge_places, law_of
 from crumple.structure.hinges.shares import about_axis, axes_of
+from crumple.structure.hinges.stored_loads import texts_of_loads
 from crumple.structure.parts import StructureParts
 
 Parts = TypeVar("Parts", bound=StructureParts)
@@ -51,8 +52,7 @@ def used_texts(structure: StructureParts) -> tuple[str, ...]:
             about = about_axis(place, axis)
             text = stored_text_of(structure, about, law_of(structure, about))
             found |= set() if text is None else {text}
-        others = (component_text(structure, place.member, load) for load in stored_loads(place))
-        found |= {text for text in others if text is not None}
+        found |= set(texts_of_loads(structure, place).values())
     return tuple(sorted(found))
 
 

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 from crumple import hinge
 from crumple.hinge import HingeLaw
-from crumple.hinge.measured.place_hash import Load
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section, half_fold_length
@@ -120,14 +119,6 @@ def holds_rotation(structure: StructureParts, node: str, direction: Floats) -> b
     held = {freedom for _, support in supports for freedom in (*support.held, *support.driven)}
     needed = (FREEDOMS[3 + i] for i in range(3) if abs(direction[i]) > SAME_DIRECTION)
     return all(freedom in held for freedom in needed)
-
-
-def stored_loads(place: HingePlace) -> tuple[Load, ...]:
-    """Loads besides bending for which a hinge uses a stored law if there is one: it names no law for them."""
-    keys = place.keys
-    twists = "x" in (keys.axes or ()) and keys.twist is None
-    shortens = keys.axial is not None and keys.axial.yields
-    return (*(("torsion",) if twists else ()), *(("crush",) if shortens else ()))
 
 
 def law_spec(structure: StructureParts, place: HingePlace) -> LawKeys:

@@ -135,6 +135,31 @@ def test_in_space_twist_has_its_stored_law_unless_the_input_names_one(tmp_path):
     assert not used
 
 
+def test_in_space_the_law_out_of_the_plane_acts_about_both_other_axes_of_a_right_angled_corner(tmp_path):
+    aside = [{"nodes": ["c"], "translation": (0.0, 1.0, -3.0)}]
+    place = place_hash(SECTION, METAL, "y", math.pi / 2, load="out-of-plane")
+    out = law_text(place, 700.0, 700.0, corner="90 deg")
+    torsion = law_text(place_hash(SECTION, METAL, load="torsion"), 1200.0, 1200.0)
+    whole = frame(laws=stored(tmp_path, MITRE, out, torsion), initial_velocity=aside)
+    moments = {
+        h.name: {c.freedom.name: float(c.record.positive.moment[0]) for c in h.spatial.components}
+        for h in placed_hinges(whole)
+    }
+    assert moments["corner-b"]["Y"] in (CLOSING, OPENING)
+    assert moments["corner-b"]["X"] == moments["corner-b"]["Z"] == 700.0
+    assert moments["post-a"]["X"] == 1200.0
+    assert set(used_texts(whole)) == {MITRE, out, torsion}
+    # far from a right angle the axes of the members are not those of the law
+    skew = NODES | {"c": (0.5, 0.0, 0.8)}
+    place = place_hash(SECTION, METAL, "y", math.atan2(0.5, 0.3))
+    other = stored(tmp_path / "other", law_text(place, corner="59 deg"), out, torsion)
+    corner = next(
+        h for h in placed_hinges(frame(nodes=skew, laws=other, initial_velocity=aside)) if "corner" in h.name
+    )
+    found = {c.freedom.name: float(c.record.positive.moment[0]) for c in corner.spatial.components}
+    assert found["X"] == 1200.0
+
+
 def test_the_spring_of_a_corner_adds_to_the_flexibility_of_its_members(tmp_path):
     """Elastic members share their own length among their own hinges, with or without the corner."""
     elastic = {"law": {"type": "auto", "form": "elastic-plastic"}}
