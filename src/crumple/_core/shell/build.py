@@ -94,24 +94,23 @@ def _add_sets(core: Any, model: ShellModel) -> None:
             motion.rigid_set, motion.target, _DOFS[motion.dof], floats(motion.time), floats(motion.value)
         )
     for obstacle in model.obstacles:
-        core.obstacle(_obstacle(obstacle, _walls_nodes(model), model.settings.contact_damping))
+        core.obstacle(_obstacle(model, obstacle))
     for cut in model.cuts:
         core.cut(_indices(cut.elements), _indices(cut.nodes))
 
 
-def _walls_nodes(model: ShellModel) -> Indices:
-    """Nodes that belong to an element: others have no wall that could come into contact."""
-    return _indices(np.unique(model.elements))
-
-
-def _obstacle(obstacle: RigidObstacle, walls: Indices, damping: float) -> dict[str, Any]:
+def _obstacle(model: ShellModel, obstacle: RigidObstacle) -> dict[str, Any]:
     vectors = ("point", "axis", "edge", "guide", "velocity", "turn_about", "turn_axis")
     numbers = ("radius", "length", "friction", "gap", "mass", "active")
-    nodes = walls if obstacle.nodes is None else np.intersect1d(walls, obstacle.nodes)
+    nodes = walls = np.unique(model.elements)
+    if obstacle.nodes is not None:
+        # a node of no element has no wall that could come into contact; the kernel refuses unknown ones
+        nodes = np.setdiff1d(obstacle.nodes, np.setdiff1d(np.arange(len(model.position)), walls))
+    damping = model.settings.contact_damping if obstacle.damping is None else obstacle.damping
     return {
         **{name: floats(getattr(obstacle, name)) for name in vectors},
         **{name: getattr(obstacle, name) for name in numbers},
-        "damping": damping if obstacle.damping is None else obstacle.damping,
+        "damping": damping,
         "shape": obstacle.shape.value,
         "motion": [_history(history) for history in obstacle.motion],
         "turning": _history(obstacle.turning),

@@ -223,6 +223,8 @@ def _walk(structure: Structure, linkage: Linkage, plane: Plane) -> Mechanism:
 
 def _part(whole: RigidMass, parts: int) -> RigidMass:
     """Share of a body that is cut; parts of the ground never move, so their mass has no effect."""
+    if parts == 1:
+        return whole
     return RigidMass(whole.mass / parts, whole.centre, whole.inertia / parts)
 
 

@@ -154,6 +154,8 @@ def elastic_joints(
     for axis, shares in about.items():
         for station, length in shares.joints if shares.elastic else ():
             lengths[station][axis] = length
+    if not lengths:
+        return []
     member = own[0].member
     strongest = max(
         float(curve.moment.max()) for h in own for curve in (h.record.positive, h.record.negative)

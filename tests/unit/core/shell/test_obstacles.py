@@ -262,6 +262,14 @@ def test_obstacles_without_direction_are_refused():
             ShellState(block(RigidObstacle(Shape.PLANE, (0, 0, 0), **wrong), (0, 0, 0)))
 
 
+@pytest.mark.parametrize("node", [-1, 16, 10**6])
+def test_nodes_that_do_not_exist_are_refused(node):
+    from crumple.errors import InputError
+
+    with pytest.raises(InputError, match=r"obstacle 0: node \d+ does not exist"):
+        ShellState(block(RigidObstacle(Shape.PLANE, (0, 0, 0), nodes=np.array([0, node])), (0, 0, 0)))
+
+
 def test_stack_of_plates_lies_still_and_carries_its_weight():
     """Two free plates on a plane under gravity: a thickness apart, no jitter, all weight below."""
     x, quads = grid(5, 5, 0.05, 0.05)
