@@ -24,8 +24,10 @@ constexpr double slides = 0.999;
 // Upper bound of the rate without a contact's impulse relative to the rates with it.  The rate without impulse is estimated with the
 // mobility of both bodies alone; locked bodies yield much less to an impulse, and then the closing time follows from their rates.
 constexpr double implausible = 1e3;
-// Number of passes after which the friction limit is the mean of those of the last two: with strong friction it may alternate.
-constexpr int steady_passes = 4;
+// Passes before the change of the friction limit from pass to pass is extrapolated: these predict different middles of the step.
+constexpr int first_passes = 2;
+// Least fall of the limit's error per change of the limit for which it is extrapolated.
+constexpr double least_fall = 0.2;
 // Relative gain of energy that is attributed to rounding.
 constexpr double rounding = 1e-9;
 
@@ -294,6 +296,17 @@ void Contacts::widen(size_t i, double width) {
     if (crushes(i)) c.frozen.compliance = std::max(c.frozen.compliance, width / c.frozen.cap);
 }
 
+// The normal impulse that the next pass uses for the friction limit: the secant through the last two passes, which makes plain repetition
+// converge faster, and converge at all where strong friction alternates.
+void Contacts::follow_limit(Active& c, double found) {
+    const double used = c.normal_impulse, error = found - used;
+    const double fall = (c.error_before - error) / (used - c.used_before);
+    const bool extrapolated = passes_ > first_passes && used != c.used_before && fall > least_fall;
+    c.normal_impulse = extrapolated ? std::max(used + error / fall, 0.0) : found;
+    c.used_before = used;
+    c.error_before = error;
+}
+
 bool Contacts::settle(const double* impulse, const double* rate0, const double* rate) {
     double largest = 0, change = 0, work = 0, scale = 0;
     for (size_t i = 0; i < active_.size(); i++) {
@@ -307,7 +320,7 @@ bool Contacts::settle(const double* impulse, const double* rate0, const double* 
         // a point that sticks within both friction limits does not depend on them
         const double mu = law(c).friction, held = mu > 0 ? std::hypot(impulse[rows() * i + 1], impulse[rows() * i + 2]) : 0;
         if (mu > 0 && held >= slides * mu * std::min(found, c.normal_impulse)) change = std::max(change, std::fabs(found - c.normal_impulse));
-        c.normal_impulse = passes_ < steady_passes ? found : (found + c.normal_impulse) / 2;
+        follow_limit(c, found);
     }
     passes_++;
     if (work < -rounding * scale && restitution_share_ > 0) {

@@ -131,6 +131,7 @@ private:
         size_t pair;
         int body[2];
         double gap, inverse_mass, normal_impulse, offset;
+        double used_before, error_before;  // friction: normal impulse used in the pass before, and what was found above it
         Vec3 normal, tangent, point;  // at the start of the step
         FrozenContact frozen;
     };
@@ -143,6 +144,7 @@ private:
         const int obstacle = pairs_[c.pair].obstacle;
         return obstacle < 0 ? model_.between : model_.obstacles[static_cast<size_t>(obstacle)].law;
     }
+    void follow_limit(Active& c, double found);
     double rest_rate(const Active& c) const;
     double crush_force(const Pair& pair) const;
     // gap of the undeformed surfaces at which a pair is in contact

@@ -303,6 +303,10 @@ FrozenSpatialHinge freeze(const SpatialHinge& hinge, const SpatialHingeState& s,
         c.h = h, c.w0 = w0[k], c.m0 = f.tau0[k], c.width = f.width;
         hinge::freeze_beside(law_of(hinge, k), q0[k], h * (w0[k] + w1[k]) / 2, c);
     }
+    for (int k = 0; k < n; k++) {
+        const double capacity = s.component[k].capacity;
+        f.found[k] = capacity > 0 ? f.tau0[k] / capacity : 0;
+    }
     freeze_coupled(hinge, s, q0, w1, f);
     return f;
 }

@@ -72,6 +72,8 @@ struct FrozenSpatialHinge {
     double top[2] = {0, 0};     // tension flange: initial capacity of the moment in both senses
     hinge::FrozenHinge component[most_components];  // capacities of both senses, stops, damper
     int hint[most_components][2] = {};
+    // Coupled: the point of the surface found last, from which the next search starts.  Results depend on it by rounding alone.
+    mutable double found[most_components] = {};
 };
 
 // number of components

@@ -64,14 +64,16 @@ Trial trial_of(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const dou
             t.y[k] = c * drive[k];
             t.y_rate[k] = c * (1 - f.lead);
         }
-        t.guess[k] = f.tau0[k] / c;
+        t.guess[k] = f.found[k];
     }
     return t;
 }
 
-SurfacePoint point_of(const SpatialHinge& hinge, const Trial& t, double* derivative) {
+SurfacePoint point_of(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const Trial& t, double* derivative) {
     if (on_flange(hinge)) return nearest(t.flange, t.y, t.m, derivative);
-    return nearest(hinge.surface, size(hinge), t.y, t.m, t.guess, derivative);
+    const SurfacePoint p = nearest(hinge.surface, size(hinge), t.y, t.m, t.guess, derivative);
+    std::copy_n(p.x, size(hinge), f.found);
+    return p;
 }
 
 void scaled_block(int n, const Trial& t, double factor, const double* block, double* tangent) {
@@ -87,7 +89,7 @@ void regularised_law(const SpatialHinge& hinge, const FrozenSpatialHinge& f, con
     const Trial t = trial_of(hinge, f, w);
     const double full = f.width * f.reference;
     double block[most * most];
-    const SurfacePoint p = point_of(hinge, t, tangent != nullptr ? block : nullptr);
+    const SurfacePoint p = point_of(hinge, f, t, tangent != nullptr ? block : nullptr);
     const hinge::Ramp ramp = hinge::ramp_over(f.power0 / full, p.value / full);
     for (int k = 0; k < n && impulse != nullptr; k++) impulse[k] = f.h * ramp.value * t.scale[k] * p.x[k];
     if (potential != nullptr) {
@@ -110,7 +112,7 @@ void coupled_law(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const d
     const bool elastic = form == Form::elastic_plastic;
     const Trial t = trial_of(hinge, f, w);
     double block[most * most];
-    const SurfacePoint p = point_of(hinge, t, tangent != nullptr ? block : nullptr);
+    const SurfacePoint p = point_of(hinge, f, t, tangent != nullptr ? block : nullptr);
     const double share = elastic ? f.h / 2 : f.h;
     double sum = elastic ? p.value : f.h * p.value / (1 - f.lead);
     for (int k = 0; k < n; k++) {
@@ -185,7 +187,7 @@ void add_beside(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const do
 double power_at_capacity(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w) {
     Trial t = trial_of(hinge, f, w);
     std::fill(t.m, t.m + most, 0.0);
-    return point_of(hinge, t, nullptr).value;
+    return point_of(hinge, f, t, nullptr).value;
 }
 
 bool round(const SpatialHinge& hinge) {
@@ -281,7 +283,7 @@ void capacity_sensitivity(const SpatialHinge& hinge, const FrozenSpatialHinge& f
     }
     const Trial t = trial_of(hinge, f, w);
     double block[most * most];
-    const SurfacePoint p = point_of(hinge, t, block);
+    const SurfacePoint p = point_of(hinge, f, t, block);
     const double full = f.width * f.reference;
     const bool ramped = hinge.components[0].law.form == Form::regularised;
     const hinge::Ramp ramp = ramped ? hinge::ramp_over(f.power0 / full, p.value / full) : hinge::Ramp{1, 0};

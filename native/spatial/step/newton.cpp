@@ -15,6 +15,7 @@ constexpr int full_step_limit = 32, full_step_limit_before_path = 12, full_step_
 // Limit of Newton iterations for each width of the ramps before the time step is shortened: a fixed number and some per hinge, because
 // in the worst case (an impulse on the end of a long chain) hinges lock and release one at a time.
 constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
+constexpr double flat_enough = 0.1;  // slope of the potential at which a line search ends, over that at its start
 constexpr double narrowing = 1e-1;  // factor between successive widths of the ramps, starting at the largest rate
 // Relative tolerance of a law's impulse; piecewise linear laws reach rounding, curved ones converge to this.  With widened ramps
 // the solution only has to show which hinges slide.
@@ -373,7 +374,8 @@ double Stepper::search(double slope_end) {
         }
         return f;
     };
-    double lo = 0, hi = 1, f_lo = slope(0), f_hi = slope_end;
+    const double f_start = slope(0);
+    double lo = 0, hi = 1, f_lo = f_start, f_hi = slope_end;
     if (!(f_lo < 0)) return 1;  // not a descent direction by rounding
     // secant method with halved weights (Illinois), bisection every third time because ramps of locked hinges are narrow
     int side = 0;
@@ -381,7 +383,7 @@ double Stepper::search(double slope_end) {
         double a = k % 3 == 2 ? (lo + hi) / 2 : lo - f_lo * (hi - lo) / (f_hi - f_lo);
         if (!(a > lo && a < hi)) a = (lo + hi) / 2;
         const double f = slope(a);
-        if (std::fabs(f) <= 1e-12 * std::fabs(slope_end)) return a;
+        if (std::fabs(f) <= flat_enough * std::fabs(f_start)) return a;
         if (f > 0) {
             hi = a;
             f_hi = f;
