@@ -31,6 +31,13 @@ bool Stepper::settle() {
     return contacts_.settle(&impulse_[first], &rate0_[first], &w_[first]);
 }
 
+// Sets the tangential rates of a contact that would reverse its slip to zero first.
+void Stepper::stop_reversing(size_t link) {
+    const double *w = &w_[at(start(link))], width = contacts_.frozen(at(connections_[link].index)).width;
+    double* next = &w_next_[at(start(link))];
+    if (contacts_.rows() == 3 && std::hypot(w[1], w[2]) > width && w[1] * next[1] + w[2] * next[2] < 0) next[1] = next[2] = 0;
+}
+
 void Stepper::commit_contacts(State& s, double h) {
     const size_t first = contact_rows();
     contacts_.commit(h, stage_.quasi_static, rows_.data() + first, impulse_.data() + first, rate0_.data() + first, w_.data() + first, s.contact);

@@ -293,13 +293,6 @@ bool Stepper::balanced(double& slope) {
     return all || moved <= energy_rounding * energy_ + no_energy;
 }
 
-// Sets the tangential rates of a contact that would reverse its slip to zero first.
-void Stepper::stop_reversing(size_t link) {
-    const double *w = &w_[at(start(link))], width = contacts_.frozen(at(connections_[link].index)).width;
-    double* next = &w_next_[at(start(link))];
-    if (contacts_.rows() == 3 && std::hypot(w[1], w[2]) > width && w[1] * next[1] + w[2] * next[2] < 0) next[1] = next[2] = 0;
-}
-
 // Whether a sliding hinge would reverse; if it continues and has a round surface, its next rates follow its impulse.
 bool Stepper::reverses(size_t link) {
     const size_t first = at(start(link) + system_.links()[link].held);

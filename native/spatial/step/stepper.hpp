@@ -96,6 +96,7 @@ private:
     size_t contact_rows() const { return static_cast<size_t>(start(connections_.size() - contacts_.size())); }
     void allow_closing(double h);
     bool settle();
+    void stop_reversing(size_t link);
     void commit_contacts(State& s, double h);
     void push_obstacles(State& s, double h);
     double overlap(size_t link) const;
@@ -130,7 +131,6 @@ private:
     void take_full_step();
     void seen_rate(size_t link, const double* w, double* seen) const;
     void scale_rate(size_t link, double factor, double* w) const;
-    void stop_reversing(size_t link);
     bool reverses(size_t link);
     double search(double slope_end);
     void widen(double width, bool& narrowest);
