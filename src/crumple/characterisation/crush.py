@@ -34,6 +34,8 @@ WATCHED = 0.05
 """Shortening over the length from which the kinetic energy is watched."""
 INTERVALS = 150
 """Points of the law over the length of the sub-model."""
+LESS, ENOUGH = 0.9, 0.45
+"""Shortening of another attempt over that which a run reached, and the share of the length it must reach."""
 ASIDE = 0.25
 """Displacement of the middle across the axis, over the smaller side, at which the piece bends, not folds."""
 
@@ -93,7 +95,7 @@ class Crush:
     def origin(self) -> dict[str, str]:
         """Entries of the law file on the place."""
         kink = f"kink of {math.degrees(KINK):.2g} deg in the middle, about {self._strong}"
-        gauge = f"{1e3 * self.length!r} mm"
+        gauge = f"{1e3 * self.length:.10g} mm"
         return {"section": self.section.title, "load": self.load, "gauge": gauge, "imperfection": kink}
 
     @property
@@ -174,6 +176,11 @@ class Crush:
             shell={"element_size": self.size},
             outputs={"every": duration / OUTPUTS, "nodes": ["middle", "pushed"], "pictures": [duration]},
         )
+
+    def less(self, result: Result) -> float | None:
+        """Another `largest`, after a run that failed where folds close; None if it failed before."""
+        reached = float(-result["node.pushed.displacement.x"].min()) / self.length
+        return LESS * reached if reached > ENOUGH else None
 
     def curve(self, result: Result) -> LawCurve:
         """Law measured in the solved sub-model: force against shortening, up to the closing of the folds.

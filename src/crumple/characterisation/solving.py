@@ -9,6 +9,7 @@ import numpy as np
 
 from crumple.analysis import solve
 from crumple.characterisation.bending import Bending
+from crumple.characterisation.crush import Crush
 from crumple.characterisation.curve import LawCurve
 from crumple.characterisation.interaction import interaction_errors
 from crumple.characterisation.law import law_of
@@ -135,6 +136,13 @@ class _Solver:
 
     def result(self, one: Solvable, what: str) -> Result:
         """Result of a sub-model that reached its end."""
+        result = self.attempt(one, what)
+        if not result.status.ok:
+            raise InputError(Problem(f"the sub-model ended early: {result.reason}", one.title))
+        return result
+
+    def attempt(self, one: Solvable, what: str) -> Result:
+        """Result of a sub-model."""
 
         def report(share: float) -> None:
             if self.progress is not None:
@@ -143,22 +151,28 @@ class _Solver:
         result = solve(one.analysis(), "shell", self.threads, report, self.cancel)
         if result.status is Status.CANCELLED:
             raise KeyboardInterrupt
-        if not result.status.ok:
-            raise InputError(Problem(f"the sub-model ended early: {result.reason}", one.title))
         return result
 
     def run(self, one: Model, what: str) -> tuple[Result, LawCurve, float, Model]:
         """Result, curve, share of kinetic energy, and the model as slow as it was solved."""
         for _ in range(ATTEMPTS):
-            result = self.result(one, what)
+            result = self.attempt(one, what)
+            failed = Problem(f"the sub-model ended early: {result.reason}", one.title)
+            if not result.status.ok:
+                less = one.less(result) if isinstance(one, Crush) else None
+                if less is None:
+                    break
+                one = replace(one, largest=less)
+                continue
             curve = one.curve(result)
             kinetic = kinetic_share(result, curve.energy_at(one.watched_from))
             if kinetic <= MOST_KINETIC:
                 return result, curve, kinetic, one
+            what_failed = f"kinetic energy is {kinetic:.1%} of the internal energy"
+            failed = Problem(what_failed, one.title, f"at most {MOST_KINETIC:.0%}")
             slower = one.resolution.slowness * 1.2 * float(np.sqrt(kinetic / MOST_KINETIC))
             one = replace(one, resolution=replace(one.resolution, slowness=slower))
-        what_failed = f"kinetic energy is {kinetic:.1%} of the internal energy"
-        raise InputError(Problem(what_failed, one.title, f"at most {MOST_KINETIC:.0%}"))
+        raise InputError(failed)
 
     def with_rate(self, law: StoredLaw, model: Turned, pair: CowperSymonds, static: LawCurve) -> StoredLaw:
         """The law with the rate law of its fold, and its check in the origin."""

@@ -11,7 +11,7 @@ from crumple.characterisation import Crush, LawStore, characterise
 from crumple.characterisation.folds import fold_count, stroke
 from crumple.characterisation.resolution import Resolution
 from crumple.cli.main import app
-from crumple.errors import InputError
+from crumple.errors import InputError, Status
 from crumple.material import Material
 from crumple.section import RectangularTube
 
@@ -58,6 +58,27 @@ def test_the_law_is_force_over_plastic_shortening_and_bending_sideways_is_refuse
     history["node.middle.displacement.z"] = np.linspace(0.0, 0.02, 500)
     with pytest.raises(InputError, match="bent sideways"):
         model.curve(history)
+
+
+def test_a_run_that_fails_where_folds_close_is_repeated_less_far(monkeypatch):
+    model = Crush(SQUARE, STEEL)
+    reached = {"node.pushed.displacement.x": np.array([0.0, -0.7 * model.length])}
+    assert model.less(reached) == pytest.approx(0.63)
+    assert model.less({"node.pushed.displacement.x": np.array([0.0, -0.3 * model.length])}) is None
+    asked = []
+
+    class Failed(dict):
+        status, reason = Status.INVERTED, "an element is inverted"
+
+    def failing(analysis, *others):
+        asked.append(analysis)
+        return Failed({"node.pushed.displacement.x": np.array([0.0, -0.6 * model.length])})
+
+    monkeypatch.setattr("crumple.characterisation.solving.solve", failing)
+    with pytest.raises(InputError, match="ended early: an element is inverted"):
+        characterise(model)
+    assert len(asked) == 3
+    assert asked[1].structure.supports["pushed"].motion.x.h1 == pytest.approx(-0.54 * model.length)
 
 
 def test_a_coarse_sub_model_gives_a_law_that_the_command_finds(tmp_path):
