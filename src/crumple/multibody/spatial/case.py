@@ -126,8 +126,8 @@ class SpatialCase:
             Of and at the centres, (n, stages, bodies, 6).
         """
         mass = raw[..., :1]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            # a body without mass is refused by the kernel, row by row
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            # a body without mass, or with one beyond all numbers, is refused by the kernel, row by row
             arm = raw[..., 1:4] / mass
             square = (
                 np.sum(arm**2, axis=-1)[..., None, None] * np.eye(3) - arm[..., :, None] * arm[..., None, :]
@@ -136,7 +136,8 @@ class SpatialCase:
             stages = np.moveaxis(raw[..., 13:].reshape(*raw.shape[:-1], -1, 4, 3), 2, 1)
             spin, momentum, blow, force = np.moveaxis(stages, 3, 0)
             arm_now = arm[:, None]
-            sound = np.abs(np.linalg.det(inertia)) > 0.0
+            size = np.abs(np.linalg.det(inertia))
+            sound = (size > 0.0) & np.isfinite(size)
             inverse = np.linalg.inv(np.where(sound[..., None, None], inertia, np.nan * np.eye(3)))
             rate = np.einsum("nbij,nsbj->nsbi", inverse, spin - np.cross(arm_now, momentum))
             velocity = np.concatenate([rate, momentum / mass[:, None]], axis=-1)

@@ -200,3 +200,11 @@ def test_quasi_static_stages():
     assert loose.status[0] is Status.COMPLETE
     assert loose.status[1] is Status.LIMIT_LOAD
     assert "gravity exceed the limit load" in loose.reason[1]
+
+
+def test_a_mass_beyond_all_numbers_is_a_row_without_result(bent):
+    """Its inertia overflows; the other row has its result."""
+    table = solve_variants(bent, RUN, {"masses.payload.mass": [6.0, 1e300]}, threads=1)
+    assert table.status[0] is Status.COMPLETE
+    assert not table.status[1].ok
+    assert np.isnan(table[QUANTITY][1])
