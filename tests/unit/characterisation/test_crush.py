@@ -55,6 +55,7 @@ def test_the_law_is_force_over_plastic_shortening_and_bending_sideways_is_refuse
     }
     curve = model.curve(history)
     assert curve.energy[-1] == pytest.approx(50e3 * 0.7 * model.length, rel=1e-3)
+    assert curve.rotation[-1] == pytest.approx(0.7 * model.length, rel=1e-6)
     history["node.middle.displacement.z"] = np.linspace(0.0, 0.02, 500)
     with pytest.raises(InputError, match="bent sideways"):
         model.curve(history)
