@@ -9,6 +9,7 @@ from __future__ import annotations
 import multiprocessing
 import signal
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
@@ -80,6 +81,16 @@ def in_processes(
     finally:
         for _, started in working.values():
             started.terminate()
+
+
+def process_pool(workers: int) -> ProcessPoolExecutor:
+    """Executor with new processes, which inherit no threads; Ctrl-C is left to the parent."""
+    context = multiprocessing.get_context("spawn")
+    return ProcessPoolExecutor(workers, mp_context=context, initializer=_leave_interrupts)
+
+
+def _leave_interrupts() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _received(connection: Connection) -> tuple[str, Any]:

@@ -29,15 +29,28 @@ def json_schema() -> dict[str, Any]:
     dict
         JSON Schema 2020-12.  Quantities are texts with a unit; ``x-unit`` names their SI unit.
     """
-    schema = InputFile.model_json_schema(schema_generator=_Generator)
+    return schema_of(InputFile, f"Crumple input file, format {FORMAT}")
+
+
+def schema_of(whole: type[BaseModel], title: str) -> dict[str, Any]:
+    """JSON Schema of a file.
+
+    Parameters
+    ----------
+    whole
+        All its keys.
+    title
+        What the file is.
+    """
+    schema = whole.model_json_schema(schema_generator=_Generator)
     parts = schema["$defs"]
-    for model in models_of(InputFile):
-        _describe(schema if model is InputFile else parts[model.__name__], model)
+    for model in models_of(whole):
+        _describe(schema if model is whole else parts[model.__name__], model)
         if issubclass(model, Registered):
             types = {_name_of(model, kind): _type_schema(parts, model, kind) for kind in model.types()}
             parts[model.__name__] = {"oneOf": [{"$ref": f"#/$defs/{name}"} for name in types]}
             parts |= types
-    return {"$schema": DIALECT, **_tidy(schema), "title": f"Crumple input file, format {FORMAT}"}
+    return {"$schema": DIALECT, **_tidy(schema), "title": title}
 
 
 def models_of(model: type[BaseModel]) -> list[type[BaseModel]]:

@@ -101,7 +101,7 @@ def with_law_range(
     """
     from crumple.multibody import law_range  # noqa: PLC0415
 
-    found = law_range(analysis.structure, _run_of(analysis), result, threads, cancel)
+    found = law_range(analysis.structure, run_of(analysis), result, threads, cancel)
     return replace(result, law_range=found)
 
 
@@ -159,10 +159,11 @@ def _multibody(
 ) -> Result:
     from crumple.multibody import solve_multibody  # noqa: PLC0415
 
-    return solve_multibody(analysis.structure, _run_of(analysis), progress, cancel)
+    return solve_multibody(analysis.structure, run_of(analysis), progress, cancel)
 
 
-def _run_of(analysis: Analysis) -> Run:
+def run_of(analysis: Analysis) -> Run:
+    """Duration, settings, stages and outputs of an analysis, for `crumple.multibody`."""
     from crumple.multibody import Run  # noqa: PLC0415
 
     return Run(

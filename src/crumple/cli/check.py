@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -13,13 +14,22 @@ from crumple.cli.console.fidelity import Fidelity
 if TYPE_CHECKING:
     from crumple.analysis import Analysis
 
+FIRST_LINES = 50
+"""Lines of a file among which that of its format is looked for."""
+
 
 def check(
     file: Annotated[Path, typer.Argument(help="Input file (YAML).", show_default=False)],
     *,
     fidelity: Annotated[Fidelity, typer.Option(help="Solver to check for.")] = Fidelity.MULTIBODY,
 ) -> None:
-    """Report every mistake in an input file, and the notes of a solver before its first step."""
+    """Report every mistake in an input or study file, and the notes of a solver before its first step."""
+    if _is_study(file):
+        from crumple.study import LoadedStudy, check_study
+
+        check_study(LoadedStudy(file))
+        typer.echo(f"{file}: no mistakes found")
+        return
     from crumple.analysis import load_input
     from crumple.errors import InputError
 
@@ -33,6 +43,15 @@ def check(
         notes = (_shell_notes if solver is Fidelity.SHELL else _multibody_notes)(source.analysis)
         for note in notes:
             typer.echo(f"  {note}")
+
+
+def _is_study(file: Path) -> bool:
+    """Whether a line of a file begins as that of a study's format."""
+    try:
+        with file.open(encoding="utf-8", errors="replace") as lines:
+            return any(line.startswith("crumple_study:") for line in islice(lines, FIRST_LINES))
+    except OSError:
+        return False
 
 
 def _multibody_notes(analysis: Analysis) -> Iterator[str]:

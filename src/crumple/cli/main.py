@@ -21,6 +21,7 @@ from crumple.cli.layouts import layouts
 from crumple.cli.run import run
 from crumple.cli.schema import schema
 from crumple.cli.section import section
+from crumple.cli.study import study
 from crumple.errors import CancelledError, InputError
 from crumple.portable import prepare_consoles, reader_left
 from crumple.version import __version__
@@ -40,7 +41,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,  # rich takes 60 ms to import: a third of the time allowed for --help
 )
-for verb in (run, compare, layouts, check, schema, hinge, section, characterise):
+for verb in (run, compare, layouts, study, check, schema, hinge, section, characterise):
     app.command()(verb)
 
 

@@ -1,0 +1,232 @@
+"""What the rows of a study say: statistics, probabilities, indices and the best row."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+
+from crumple.numeric.arrays import Floats, Integers
+from crumple.study.formula import Formula
+from crumple.study.study_file import Study
+from crumple.study.table import Table
+
+CONFIDENCE = 0.95
+"""Of intervals."""
+Limits = Sequence[tuple[str, float, float]]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """Summary of a study; its numbers are SI.
+
+    Attributes
+    ----------
+    rows, complete
+        Number of rows, and of those with usable values.
+    solved
+        Points that were solved in this process; the others were known or equal.
+    failures
+        Number of rows by status.
+    units
+        Of responses.
+    responses
+        Of each response: mean, deviation, low, median, high of the complete rows.
+    probabilities
+        Of each constraint (Monte Carlo): share of the complete rows that violate it, and its interval.
+    best
+        Row with the best objective among those that meet all constraints; None without one.
+    indices
+        Sobol' indices of each response, or why there are none.
+    """
+
+    rows: int
+    complete: int
+    solved: int
+    failures: Mapping[str, int]
+    units: Mapping[str, str]
+    responses: Mapping[str, Mapping[str, float]]
+    probabilities: Sequence[Mapping[str, Any]] = ()
+    best: Mapping[str, Any] | None = None
+    indices: Mapping[str, Any] | str = field(default_factory=dict)
+
+    def plain(self) -> dict[str, Any]:
+        """Content of study.json; without `solved`, which a resumed study has otherwise."""
+        return {
+            "rows": self.rows,
+            "complete": self.complete,
+            "failures": dict(self.failures),
+            "units": dict(self.units),
+            "responses": {name: dict(values) for name, values in self.responses.items()},
+            "probabilities": list(self.probabilities),
+            "best": self.best,
+            "indices": self.indices,
+        }
+
+
+def columns_of(study: Study, table: Table) -> dict[str, Floats]:
+    """Variables that are numbers, and all responses, (n,) each."""
+    columns = table.columns()
+    columns.update(derived_columns(study, table))
+    return columns
+
+
+def derived_columns(study: Study, table: Table) -> dict[str, Floats]:
+    """Responses by formulas, (n,) each; not a number where the formula is not defined or the row failed."""
+    columns, found = table.columns(), {}
+    ok = table.ok
+    for name, response in study.responses.items():
+        if response.formula:
+            values = np.broadcast_to(Formula(response.formula)(columns), ok.shape)
+            columns[name] = found[name] = np.where(ok & np.isfinite(values), values, np.nan)
+    return found
+
+
+def violation_of(study: Study, table: Table, limits: Limits, first: int = 0) -> tuple[Floats, Floats]:
+    """Objective, made small, and violation of the constraints of the rows from `first`, (n,) each.
+
+    The violation is the sum of excesses over limits, each over the limit's magnitude; infinite in failed
+    rows.
+    """
+    columns = {name: column[first:] for name, column in columns_of(study, table).items()}
+    objective = study.objective
+    name = "" if objective is None else objective.minimise or objective.maximise
+    wanted = columns[name] if name else np.zeros(len(table.rows) - first)
+    violation = np.where(np.isfinite(wanted), 0.0, np.inf)
+    for response, low, high in limits:
+        values = columns[response]
+        for excess, limit in ((low - values, low), (values - high, high)):
+            if math.isfinite(limit):
+                beyond = np.maximum(excess, 0.0) / (abs(limit) or 1.0)
+                violation = violation + np.where(np.isfinite(beyond), beyond, np.inf)
+    sign = -1.0 if objective is not None and objective.maximise else 1.0
+    return sign * wanted, violation
+
+
+def answer_of(
+    study: Study,
+    table: Table,
+    limits: Limits,
+    units: Mapping[str, str],
+    indices: Mapping[str, Any] | str | None = None,
+) -> Answer:
+    """Summary of all rows.
+
+    Parameters
+    ----------
+    study, table
+        The study and its rows.
+    limits
+        Of constraints [SI].
+    units
+        Of responses.
+    indices
+        As `Answer` has them.
+    """
+    columns, ok = columns_of(study, table), table.ok
+    failures = Counter(row.status for row in table.rows if not row.ok)
+    statistics = {name: _statistics(columns[name]) for name in study.responses}
+    likely = []
+    if study.method.type == "monte_carlo":
+        likely = [_probability(name, low, high, columns[name]) for name, low, high in limits]
+    return Answer(
+        len(table.rows),
+        int(ok.sum()),
+        table.solved,
+        dict(failures),
+        dict(units),
+        statistics,
+        likely,
+        _best(study, table, limits, columns),
+        indices or {},
+    )
+
+
+def _statistics(column: Floats) -> dict[str, float]:
+    known = column[np.isfinite(column)]
+    if not known.size:
+        return {}
+    low, middle, high = np.quantile(known, [0.025, 0.5, 0.975]).tolist()
+    spread = float(known.std(ddof=1)) if known.size > 1 else 0.0
+    ends = {"min": float(known.min()), "max": float(known.max())}
+    return {
+        "mean": float(known.mean()),
+        "deviation": spread,
+        "q2.5": low,
+        "median": middle,
+        "q97.5": high,
+    } | ends
+
+
+def _probability(name: str, low: float, high: float, column: Floats) -> dict[str, Any]:
+    """Share of rows beyond a limit, with the interval of Clopper and Pearson."""
+    from scipy.stats import binomtest  # noqa: PLC0415  (slow to import)
+
+    known = column[np.isfinite(column)]
+    beyond = int(((known < low) | (known > high)).sum())
+    limits = {
+        "at_least": low if math.isfinite(low) else None,
+        "at_most": high if math.isfinite(high) else None,
+    }
+    found: dict[str, Any] = {"response": name, **limits, "rows": int(known.size), "beyond": beyond}
+    if known.size:
+        interval = binomtest(beyond, int(known.size)).proportion_ci(CONFIDENCE, "exact")
+        found |= {
+            "probability": beyond / known.size,
+            "interval": [float(interval.low), float(interval.high)],
+        }
+    return found
+
+
+def _best(study: Study, table: Table, limits: Limits, columns: Mapping[str, Floats]) -> dict[str, Any] | None:
+    if study.objective is None or not table.rows:
+        return None
+    objective, violation = violation_of(study, table, limits)
+    if not (violation == 0.0).any():
+        return None
+    row = int(np.argmin(np.where(violation == 0.0, objective, np.inf)))
+    variables = {axis.name: table.points[row][k] for k, axis in enumerate(table.axes)}
+    return {
+        "row": row,
+        "variables": variables,
+        "responses": {name: float(columns[name][row]) for name in study.responses},
+    }
+
+
+def sobol_answer(study: Study, table: Table, rows: Integers) -> dict[str, Any]:
+    """Sobol' indices of each response.
+
+    Parameters
+    ----------
+    study, table
+        The study and its rows.
+    rows
+        Numbers of the rows of A, B, and of each variable A with that variable from B, (2 + variables, n).
+    """
+    from scipy.stats import sobol_indices  # noqa: PLC0415  (slow to import)
+
+    columns, count = columns_of(study, table), rows.shape[1]
+    found: dict[str, Any] = {}
+    for name in study.responses:
+        values = columns[name][rows]
+        if not np.isfinite(values).all():
+            found[name] = "not a number in some rows"
+            continue
+        given: dict[Literal["f_A", "f_B", "f_AB"], Floats] = {
+            "f_A": values[:1],
+            "f_B": values[1:2],
+            "f_AB": values[2:, np.newaxis, :],
+        }
+        result = sobol_indices(func=given, n=count)
+        found[name] = {
+            axis.name: {
+                "first": float(np.atleast_1d(result.first_order.squeeze())[k]),
+                "total": float(np.atleast_1d(result.total_order.squeeze())[k]),
+            }
+            for k, axis in enumerate(table.axes)
+        }
+    return found
