@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal
 
 import numpy as np
+from scipy import special
 
 from crumple.numeric.arrays import Floats, Integers
 from crumple.study.formula import Formula
@@ -164,8 +165,6 @@ def _statistics(column: Floats) -> dict[str, float]:
 
 def _probability(name: str, low: float, high: float, column: Floats) -> dict[str, Any]:
     """Share of rows beyond a limit, with the interval of Clopper and Pearson."""
-    from scipy.stats import binomtest  # noqa: PLC0415  (slow to import)
-
     known = column[np.isfinite(column)]
     beyond = int(((known < low) | (known > high)).sum())
     limits = {
@@ -174,10 +173,12 @@ def _probability(name: str, low: float, high: float, column: Floats) -> dict[str
     }
     found: dict[str, Any] = {"response": name, **limits, "rows": int(known.size), "beyond": beyond}
     if known.size:
-        interval = binomtest(beyond, int(known.size)).proportion_ci(CONFIDENCE, "exact")
+        outside, inside, tail = beyond, int(known.size) - beyond, 0.5 * (1.0 - CONFIDENCE)
+        low_end = special.betaincinv(outside, inside + 1, tail) if outside else 0.0
+        high_end = special.betaincinv(outside + 1, inside, 1.0 - tail) if inside else 1.0
         found |= {
             "probability": beyond / known.size,
-            "interval": [float(interval.low), float(interval.high)],
+            "interval": [float(low_end), float(high_end)],
         }
     return found
 

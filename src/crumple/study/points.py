@@ -9,7 +9,6 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
-from scipy.stats import qmc
 
 from crumple.errors import InputError, Problem
 from crumple.numeric.arrays import Floats
@@ -21,6 +20,8 @@ Block = tuple[list[Point], list[Point], list[list[Point]]]
 
 
 def _latin(axes: Sequence[Axis], method: Method) -> Floats:
+    from scipy.stats import qmc  # noqa: PLC0415  (takes a second to import)
+
     return qmc.LatinHypercube(len(axes), seed=method.seed).random(method.rows)
 
 
@@ -93,6 +94,8 @@ def blocks(axes: Sequence[Axis], first: int, count: int, seed: int) -> Block:
 
 def _sequence(size: int, count: int, seed: int) -> Floats:
     """First points of a scrambled Sobol' sequence; made in a power of two, else SciPy warns."""
+    from scipy.stats import qmc  # noqa: PLC0415  (takes a second to import)
+
     return qmc.Sobol(size, seed=seed).random_base2(max(count - 1, 0).bit_length())[:count]
 
 
