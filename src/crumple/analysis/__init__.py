@@ -7,6 +7,7 @@ form and SHA-256.  An `Analysis` has ``structure``, ``duration`` [s], ``title``,
 
 from crumple.analysis.analysis import Analysis
 from crumple.analysis.canonical import canonical, input_hash
+from crumple.analysis.frames import solve_with_frames
 from crumple.analysis.input_file import FORMAT, InputFile, LoadedInput, check, load, load_input, loads
 from crumple.analysis.schema import json_schema
 from crumple.analysis.solve import FIDELITIES, solve, with_law_range
@@ -25,5 +26,6 @@ __all__ = [
     "load_input",
     "loads",
     "solve",
+    "solve_with_frames",
     "with_law_range",
 ]

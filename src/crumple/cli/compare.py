@@ -119,7 +119,8 @@ def _solve(
         # the page of an earlier comparison is not of these results
         (folder / PAGE).unlink(missing_ok=True)
         try:
-            store(with_pictures(result, picture_times(source.analysis)), source, folder / result.fidelity)
+            fewer = with_pictures(result, picture_times(source.analysis))
+            store(fewer, source, folder / result.fidelity, result)
         except InputError as error:
             # what is solved can still be compared
             show_refusal(error)

@@ -73,7 +73,7 @@ def _solved(
 
     `used`: store of laws, and the inputs that were read, to which this one is added.
     """
-    from crumple.analysis import load_input, solve
+    from crumple.analysis import load_input, solve_with_frames
     from crumple.cli.console.storing import store
     from crumple.errors import InputError
     from crumple.report import Layout
@@ -81,16 +81,23 @@ def _solved(
     try:
         source = with_store(load_input(file), used[0])
         used[1][name] = source
-        result = solve(source.analysis, cancel=cancel)
+        result, frames = solve_with_frames(source.analysis, cancel=cancel)
     except InputError as error:
         first, more = error.problems[0], len(error.problems) - 1
         place = f" ({first.where})" if first.where else ""
         return Layout(name, reason=f"{first.what}{place}" + (f", and {more} more problems" if more else ""))
     if not result.time.size:
         return Layout(name, reason=result.reason)
-    store(result, source, folder)
+    store(result, source, folder, frames)
     analysis = source.analysis
-    return Layout(name, analysis.title, analysis.structure.mass_of_members, result)
+    return Layout(
+        name,
+        analysis.title,
+        analysis.structure.mass_of_members,
+        result,
+        frames=frames,
+        structure=analysis.structure,
+    )
 
 
 def _show_laws(found: list[Layout], sources: Mapping[str, LoadedInput]) -> None:

@@ -22,6 +22,7 @@ from crumple.cli.run import run
 from crumple.cli.schema import schema
 from crumple.cli.section import section
 from crumple.cli.study import study
+from crumple.cli.view import view
 from crumple.errors import CancelledError, InputError
 from crumple.portable import prepare_consoles, reader_left
 from crumple.version import __version__
@@ -41,7 +42,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,  # rich takes 60 ms to import: a third of the time allowed for --help
 )
-for verb in (run, compare, layouts, study, check, schema, hinge, section, characterise):
+for verb in (run, compare, layouts, study, view, check, schema, hinge, section, characterise):
     app.command()(verb)
 
 

@@ -113,7 +113,7 @@ def _solve(
     law_range: bool | None,
 ) -> Result:
     """Solve with one solver and write its files; `how`: solver, threads, restart file."""
-    from crumple.analysis import solve
+    from crumple.analysis import solve_with_frames
     from crumple.cli.console.progress import progress_bar
     from crumple.cli.console.shell_run import long_run_of, remove_restart
     from crumple.cli.console.storing import store
@@ -130,9 +130,9 @@ def _solve(
                     progress.preparing()
                     return cancel()
 
-                result = solve(
+                result, frames = solve_with_frames(
                     source.analysis,
-                    fidelity=fidelity.value,
+                    fidelity.value,
                     threads=threads or (available_cores() if is_shell else 1),
                     progress=progress,
                     cancel=asked,
@@ -148,7 +148,7 @@ def _solve(
         # still inside: Ctrl-C while figures are drawn must not lose the result
         if result.status is Status.CANCELLED:
             typer.echo("Stopped. Writing the results so far; another Ctrl-C discards them.", err=True)
-        store(result, source, folder)
+        store(result, source, folder, frames)
     if is_shell:
         remove_restart(folder, result)
     return result

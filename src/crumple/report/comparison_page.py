@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-import base64
-import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from crumple.comparison import Comparison
 from crumple.portable import write_text
 from crumple.report.report import MAX_INPUT, ReportInput, embedded, write_figures
 from crumple.report.wording.curve_wording import curve_notes
+
+if TYPE_CHECKING:
+    from crumple.report.scene.scene import Scene
 
 MOST_HINGES = 4
 """Number of hinges with figures, those that absorbed most energy."""
@@ -51,12 +53,28 @@ def write_comparison(
     OSError
         If the folder cannot be written.
     """
+    from crumple.report.scene.page import store_scene  # noqa: PLC0415
+
     folder = Path(directory)
     drawn = _draw(comparison, pictures)
     write_figures(folder, drawn)
+    scene = scene_of(comparison, source)
+    store_scene(scene, folder)
     page = folder / "report.html"
-    write_text(page, _render(comparison, source, drawn))
+    write_text(page, _render(comparison, source, drawn, scene))
     return page
+
+
+def scene_of(comparison: Comparison, source: ReportInput) -> Scene | None:
+    """Both results in step, or None if one has no shapes."""
+    from crumple.report.scene.hinges import hinges_of_comparison  # noqa: PLC0415
+    from crumple.report.scene.scene import Shown, write_scene  # noqa: PLC0415
+
+    models = [
+        Shown(one.name, one.result, partial(hinges_of_comparison, one), source.structure)
+        for one in (comparison.candidate, comparison.reference)
+    ]
+    return write_scene(models, source.title or comparison.title)
 
 
 def _draw(comparison: Comparison, pictures: Sequence[float]) -> list[tuple[str, str, str]]:
@@ -114,11 +132,16 @@ def _draw(comparison: Comparison, pictures: Sequence[float]) -> list[tuple[str, 
     return [(name, svg, caption) for name, svg, caption in found if svg is not None]
 
 
-def _render(comparison: Comparison, source: ReportInput, drawn: list[tuple[str, str, str]]) -> str:
+def _render(
+    comparison: Comparison,
+    source: ReportInput,
+    drawn: list[tuple[str, str, str]],
+    scene: Scene | None,
+) -> str:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined  # noqa: PLC0415
     from markupsafe import Markup  # noqa: PLC0415
 
-    from crumple.report.figures.player import scene_of  # noqa: PLC0415
+    from crumple.report.scene.page import page_parts  # noqa: PLC0415
     from crumple.report.wording import comparison_wording as wording  # noqa: PLC0415
 
     here = Path(__file__).parent / "templates"
@@ -128,28 +151,19 @@ def _render(comparison: Comparison, source: ReportInput, drawn: list[tuple[str, 
         for i in range(1, MOST_HINGES + 1)
         if f"motion_{i}" in figures
     ]
-    scene = scene_of(comparison)
-    scripts = [_text(here / "copy.js")]
-    if scene is not None:
-        scripts = [_text(here.parent / "vendor" / "three.min.js"), _text(here / "player.js"), *scripts]
     environment = Environment(
         loader=FileSystemLoader(here), autoescape=True, undefined=StrictUndefined, trim_blocks=True
     )
     text = embedded(source)
     provenance = comparison.candidate.result.provenance
     return environment.get_template("comparison.html.jinja").render(
-        version=provenance.version,
         title=source.title or comparison.title or "Comparison",
         meta=[
             p
             for p in (source.name, f"Crumple {provenance.version}", f"input {provenance.input_hash[:12]}")
             if p
         ],
-        style=Markup(_text(here / "page.css") + _text(here / "comparison.css")),
-        scripts=[Markup(script) for script in scripts],
-        hashes=" ".join(_hash(script) for script in scripts),
-        scene=None if scene is None else {"header": Markup(scene.header), "payload": Markup(scene.payload)},
-        strain=0.0 if scene is None else scene.strain,
+        **page_parts(scene, "comparison.css"),
         trust=comparison.trust,
         names=(comparison.candidate.name, comparison.reference.name),
         key_figures=wording.key_figures(comparison),
@@ -174,14 +188,3 @@ def _render(comparison: Comparison, source: ReportInput, drawn: list[tuple[str, 
 def _notes(comparison: Comparison) -> list[tuple[str, tuple[str, ...], tuple[str, ...]]]:
     """Warnings and assumptions of every result."""
     return [(s.name, s.result.warnings, s.result.assumptions) for s in comparison.sources]
-
-
-def _text(path: Path) -> str:
-    return path.read_text(encoding="utf-8")
-
-
-def _hash(script: str) -> str:
-    """Hash by which the security policy of the page allows this script and no other."""
-    # the browser hashes the text between the tags, including line breaks of the template
-    digest = hashlib.sha256(f"\n{script}\n".encode()).digest()
-    return f"'sha256-{base64.b64encode(digest).decode()}'"

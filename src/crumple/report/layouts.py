@@ -6,19 +6,23 @@ import csv
 import io
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from crumple.portable import write_text
 from crumple.report.report import write_figures
-from crumple.version import __version__
 
 if TYPE_CHECKING:
+    from crumple.report.scene.scene import Scene
     from crumple.report.wording.wording import Table
     from crumple.result import Result
+    from crumple.structure import Structure
 
 OPEN = 1e-3
 """Largest rotation [rad] above which a hinge counts as open: a visible bend."""
+MOST_SHOWN = 3
+"""Most layouts that move side by side."""
 MOST_OUTPUTS = 8
 """Most requested outputs with a panel in the figure; the table and the files contain all."""
 
@@ -39,6 +43,8 @@ class Layout:
         None if the solver refused it.
     reason
         Why there is no result.
+    frames, structure
+        The same result with more shapes, and what was described, for the viewer.
     """
 
     name: str
@@ -46,6 +52,8 @@ class Layout:
     mass: float | None = None
     result: Result | None = None
     reason: str = ""
+    frames: Result | None = None
+    structure: Structure | None = None
 
     @property
     def absorbed(self) -> float:
@@ -83,12 +91,16 @@ def write_layouts(layouts: Sequence[Layout], title: str, directory: Path | str) 
         If the folder cannot be written.
     """
     folder = Path(directory)
+    from crumple.report.scene.page import store_scene  # noqa: PLC0415
+
     names = common_outputs(layouts)
     write_text(folder / "layouts.csv", _csv(layouts, names))
     drawn = _draw(layouts, names)
     write_figures(folder, drawn)
+    scene = _scene(layouts, title)
+    store_scene(scene, folder)
     page = folder / "report.html"
-    write_text(page, _render(layouts, title, names, drawn))
+    write_text(page, _render(layouts, title, (names, drawn), scene))
     return page
 
 
@@ -191,14 +203,33 @@ def _draw(layouts: Sequence[Layout], outputs: Sequence[str]) -> list[tuple[str, 
     return [(name, svg, caption) for name, svg, caption in found if svg is not None]
 
 
+def _scene(layouts: Sequence[Layout], title: str) -> Scene | None:
+    """The first layouts with shapes, side by side, in step."""
+    from crumple.report.scene.hinges import hinges_of_result  # noqa: PLC0415
+    from crumple.report.scene.scene import Shown, write_scene  # noqa: PLC0415
+
+    shown = [
+        Shown(layout.name, result, partial(hinges_of_result, result), layout.structure)
+        for layout in layouts
+        if (result := layout.frames or layout.result) is not None and result.states is not None
+    ]
+    return write_scene(shown[:MOST_SHOWN], title)
+
+
 def _render(
-    layouts: Sequence[Layout], title: str, outputs: Sequence[str], drawn: list[tuple[str, str, str]]
+    layouts: Sequence[Layout],
+    title: str,
+    content: tuple[Sequence[str], list[tuple[str, str, str]]],
+    scene: Scene | None,
 ) -> str:
     from urllib.parse import quote  # noqa: PLC0415
 
     from jinja2 import Environment, FileSystemLoader, StrictUndefined  # noqa: PLC0415
     from markupsafe import Markup  # noqa: PLC0415
 
+    from crumple.report.scene.page import page_parts  # noqa: PLC0415
+
+    outputs, drawn = content
     here = Path(__file__).parent / "templates"
     environment = Environment(
         loader=FileSystemLoader(here), autoescape=True, undefined=StrictUndefined, trim_blocks=True
@@ -207,9 +238,8 @@ def _render(
         {"number": i + 1, "svg": Markup(svg), "caption": caption} for i, (_, svg, caption) in enumerate(drawn)
     ]
     return environment.get_template("layouts.html.jinja").render(
-        version=__version__,
+        **page_parts(scene),
         title=title,
-        style=Markup((here / "page.css").read_text(encoding="utf-8")),
         tables=[table for table in (layout_table(layouts), _output_table(layouts, outputs)) if table.rows],
         number=len(layouts),
         figures=figures,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,8 +14,10 @@ from crumple.hinge.law_use import INPUT
 from crumple.portable import write_text
 
 if TYPE_CHECKING:
+    from crumple.report.scene.scene import Scene
     from crumple.report.wording.wording import Table
     from crumple.result import Result
+    from crumple.structure import Structure
 
 MAX_MOMENT_FIGURES = 12
 """Most hinges drawn with their laws; each figure adds some 8 kB to the page."""
@@ -40,6 +43,8 @@ class ReportInput:
         Largest energy residual allowed, over the energy input [-].
     accuracy
         Requested from the stepper [-].
+    structure
+        What was described: its obstacles, masses and supports are shown with the shapes.
     """
 
     title: str = ""
@@ -48,6 +53,7 @@ class ReportInput:
     canonical: Mapping[str, Any] | None = None
     residual_bound: float | None = None
     accuracy: float | None = None
+    structure: Structure | None = None
 
 
 @dataclass(frozen=True)
@@ -57,7 +63,9 @@ class _Figure:
     caption: str
 
 
-def write_report(result: Result, source: ReportInput, directory: Path | str) -> Path:
+def write_report(
+    result: Result, source: ReportInput, directory: Path | str, *, frames: Result | None = None
+) -> Path:
     """Draw the figures, write them to ``figures/`` and write ``report.html`` around them.
 
     Parameters
@@ -68,6 +76,8 @@ def write_report(result: Result, source: ReportInput, directory: Path | str) -> 
         What to show of the analysis.  Its bound and accuracy default to the result's settings of that name.
     directory
         Made when absent.
+    frames
+        The same run with more shapes, for a smoother motion in the viewer.
 
     Returns
     -------
@@ -79,6 +89,8 @@ def write_report(result: Result, source: ReportInput, directory: Path | str) -> 
     OSError
         If the folder cannot be written.
     """
+    from crumple.report.scene.page import store_scene  # noqa: PLC0415
+
     folder = Path(directory)
     settings = result.provenance.settings
     bound = (
@@ -87,9 +99,20 @@ def write_report(result: Result, source: ReportInput, directory: Path | str) -> 
     accuracy = source.accuracy if source.accuracy is not None else settings.get("accuracy")
     drawn = _draw(result, bound)
     write_figures(folder, drawn)
+    scene = _scene(frames or result, source)
+    store_scene(scene, folder)
     page = folder / "report.html"
-    write_text(page, _render(result, source, drawn, bound, accuracy))
+    write_text(page, _render(result, source, drawn, (bound, accuracy), scene))
     return page
+
+
+def _scene(result: Result, source: ReportInput) -> Scene | None:
+    """The scene of one result."""
+    from crumple.report.scene.hinges import hinges_of_result  # noqa: PLC0415
+    from crumple.report.scene.scene import Shown, write_scene  # noqa: PLC0415
+
+    shown = Shown(result.fidelity, result, partial(hinges_of_result, result), source.structure)
+    return write_scene([shown], source.title or result.title)
 
 
 def write_figures(folder: Path, drawn: Sequence[tuple[str, str, str]]) -> None:
@@ -177,12 +200,13 @@ def _render(
     result: Result,
     source: ReportInput,
     drawn: list[tuple[str, str, str]],
-    bound: float | None,
-    accuracy: float | None,
+    limits: tuple[float | None, float | None],
+    scene: Scene | None,
 ) -> str:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined  # noqa: PLC0415
     from markupsafe import Markup  # noqa: PLC0415
 
+    from crumple.report.scene.page import page_parts  # noqa: PLC0415
     from crumple.report.wording import wording  # noqa: PLC0415
     from crumple.report.wording.law_range import range_table  # noqa: PLC0415
 
@@ -197,15 +221,13 @@ def _render(
         undefined=StrictUndefined,
         trim_blocks=True,
     )
-    style = (here / "page.css").read_text(encoding="utf-8")
     text = embedded(source)
     named = ("deformation", "rotation", "energy_rotation", "welds", "energy", "outputs")
     return environment.get_template("page.html.jinja").render(
-        version=result.provenance.version,
+        **page_parts(scene),
         title=source.title or result.title or "Crash analysis",
         meta=_meta(result, source),
-        style=Markup(style),
-        verdict=wording.verdict(result, bound, accuracy),
+        verdict=wording.verdict(result, *limits),
         key_figures=wording.key_figures(result),
         figures={**{name: figures.get(name) for name in named}, "moments": moments, "folds": close_ups},
         omitted_hinges=max(len(result.hinges) - MAX_MOMENT_FIGURES, 0),

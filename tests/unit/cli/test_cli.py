@@ -83,11 +83,11 @@ def test_run_json_is_the_summary_alone(run_command, tmp_path: Path) -> None:
 def test_run_that_ends_badly_keeps_its_results(run_command, tmp_path: Path, monkeypatch) -> None:
     import crumple.analysis
 
-    def cancelled(analysis, **options):
-        return solve(analysis, **options | {"progress": shares.append, "cancel": lambda: shares[-1] > 0.0})
+    def cancelled(*what, **options):
+        return solve(*what, **options | {"progress": shares.append, "cancel": lambda: shares[-1] > 0.0})
 
-    shares, solve = [0.0], crumple.analysis.solve
-    monkeypatch.setattr(crumple.analysis, "solve", cancelled)
+    shares, solve = [0.0], crumple.analysis.solve_with_frames
+    monkeypatch.setattr(crumple.analysis, "solve_with_frames", cancelled)
     text = EXAMPLE.read_text().replace("accuracy: 1e-3", "accuracy: 1e-10")
     file = tmp_path / "long.yaml"
     file.write_text(text)
@@ -285,7 +285,7 @@ def test_what_is_in_the_way_of_a_result_is_found_before_the_run(
 ) -> None:
     import crumple.analysis
 
-    monkeypatch.setattr(crumple.analysis, "solve", None)
+    monkeypatch.setattr(crumple.analysis, "solve_with_frames", None)
     if name == "figures":
         (tmp_path / name).write_text("mine")
     else:

@@ -151,7 +151,7 @@ def test_a_figure_that_cannot_be_drawn_loses_no_numbers(command, tmp_path: Path,
 def test_a_defect_is_told_with_what_to_send(command, tmp_path: Path, monkeypatch) -> None:
     import crumple.analysis
 
-    monkeypatch.setattr(crumple.analysis, "solve", lambda *_, **__: {}["nothing"])
+    monkeypatch.setattr(crumple.analysis, "solve_with_frames", lambda *_, **__: {}["nothing"])
     code, out, err = command("run", EXAMPLE, "--out", tmp_path)
     assert (code, out) == (defect.EXIT_CODE, "")
     assert "this is a defect of Crumple" in err

@@ -30,7 +30,8 @@ def _browser():
         # on a developer's machine a browser may be missing; where the project is checked it may not
         assert not os.environ.get("CI"), "no Chromium found, and CI is set"
         pytest.skip("no Chromium found")
-    browser = Browser(path)
+    # without these flags the browser itself warns that it draws WebGL in software
+    browser = Browser(path, ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"))
     yield browser
     browser.close()
 

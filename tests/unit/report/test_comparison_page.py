@@ -20,7 +20,9 @@ from crumple.analysis import solve
 from crumple.comparison import CurveFile, Signal, at_times, compare, with_frames
 from crumple.comparison.variant import with_elastic_hinges
 from crumple.report import ReportInput, write_comparison
-from crumple.report.figures.player import _times, hinge_states, scene_of
+from crumple.report.comparison_page import scene_of
+from crumple.report.scene.hinges import hinge_states
+from crumple.report.scene.scene import frame_times
 
 WEBGL = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 NO_WEBGL = ("--disable-webgl", "--disable-3d-apis")
@@ -184,7 +186,7 @@ def test_the_page_contains_the_comparison(page, found):
 def test_the_scene_holds_the_shapes(found):
     import json
 
-    scene = scene_of(found)
+    scene = scene_of(found, ReportInput())
     header, data = json.loads(scene.header), zlib.decompress(base64.b64decode(scene.payload))
     states = found.candidate.result.states
     model = header["models"][0]
@@ -204,9 +206,9 @@ def test_the_moving_picture_ends_with_the_run(found):
     states = folded_states(times, [(0.01, 0.04, angle_over_time(times))])
     # a stepper stores each shape at its first step after the requested time
     late = replace(states, times=states.times + 1e-6)
-    assert _times([states, late])[-1] == late.times[-1]
+    assert frame_times([states, late])[-1] == late.times[-1]
     short = replace(states, times=0.6 * states.times)
-    assert _times([short, late])[-1] == pytest.approx(0.06, abs=1e-5)
+    assert frame_times([short, late])[-1] == pytest.approx(0.06, abs=1e-5)
 
 
 def test_hinges_are_closed_then_turn_then_rest(found):
@@ -214,14 +216,12 @@ def test_hinges_are_closed_then_turn_then_rest(found):
     assert states == [0, 1, 2]
 
 
-def test_a_result_too_large_or_without_shapes_has_no_moving_picture(found, tmp_path, monkeypatch):
+def test_a_result_without_shapes_has_no_moving_picture(found, tmp_path):
     bare = replace(
         found, reference=replace(found.reference, result=replace(found.reference.result, states=None))
     )
-    assert scene_of(bare) is None
+    assert scene_of(bare, ReportInput()) is None
     assert "<canvas" not in write_comparison(bare, ReportInput(), tmp_path).read_text(encoding="utf-8")
-    monkeypatch.setattr("crumple.report.figures.player.RAW_BYTES", 1000)
-    assert scene_of(found) is None
 
 
 def test_the_vendored_build_is_the_one_that_was_vendored():

@@ -35,11 +35,12 @@ def report_input(source: LoadedInput, fidelity: str | None = None) -> ReportInpu
         canonical=canonical(analysis),
         residual_bound=bounds.get(fidelity or ""),
         accuracy=analysis.multibody.accuracy if fidelity == "multibody" else None,
+        structure=analysis.structure,
     )
 
 
-def store(result: Result, source: LoadedInput, folder: Path) -> None:
-    """Write a result and its page to a folder, see `stored`."""
+def store(result: Result, source: LoadedInput, folder: Path, frames: Result | None = None) -> None:
+    """Write a result and its page to a folder, see `stored`; `frames`: the same with more shapes."""
     from crumple.report import write_report
     from crumple.result import write
 
@@ -48,7 +49,7 @@ def store(result: Result, source: LoadedInput, folder: Path) -> None:
     def fill(place: Path) -> None:
         write(result, place)
         try:
-            write_report(result, report_input(source, result.fidelity), place)
+            write_report(result, report_input(source, result.fidelity), place, frames=frames)
         except OSError:
             raise
         except Exception as error:

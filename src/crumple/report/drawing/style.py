@@ -23,6 +23,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from crumple.numeric.arrays import Floats
+from crumple.report.drawing.curve_data import data_attributes
 from crumple.report.drawing.scales import thinned
 
 WIDTH = 7.0  # of the text column of an A4 page [in]
@@ -134,6 +135,7 @@ def name_axes(axes: Axes, x: str, y: str) -> None:
     """Name both axes horizontally: y above its axis, x below at its right end."""
     x, y = short(x, 60), short(y, 60)
     offset: dict[str, Any] = {"textcoords": "offset points", "annotation_clip": False, "fontsize": 8.0}
+    axes.set_label(f"{x}\n{y}")
     axes.annotate(y, (0, 1), (0, 7), xycoords="axes fraction", ha="left", va="bottom", color=INK, **offset)
     axes.annotate(x, (1, 0), (0, -16), xycoords="axes fraction", ha="right", va="top", color=MUTED, **offset)
 
@@ -147,7 +149,8 @@ def draw_lines(axes: Axes, lines: Sequence[Line], *, labels: bool = True) -> Non
             axes.plot(x, y, color=RULE, linewidth=0.7, zorder=1.5)
         else:
             dash = DASHES[line.index % len(DASHES)] if several else "-"
-            axes.plot(x, y, color=SERIES[line.index % len(SERIES)], linestyle=dash, dash_capstyle="butt")
+            colour = SERIES[line.index % len(SERIES)]
+            axes.plot(x, y, color=colour, linestyle=dash, dash_capstyle="butt", label=f" {line.name}")
     if labels:
         _label_ends(axes, [line for line in lines if not line.faint])
 
@@ -229,10 +232,11 @@ def to_svg(figure: Figure, name: str, description: str) -> str:
 
     svg = _TAG.sub(adapt, svg)
     width, height = (72 * size for size in figure.get_size_inches())
+    data = _CONTROL.sub("", data_attributes(figure))
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
         f'viewBox="0 0 {width:g} {height:g}" role="img" aria-labelledby="{name}-title" '
-        f'style="stroke-linejoin: round">\n<title id="{name}-title">{_escaped(description)}</title>'
+        f'style="stroke-linejoin: round"{data}>\n<title id="{name}-title">{_escaped(description)}</title>'
     )
     return head + re.sub(r"\n\s*\n+", "\n", svg[svg.index(">") + 1 :]).strip() + "\n"
 

@@ -1,6 +1,6 @@
-"""The animation of a comparison as data for the page: quantised, delta-coded, compressed, of limited size.
+"""The one scene format: header (JSON) and payload (compressed bytes); docs/scene.md describes every field.
 
-Per source: walls as point numbers, and for every frame the positions of the points on a grid of 65536 steps
+Per model: walls as point numbers, and for every frame the positions of the points on a grid of 65536 steps
 over the bounding box (0.02 mm on a metre), one byte of plastic strain per point, hinge positions and states.
 Frames after the first contain differences; low and high bytes are separate, which compresses better.
 """
@@ -10,32 +10,46 @@ from __future__ import annotations
 import base64
 import json
 import zlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from crumple.comparison import Comparison, HingeMotion, Source, at_times
-from crumple.comparison.measure.folds import STRAIN
+from crumple.comparison import at_times
 from crumple.numeric.arrays import Floats
 from crumple.report.drawing.view import View, choose_view
-from crumple.report.figures.shape import finite_states, hinge_places
-from crumple.result import States
+from crumple.report.figures.shape import finite_states
+from crumple.report.scene.coarse import coarsened
+from crumple.report.scene.surroundings import forces, masses, obstacles, supports
+from crumple.result import Result, States
+from crumple.structure import Structure
 
+FORMAT, VERSION = "crumple-scene", 1
 RAW_BYTES = 6_000_000
 """Bytes of all frames before compression; the page then has some 2 MB."""
 MOST_FRAMES, FEWEST_FRAMES = 101, 9
-"""Most frames of an animation."""
+"""Most frames, and the fewest that still show a motion: for fewer, walls are merged."""
+MOST_POINTS = 60_000
+"""Most points of all models together, after walls are merged."""
 STEPS = 65535
-CLOSED, TURNING, RESTING = 0, 1, 2
-"""States of a hinge."""
-TURNS = 0.02
-"""Share of a hinge's largest plastic rotation rate above which it counts as rotating."""
-OPEN = np.radians(0.5)
-"""Plastic rotation [rad] below which a hinge counts as closed."""
+STRAIN = "plastic_strain"
 STRONGEST = 99.5
 """Percentile of plastic strain at the end of the colour scale, so that one wall does not determine it."""
+
+
+@dataclass(frozen=True)
+class Shown:
+    """One model of a scene: its name, result, the hinges' description at the frames, and its structure.
+
+    `hinges` maps states at the frame times to a list as `crumple.report.scene.hinges` makes it.
+    """
+
+    name: str
+    result: Result
+    hinges: Any
+    structure: Structure | None = None
 
 
 @dataclass(frozen=True)
@@ -47,52 +61,66 @@ class Scene:
     strain: float
     frames: int
 
+    def text(self) -> str:
+        """The content of ``scene.json``."""
+        return json.dumps({**json.loads(self.header), "payload": self.payload}, ensure_ascii=True)
 
-def scene_of(comparison: Comparison) -> Scene | None:
-    """The animation, or None if a result has no shapes or is too large for a page.
+
+def write_scene(models: Sequence[Shown], title: str = "") -> Scene | None:
+    """The scene of some results in step, or None if one of them has no shapes.
 
     Parameters
     ----------
-    comparison
-        Candidate and reference are shown.
+    models
+        Drawn side by side; the last one sets the times and the view.
+    title
+        Of the page.
     """
-    sources = (comparison.candidate, comparison.reference)
-    found = [finite_states(source.result.states) for source in sources]
+    found = [finite_states(model.result.states) for model in models]
     states = [s for s in found if s is not None]
-    if len(states) < len(sources):
+    if not states or len(states) < len(models):
         return None
-    times = _times(states)
+    view = choose_view(states[-1])
+    # a page that would become too large shows fewer walls, and says so
+    most = min(MOST_POINTS, RAW_BYTES // (7 * FEWEST_FRAMES)) // len(states)
+    drawn = [coarsened(s, most) for s in states]
+    times = frame_times(drawn)
     if times is None:
         return None
-    shown = [at_times(s, times) for s in states]
+    shown = [at_times(s, times) for s in drawn]
     moved = [s.points + s.displacement for s in shown]
     low = np.min([m.reshape(-1, 3).min(axis=0) for m in moved], axis=0)
     high = np.max([m.reshape(-1, 3).max(axis=0) for m in moved], axis=0)
     step = float(np.max(high - low)) / STEPS or 1.0
     strain = _strain_scale(shown)
-    view = choose_view(states[-1])
     parts: list[bytes] = []
-    models = [
-        _model(source, s, np.round((m - low) / step).astype(np.uint16), strain, parts)
-        for source, s, m in zip(sources, shown, moved, strict=True)
+    described = [
+        _model(model, s, np.round((m - low) / step).astype(np.uint16), strain, parts)
+        | {"walls": len(whole.quads)}
+        for model, s, m, whole in zip(models, shown, moved, states, strict=True)
     ]
     header = {
+        "format": FORMAT,
+        "version": VERSION,
+        "title": title,
         "times": [float(t) for t in times],
         "origin": low.tolist(),
         "step": step,
         "size": (high - low).tolist(),
         "view": _view(view),
         "strain": strain,
-        "models": models,
+        "models": described,
     }
+    for model, mine in zip(models, described, strict=True):
+        mine["obstacles"] = obstacles(model.structure, model.result, times, low, high)
     payload = base64.b64encode(zlib.compress(b"".join(parts), 9)).decode()
     # a text element of the page ends at this mark
     text = json.dumps(header, ensure_ascii=True, allow_nan=False).replace("<", "\\u003c")
     return Scene(text, payload, strain, len(times))
 
 
-def _times(states: list[States]) -> Floats | None:
-    """Frame times: those of the reference that both results reached, thinned to the limit of the page."""
+def frame_times(states: Sequence[States]) -> Floats | None:
+    """Frame times: those of the last result that all results reached, thinned to the limit of the page."""
     end = min(float(s.times[-1]) for s in states)
     times = states[-1].times
     # a stepper stops at its first step after each requested time, so the last one may exceed the other's end
@@ -112,9 +140,9 @@ def _strain_scale(shown: list[States]) -> float:
 
 
 def _model(
-    source: Source, states: States, grid: NDArray[np.uint16], strain: float, parts: list[bytes]
+    model: Shown, states: States, grid: NDArray[np.uint16], strain: float, parts: list[bytes]
 ) -> dict[str, Any]:
-    """Append one source's bytes and describe them."""
+    """Append one model's bytes and describe them."""
     quads = states.quads.astype("<u4")
     delta = np.diff(grid, axis=0, prepend=np.zeros_like(grid[:1])).astype("<u2")
     coloured = STRAIN in states.cell_data and strain > 0.0
@@ -126,12 +154,19 @@ def _model(
     if coloured:
         bytes_ = np.round(255 * np.clip(_at_points(states) / strain, 0.0, 1.0)).astype(np.uint8)
         parts.append(np.diff(bytes_, axis=0, prepend=np.zeros_like(bytes_[:1])).tobytes())
+    first = np.searchsorted(states.member, np.arange(len(states.member_names)))
+    in_order = bool(np.all(np.diff(states.member) >= 0))
     return {
-        "name": source.name,
+        "name": model.name,
         "points": len(states.points),
         "quads": len(quads),
         "coloured": coloured,
-        "hinges": _hinges(source, states),
+        "members": list(states.member_names) if in_order else [],
+        "first": [int(i) for i in first] if in_order else [],
+        "hinges": model.hinges(states),
+        "masses": masses(model.structure, states),
+        "supports": supports(model.structure, states),
+        "forces": forces(model.structure, model.result, states),
     }
 
 
@@ -141,45 +176,6 @@ def _at_points(states: States) -> Floats:
     corners = states.quads.reshape(-1)
     number = np.maximum(np.bincount(corners, minlength=len(states.points)), 1)
     return np.stack([np.bincount(corners, np.repeat(row, 4), len(states.points)) / number for row in values])
-
-
-def _hinges(source: Source, states: States) -> list[dict[str, Any]]:
-    """Positions and states of the hinges at every frame."""
-    places = hinge_places(source.result, states)
-    found = []
-    for motion in (*source.hinges, *source.extra):
-        place = places.get(motion.name)
-        if place is None:
-            place = _fold_place(states, motion)
-        found.append(
-            {
-                "name": motion.name,
-                "place": np.round(place, 5).tolist(),
-                "state": hinge_states(motion, states.times),
-                "rotation": np.round(np.interp(states.times, motion.time, motion.rotation), 5).tolist(),
-            }
-        )
-    return found
-
-
-def _fold_place(states: States, motion: HingeMotion) -> Floats:
-    """Centre of the section nearest to a fold, (n_states, 3)."""
-    own = np.flatnonzero(states.member == states.member_names.index(motion.member))
-    station = states.station[own]
-    near = own[np.abs(station - motion.station) <= np.abs(station - motion.station).min() + 1e-9]
-    return np.asarray((states.points[near] + states.displacement[:, near]).mean(axis=1))
-
-
-def hinge_states(motion: HingeMotion, times: Floats) -> list[int]:
-    """Closed, turning or at rest at given times [s]."""
-    plastic = np.maximum.accumulate(np.maximum(motion.sense * motion.plastic_rotation, 0.0))
-    rate = np.gradient(plastic, motion.time) if motion.time.size > 1 else np.zeros_like(plastic)
-    fast = float(np.max(rate, initial=0.0))
-    now, speed = np.interp(times, motion.time, plastic), np.interp(times, motion.time, rate)
-    if not motion.fold:
-        return [CLOSED] * len(times)
-    state = np.where(now < OPEN, CLOSED, np.where(speed > TURNS * fast, TURNING, RESTING))
-    return [int(value) for value in state]
 
 
 def _view(view: View) -> dict[str, list[float]]:

@@ -1,0 +1,162 @@
+"""The viewer in a real browser: it draws, scrubs, picks, shows obstacles, fits a phone."""
+
+import os
+import time
+
+import pytest
+from tests.support.browser import Browser, find_browser
+from tests.unit.report.scene.test_scene import INPUT
+
+from crumple.analysis import loads, solve_with_frames
+from crumple.report import Layout, ReportInput, write_layouts, write_report
+from crumple.report.scene.page import write_view
+
+WEBGL = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+NO_WEBGL = ("--disable-webgl", "--disable-3d-apis")
+
+# what differs from the background, and a sum that changes with the picture
+DRAWN = """(() => {
+  const canvas = document.querySelector('#player canvas'), copy = document.createElement('canvas');
+  copy.width = canvas.width; copy.height = canvas.height;
+  const brush = copy.getContext('2d');
+  brush.drawImage(canvas, 0, 0);
+  const data = brush.getImageData(0, 0, copy.width, copy.height).data;
+  let number = 0, sum = 0;
+  for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 24) {
+    number++;
+    sum += data[i] * ((i / 4) % 997 + 1);
+  }
+  return [number, sum];
+})()"""
+
+
+@pytest.fixture(scope="module", name="pages")
+def _pages(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("pages")
+    analysis = loads(INPUT)
+    result, frames = solve_with_frames(analysis)
+    source = ReportInput(title="thrown", structure=analysis.structure)
+    run = write_report(result, source, folder / "run", frames=frames)
+    one = Layout("one", "thrown", 1.0, result, frames=frames, structure=analysis.structure)
+    layouts = write_layouts([one, Layout("two", "again", 1.0, result)], "two", folder / "layouts")
+    return {"run": run, "layouts": layouts, "view": write_view(run.parent)}
+
+
+@pytest.fixture(scope="module", name="browser", params=[WEBGL, NO_WEBGL], ids=["webgl", "canvas"])
+def _browser(request):
+    path = find_browser()
+    if path is None:
+        assert not os.environ.get("CI"), "no Chromium found, and CI is set"
+        pytest.skip("no Chromium found")
+    browser = Browser(path, request.param)
+    browser.wanted = "webgl" if request.param is WEBGL else "2d"
+    yield browser
+    browser.close()
+
+
+def opened(browser, page, width=1200):
+    browser.open(page.as_uri(), width, 1000)
+    for _ in range(200):
+        if mode := browser.evaluate("document.getElementById('player').dataset.ready || ''"):
+            return mode
+        time.sleep(0.1)
+    raise AssertionError(browser.evaluate("document.querySelector('[data-role=note]').textContent"))
+
+
+def change(browser, role, value):
+    browser.evaluate(
+        f"(() => {{ const c = document.querySelector('[data-role={role}]');"
+        f" if (c.type === 'checkbox') c.checked = {str(value is True).lower()}; else c.value = '{value}';"
+        " c.dispatchEvent(new Event('change')); return 1; })()"
+    )
+
+
+@pytest.mark.parametrize("name", ["run", "layouts", "view"])
+def test_every_page_draws_and_moves_and_fits(browser, pages, name):
+    assert opened(browser, pages[name]) == browser.wanted
+    last = browser.evaluate(DRAWN)
+    assert last[0] > 500
+    slider = "document.querySelector('#player input[type=range]')"
+    browser.evaluate(f"{slider}.value = 0; {slider}.dispatchEvent(new Event('input')); 1")
+    assert browser.evaluate("document.querySelector('#player output').textContent") == "0.0 ms"
+    assert browser.evaluate(DRAWN)[1] != last[1]
+    complaints = ("Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded")
+    assert [event for event in browser.events if event["method"] in complaints] == []
+    requests = [
+        e["params"]["request"]["url"] for e in browser.events if e["method"] == "Network.requestWillBeSent"
+    ]
+    assert [url for url in requests if not url.startswith("data:")] == [pages[name].as_uri()]
+    opened(browser, pages[name], 390)
+    assert browser.evaluate("document.documentElement.scrollWidth") <= 390
+    assert browser.evaluate(DRAWN)[0] > 200
+
+
+def test_what_is_chosen_changes_the_picture(browser, pages):
+    opened(browser, pages["run"])
+    seen = [browser.evaluate(DRAWN)[1]]
+    for role, value in (
+        ("surroundings", False), ("ghost", True), ("colour", "plain"), ("scale", 5), ("facing", "x"),
+        ("facing", "z"),
+    ):  # fmt: skip
+        change(browser, role, value)
+        seen.append(browser.evaluate(DRAWN)[1])
+    assert len(set(seen)) == len(seen)
+
+
+def click(browser, x, y):
+    box = browser.evaluate(
+        "(() => { const c = document.querySelector('#player canvas'); c.scrollIntoView();"
+        " const b = c.getBoundingClientRect(); return [b.left, b.top]; })()"
+    )
+    for kind in ("mousePressed", "mouseReleased"):
+        browser.call(
+            "Input.dispatchMouseEvent", type=kind, x=box[0] + x, y=box[1] + y, button="left", clickCount=1
+        )
+    return browser.evaluate(
+        "(i => i.hidden ? '' : i.textContent)(document.querySelector('[data-role=info]'))"
+    )
+
+
+def test_a_click_on_a_hinge_shows_its_values_at_that_time(browser, pages):
+    opened(browser, pages["run"])
+    place = browser.evaluate("crumplePlayer.seen(0, 'h')")
+    shown = click(browser, *place)
+    assert shown.startswith("hinge h; ")
+    assert " deg; " in shown
+    assert " J" in shown
+    browser.evaluate("crumplePlayer.seek(0); 1")
+    assert "hinge h; closed; 0.00 deg" in browser.evaluate(
+        "document.querySelector('[data-role=info]').textContent"
+    ).replace("-0.00", "0.00")
+    assert browser.evaluate("document.querySelectorAll('[data-role=info] polyline').length") == 2
+
+
+def test_obstacles_are_drawn_where_they_are_described(browser, pages):
+    opened(browser, pages["run"])
+    scene = "crumplePlayer.scene"
+    # the pole comes 2 m/s towards the tube; the plate has turned by 30 degrees about y through (0, 0, 2 m)
+    moved = browser.evaluate(
+        f"(() => {{ const s = {scene}, pole = s.models[0].obstacles[1];"
+        " return [0, s.last].map(f => Array.from(s.obstaclePoints(pole, f).subarray(0, 3))); })()"
+    )
+    assert [b - a for a, b in zip(*moved, strict=True)] == pytest.approx([-0.1, 0.0, 0.0], abs=1e-4)
+    ends = browser.evaluate(
+        f"(() => {{ const s = {scene}, p = s.obstaclePoints(s.models[0].obstacles[0], s.last);"
+        " return [0, 1, 2, 3].map(i => [0, 1, 2].map(k => p[3 * i + k] + s.origin[k] + s.size[k] / 2)); })()"
+    )
+    for x, _, z in ends:
+        # turned right-handed about y: a point at +x goes down
+        assert (z - 2.0) == pytest.approx(-x * 0.57735, abs=1e-3)
+
+
+def test_a_scene_of_a_newer_format_says_so(browser, pages, tmp_path):
+    text = pages["view"].read_text(encoding="utf-8")
+    page = tmp_path / "newer.html"
+    page.write_text(text.replace('"version": 1', '"version": 2', 1), encoding="utf-8")
+    browser.open(page.as_uri(), 800, 600)
+    for _ in range(100):
+        said = browser.evaluate("document.querySelector('p[data-role=note]').textContent")
+        if said:
+            break
+        time.sleep(0.1)
+    assert "up to version 1, not crumple-scene 2" in said
