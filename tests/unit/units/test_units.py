@@ -7,7 +7,6 @@ import math
 import pickle
 import subprocess
 import sys
-import time
 
 import pytest
 from hypothesis import given
@@ -113,13 +112,10 @@ def test_other_units_come_from_pint(text: str, unit: str, value: float) -> None:
         "9" * 200 + " mm",
     ],
 )
-def test_refuses_instantly(text: str) -> None:
-    format_quantity(1.0, "m")
-    start = time.perf_counter()
+def test_refused_without_evaluation(text: str) -> None:
+    """Some of them would keep an evaluating parser busy for ever."""
     with pytest.raises(QuantityError) as caught:
         parse_quantity(text, "m")
-    # the slowest refusal looks an unknown name up in pint, once per process
-    assert time.perf_counter() - start < 5.0
     (problem,) = caught.value.problems
     assert problem.what
     assert problem.allowed == "m, mm, cm, in, ft"
