@@ -38,6 +38,13 @@ def test_the_page_is_written_and_opened(run_command, tmp_path, monkeypatch):
     assert len(opened) == 1
 
 
+def test_a_result_without_shapes_is_refused(run_command, tmp_path):
+    write(tube_result(states=None), tmp_path)
+    code, _, err = run_command("view", tmp_path, "--no-browser")
+    assert code == 2
+    assert "there are too few shapes to show" in err
+
+
 def test_a_folder_without_results_is_refused(run_command, tmp_path):
     code, _, err = run_command("view", tmp_path, "--no-browser")
     assert code == 2

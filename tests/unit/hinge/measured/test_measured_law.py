@@ -89,3 +89,6 @@ def test_mistakes_are_refused(tmp_path):
         loads(text, directory=tmp_path)
     with pytest.raises(InputError, match="given twice"):
         loads(CYCLE.format(more=", files: [joint.csv]"), directory=tmp_path)
+    lists = ", rotations: [[0 deg, 4 deg]], moments: [[0 kN*m, 2 kN*m]]"
+    with pytest.raises(InputError, match="give files or the lists"):
+        loads(CYCLE.format(more=lists), directory=tmp_path)
