@@ -46,7 +46,7 @@ out/tube_upright.yaml: examples/01_tube_bending.yaml
 	sed -e 's/roll: 0 deg /roll: 90 deg/' -e 's/weak axis/strong axis/' $< > $@
 
 test: $(VENV)/installed-test
-	$(BIN)/python -m pytest -m "not slow" $(PARALLEL) --sites build/sites.json
+	$(BIN)/python -m pytest -m "not slow" $(PARALLEL) --sites=build/sites.json
 	$(BIN)/python -m tests.fuzz.sites build/sites.json
 
 fuzz: $(VENV)/installed-test
@@ -63,7 +63,7 @@ check: $(VENV)/installed-test $(VENV)/installed-check
 
 verify: $(VENV)/installed-test $(SANITIZED)/address/installed $(SANITIZED)/thread/installed lowest newest
 	mkdir -p out
-	$(BIN)/python -m pytest --figures out/figures.json
+	$(BIN)/python -m pytest --figures=out/figures.json
 	$(BIN)/python tools/verification_table.py out/figures.json docs
 	tools/sanitized.sh address $(SANITIZED)/address/bin/python -m pytest tests/verification $(KERNEL_TESTS) -m "not slow" --capture=sys
 	tools/sanitized.sh thread $(SANITIZED)/thread/bin/python -m pytest $(KERNEL_TESTS) -k "threads or team" --capture=sys
