@@ -5,8 +5,10 @@
 #                 code is reached by them or listed in tests/fuzz/unreached.txt
 #   make fuzz     attack it with N random inputs (N=2000); findings in out/fuzz
 #   make check    format, lint, types, import contract, sizes, circles of imports
-#   make verify   slow verification too, native code under sanitizers, lowest and newest versions of what users
-#                 install, and docs/verification.md written again
+#   make verify   slow verification too, pages with slow frames, native code under sanitizers, lowest and newest
+#                 versions of what users install, and docs/verification.md written again
+#   make concordance   how far multibody models agree with stored shell results: docs/concordance.md
+#   make web      the scripts of all pages from web/ (needs Node with npm)
 #   make bench    speed, as ratios within one run
 #   make wheel    a wheel in dist/, tested in an environment without a compiler
 #   make clean    remove what make made
@@ -35,7 +37,7 @@ SANITIZED := build/sanitized
 SANITIZERS_address := address,undefined,float-cast-overflow
 SANITIZERS_thread := thread
 
-.PHONY: demo test fuzz check verify bench wheel clean install lowest newest
+.PHONY: demo test fuzz check verify concordance bench wheel clean install lowest newest
 
 demo: $(VENV)/installed $(TUBE)
 	$(BIN)/crumple compare $(TUBE) --out $(DEMO) --second-mesh 2
@@ -59,18 +61,26 @@ check: $(VENV)/installed-test $(VENV)/installed-check
 	$(BIN)/lint-imports
 	$(BIN)/python tools/sizes.py
 	$(BIN)/python tools/circles.py
+	$(BIN)/python tools/web.py --check
 	$(if $(CONSTRAINTS),$(BIN)/python tools/pinned.py $(CONSTRAINTS))
 
 verify: $(VENV)/installed-test $(SANITIZED)/address/installed $(SANITIZED)/thread/installed lowest newest
 	mkdir -p out
-	$(BIN)/python -m pytest --figures=out/figures.json
+	$(BIN)/python -m pytest $(PARALLEL) --durations=40 --figures=out/figures.json
+	SLOW_FRAMES=1 $(BIN)/python -m pytest $(PARALLEL) tests/unit/app tests/unit/report tests/unit/cli/test_view.py
 	$(BIN)/python tools/verification_table.py out/figures.json docs
-	tools/sanitized.sh address $(SANITIZED)/address/bin/python -m pytest tests/verification $(KERNEL_TESTS) -m "not slow" --capture=sys
+	tools/sanitized.sh address $(SANITIZED)/address/bin/python -m pytest $(PARALLEL) --durations=40 tests/verification $(KERNEL_TESTS) -m "not slow" --capture=sys
 	tools/sanitized.sh thread $(SANITIZED)/thread/bin/python -m pytest $(KERNEL_TESTS) -k "threads or team" --capture=sys
 	$(BIN)/python tools/portability.py
 
+concordance: $(VENV)/installed-test
+	$(BIN)/python -m tests.concordance judge
+
 bench: $(VENV)/installed-test
 	@set -e; for script in tests/benchmark/*.py; do echo "== $$script"; $(BIN)/python $$script; done
+
+web:
+	$(PYTHON) tools/web.py
 
 wheel: $(VENV)/installed-wheel
 	$(BIN)/python tools/wheel.py
@@ -103,6 +113,7 @@ $(VENV)/installed-%: tools/extra.py $(VENV)/installed
 # version says of its own newer dependencies is no error of Crumple; what the newest versions say will be one
 lowest: PIP_CONSTRAINT = $(RANGES)/lowest/constraints.txt
 lowest: WARNINGS = -W default::DeprecationWarning
+lowest: export PYTHONWARNINGS = default::DeprecationWarning
 newest: PIP_CONSTRAINT =
 lowest newest: PIP_BUILD_CONSTRAINT = $(PIP_CONSTRAINT)
 lowest newest: $(BIN)/python

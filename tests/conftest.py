@@ -15,9 +15,10 @@ settings.register_profile("repeatable", derandomize=True, deadline=None, databas
 settings.load_profile("repeatable")
 
 _FIGURES = pytest.StashKey[list[dict[str, Any]]]()
-_MODULES = pytest.StashKey[dict[str, dict[str, Any]]]()
 
 RecordFigure = Callable[..., None]
+VERIFICATION = "tests/verification/"
+_PROPERTY = "verification"
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -26,7 +27,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    config.stash[_MODULES] = {}
+    target = config.getoption("--figures")
+    if target and not hasattr(config, "workerinput"):
+        config.pluginmanager.register(_Figures(Path(target)))
     if config.getoption("--sites"):
         from tests.fuzz.sites import Recorder
 
@@ -67,24 +70,28 @@ def record_figure(request: pytest.FixtureRequest) -> RecordFigure:
 def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) -> Iterator[None]:
     outcome = yield
     report = outcome.get_result()  # type: ignore[attr-defined]
-    if report.when != "call" and report.passed:
-        return
-    path = Path(str(item.path)).relative_to(item.config.rootpath).as_posix()
-    module = item.config.stash[_MODULES].setdefault(
-        path,
-        {"doc": getattr(getattr(item, "module", None), "__doc__", "") or "", "outcomes": {}, "figures": []},
-    )
-    module["outcomes"][item.name] = report.outcome
-    module["figures"] += item.stash.get(_FIGURES, [])
+    if item.nodeid.startswith(VERIFICATION) and (report.when == "call" or not report.passed):
+        doc = getattr(getattr(item, "module", None), "__doc__", "") or ""
+        found = {"name": item.name, "doc": doc, "figures": item.stash.get(_FIGURES, [])}
+        report.user_properties.append((_PROPERTY, found))
 
 
-def pytest_sessionfinish(session: pytest.Session) -> None:
-    target = session.config.getoption("--figures")
-    if target:
-        modules = {
-            path: module
-            for path, module in sorted(session.config.stash[_MODULES].items())
-            if path.startswith("tests/verification/")
-        }
-        Path(target).parent.mkdir(parents=True, exist_ok=True)
-        Path(target).write_text(json.dumps(modules, indent=1), encoding="utf-8")
+class _Figures:
+    """Writes what the reports of verification tests carry, from whichever process they come."""
+
+    def __init__(self, target: Path) -> None:
+        self._target = target
+        self._modules: dict[str, dict[str, Any]] = {}
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        for name, found in report.user_properties:
+            if name == _PROPERTY:
+                fresh = {"doc": found["doc"], "outcomes": {}, "figures": []}
+                module = self._modules.setdefault(report.nodeid.partition("::")[0], fresh)
+                module["outcomes"][found["name"]] = report.outcome
+                module["figures"] += found["figures"]
+
+    def pytest_sessionfinish(self) -> None:
+        self._target.parent.mkdir(parents=True, exist_ok=True)
+        text = json.dumps(dict(sorted(self._modules.items())), indent=1)
+        self._target.write_text(text, encoding="utf-8")

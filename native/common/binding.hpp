@@ -62,6 +62,13 @@ inline void require(bool ok, const char* what) {
     if (!ok) throw nanobind::value_error(what);
 }
 
+// times at which the states of the runs of a batch are kept
+inline void require_sample_times(const std::vector<double>& times, double end) {
+    for (std::size_t i = 0; i < times.size(); i++) {
+        require(times[i] >= 0 && times[i] <= end && (i == 0 || times[i - 1] < times[i]), "times must increase from 0 to the end");
+    }
+}
+
 // Converts a Python object to a C++ type; `name` identifies it in the message if it has another type.
 template <class T> T as(nanobind::handle given, const std::string& name) {
     try {

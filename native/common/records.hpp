@@ -65,6 +65,17 @@ template <class T> void put(std::vector<T>& all, std::size_t row, const std::vec
     std::copy(one.begin(), one.end(), all.begin() + static_cast<std::ptrdiff_t>(row * one.size()));
 }
 
+// Row `from` of a column with so many rows, to a row of another column.
+template <class T> void put_from(std::vector<T>& all, std::size_t row, const std::vector<T>& own, std::size_t from, std::size_t rows) {
+    const std::size_t width = own.size() / rows;
+    std::copy_n(own.begin() + static_cast<std::ptrdiff_t>(from * width), width, all.begin() + static_cast<std::ptrdiff_t>(row * width));
+}
+
+// the same of every column
+template <class R> void put_record(R& all, std::size_t row, const R& own, std::size_t from, std::size_t rows) {
+    R::each([&](const char*, auto column) { put_from(all.*column, row, own.*column, from, rows); });
+}
+
 // one row of every column
 template <class R> void put_row(R& all, std::size_t row, const R& one) {
     R::each([&](const char*, auto column) { put(all.*column, row, one.*column); });

@@ -61,6 +61,21 @@ std::vector<Twist> twists(const double* rows, size_t row, size_t bodies, bool& f
     return out;
 }
 
+// rows of a run that reached their times
+void keep(const std::vector<double>& times, const Record& record, size_t row, Samples& out) {
+    const size_t rows = record.time.size();
+    for (size_t i = 0; i < std::min(rows, times.size()) && record.time[i] >= times[i]; i++) {
+        const size_t to = row * times.size() + i;
+        put_from(out.q, to, record.q, i, rows);
+        put_from(out.w, to, record.w, i, rows);
+        put_from(out.pose, to, record.pose, i, rows);
+        put_from(out.velocity, to, record.velocity, i, rows);
+        put_record(out.hinge, to, record.hinge, i, rows);
+        put_record(out.hinge_energy, to, record.hinge_energy, i, rows);
+        put_record(out.energy, to, record.energy, i, rows);
+    }
+}
+
 void solve_row(const Variations& v, size_t row, double end, const Settings& settings,
                const std::function<bool(double)>& go_on, EndValues& out) {
     Model model = varied(v, row);
@@ -72,7 +87,10 @@ void solve_row(const Variations& v, size_t row, double end, const Settings& sett
     if (!finite || !sensible(model)) return;
     Simulation simulation(std::move(model), settings);
     out.lost[row] = simulation.set_motion(velocity.data(), impulse.data());
-    const Record record = simulation.run({end}, go_on), last = simulation.present();
+    std::vector<double> times = v.times;
+    if (times.empty() || times.back() < end) times.push_back(end);
+    const Record record = simulation.run(times, go_on), last = simulation.present();
+    if (!v.times.empty()) keep(v.times, record, row, out.samples);
     out.time[row] = last.time.back();
     put(out.q, row, last.q);
     put(out.w, row, last.w);
@@ -98,6 +116,12 @@ EndValues sized(const Variations& v) {
     resize(out.hinge_energy, n * model.hinges.size());
     resize(out.summary, n * model.hinges.size());
     resize(out.energy, n);
+    const size_t samples = n * v.times.size();
+    for (auto* column : {&out.samples.q, &out.samples.w}) column->assign(samples * dofs, 0.0);
+    for (auto* column : {&out.samples.pose, &out.samples.velocity}) column->assign(samples * bodies * 3, 0.0);
+    resize(out.samples.hinge, samples * model.hinges.size());
+    resize(out.samples.hinge_energy, samples * model.hinges.size());
+    resize(out.samples.energy, samples);
     out.steps.assign(n, 0);
     out.outcome.assign(n, static_cast<int>(Outcome::cancelled));
     return out;

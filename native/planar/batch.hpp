@@ -20,6 +20,15 @@ struct Variations {
     const double* load_scale = nullptr;     // (count, loads): factor on the model's loads
     const double* bodies = nullptr;         // (count, bodies, 4): centre x, y, mass, inertia
     const double* gravity = nullptr;        // (count, 2)
+    std::vector<double> times;              // increasing: steps end at these and the states there are kept; none: the end alone
+};
+
+// States of all variants at the given times, (count times times) rows; zeros at times that a run did not reach.
+struct Samples {
+    std::vector<double> q, w, pose, velocity;
+    ComponentRecord<double> hinge;
+    HingeEnergyRecord<double> hinge_energy;
+    EnergyRecord<double> energy;
 };
 
 // Final values, one row per variant; zeros for a variant that was not solved.
@@ -33,6 +42,7 @@ struct EndValues {
     EnergyRecord<double> energy;
     std::vector<double> residual, lost; // (count); lost: energy lost when the initial motion was made compatible with the joints
     std::vector<int64_t> outcome, steps;
+    Samples samples;
 };
 
 // `poll` is called regularly on the calling thread with the completed share and returns false to cancel.

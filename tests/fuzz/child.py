@@ -61,6 +61,8 @@ def serve(pipe: Connection, words: str) -> None:
     if hasattr(signal, "setitimer"):
         faulthandler.register(signal.SIGPROF, file=2, chain=True)
     warnings.simplefilter("error")
+    # what old versions of dependencies say of each other is no error of Crumple
+    warnings.filterwarnings("default", category=DeprecationWarning, module=r"matplotlib|pyparsing")
     watch = Watch()
     with tempfile.TemporaryDirectory() as folder, contextlib.suppress(EOFError):
         os.chdir(folder)

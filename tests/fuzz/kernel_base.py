@@ -170,7 +170,8 @@ def shell(edits: Any) -> None:
         core.spot_weld(*given["weld"])
     _kernels.shell.Simulation(core, "").advance(given["advance"][0], 1.0, given["advance"][1], 1)
     state = ShellState(model)
-    state.advance(given["advance"][0], steps=given["advance"][1])
+    patience = _patience()
+    state.advance(given["advance"][0], steps=given["advance"][1], cancel=lambda: not patience(None))
     if cut:
         state.cut(0)
 

@@ -160,6 +160,7 @@ SHELL: Table = {
     "fine_at?": [[{"member": "m0", "at": "50 mm"}], [{"member": "m0", "at": "9 m"}]],
     "growth?": [1.3, 1.0],
     "coarse_sections?": ["on", "off"],
+    "t_joints?": ["welded", "rigid"],
     "thickness_points?": [3, 1, 11],
     "thickness_rule?": ["gauss", "lobatto"],
     "element?": ["stabilised", "belytschko-tsay"],

@@ -48,7 +48,7 @@ def test_what_is_driven_beyond_its_limit_ends_before_numbers_lose_their_meaning(
 
 
 def test_strong_friction_does_not_alternate():
-    """A ball of 300 kg strikes a knee; with the friction limits of plain repetition 400 solves a step."""
+    """A ball of 300 kg strikes a knee; with friction limits of plain repetition the run stalls."""
     nodes = {"a": (0, 0, 0), "b": (1.2, 0, 0), "c": (0, 0, 1), "d": (1.2, 0, 1), "m": (0.6, 0, 1)}
     bars = {"ac": "ac", "bd": "bd", "cm": "cm", "md": "md"}
     structure = Structure(
@@ -76,4 +76,4 @@ def test_strong_friction_does_not_alternate():
     result = solve_multibody(structure, Run(0.02, 0.0002))
     assert result.status is Status.COMPLETE, result.reason
     settings = result.provenance.settings
-    assert settings["newton_steps"] < 100 * (settings["steps"] + settings["rejected_steps"])
+    assert settings["newton_steps"] < 20_000

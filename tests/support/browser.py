@@ -32,6 +32,15 @@ os.dup2(write, 4)
 os.execv(sys.argv[3], sys.argv[3:])
 """
 PATIENCE = 60.0  # [s] for one answer; a busy machine starts a browser slowly
+# with SLOW_FRAMES set, what a page defers to its next frame comes late, as on a busy machine: a test that
+# does not wait for it fails always instead of rarely (`make verify`)
+SLOW_FRAMES = """
+const frame = requestAnimationFrame.bind(window), Observer = ResizeObserver;
+window.requestAnimationFrame = (call) => setTimeout(() => frame(call), 300);
+window.ResizeObserver = class extends Observer {
+  constructor(call) { super((...told) => setTimeout(() => call(...told), 300)); }
+};
+"""
 
 
 def find_browser():
@@ -72,6 +81,8 @@ class Browser:
         self._session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Network", "Log", "Runtime"):
             self.call(f"{domain}.enable")
+        if os.environ.get("SLOW_FRAMES"):
+            self.call("Page.addScriptToEvaluateOnNewDocument", source=f"{{{SLOW_FRAMES}}}")
 
     def call(self, method, **parameters):
         self._number += 1
@@ -100,8 +111,13 @@ class Browser:
         while not any(event["method"] == "Page.loadEventFired" for event in self.events):
             self._receive(end)
 
+    def settle(self):
+        """Wait for the frames that the page has asked for."""
+        self.evaluate("new Promise((done) => requestAnimationFrame(() => done(1)))")
+
     def evaluate(self, script):
-        answer = self.call("Runtime.evaluate", expression=script, returnByValue=True)
+        """Value of an expression; of a promise, once it is kept."""
+        answer = self.call("Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=True)
         assert "exceptionDetails" not in answer, answer
         return answer["result"]["value"]
 

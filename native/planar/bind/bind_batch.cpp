@@ -24,6 +24,19 @@ void require_one_topology(const std::vector<const Model*>& models) {
     }
 }
 
+nb::dict samples_of(const Samples& f, const Model& model, size_t n) {
+    const size_t bodies = static_cast<size_t>(model.tree.bodies()), hinges = model.hinges.size();
+    nb::dict d;
+    d["q"] = to_array(f.q, {n, static_cast<size_t>(model.tree.dofs())});
+    d["w"] = to_array(f.w, {n, static_cast<size_t>(model.tree.dofs())});
+    d["pose"] = to_array(f.pose, {n, bodies, 3});
+    d["velocity"] = to_array(f.velocity, {n, bodies, 3});
+    d["hinge"] = columns(f.hinge, {n, hinges});
+    d["hinge_energy"] = columns(f.hinge_energy, {n, hinges});
+    d["energy"] = columns(f.energy, {n});
+    return d;
+}
+
 nb::dict to_dict(const EndValues& f, const Model& model, size_t n) {
     const size_t bodies = static_cast<size_t>(model.tree.bodies()), dofs = static_cast<size_t>(model.tree.dofs());
     const size_t hinges = model.hinges.size();
@@ -47,11 +60,12 @@ nb::dict to_dict(const EndValues& f, const Model& model, size_t n) {
 nb::dict solve(const std::vector<const Model*>& models, const InNumbers& model_of, double end, const Rows& velocity,
                const Rows& impulse, const Rows& capacity_scale, const Rows& load_scale, const Rows& bodies,
                const Rows& gravity, double accuracy, double minimum_step, double maximum_step, int threads,
-               nb::object poll) {
+               nb::object poll, const std::vector<double>& times) {
     require_all(models);
     require_one_topology(models);
     require_settings(accuracy, minimum_step, maximum_step);
     require(std::isfinite(end) && end > 0, "the end must come after the start");
+    require_sample_times(times, end);
     const Model& first = *models.front();
     const auto n = static_cast<size_t>(first.tree.bodies());
     Variations v;
@@ -67,9 +81,12 @@ nb::dict solve(const std::vector<const Model*>& models, const InNumbers& model_o
     v.load_scale = rows(load_scale, v.count, first.loads.size(), "load_scale must have shape (variants, loads)");
     v.bodies = rows(bodies, v.count, 4 * n, "bodies must have shape (variants, bodies, 4)");
     v.gravity = rows(gravity, v.count, 2, "gravity must have shape (variants, 2)");
+    v.times = times;
     const Settings settings{accuracy, minimum_step, maximum_step, 1};
     const EndValues end_values = unlocked(poll, [&](const auto& ask) { return solve_many(v, end, settings, threads, ask); });
-    return to_dict(end_values, first, v.count);
+    nb::dict found = to_dict(end_values, first, v.count);
+    if (!times.empty()) found["samples"] = samples_of(end_values.samples, first, v.count * times.size());
+    return found;
 }
 
 }  // namespace
@@ -78,7 +95,7 @@ void bind_batch(nb::module_& m) {
     m.def("solve_many", &solve, nb::arg("models"), nb::arg("model_of"), nb::arg("end"), nb::arg("velocity").none(),
           nb::arg("impulse").none(), nb::arg("capacity_scale").none(), nb::arg("load_scale").none(), nb::arg("bodies").none(),
           nb::arg("gravity").none(), nb::arg("accuracy"), nb::arg("minimum_step"), nb::arg("maximum_step"), nb::arg("threads"),
-          nb::arg("poll").none(), "Solve every variant as one run would, on several threads.");
+          nb::arg("poll").none(), nb::arg("times") = std::vector<double>{}, "Solve every variant as one run would, on several threads.");
 }
 
 }  // namespace CRUMPLE_ARITHMETIC

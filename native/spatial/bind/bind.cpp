@@ -1,6 +1,7 @@
 // Python interface of the spatial kernel: conversion of plain values, no physics.
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -221,6 +222,7 @@ Condition make_condition(const Model& model, nb::handle given) {
     require(kind >= 0 && kind <= static_cast<int>(Quantity::displacement), "unknown condition");
     c.quantity = static_cast<Quantity>(kind);
     c.value = entry<double>(t, 1);
+    require(std::isfinite(c.value), "the value of a condition is finite");
     c.index = entry<int>(t, 2);
     c.freedom = entry<int>(t, 3);
     const auto bodies = entry<std::vector<int>>(t, 4);
@@ -332,6 +334,7 @@ std::pair<int, int> freedoms(Simulation& s) {
 
 void bind(nb::module_& m) {
     using Run = Used<Simulation>;
+    nb::class_<Guide>(m, "Guide", "The steps of a run, with which runs of similar models start theirs.");
     nb::class_<Run>(m, "Simulation", "One run: a frozen model, its state, and the adaptive stepper.")
         .def("__init__",
              [](Run* self, const nb::dict& model, double accuracy, double minimum_step, double maximum_step, int parts) {
@@ -343,6 +346,11 @@ void bind(nb::module_& m) {
         .def("stage", alone(&stage))
         .def("run", alone(&run), nb::arg("times"), nb::arg("poll") = nb::none())
         .def("step", alone(&step))
+        .def("keep_guide", alone(+[](Simulation& s) { s.keep_guide(); }))
+        .def("guide", alone(+[](Simulation& s) { return s.guide(); }))
+        .def("be_guided_by", alone(+[](Simulation& s, std::shared_ptr<Guide> lead, bool pairs) {
+                 s.be_guided_by(pairs ? std::make_shared<Guide>(in_pairs(*lead)) : std::move(lead));
+             }))
         .def("crushed", alone(&crushed))
         .def("freedoms", alone(&freedoms))
         .def("redundant", alone(+[](Simulation& s) { return s.stepper().redundant_rows(); }))

@@ -24,6 +24,18 @@ void add_stage(Case& of, double duration, bool quasi_static, const std::vector<i
     of.stages.push_back(stage);
 }
 
+nb::dict samples_of(const Samples& f, const Case& of, size_t n) {
+    const size_t bodies = of.model.bodies.size(), components = n > 0 ? f.hinge.rate.size() / n : 0;
+    nb::dict d;
+    d["centre"] = to_array(f.centre, {n, bodies, 3});
+    d["rotation"] = to_array(f.rotation, {n, bodies, 4});
+    d["velocity"] = to_array(f.velocity, {n, bodies, 6});
+    d["hinge"] = columns(f.hinge, {n, components});
+    d["hinge_energy"] = columns(f.hinge_energy, {n, of.model.hinges.size()});
+    d["energy"] = columns(f.energy, {n});
+    return d;
+}
+
 nb::dict to_dict(const EndValues& f, const Case& of, size_t n) {
     const size_t bodies = of.model.bodies.size(), hinges = of.model.hinges.size(), components = n > 0 ? f.hinge.rate.size() / n : 0;
     nb::dict d;
@@ -46,7 +58,7 @@ nb::dict to_dict(const EndValues& f, const Case& of, size_t n) {
 nb::dict solve(const std::vector<const Case*>& cases, const InNumbers& case_of, const Rows& velocity, const Rows& impulse,
                const Rows& capacity_scale, const Rows& load_scale, const Rows& bodies, const Rows& gravity, double accuracy,
                double minimum_step, double maximum_step, int threads, nb::object poll,
-               bool led) {
+               bool led, const std::vector<double>& times) {
     require(!cases.empty(), "at least one model is needed");
     require_all(cases);
     require_settings(accuracy, minimum_step, maximum_step);
@@ -58,7 +70,12 @@ nb::dict solve(const std::vector<const Case*>& cases, const InNumbers& case_of, 
     const ContactModel& contact = first.model.contact;
     require(!led || (contact.obstacles.empty() && contact.pairs.empty()), "runs with contact have no followers");
     const size_t n = first.model.bodies.size(), motions = 6 * n * first.stages.size();
+    double end = 0;
+    for (const CaseStage& stage : first.stages) end += stage.duration;
+    require_sample_times(times, end * (1 + 1e-12));
+    require(!led || times.empty(), "followers have no samples");
     Variations v;
+    v.times = times;
     v.count = case_of.shape(0);
     v.cases = cases;
     v.case_of = case_of.data();
@@ -74,7 +91,9 @@ nb::dict solve(const std::vector<const Case*>& cases, const InNumbers& case_of, 
     const Settings settings{accuracy, minimum_step, maximum_step, 1};
     const auto solver = led ? solve_led : solve_many;
     const EndValues end_values = unlocked(poll, [&](const auto& ask) { return solver(v, settings, threads, ask); });
-    return to_dict(end_values, first, v.count);
+    nb::dict found = to_dict(end_values, first, v.count);
+    if (!times.empty()) found["samples"] = samples_of(end_values.samples, first, v.count * times.size());
+    return found;
 }
 
 }  // namespace
@@ -86,7 +105,7 @@ void bind_batch(nb::module_& m) {
     m.def("solve_many", &solve, nb::arg("cases"), nb::arg("case_of"), nb::arg("velocity").none(), nb::arg("impulse").none(),
           nb::arg("capacity_scale").none(), nb::arg("load_scale").none(), nb::arg("bodies").none(), nb::arg("gravity").none(),
           nb::arg("accuracy"), nb::arg("minimum_step"), nb::arg("maximum_step"), nb::arg("threads"), nb::arg("poll").none(),
-          nb::arg("led"), "Solve every variant as one run would; or, led, the first so and the others in its steps.");
+          nb::arg("led"), nb::arg("times") = std::vector<double>{}, "Solve every variant as one run would; or, led, the first so and the others in its steps.");
 }
 
 }  // namespace crumple::spatial

@@ -11,6 +11,8 @@ namespace {
 // as shares of the segment's length.
 constexpr double flatness = 1e-7, narrow = 1e-3;
 constexpr int most_breaks = 4;
+// slope to a plane from which on a segment is not treated as sliding over its edge
+constexpr double steep = 1;
 // halvings of the interval: the position of the minimum to 1e-12 of the length, at which its depth is exact
 constexpr int halvings = 40;
 // a shorter segment is a sphere, a shorter distance has no direction [m]
@@ -95,6 +97,18 @@ public:
         return 4;
     }
 
+    // Contact at a break.  A segment that falls beyond the straight edge of a plane touches it with its point closest to the edge, at
+    // right angles, as between two edges: while it slides, the point at the break moves along it, so that the gap there does not change
+    // at the rate of the body's point.
+    Lowest at_break(double s) const {
+        const Distance d = (*this)(s);
+        if (solid_.shape != Shape::plane) return {s, d};
+        const double pass = dot(solid_.edge, along_), fall = -slope(d) / pass, size = std::hypot(1.0, fall);
+        const double place = s + fall * d.value / (pass * size * size);
+        if (!(fall > 0 && fall < steep && place >= 0 && place <= 1)) return {s, d};
+        return {place, {d.value / size, (1 / size) * (d.normal + fall * solid_.edge)}};
+    }
+
 private:
     const Solid& solid_;
     Vec3 from_, along_;
@@ -139,6 +153,11 @@ double least_gap(const Solid& solid, const Segment& segment) {
     return distance(solid, middle).value - norm(segment.second - segment.first) / 2 - segment.radius;
 }
 
+double least_gap(const Segment& first, const Segment& second) {
+    const double apart = norm(second.first + second.second - first.first - first.second);
+    return (apart - norm(first.second - first.first) - norm(second.second - second.first)) / 2 - first.radius - second.radius;
+}
+
 int touches(const Solid& solid, const Segment& segment, Touch* out) {
     const Profile profile(solid, segment);
     int n = 0;
@@ -156,7 +175,8 @@ int touches(const Solid& solid, const Segment& segment, Touch* out) {
     const int valley = n;
     for (int k = 0; k < breaks; k++) {
         if (!(place[k] > narrow && place[k] < 1 - narrow)) continue;
-        add(3 + k, place[k], profile(place[k]));
+        const Lowest touch = profile.at_break(place[k]);
+        add(3 + k, touch.s, touch.distance);
         least = std::min(least, out[n - 1].gap);
     }
     if (lowest.distance.value - segment.radius < least - flatness * profile.length()) {

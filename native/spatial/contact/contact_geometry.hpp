@@ -47,8 +47,9 @@ struct Touch {
 constexpr int most_touches = 7;
 
 Distance distance(const Solid& solid, Vec3 x);
-// a lower bound of the gap that is fast to compute
+// lower bounds of the gap that are fast to compute: with a solid, and of two capsules by the spheres around them
 double least_gap(const Solid& solid, const Segment& segment);
+double least_gap(const Segment& first, const Segment& second);
 // points of contact; returns their number
 int touches(const Solid& solid, const Segment& segment, Touch* out);
 // two unit vectors that form a right-handed system with the unit vector n

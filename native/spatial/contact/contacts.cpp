@@ -173,12 +173,15 @@ bool Contacts::among(const std::vector<Active>& contacts, int64_t key) {
 }
 
 bool Contacts::overlooked(const std::vector<Pose>& pose, const ContactState& state) const {
+    std::vector<Segment> now;
+    for (const Capsule& capsule : model_.capsules) now.push_back(placed(capsule, pose));
     auto overlaps = [&](size_t p) {
         const Pair& pair = pairs_[p];
         if (!pair.present) return false;
         const double closed = offset(p, state);
-        const Solid solid = solid_at(pair, pose);
-        const Segment segment = placed(model_.capsules[at(pair.capsule)], pose);
+        const Segment& segment = now[at(pair.capsule)];
+        if (pair.obstacle < 0 && least_gap(now[at(pair.solid)], segment) - closed > -closed_gap_) return false;
+        const Solid solid = pair.obstacle < 0 ? as_solid(now[at(pair.solid)]) : solid_at(pair, pose);
         if (least_gap(solid, segment) - closed > -closed_gap_) return false;
         Touch touch[most_touches];
         const int n = touches(solid, segment, touch);
@@ -199,8 +202,9 @@ bool Contacts::overlooked(const std::vector<Pose>& pose, const ContactState& sta
 void Contacts::find(size_t p, const std::vector<Pose>& pose, double reach, double offset) {
     const Pair& pair = pairs_[p];
     if (!pair.present) return;
-    const Solid solid = solid_at(pair, pose);
     const Segment& segment = placed_[at(pair.capsule)];
+    if (pair.obstacle < 0 && least_gap(placed_[at(pair.solid)], segment) - offset > kept * reach) return;
+    const Solid solid = pair.obstacle < 0 ? as_solid(placed_[at(pair.solid)]) : solid_at(pair, pose);
     if (least_gap(solid, segment) - offset > kept * reach) return;
     Touch touch[most_touches];
     const int n = touches(solid, segment, touch);
@@ -327,7 +331,7 @@ bool Contacts::settle(const double* impulse, const double* rate0, const double* 
         restitution_share_ = restitution_share_ < least_bounce ? 0 : less_bounce * restitution_share_;
         return false;
     }
-    return change <= settled_change * largest;
+    return change <= settled_change_ * largest;
 }
 
 void Contacts::commit(double h, bool from_rest, const Row* at_middle, const double* impulse, const double* rate0,

@@ -57,10 +57,6 @@ struct ContactState {
     double closing = 0;                   // after a step: time from its start at which its first open contact closed; 0 if none did
 };
 
-// The friction limit uses the normal impulse of the previous pass; passes are repeated until it changes by less than this share of the
-// largest normal impulse.
-constexpr double settled_change = 1e-6;
-
 class Contacts {
 public:
     explicit Contacts(const ContactModel& model);
@@ -113,6 +109,9 @@ public:
     // without bounces every impact has zero restitution, and contacts at rest act together with it
     void set_bounces(bool bounces) { bounces_ = bounces; }
 
+    // The friction limit uses the normal impulse of the previous pass; passes are repeated until it changes by less than this share of
+    // the largest normal impulse.
+    void set_settled(double change) { settled_change_ = change; }
     // gap below which a contact counts as closed [m], and energy of an approach below which it is not treated as an impact [J]
     void set_limits(double closed_gap, double negligible_energy) {
         closed_gap_ = closed_gap;
@@ -165,7 +164,7 @@ private:
     std::vector<int> order_;               // capsules sorted along x at the last sweep
     double margin_ = 0;
     std::vector<Active> active_, before_;
-    double closed_gap_ = 1e-6, negligible_energy_ = 0, restitution_share_ = 1;
+    double closed_gap_ = 1e-6, negligible_energy_ = 0, restitution_share_ = 1, settled_change_ = 1e-6;
     bool bounces_ = true;
     size_t rows_ = 3;
     int passes_ = 0;                       // over the present step so far

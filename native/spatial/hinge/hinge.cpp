@@ -10,6 +10,8 @@ namespace {
 constexpr int most = most_components;
 // Change of a softening variable [rad or m] below which the mean capacity is taken at the middle: differences of areas lose digits.
 constexpr double smallest_mean = 1e-7;
+// Flow in a step [rad or m] up to which a hinge creeps: D_0 then changes by the work of the flow at the point of the surface found last.
+constexpr double smallest_flow = 1e-8;
 // The rest time of an elastic hinge ignores flow below this share of its accumulated plastic work, as with a single component.
 constexpr double smallest_episode = 1e-2;
 // Rates below this multiple of the ramp's half-width count as rest when the rotation of the hinge's axis is evaluated.
@@ -33,7 +35,17 @@ SurfacePoint measure_from(const SpatialHinge& hinge, const double* e, const doub
     const double none[most] = {};
     double y[most];
     for (int k = 0; k < n; k++) y[k] = e[k] * first_capacity(hinge, k, e[k] < 0 ? 1 : 0);
-    return nearest(hinge.surface, n, y, none, guess, nullptr);
+    return nearest(hinge.surface, n, y, none, guess, nullptr, true);
+}
+
+// The same for the rotation e after a flow from the present one.
+SurfacePoint measure_after(const SpatialHinge& hinge, const SpatialHingeState& s, const double* e, const double* flow) {
+    bool creeps = hinge.surface.coupling == Coupling::section;
+    for (int k = 0; k < size(hinge); k++) creeps = creeps && std::fabs(flow[k]) <= smallest_flow;
+    if (!creeps) return measure_from(hinge, e, s.along);
+    SurfacePoint p{{s.along[0], s.along[1], s.along[2], s.along[3]}, s.work};
+    for (int k = 0; k < size(hinge); k++) p.value += p.x[k] * first_capacity(hinge, k, p.x[k] < 0 ? 1 : 0) * flow[k];
+    return p;
 }
 
 double measure(const SpatialHinge& hinge, const double* e) { return measure_from(hinge, e, nullptr).value; }
@@ -98,7 +110,7 @@ void set_coupled_capacity(const SpatialHinge& hinge, const SpatialHingeState& s,
     double end[most] = {};
     for (int k = 0; k < n; k++) end[k] = e[k] + flow[k];
     const bool follows = hinge.surface.coupling == Coupling::section;
-    double from = follows ? s.work : measure(hinge, e), to = measure_from(hinge, end, follows ? s.along : nullptr).value, held = 0;
+    double from = follows ? s.work : measure(hinge, e), to = measure_after(hinge, s, end, flow).value, held = 0;
     switch (law_of(hinge, 0).softening) {
         case Softening::rotation: break;
         case Softening::accumulated: from = s.softening, to = s.softening + measure(hinge, flow); break;
@@ -245,14 +257,17 @@ void gather_separate(const SpatialHinge& hinge, const FrozenSpatialHinge& f, Spa
 void follow_flow(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHingeState& s, double t0, const double* w1,
                  const double* flow, double arrest) {
     const bool elastic = form_of(hinge) == Form::elastic_plastic;
-    const double load = load_factor(hinge, f, w1), work = on_flange(hinge) ? 0 : measure(hinge, flow);
+    // rigid hinges flow whenever they slide; the work of a flow shows when an elastic one does
+    const bool counted = elastic || law_of(hinge, 0).softening == Softening::accumulated;
+    const double work = on_flange(hinge) || !counted ? 0 : measure(hinge, flow);
     double ahead = 0, start = 0;
     for (int k = 0; k < size(hinge); k++) {
         const double c = std::max(f.component[k].capacity[0], f.component[k].capacity[1]);
         ahead += c * c * f.w0[k] * w1[k], start += c * c * f.w0[k] * f.w0[k];
     }
-    bool flowed = load > 1, turned_back = false;
+    bool flowed = false, turned_back = false;
     if (elastic) {
+        flowed = load_factor(hinge, f, w1) > 1;
         turned_back = (s.sliding || flowed) && ahead < 0;
         if (turned_back) {
             flowed = true;
@@ -328,9 +343,8 @@ void commit(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHinge
     bool stopped = false;
     for (int k = 0; k < n; k++) stopped = stopped || hinge::stop_response(law_of(hinge, k), f.component[k], w1[k]).impulse != 0;
     // a hinge at rest at the end came to rest when its capacity had yielded the impulse
-    const double load = load_factor(hinge, f, w1);
-    const bool by_itself = form_of(hinge) == Form::set_valued && !stopped && load < 1;
-    const double arrest = t0 + (by_itself ? load : 1) * f.h;
+    const bool alone = form_of(hinge) == Form::set_valued && !stopped;
+    const double arrest = t0 + (alone ? std::min(load_factor(hinge, f, w1), 1.0) : 1) * f.h;
     for (int k = 0; k < n; k++) {
         hinge::HingeState& c = s.component[k];
         for (int sense = 0; sense < 2; sense++) c.hint[sense] = f.hint[k][sense];
@@ -357,8 +371,9 @@ void commit(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHinge
         gather_separate(hinge, f, s, t0, before, arrest);
     } else {
         follow_flow(hinge, f, s, t0, w1, flow, arrest);
-        if (!on_flange(hinge)) {
-            const SurfacePoint reached = measure_from(hinge, e, s.along);
+        // only softening depends on the work so far
+        if (!on_flange(hinge) && softens(hinge)) {
+            const SurfacePoint reached = measure_after(hinge, s, e, flow);
             s.work = reached.value;
             std::copy_n(reached.x, n, s.along);
             if (law_of(hinge, 0).softening == Softening::peak) s.softening = std::max(s.softening, s.work);

@@ -48,10 +48,10 @@ struct SpatialHinge {
 // total_moment (including damper and stops), capacity, and the energies dissipated, damped and stop_dissipated.
 struct SpatialHingeState {
     hinge::HingeState component[most_components];
-    double softening = 0;       // coupled: the measure s [J], largest or accumulated
-    double work = 0;            // coupled by a section's surface: D_0(e) of the plastic rotation e so far [J]
+    double softening = 0;       // coupled, with a capacity that varies: the measure s [J], largest or accumulated
+    double work = 0;            // the same, coupled by a section's surface: D_0(e) of the plastic rotation e so far [J]
     double along[most_components] = {};  // the point of the surface where it is found
-    double episode = 0, accumulated = 0;  // coupled: plastic work since the hinge last came to rest, and in total [J]
+    double episode = 0, accumulated = 0;  // coupled, elastic: plastic work since the hinge last came to rest, and in total [J]
     double rotation_max = 0;    // largest length of the rotation vector [rad]
     double opening_time = -1, rest_time = 0;  // start of the first plastic flow (-1: none yet), end of the last one [s]
     double fracture_time = -1;  // -1: not fractured

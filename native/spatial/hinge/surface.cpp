@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 
 namespace crumple::spatial {
 
@@ -16,6 +17,8 @@ constexpr int halvings = 40;
 constexpr double smallest_load = 1e-280;
 // Residual relative to the load y at which the iteration has converged: a few rounding errors of the sum over rows.
 constexpr double converged = 1e-15;
+// The same where only the value is asked: at the maximum its error is of second order, the square of this over a curvature of the surface.
+constexpr double value_converged = 1e-9;
 
 // v^p for v >= 0; multiples of one half, which fits use, without the general power, which takes most of the time otherwise
 double to_power(double v, double p) {
@@ -183,26 +186,36 @@ void inverse_block(int n, const double* m, double multiplier, const Shape& at, d
     }
 }
 
-// Newton's method on the surface: a step in the tangent plane, then back to g = 1 along the ray.  The multiplier is that of the
-// radial direction, which is exact at the solution.  The objective never decreases, so the iteration converges from any start.
-SurfacePoint on_section(const Surface& s, int n, const double* y, const double* m, const double* guess, double* derivative) {
-    SurfacePoint p;
-    const double load = length(n, y);
-    double best = -1, free[most] = {0, 0, 0, 0};
-    bool equal = true;
-    for (int k = 0; k < n; k++) free[k] = m[k] > 0 ? y[k] / m[k] : 0, equal = equal && m[k] == m[0];
-    for (const double* start : {equal ? y : free, guess}) {
+// The point where a search begins: of the given ones, put on the surface, that with the largest objective.
+double begin_at(const Surface& s, int n, const double* y, const double* m, std::initializer_list<const double*> starts, double* x) {
+    double best = -1;
+    for (const double* start : starts) {
         if (start == nullptr) continue;
         double trial[most];
         const double g = gauge(s, n, start, nullptr);
         if (!(g > 0)) continue;
         for (int k = 0; k < n; k++) trial[k] = start[k] / g;
         const double f = objective(n, y, m, trial);
-        if (f > best) {
-            best = f;
-            std::copy(trial, trial + n, p.x);
-        }
+        if (f <= best) continue;
+        best = f;
+        std::copy(trial, trial + n, x);
     }
+    return best;
+}
+
+// Newton's method on the surface: a step in the tangent plane, then back to g = 1 along the ray.  The multiplier is that of the
+// radial direction, which is exact at the solution.  The objective never decreases, so the iteration converges from any start.
+SurfacePoint on_section(const Surface& s, int n, const double* y, const double* m, const double* guess, double* derivative,
+                        bool value_only) {
+    SurfacePoint p;
+    const double load = length(n, y);
+    double free[most] = {0, 0, 0, 0};
+    bool equal = true;
+    for (int k = 0; k < n; k++) free[k] = m[k] > 0 ? y[k] / m[k] : 0, equal = equal && m[k] == m[0];
+    const double tolerance = value_only ? value_converged : converged;
+    // the largest work is sought from one rotation to the next, so the point before is near
+    double best = value_only ? begin_at(s, n, y, m, {guess}, p.x) : 0;
+    if (!(best > 0)) best = begin_at(s, n, y, m, {equal ? y : free, guess}, p.x);
     Shape at = shape(s, n, p.x, true);
     auto residual = [&](const double* x, const Shape& here, double* r) {
         double multiplier = 0;
@@ -213,7 +226,7 @@ SurfacePoint on_section(const Surface& s, int n, const double* y, const double* 
     double r[most];
     p.multiplier = residual(p.x, at, r);
     double left = length(n, r);
-    for (int iteration = 0; iteration < newton_limit && left > converged * load; iteration++) {
+    for (int iteration = 0; iteration < newton_limit && left > tolerance * load; iteration++) {
         double a[most + 1][most + 1], b[most + 1][most + 1] = {};
         bordered(n, m, std::max(p.multiplier, 1e-3 * load), at, a);
         for (int k = 0; k < n; k++) b[k][0] = r[k];
@@ -305,7 +318,8 @@ double half_square(const Surface& s, int n, const double* x, double* gradient, d
     return section ? at.g * at.g : dot(n, x, x);
 }
 
-SurfacePoint nearest(const Surface& s, int n, const double* y, const double* m, const double* guess, double* derivative) {
+SurfacePoint nearest(const Surface& s, int n, const double* y, const double* m, const double* guess, double* derivative,
+                     bool value_only) {
     SurfacePoint p;
     bool inside = true;
     for (int k = 0; k < n; k++) {
@@ -317,7 +331,7 @@ SurfacePoint nearest(const Surface& s, int n, const double* y, const double* m, 
     if (largest > smallest_load && (!inside || gauge(s, n, p.x, nullptr) > 1)) {
         double load[most], metric[most];
         for (int k = 0; k < n; k++) load[k] = y[k] / largest, metric[k] = m[k] / largest;
-        p = s.coupling == Coupling::section ? on_section(s, n, load, metric, guess, derivative)
+        p = s.coupling == Coupling::section ? on_section(s, n, load, metric, guess, derivative, value_only)
                                             : on_ellipsoid(n, load, metric, derivative);
         p.value *= largest;
         p.multiplier *= largest;

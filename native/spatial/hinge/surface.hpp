@@ -36,8 +36,10 @@ double gauge(const Surface& s, int n, const double* x, double* gradient);
 // g^2/2, which is smooth at g = 0, with gradient (n) and curvature (n x n, rows `stride` apart); returns g^2
 double half_square(const Surface& s, int n, const double* x, double* gradient, double* curvature, int stride);
 // Solves the problem.  `guess` (null: none): direction of the start point; `derivative` (n x n, null: not computed): dx/dy, symmetric
-// and positive semidefinite.  Closed form for the ellipsoid with equal m, otherwise Newton's method.
-SurfacePoint nearest(const Surface& s, int n, const double* y, const double* m, const double* guess, double* derivative);
+// and positive semidefinite; `value_only`: the value is asked, and the point need not be exact.  Closed form for the ellipsoid with equal
+// m, otherwise Newton's method.
+SurfacePoint nearest(const Surface& s, int n, const double* y, const double* m, const double* guess, double* derivative,
+                     bool value_only = false);
 
 // Set of (M, N), N positive in tension: |M| <= top, |M| - N arm <= moment, -crush <= N <= pull.
 struct Flange {

@@ -84,6 +84,14 @@ struct State {
     double slowed = 0;                          // kinetic energy that quasi-static stages removed
     double obstacle_work = 0;                   // part of the external work: that on obstacles
     double load_work = 0, dragged = 0;          // quasi-static: work of loads and gravity on the structure, and energy lost to drag
+    // takes what is a mean of the last step from another state
+    void take_means(const State& other) {
+        acceleration = other.acceleration;
+        travel = other.travel;
+        last_step = other.last_step;
+        joint_force = other.joint_force;
+        contact.force = other.contact.force;
+    }
     void work_on(bool obstacle, double work) {
         external_work += work;
         if (obstacle) obstacle_work += work;

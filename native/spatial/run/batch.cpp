@@ -92,7 +92,7 @@ std::vector<Twist> twists(const double* rows, size_t row, size_t count, bool& al
 class Tour {
 public:
     Tour(const Variations& v, size_t row, const Settings& settings, EndValues& out)
-        : of_(*v.cases[v.case_of ? static_cast<size_t>(v.case_of[row]) : 0]), row_(row), out_(out) {
+        : times_(v.times), of_(*v.cases[v.case_of ? static_cast<size_t>(v.case_of[row]) : 0]), row_(row), out_(out) {
         out_.outcome[row] = static_cast<int>(Outcome::refused);
         Model model = varied(v, of_, row);
         const size_t count = of_.stages.size() * model.bodies.size();
@@ -107,8 +107,16 @@ public:
         for (size_t k = 0; simulation_ && k < of_.stages.size() && outcome == Outcome::complete; k++) {
             begin(k);
             if (step_records) simulation_->keep(&step_records->emplace_back());
-            const Record record = simulation_->run({simulation_->state().t + of_.stages[k].duration}, go_on);
+            const double end = simulation_->state().t + of_.stages[k].duration;
+            std::vector<double> times;
+            // a stage that ended on a condition is followed by one that begins between the samples
+            for (const double t : times_) {
+                if (t >= simulation_->state().t && t < end) times.push_back(t);
+            }
+            times.push_back(end);
+            const Record record = simulation_->run(times, go_on);
             simulation_->keep(nullptr);
+            keep(record);
             outcome = record.outcome;
             out_.residual[row_] = std::max(out_.residual[row_], record.residual);
             out_.steps[row_] += record.steps;
@@ -133,7 +141,10 @@ private:
         out_.lost[row_] += simulation_->set_motion(velocity_.data() + first, impulse_.data() + first);
     }
     void store(Outcome outcome);
+    void keep(const Record& record);
 
+    const std::vector<double>& times_;
+    size_t kept_ = 0;  // samples so far
     const Case& of_;
     size_t row_;
     EndValues& out_;
@@ -158,6 +169,23 @@ void Tour::store(Outcome outcome) {
     out_.outcome[row_] = static_cast<int>(outcome);
 }
 
+// the rows of a stage that are at the times of samples
+void Tour::keep(const Record& record) {
+    const size_t rows = record.time.size();
+    Samples& out = out_.samples;
+    for (size_t i = 0; i < rows && kept_ < times_.size(); i++) {
+        // a stage's end is rounded, and what it leaves out begins the next one
+        if (std::fabs(record.time[i] - times_[kept_]) > 1e-12 * times_.back()) continue;
+        const size_t row = row_ * times_.size() + kept_++;
+        put_from(out.centre, row, record.centre, i, rows);
+        put_from(out.rotation, row, record.rotation, i, rows);
+        put_from(out.velocity, row, record.velocity, i, rows);
+        put_record(out.hinge, row, record.hinge, i, rows);
+        put_record(out.hinge_energy, row, record.hinge_energy, i, rows);
+        put_record(out.energy, row, record.energy, i, rows);
+    }
+}
+
 }  // namespace
 
 bool alike(const Case& a, const Case& b) {
@@ -172,7 +200,7 @@ bool alike(const Case& a, const Case& b) {
     return same;
 }
 
-EndValues sized(const Case& of, size_t n) {
+EndValues sized(const Case& of, size_t n, size_t times) {
     const size_t bodies = of.model.bodies.size(), hinges = of.model.hinges.size();
     size_t components = 0;
     for (const SpatialHinge& hinge : of.model.hinges) components += static_cast<size_t>(size(hinge));
@@ -185,13 +213,20 @@ EndValues sized(const Case& of, size_t n) {
     resize(out.hinge_energy, n * hinges);
     resize(out.summary, n * hinges);
     resize(out.energy, n);
+    const size_t samples = n * times;
+    out.samples.centre.assign(samples * bodies * 3, 0.0);
+    out.samples.rotation.assign(samples * bodies * 4, 0.0);
+    out.samples.velocity.assign(samples * bodies * 6, 0.0);
+    resize(out.samples.hinge, samples * components);
+    resize(out.samples.hinge_energy, samples * hinges);
+    resize(out.samples.energy, samples);
     out.steps.assign(n, 0);
     out.outcome.assign(n, static_cast<int>(Outcome::cancelled));
     return out;
 }
 
 EndValues solve_many(const Variations& v, const Settings& settings, int threads, const std::function<bool(double)>& poll) {
-    EndValues out = sized(*v.cases.front(), v.count);
+    EndValues out = sized(*v.cases.front(), v.count, v.times.size());
     auto solve = [&](size_t row, const std::function<bool(double)>& go_on) { Tour(v, row, settings, out).run(go_on, nullptr); };
     // a variant takes a millisecond or more, so threads take one at a time
     share_out(v.count, 1, threads, solve, poll);
@@ -199,7 +234,7 @@ EndValues solve_many(const Variations& v, const Settings& settings, int threads,
 }
 
 EndValues solve_led(const Variations& v, const Settings& settings, int threads, const std::function<bool(double)>& poll) {
-    EndValues out = sized(*v.cases.front(), v.count);
+    EndValues out = sized(*v.cases.front(), v.count, v.times.size());
     std::vector<StepRecords> step_records;
     auto lead = [&](size_t row, const std::function<bool(double)>& go_on) { Tour(v, row, settings, out).run(go_on, &step_records); };
     share_out(std::min<size_t>(v.count, 1), 1, 1, lead, poll);

@@ -37,6 +37,15 @@ struct Variations {
     const double* load_scale = nullptr;      // (count, loads): factor on the model's loads
     const double* bodies = nullptr;          // (count, bodies, body_columns)
     const double* gravity = nullptr;         // (count, 3)
+    std::vector<double> times;               // increasing: the states at these times are kept; in quasi-static stages steps end there
+};
+
+// States of all variants at the given times, (count times times) rows; zeros at times that a run did not reach.
+struct Samples {
+    std::vector<double> centre, rotation, velocity;
+    ComponentRecord<double> hinge;
+    HingeEnergyRecord<double> hinge_energy;
+    EnergyRecord<double> energy;
 };
 
 // Final values, one row per variant; zeros for a variant that was not solved.
@@ -50,12 +59,13 @@ struct EndValues {
     EnergyRecord<double> energy;
     std::vector<double> residual, lost;                           // (count); lost: energy lost in making given motion compatible
     std::vector<int64_t> outcome, steps;
+    Samples samples;
 };
 
 // whether cases have the same bodies, hinges, loads and stages, so that one set of arrays serves all
 bool alike(const Case& a, const Case& b);
-// end values with rows of zeros for `count` variants
-EndValues sized(const Case& of, size_t count);
+// end values with rows of zeros for `count` variants, and samples at so many times
+EndValues sized(const Case& of, size_t count, size_t times);
 // `poll` is called regularly on the calling thread with the completed share and returns false to cancel.
 EndValues solve_many(const Variations& variations, const Settings& settings, int threads, const std::function<bool(double)>& poll);
 

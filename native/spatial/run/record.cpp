@@ -16,22 +16,22 @@ void add(std::vector<double>& out, const Twist& t) {
 
 }  // namespace
 
-void Simulation::store(Record& r) {
-    r.time.push_back(state_.t);
-    r.step.push_back(state_.last_step);
-    for (size_t i = 0; i < state_.pose.size(); i++) {
-        const Quat& q = state_.pose[i].q;
-        add(r.centre, state_.pose[i].x);
+void Simulation::store(Record& r, State& state) {
+    r.time.push_back(state.t);
+    r.step.push_back(state.last_step);
+    for (size_t i = 0; i < state.pose.size(); i++) {
+        const Quat& q = state.pose[i].q;
+        add(r.centre, state.pose[i].x);
         r.rotation.push_back(q.w);
         add(r.rotation, q.v);
-        add(r.velocity, state_.velocity[i]);
-        add(r.acceleration, state_.acceleration[i]);
-        add(r.travel, state_.travel[i]);
+        add(r.velocity, state.velocity[i]);
+        add(r.acceleration, state.acceleration[i]);
+        add(r.travel, state.travel[i]);
     }
     size_t first = 0;
-    for (size_t j = 0; j < state_.hinge.size(); j++) {
+    for (size_t j = 0; j < state.hinge.size(); j++) {
         const SpatialHinge& hinge = model_.hinges[j];
-        const SpatialHingeState& s = state_.hinge[j];
+        const SpatialHingeState& s = state.hinge[j];
         for (int k = 0; k < size(hinge); k++) {
             r.hinge.plastic.push_back(s.component[k].plastic);
             r.hinge.moment.push_back(s.component[k].total_moment);
@@ -39,28 +39,28 @@ void Simulation::store(Record& r) {
         }
         r.hinge_energy.dissipated.push_back(dissipated(hinge, s) + damped(hinge, s) + stop_dissipated(hinge, s));
         r.hinge_energy.elastic.push_back(elastic_energy(hinge, s));
-        r.hinge_energy.stop.push_back(stop_energy(hinge, &state_.turned[first]));
+        r.hinge_energy.stop.push_back(stop_energy(hinge, &state.turned[first]));
         first += static_cast<size_t>(size(hinge));
     }
-    r.hinge.rotation.insert(r.hinge.rotation.end(), state_.rotation.begin(), state_.rotation.end());
-    r.hinge.rate.insert(r.hinge.rate.end(), state_.rate.begin(), state_.rate.end());
-    for (const Twist& f : state_.joint_force) {
+    r.hinge.rotation.insert(r.hinge.rotation.end(), state.rotation.begin(), state.rotation.end());
+    r.hinge.rate.insert(r.hinge.rate.end(), state.rate.begin(), state.rate.end());
+    for (const Twist& f : state.joint_force) {
         add(r.joint_force, f.v);
         add(r.joint_force, f.w);
     }
     // mean force since the last stored row, which contains the impulses of impacts; in quasi-static stages that of the last step
     stored_impulse_.resize(model_.contact.obstacles.size());
-    state_.contact.impulse.resize(stored_impulse_.size());
-    state_.contact.force.resize(stored_impulse_.size());
+    state.contact.impulse.resize(stored_impulse_.size());
+    state.contact.force.resize(stored_impulse_.size());
     for (size_t o = 0; o < stored_impulse_.size(); o++) {
-        const Vec3 gained = state_.contact.impulse[o] - stored_impulse_[o];
-        const double time = state_.t - stored_time_;
+        const Vec3 gained = state.contact.impulse[o] - stored_impulse_[o];
+        const double time = state.t - stored_time_;
         const bool mean = !stepper_.stage().quasi_static && stored_time_ >= 0 && time > 0;
-        add(r.obstacle_force, mean ? (1 / time) * gained : state_.contact.force[o]);
-        stored_impulse_[o] = state_.contact.impulse[o];
+        add(r.obstacle_force, mean ? (1 / time) * gained : state.contact.force[o]);
+        stored_impulse_[o] = state.contact.impulse[o];
     }
-    stored_time_ = state_.t;
-    const Energies e = energies(model_, state_);
+    stored_time_ = state.t;
+    const Energies e = energies(model_, state);
     r.energy.kinetic.push_back(e.kinetic);
     r.energy.elastic.push_back(e.elastic);
     r.energy.dissipated.push_back(e.dissipated);
@@ -73,9 +73,52 @@ void Simulation::store(Record& r) {
     r.energy.slowed.push_back(e.slowed);
 }
 
+// Advances a state to a time within the step that follows it.  That step has been solved, so a single pass is enough.
+bool Simulation::move_within(State& state, double t) {
+    const State& next = state.t < half_.t ? half_ : state_;
+    const double h = t - state.t, share = h / (next.t - state.t);
+    if (h < settings_.minimum_step) return false;
+    std::vector<Twist> end(state.velocity.size());
+    for (size_t i = 0; i < end.size(); i++) end[i] = state.velocity[i] + share * (next.velocity[i] - state.velocity[i]);
+    const bool solved = stepper_.step(state, h, &end, true);
+    state.t = t;
+    return solved;
+}
+
+// The state at an output time.  Forces and accelerations are means over a step: the last one takes at most a quarter of the time since the
+// output before.
+bool Simulation::at_output(State& state, double t) {
+    const double since = next_output_ > 0 ? outputs_[next_output_ - 1] : stored_time_, near = t - (t - since) / 4;
+    if (near - state.t > settings_.minimum_step && !move_within(state, near)) return false;
+    return move_within(state, t);
+}
+
+// Stores the rows of the output times that the last step has passed; `fine_` is the state before it.
+void Simulation::store_passed(Record& record) {
+    stepper_.keep(nullptr);
+    for (; next_output_ < outputs_.size() && outputs_[next_output_] <= state_.t; next_output_++) {
+        const double t = outputs_[next_output_];
+        const State& before = t <= half_.t ? fine_ : half_;
+        State at = before;
+        const bool solved = at_output(at, t);
+        if (t == state_.t) {
+            State end = state_;
+            if (solved) end.take_means(at);
+            store(record, end);
+            continue;
+        }
+        // the state before is used where a step is too short or cannot be solved again
+        if (!solved) {
+            at = before;
+            at.t = t;
+        }
+        store(record, at);
+    }
+}
+
 Record Simulation::present() {
     Record r;
-    store(r);
+    store(r, state_);
     return r;
 }
 

@@ -19,11 +19,15 @@ constexpr double creep_share = 1e-2, widest_creep = 1e-5;
 constexpr double negligible_impact = 1e-3;
 // Gap [model lengths, the first times accuracy] below which a contact counts as closed: more than the motion in a smallest step.
 constexpr double closed_gap = 1e-3, least_closed_gap = 1e-8;
+// Change of the friction limits between passes that ends them, relative to the accuracy; and its bounds.
+constexpr double settled_share = 2e-2, least_settled = 1e-6, most_settled = 1e-5;
 }  // namespace
 
 Simulation::Simulation(Model model, const Settings& settings)
-    : model_(std::move(model)), settings_(settings), stepper_(model_), step_tolerance_(step_tolerance(settings.accuracy)) {
+    : model_(std::move(model)), settings_(settings), stepper_(model_), length_(settings.minimum_step, settings.maximum_step),
+      step_tolerance_(step_tolerance(settings.accuracy)) {
     stepper_.set_narrowest_ramp(std::min(creep_share * settings.accuracy, widest_creep));
+    stepper_.contacts().set_settled(std::clamp(settled_share * settings.accuracy, least_settled, most_settled));
     state_ = stepper_.start();
     first_ = state_;
     stepper_.set_obstacles(std::vector<bool>(model_.contact.obstacles.size(), true), state_);
@@ -60,7 +64,7 @@ bool Simulation::touched_soon(const Critical& c) const {
     const double sign = c.stop == &hinge.components[static_cast<size_t>(c.component)].law.stop[0] ? 1 : -1;
     const size_t k = static_cast<size_t>(stepper_.first_component(c.hinge) + c.component);
     const double gap = sign * state_.turned[k] - c.stop->rotation;
-    return gap <= 0 && gap + 2 * h_ * std::fabs(state_.rate[k]) > 0;
+    return gap <= 0 && gap + 2 * length_.allowed() * std::fabs(state_.rate[k]) > 0;
 }
 
 // After an accepted step of length h: sets the dampers of stops that may be touched in the next one, and records the step for followers.
@@ -68,7 +72,7 @@ void Simulation::record_step(double h) {
     std::vector<bool> soon;
     for (const Critical& c : critical_) soon.push_back(touched_soon(c));
     set_critical_damping(soon);
-    if (step_records_) step_records_->push_back({h, state_.t, passes_, soon});
+    if (step_records_) step_records_->push_back({h, state_.t, predicted_, change_, passes_, soon});
 }
 
 void Simulation::set_critical_damping(const std::vector<bool>& which) {
@@ -154,6 +158,7 @@ void Simulation::show_first_moments() {
 // reference values of a run to the given time: above which motion counts as large, below which it is rounding
 void Simulation::prepare(double end) {
     const double duration = end - state_.t;
+    ahead_.forget();
     advance_.begin(state_.t, duration, stepper_.solves());
     // reference rotation before anything has turned: half the rotation in which the strongest hinge would dissipate all kinetic energy
     double strongest = 0;
@@ -180,7 +185,7 @@ void Simulation::prepare(double end) {
     if (!started_) start_ = e;
     started_ = true;
     balance_ = e.balance();
-    if (h_ <= 0) h_ = std::clamp(duration / 100, settings_.minimum_step, settings_.maximum_step);
+    length_.begin(duration);
     largest_energy_ = std::max(largest_energy_, e.structure_kinetic());
     stepper_.contacts().set_limits(std::max(closed_gap * settings_.accuracy, least_closed_gap) * model_.length,
                                    negligible_impact * settings_.accuracy * largest_energy_);
@@ -195,10 +200,14 @@ Record Simulation::run(const std::vector<double>& times, const std::function<boo
         const Asking asking([&] { return !poll || poll(state_.t); });
         make_ready();
         prepare(times.back());
-        for (const double t : times) {
-            const bool reached = t <= state_.t || advance(t, record, poll);
+        // in a quasi-static stage a step ends at every output
+        const bool passed = !stepper_.stage().quasi_static;
+        outputs_ = passed ? times : std::vector<double>{};
+        for (next_output_ = 0; next_output_ < outputs_.size() && outputs_[next_output_] <= state_.t; next_output_++) store(record, state_);
+        for (size_t k = passed ? times.size() - 1 : 0; k < times.size(); k++) {
+            const bool reached = times[k] <= state_.t || advance(times[k], record, poll);
             // a run that ends early records its last state as well
-            if (reached || record.time.empty() || record.time.back() < state_.t) store(record);
+            if ((reached && !passed) || record.time.empty() || record.time.back() < state_.t) store(record, state_);
             if (!reached) break;
         }
     } catch (const Stopped&) {

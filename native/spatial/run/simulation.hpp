@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,9 @@
 #include "common/advance.hpp"
 #include "common/records.hpp"
 #include "common/unresolved.hpp"
+#include "spatial/run/ahead.hpp"
+#include "spatial/run/guide.hpp"
+#include "spatial/run/step_length.hpp"
 #include "spatial/step/stepper.hpp"
 
 namespace crumple::spatial {
@@ -80,12 +84,17 @@ public:
     }
     // prepares the first step; `run` calls it
     void make_ready();
-    // runs to the last of the times; `poll` is called with the present time and returns false to cancel
+    // Runs to the last of the times; steps pass over the others, where the state is found by a shorter step (quasi-static stages end a
+    // step at each).  `poll` is called with the present time and returns false to cancel
     Record run(const std::vector<double>& times, const std::function<bool(double)>& poll);
     // a record of the present state only
     Record present();
     // stores the steps from now on; null ends it
     void keep(StepRecords* steps) { step_records_ = steps; }
+    // stores the accepted steps in a guide from now on; and is guided by those of another run
+    void keep_guide() { guide_ = std::make_shared<Guide>(); }
+    std::shared_ptr<Guide> guide() const { return guide_; }
+    void be_guided_by(std::shared_ptr<const Guide> lead) { lead_ = std::move(lead); }
     // follows the stored steps of another run of this model or of a similar one; false if a step cannot be solved
     bool follow(const StepRecords& steps);
     HingeSummary<double> summary() const;
@@ -113,20 +122,35 @@ private:
     void reject(Record& record, Attempted what);
     void accept(Record& record, bool exact);
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
+    StepPlan next_step(double target);
     bool solve(double h);
+    bool lands(const StepPlan& plan, Record& record);
+    bool overshoots(const StepPlan& plan, double share, int which);
+    void take(const StepPlan& plan, double e, Record& record);
     bool failed(double e, bool smallest, Record& record) const;
     bool force(Record& record) const;
     double unbalance(const State& fine) const;
     bool lost(const State& before, Record& record);
     bool jumps(int which);
     bool strike(Record& record);
+    double planned();
+    const std::vector<Twist>* suggested(double h);
+    const std::vector<Twist>* expected(double h);
+    const std::vector<Twist>* expected_by_follower(double h);
+    void keep_for_guide(double h);
+    bool like_leader() const;
+    bool travels_as_leader() const;
+    void add_to_guide(bool accurate);
     double error(const State& coarse, const State& fine) const;
     double worst_place(const State& a, const State& b, bool obstacles) const;
     double quantity(const Condition& condition, const State& state) const;
     double share_of_step(const State& before, const State& after, int* which) const;
     double given(const Energies& e) const;
     void show_first_moments();
-    void store(Record& record);
+    void store(Record& record, State& state);
+    void store_passed(Record& record);
+    bool move_within(State& state, double t);
+    bool at_output(State& state, double t);
     void watch(Record& record);
 
     Model model_;
@@ -140,12 +164,17 @@ private:
     double unseen_ = 0;                        // see `Record::unseen` [kinetic norm]
     double large_speed_ = 0;                    // kinetic norm that counts as large before anything moves
     State state_, coarse_, fine_, first_;
+    State half_;                      // after the first half of the step just solved, if outputs lie within it
+    std::vector<double> outputs_;     // output times of the present run, and the index of the next one
+    size_t next_output_ = 0;
     std::vector<Twist> guess_;
+    Ahead ahead_;
     std::vector<Critical> critical_;  // stops that get critical damping
     std::vector<Condition> until_;
     std::vector<double> peak_;        // per component: largest rotation and moment
+    StepLength length_;
     double step_tolerance_;           // allowed value of the error measure
-    double h_ = 0, scale_ = 0, speed_ = 0;
+    double scale_ = 0, speed_ = 0;
     bool started_ = false;
     Energies start_;                  // at the start of the first run
     double work_max_ = 0,             // largest external work on the structure, either sign
@@ -154,7 +183,6 @@ private:
     double lift_ = 0;                 // work of lifting all weights by the model's length [J]
     double negligible_speed_ = 0;     // kinetic norm that moves bodies over the run by less than what counts as large
     double closing_ = 0;              // time within the step just solved at which an open contact closed; 0 if none did
-    double landing_ = 0;              // length of the step that ends at the closing of a contact; 0 if none is ahead
     double largest_energy_ = 0;       // largest kinetic energy of the structure
     double overshot_ = 0;             // value of the condition that last shortened a step; NaN: none
     int strikes_ = 0;                 // number of consecutive impacts
@@ -164,6 +192,16 @@ private:
     std::vector<Vec3> stored_impulse_;  // impulse on every obstacle at the last stored row, and the time of that row
     double stored_time_ = -1;
     StepRecords* step_records_ = nullptr;
+    Predicted predicted_ = Predicted::pass;    // of the last step, and the change of the velocities, if steps are stored
+    std::vector<Twist> change_;
+    const StepRecord* followed_ = nullptr;
+    std::shared_ptr<Guide> guide_;          // of the own steps
+    GuideStep tried_;                       // the step just solved
+    std::shared_ptr<const Guide> lead_;     // of another run; the index of its next step, and that which guides the present one
+    size_t next_lead_ = 0;
+    const GuideStep* leading_ = nullptr;
+    bool in_one_ = false;                   // the step was not repeated in halves, see `like_leader`
+    bool refused_ = false;                  // a step from this state was rejected
     std::vector<Pass> passes_;        // passes of the last solved step if steps are stored
     std::int64_t poll_at_ = 0;        // amount of work at which `poll` is called next
     bool ready_ = false;

@@ -65,7 +65,7 @@ void Simulation::begin_stage(bool quasi_static, const std::vector<bool>& drives,
         if (started_) state_.slowed += energies(model_, state_).kinetic;
         std::fill(state_.velocity.begin(), state_.velocity.end(), Twist{});
     }
-    h_ = 0;
+    length_.forget();
     overshot_ = NAN;
     lost_ = 0;
     until_ = std::move(until);

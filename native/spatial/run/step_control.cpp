@@ -15,14 +15,17 @@ constexpr double loosest_share = 1e-3, step_share = 0.4;
 
 // The same out of equilibrium in a quasi-static stage, where the path is only an estimate because inertia is neglected.
 constexpr double lost_tolerance = 2e-2;
+// Share of the tolerance in a step that a similar run has taken: that the error is a little larger is no reason to leave its steps.
+constexpr double guided_share = 4;
+// Error after which the step keeps its length.
+constexpr double unchanged = 0.729;
 
-constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
 constexpr std::int64_t poll_interval = 20'000;  // solves times rows between calls of `poll`: some 10 ms
 // Number of consecutive impacts that shows that something cannot give way; and the number after which restitution is switched off.
 // Restitution between parts that lock each other gives endless impacts with decreasing energy; their limit is persistent contact.
 constexpr int most_strikes = 1000, most_bounces = 200;
-// Steps are not shortened below this multiple of the smallest step to end at the closing of a contact.
-constexpr double shortest_landing = 4;
+// Relative rounding of times.
+constexpr double rounding = 1e-9;
 
 }  // namespace
 
@@ -50,10 +53,11 @@ double Simulation::error(const State& coarse, const State& fine) const {
     double e = worst / scale_;
     const double speed = std::max(speed_, negligible_speed_);
     if (speed > 0) e = std::max(e, kinetic_norm(model_, coarse, &fine) / speed);
-    e /= lost_ > 0 ? std::max(step_tolerance_, lost_tolerance) : step_tolerance_;
+    e /= lost_ > 0 ? std::max(step_tolerance_, lost_tolerance) : (leading_ && !lead_->paired ? guided_share : 1) * step_tolerance_;
     if (stepper_.stage().quasi_static) return e;
     // an energy imbalance above the accuracy counts as an error of the step
-    return std::max(e, unbalance(fine) / settings_.accuracy);
+    e = std::max(e, unbalance(fine) / settings_.accuracy);
+    return in_one_ ? std::max(e, unchanged) : e;
 }
 
 // Energy imbalance of a step relative to the energy supplied to the structure.
@@ -68,7 +72,20 @@ bool Simulation::solve(double h) {
     coarse_ = state_;
     passes_.clear();
     stepper_.keep(step_records_ ? &passes_ : nullptr);
-    if (!stepper_.step(coarse_, h, nullptr)) return false;
+    const std::vector<Twist>* guess = suggested(h);
+    if (!stepper_.step(coarse_, h, guess)) {
+        ahead_.forget();
+        return false;
+    }
+    ahead_.compare(model_, state_.velocity, stepper_.end_velocity());
+    keep_for_guide(h);
+    const bool passed = next_output_ < outputs_.size() && outputs_[next_output_] <= state_.t + h * (1 + rounding);
+    in_one_ = !passed && like_leader();
+    if (in_one_) {
+        fine_ = coarse_;
+        closing_ = 0;
+        return true;
+    }
     const std::vector<Twist>& end = stepper_.end_velocity();
     guess_.resize(end.size());
     const bool from_rest = stepper_.stage().quasi_static;
@@ -76,8 +93,10 @@ bool Simulation::solve(double h) {
     fine_ = state_;
     const std::vector<Twist> last = end;
     if (!stepper_.step(fine_, h / 2, &guess_)) return false;
+    ahead_.see_half(state_.velocity, fine_.velocity, h / 2, stepper_.end_rates());
     closing_ = fine_.contact.closing;
     if (closing_ > 0) return true;
+    if (passed) half_ = fine_;
     if (!stepper_.step(fine_, h / 2, &last)) return false;
     if (fine_.contact.closing > 0) closing_ = h / 2 + fine_.contact.closing;
     return true;
@@ -85,6 +104,7 @@ bool Simulation::solve(double h) {
 
 // The step of an impact: so short that only velocities change.
 bool Simulation::strike(Record& record) {
+    ahead_.forget();
     stepper_.contacts().set_bounces(strikes_ < most_bounces);
     const bool solved = stepper_.step(state_, settings_.minimum_step, nullptr);
     stepper_.contacts().set_bounces(true);
@@ -138,13 +158,60 @@ bool Simulation::cancelled(Record& record, const std::function<bool(double)>& po
 }
 
 void Simulation::reject(Record& record, Attempted what) {
+    refused_ = true;
     record.rejected++;
     advance_.count(what);
 }
 
 void Simulation::accept(Record& record, bool exact) {
+    refused_ = false;
+    add_to_guide(exact);
     record.steps++;
     advance_.count(exact ? Attempted::taken : Attempted::inexact);
+}
+
+// The next step, at most to the target.
+StepPlan Simulation::next_step(double target) {
+    const double stop = std::min(target, next_break()), left = stop - state_.t;
+    const double longest = std::min(planned(), longest_part()), wanted = length_.wanted(longest, left, leading_ != nullptr);
+    const StepBound::Step seen = resolved(wanted);
+    StepPlan plan = length_.plan(seen.h, wanted, longest, left);
+    plan.stop = stop;
+    plan.unresolved = seen.unresolved;
+    return plan;
+}
+
+// Whether a step that closes a contact is repeated up to there.
+bool Simulation::lands(const StepPlan& plan, Record& record) {
+    if (closing_ <= 0 || !length_.land(plan.h, closing_)) return false;
+    reject(record, Attempted::closing);
+    return true;
+}
+
+// Whether a step is repeated because a condition is met before its end.
+bool Simulation::overshoots(const StepPlan& plan, double share, int which) {
+    if (share >= 1 || plan.smallest || jumps(which)) return false;
+    advance_.count(Attempted::inexact);
+    length_.end_at(share, plan.h);
+    return true;
+}
+
+// Makes the end of the step just solved the present state.
+void Simulation::take(const StepPlan& plan, double e, Record& record) {
+    if (plan.last) fine_.t = plan.stop;
+    const bool rested = resting();
+    std::swap(state_, fine_);
+    ahead_.see_step(fine_.velocity, state_.velocity, plan.h, stepper_.end_rates());
+    length_.follow(plan, e, stepper_.stage().quasi_static);
+    std::fill(moved_.begin(), moved_.end(), NAN);
+    if (plan.unresolved > 0 && (rested || resting())) {
+        unseen_ = std::max(unseen_, plan.unresolved * settings_.accuracy * std::max(speed_, large_speed_));
+    }
+    accept(record, e <= 1);
+    overshot_ = NAN;
+    watch(record);
+    store_passed(record);
+    strikes_ = 0;
 }
 
 bool Simulation::advance(double target, Record& record, const std::function<bool(double)>& poll) {
@@ -154,58 +221,27 @@ bool Simulation::advance(double target, Record& record, const std::function<bool
             if (!strike(record)) return false;
             continue;
         }
-        const double stop = std::min(target, next_break()), left = stop - state_.t;
-        const double longest = std::min(h_, longest_part()), ahead = landing_ > 0 ? std::min(landing_, longest) : longest;
-        const double wanted = ahead >= left * (1 - 1e-9) ? left : (ahead > left / 2 && landing_ == 0 ? left / 2 : ahead);
-        const StepBound::Step seen = resolved(wanted);
-        const double h = seen.h;
-        const bool last = h == left, cut = last || h < wanted || longest < h_ || landing_ > 0;
-        const bool solved = solve(h);
-        if (solved && closing_ > 0 && h > shortest_landing * settings_.minimum_step) {
-            reject(record, Attempted::closing);
-            landing_ = std::max(closing_, settings_.minimum_step);
-            continue;
-        }
+        const StepPlan plan = next_step(target);
+        const bool solved = solve(plan.h);
+        if (solved && lands(plan, record)) continue;
         const double e = solved ? error(coarse_, fine_) : INFINITY;
-        const bool smallest = h <= settings_.minimum_step * 1.001;
-        if (failed(e, smallest, record)) return false;
-        const double factor = e > 0 ? safety * std::pow(e, -1.0 / 3) : growth_limit;
-        const double next = std::clamp(h * std::clamp(factor, shrink_limit, growth_limit), settings_.minimum_step,
-                                       settings_.maximum_step);
-        if (e > 1 && !smallest) {
+        if (failed(e, plan.smallest, record)) return false;
+        if (e > 1 && !plan.smallest) {
             reject(record, solved ? Attempted::inexact : Attempted::unsolved);
-            h_ = std::max(std::min(next, 0.7 * h), settings_.minimum_step);
-            landing_ = 0;
+            length_.shorten(plan.h, e, stepper_.stage().quasi_static);
             continue;
         }
         int which = -1;
         const double share = share_of_step(state_, fine_, &which);
-        if (share < 1 && !smallest && !jumps(which)) {
-            advance_.count(Attempted::inexact);
-            h_ = std::max(share * h, settings_.minimum_step);
-            landing_ = 0;
-            continue;
-        }
+        if (overshoots(plan, share, which)) continue;
         if (e > 1 && !force(record)) return false;
-        if (last) fine_.t = stop;
-        const bool rested = resting();
-        std::swap(state_, fine_);
-        h_ = cut && e <= 1 ? std::max(h_, next) : next;
-        std::fill(moved_.begin(), moved_.end(), NAN);
-        landing_ = 0;
-        if (seen.unresolved > 0 && (rested || resting())) {
-            unseen_ = std::max(unseen_, seen.unresolved * settings_.accuracy * std::max(speed_, large_speed_));
-        }
-        accept(record, e <= 1);
-        overshot_ = NAN;
-        watch(record);
-        strikes_ = 0;
+        take(plan, e, record);
         if (lost(fine_, record)) return false;
         if (share <= 1) {
             record.ended_by = which;
             return false;
         }
-        record_step(h);
+        record_step(plan.h);
     }
     return true;
 }

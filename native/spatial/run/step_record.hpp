@@ -11,6 +11,8 @@
 
 #include <vector>
 
+#include "spatial/model/math.hpp"
+
 namespace crumple::spatial {
 
 // A pass over a step: converged rates along all rows, for hinges the rates w_e in their laws; `FrozenSpatialHinge::lead` of every
@@ -20,10 +22,15 @@ struct Pass {
     bool settled = false;
 };
 
-// An accepted step: its length and end [s], the passes of the full step and its halves, and which of the stops with critical damping
-// got a new damper after it.
+// How the velocities at the end of a step were predicted: by a pass, as the accepted step before it suggests, or by the change of the
+// velocities in a rejected step.
+enum class Predicted { pass, ahead, change };
+
+// An accepted step: its length and end [s], how it was predicted, the passes of the full step and its halves, and which of the stops with critical damping got a new damper after it.
 struct StepRecord {
     double length = 0, end = 0;
+    Predicted predicted = Predicted::pass;
+    std::vector<Twist> change;
     std::vector<Pass> passes;
     std::vector<bool> soon;
 };

@@ -7,7 +7,9 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field, ValidationInfo, model_validator
 
+from crumple.analysis.criteria import Criterion
 from crumple.analysis.filters import filter_problems
+from crumple.analysis.uncertainty import Uncertainty
 from crumple.errors import Problem
 from crumple.registry.quantity import PositiveTime
 from crumple.registry.refusal import refuse
@@ -22,7 +24,8 @@ from crumple.structure import (
     shell_problems,
     stage_problems,
 )
-from crumple.structure.schema.spec import Spec, raise_all
+from crumple.structure.schema.mapping import frozen
+from crumple.structure.schema.spec import Named, Spec, raise_all
 from crumple.units import format_quantity
 
 LONGEST_TITLE = 200
@@ -121,6 +124,10 @@ class Analysis(Spec):
         Settings of the solvers.
     outputs
         What is reported.
+    criteria
+        Limits that the structure shall keep, by name.
+    uncertainty
+        Which numbers scatter, in SI; solved by `crumple.study.with_uncertainty`.
     """
 
     structure: Structure
@@ -130,6 +137,8 @@ class Analysis(Spec):
     multibody: MultibodySettings = MultibodySettings()
     shell: ShellSettings = ShellSettings()
     outputs: Outputs = Outputs()
+    criteria: Named[Criterion] = frozen({})
+    uncertainty: Uncertainty | None = None
 
     @model_validator(mode="after")
     def _sound(self, info: ValidationInfo) -> Analysis:

@@ -20,7 +20,7 @@ MOST_MEMBERS = 500
 
 
 def solve_with_frames(
-    analysis: Analysis, fidelity: str = "multibody", **options: Any
+    analysis: Analysis, fidelity: str = "multibody", *, most: int | None = None, **options: Any
 ) -> tuple[Result, Result]:
     """Result of one solver as `solve` returns it, and the same with shapes at more of its output times.
 
@@ -30,6 +30,8 @@ def solve_with_frames(
         Analysis to solve; not changed.
     fidelity, options
         As for `solve`.
+    most
+        Most shapes besides those at the picture times; None for those of `MOST_FRAMES`.
 
     Raises
     ------
@@ -39,7 +41,7 @@ def solve_with_frames(
     if len(analysis.structure.members) > MOST_MEMBERS:
         alone = solve(analysis, fidelity, **options)
         return alone, alone
-    wanted, pictures = _picture_times(analysis, fidelity)
+    wanted, pictures = _picture_times(analysis, fidelity, most or MOST_FRAMES[fidelity])
     outputs = analysis.outputs.model_copy(update={"pictures": pictures})
     dense = solve(analysis.model_copy(update={"outputs": outputs}), fidelity, **options)
     if not dense.time.size:
@@ -57,11 +59,11 @@ def solve_with_frames(
     return _with_shapes(dense, wanted), dense
 
 
-def _picture_times(analysis: Analysis, fidelity: str) -> tuple[Floats, tuple[float, ...]]:
+def _picture_times(analysis: Analysis, fidelity: str, most: int) -> tuple[Floats, tuple[float, ...]]:
     """Times of the shapes that are stored, and of all that are solved for [s]; no new times of histories."""
     interval, duration = analysis.output_interval, analysis.duration
     regular = np.minimum(interval * np.arange(int(duration / interval * (1 + 1e-12)) + 1), duration)
-    rows = np.linspace(0, len(regular) - 1, min(MOST_FRAMES[fidelity], len(regular)))
+    rows = np.linspace(0, len(regular) - 1, min(most, len(regular)))
     even = regular[np.unique(np.round(rows).astype(int))]
     requested = np.array(analysis.outputs.pictures)
     wanted = requested if requested.size else np.linspace(0.0, duration, 6)

@@ -11,9 +11,11 @@ from typing import Any, Literal
 from pydantic import BaseModel, ValidationError
 
 from crumple.analysis.analysis import DEFAULT_INTERVALS, Analysis, Settings, Title, run_problems
+from crumple.analysis.criteria import Criterion, criteria_in_si
 from crumple.analysis.filters import filter_problems
 from crumple.analysis.reading import Document, read_file, read_text
 from crumple.analysis.solve import solved_alone
+from crumple.analysis.uncertainty import Uncertainty, in_si
 from crumple.errors import InputError, Problem
 from crumple.structure import (
     Outputs,
@@ -28,7 +30,9 @@ from crumple.structure import (
     with_used_laws,
 )
 from crumple.structure.parts import StructureParts
+from crumple.structure.schema.mapping import frozen
 from crumple.structure.schema.problems import Place, path_of, placed_problems, shown
+from crumple.structure.schema.spec import Named
 
 FORMAT = 1
 """Version of the format; a file with another version is refused."""
@@ -47,6 +51,10 @@ class InputFile(StructureParts):
     """What to do."""
     outputs: Outputs = Outputs()
     """What to report."""
+    criteria: Named[Criterion] = frozen({})
+    """Limits that the structure shall keep, by name."""
+    uncertainty: Uncertainty | None = None
+    """Which numbers scatter: `crumple run` solves variants and reports how the result scatters."""
 
 
 _OF_THE_RUN = set(InputFile.model_fields) - set(StructureParts.model_fields)
@@ -124,7 +132,16 @@ def load(path: str | Path) -> Analysis:
 def load_input(path: str | Path) -> LoadedInput:
     """Like `load`, with the text of the file."""
     path = Path(path)
-    document = read_file(path)
+    return _loaded(read_file(path), path)
+
+
+def load_text(text: str, path: str | Path) -> LoadedInput:
+    """Like `load_input` of a file with this content, which need not be there; it names no file elsewhere."""
+    path = Path(path)
+    return _loaded(read_text(text, str(path)), path)
+
+
+def _loaded(document: Document, path: Path) -> LoadedInput:
     return LoadedInput(_analysis(document, str(path), path.parent), path, document)
 
 
@@ -184,6 +201,12 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
         cross += stage_problems(whole.analysis.stages, structure, defined)
     if whole and not cross:
         cross += filter_problems(structure, whole.outputs, duration, interval)
+    scatter: Uncertainty | None = None
+    criteria: dict[str, Criterion] = {}
+    if whole and not cross:
+        criteria, cross = criteria_in_si(whole.criteria, structure, whole.outputs)
+        scatter, wrong = in_si(whole.uncertainty, data, Structure.of_sound_parts(whole))
+        cross += wrong
     problems += [(path_of(problem.where), problem) for problem in cross]
     if problems or document.problems or whole is None:
         raise InputError(_placed(problems, document, file))
@@ -197,6 +220,8 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
             "multibody": whole.analysis.multibody,
             "shell": whole.analysis.shell,
             "outputs": whole.outputs,
+            "criteria": criteria,
+            "uncertainty": scatter,
         },
         context={"checked": True},
     )

@@ -211,7 +211,9 @@ def _value_without_unit(plain: Any) -> str:
     if origin in {Union, UnionType}:
         choices = [choice for choice in arguments if choice is not type(None)]
         return " or ".join(dict.fromkeys(_value(_untagged(choice)) for choice in choices))
-    return {str: "text", bool: "`true` or `false`", int: "whole number", StoredLaws: "text"}[plain]
+    return {str: "text", float: "number", bool: "`true` or `false`", int: "whole number", StoredLaws: "text"}[
+        plain
+    ]
 
 
 def _untagged(kind: Any) -> Any:

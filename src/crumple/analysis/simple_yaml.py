@@ -23,6 +23,7 @@ _OTHER_LINES = re.compile("[\t\r\x85\u2028\u2029\ufeff]")
 """Tabs, and unusual line breaks."""
 _QUOTED = r"\"[^\"\\]*\"|'[^']*'"
 _KEY = re.compile(rf"({_QUOTED}|[^\W_][\w.\-]*|_[\w.\-]*):(?: +(.*))?")
+_PLAIN_TEXT = re.compile(_PLAIN)
 _WHOLE = re.compile(rf"{_QUOTED}|~|[-+]?\.?[^\W_][\w .+\-*/^()=<>°,;'\[\]{{}}]*")
 _TOKEN = re.compile(rf" *([\[\]{{}},]|(?:{_QUOTED}|{_PLAIN})(?::(?= ))?)")
 _LONGEST_KEY = 200
@@ -31,6 +32,25 @@ _LONGEST_KEY = 200
 
 class _NotSimpleError(Exception):
     """The line is none of the simple ones."""
+
+
+class _NotPlainError(Exception):
+    """The text is more than a plain one."""
+
+
+class _PlainTexts(dict[str, Any]):
+    """Values of plain texts by what stands between two commas: in a large file most are repeated."""
+
+    def __init__(self, scalar: Scalar) -> None:
+        super().__init__()
+        self._scalar = scalar
+
+    def __missing__(self, part: str) -> Any:
+        text = part.strip(" ")
+        if _PLAIN_TEXT.fullmatch(text) is None:
+            raise _NotPlainError
+        value = self[part] = self._scalar(text)
+        return value
 
 
 class SimpleText:
@@ -51,8 +71,10 @@ class SimpleText:
         self._next = 0
         self._lines: list[tuple[int, int, str]] = []
         self._values: dict[str, Any] = {}
+        self._plain, self._keys = _PlainTexts(scalar), _PlainTexts(str)
         self._text = text.replace("\r\n", "\n")
         self.lines: dict[Place, int] = {}
+        """Of every key and every entry that begins a line; what follows in brackets is in the same line."""
         self.stopped = 0
 
     def read(self) -> dict[str, Any] | None:
@@ -64,9 +86,10 @@ class SimpleText:
                 return None
             for number, line in enumerate(self._text.split("\n"), 1):
                 self.stopped = number
-                content = _without_comment(line.lstrip(" "))
+                indented = line.lstrip(" ")
+                content = _without_comment(indented)
                 if content:
-                    self._lines.append((number, len(line) - len(line.lstrip(" ")), content))
+                    self._lines.append((number, len(line) - len(indented), content))
             if not self._lines or self._lines[0][1] != 0:
                 return None
             data = self._block(0, ())
@@ -143,6 +166,11 @@ class SimpleText:
             if text not in self._values and _WHOLE.fullmatch(text) is None:
                 raise _NotSimpleError
             return self._text_value(text)
+        if len(place) + 2 <= self._deepest:
+            try:
+                return self._flat(text)
+            except _NotPlainError:
+                pass
         tokens, end = [], 0
         for match in _TOKEN.finditer(text):
             if match.start() != end:
@@ -155,6 +183,24 @@ class SimpleText:
         if used != len(tokens):
             raise _NotSimpleError
         return value
+
+    def _flat(self, text: str) -> Any:
+        """A list or a group of plain texts, or a list of one such group: nearly all that is in brackets."""
+        ends, inner = text[0] + text[-1], text[1:-1]
+        if ends == "[]" and inner[:1] == "{":
+            return [self._flat(inner)]
+        if ends == "[]":
+            return [self._plain[part] for part in inner.split(",")]
+        if ends != "{}":
+            raise _NotPlainError
+        group: dict[str, Any] = {}
+        entries = inner.split(",")
+        for entry in entries:
+            key, _, value = entry.partition(": ")
+            group[self._keys[key]] = self._plain[value]
+        if len(group) < len(entries) or max(map(len, group)) > _LONGEST_KEY:
+            raise _NotPlainError
+        return group
 
     def _collection(self, tokens: list[str], at: int, place: Place) -> tuple[Any, int]:
         """Value that begins at a token, and the token after it."""
@@ -186,9 +232,7 @@ class SimpleText:
             key, at = _bare(tokens[at][:-1].rstrip(" ")), at + 1
             if key in values or len(key) > _LONGEST_KEY:
                 raise _NotSimpleError
-        here = (*place, key)
-        self.lines[here] = self.stopped
-        value, at = self._collection(tokens, at, here)
+        value, at = self._collection(tokens, at, (*place, key))
         if isinstance(values, dict):
             values[key] = value
         else:

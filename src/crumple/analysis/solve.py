@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from crumple.analysis.analysis import Analysis
 from crumple.analysis.canonical import canonical, hash_of
+from crumple.analysis.criteria import with_criteria
 from crumple.analysis.filters import with_filters
 from crumple.errors import InputError, Problem, Status
 from crumple.structure.schema.spec import raise_all
@@ -36,6 +37,7 @@ def solve(
     cancel: Callable[[], bool] | None = None,
     *,
     long_run: LongRun | None = None,
+    checks: bool = True,
 ) -> Result:
     """Result of one solver for an analysis.
 
@@ -53,6 +55,9 @@ def solve(
         Called repeatedly; True ends the run with a status and the result so far.
     long_run
         Restart files and a callback of the shell solver; not used by the multibody solver.
+    checks
+        Whether the multibody solver estimates its error, and whether its mechanism is unique, which solves up
+        to five times more; the answer is the same.  Not used by the shell solver.
 
     Returns
     -------
@@ -64,7 +69,7 @@ def solve(
     InputError
         If the fidelity is unknown or the solver cannot take the structure.
     """
-    result = solved_alone(analysis, fidelity, threads, progress, cancel, long_run=long_run)
+    result = solved_alone(analysis, fidelity, threads, progress, cancel, long_run=long_run, checks=checks)
     if not result.time.size:
         # cancelled before it had anything to say: nobody waits for the hash of its input
         return result
@@ -105,6 +110,28 @@ def with_law_range(
     return replace(result, law_range=found)
 
 
+def with_modes(
+    result: Result,
+    analysis: Analysis,
+    threads: int = 1,
+    progress: Callable[[float], None] | None = None,
+    cancel: Callable[[], bool] | None = None,
+) -> Result:
+    """A multibody result of an impact with the modes of collapse that appear, see `Result.modes`.
+
+    Several modes are a caution.  Parameters as in `with_law_range` and `solve`.
+    """
+    from crumple.multibody import modes  # noqa: PLC0415
+    from crumple.result import Caution  # noqa: PLC0415
+
+    found = modes(analysis.structure, run_of(analysis), result, threads, progress, cancel)
+    if found is None or found.unique:
+        return replace(result, modes=found)
+    caution = Caution("modes", float(len(found.modes)), 1.0, "1", "", found.sentence)
+    warnings = (found.sentence, *result.warnings)
+    return replace(result, modes=found, cautions=(*result.cautions, caution), warnings=warnings)
+
+
 def solved_alone(
     analysis: Analysis,
     fidelity: str,
@@ -113,6 +140,7 @@ def solved_alone(
     cancel: Callable[[], bool] | None = None,
     *,
     long_run: LongRun | None = None,
+    checks: bool = True,
 ) -> Result:
     """`solve` without what the result says of its input: for a solver that is only to look at it."""
     if not isinstance(analysis, Analysis):
@@ -129,8 +157,11 @@ def solved_alone(
     if fidelity == "shell":
         solved = _shell(analysis, threads, progress, cancel, long_run)
     else:
-        solved = _multibody(analysis, progress, cancel)
-    return with_filters(solved, analysis.outputs, analysis.output_interval)
+        from crumple.multibody import solve_multibody  # noqa: PLC0415
+
+        run = replace(run_of(analysis), checks=checks)
+        solved = solve_multibody(analysis.structure, run, progress, cancel)
+    return with_criteria(with_filters(solved, analysis.outputs, analysis.output_interval), analysis.criteria)
 
 
 def _refuse_unsolved(analysis: Analysis, fidelity: str) -> None:
@@ -152,14 +183,6 @@ def _refuse_unsolved(analysis: Analysis, fidelity: str) -> None:
 
 
 # the solvers need the compiled kernels; reading and checking input does not
-
-
-def _multibody(
-    analysis: Analysis, progress: Callable[[float], None] | None, cancel: Callable[[], bool] | None
-) -> Result:
-    from crumple.multibody import solve_multibody  # noqa: PLC0415
-
-    return solve_multibody(analysis.structure, run_of(analysis), progress, cancel)
 
 
 def run_of(analysis: Analysis) -> Run:

@@ -6,6 +6,7 @@ from crumple.characterisation.curve import LawCurve
 from crumple.characterisation.out_of_plane import OutOfPlane
 from crumple.characterisation.solving import Characterised, characterise
 from crumple.characterisation.store import LawStore
+from crumple.characterisation.t_joint import TJoint
 from crumple.characterisation.torsion import Torsion
 
 __all__ = [
@@ -15,6 +16,7 @@ __all__ = [
     "LawCurve",
     "LawStore",
     "OutOfPlane",
+    "TJoint",
     "Torsion",
     "characterise",
 ]

@@ -10,7 +10,7 @@ import numpy as np
 from crumple.analysis import Analysis
 from crumple.characterisation.curve import LawCurve, law_curve
 from crumple.characterisation.resolution import NOMINAL, Resolution
-from crumple.characterisation.sub_model import is_mirrored, largest_side
+from crumple.characterisation.sub_model import StrongCornerError, corner_piece, is_mirrored, largest_side
 from crumple.errors import InputError, Problem
 from crumple.hinge.measured.place_hash import Load, place_hash
 from crumple.material import Material
@@ -117,8 +117,9 @@ class Bending:
 
     @property
     def piece(self) -> float:
-        """Length of each piece [m]."""
-        return 0.5 * self.gauge + self.length_factor * STUB * largest_side(self.section)
+        """Length of each piece [m]; those of a corner are long enough for a mitre."""
+        usual = 0.5 * self.gauge + self.length_factor * STUB * largest_side(self.section)
+        return usual if self.angle is None else max(usual, corner_piece(self.section, self.axis, self.angle))
 
     @property
     def turn(self) -> float:
@@ -191,15 +192,16 @@ class Bending:
         Raises
         ------
         InputError
-            If nothing folded between the planes.
+            If nothing folded between the planes; of a corner `StrongCornerError`.
         """
         plastic, moment, flexibility = self._plastic(result)
         if plastic.max() < 0.5 * self.largest:
-            what, todo = "the sub-model folded elsewhere", "give these hinges a law of their own"
+            came = f"{math.degrees(plastic.max()):.2g} deg between the planes of measurement"
             if self.angle is not None:
                 what = "the corner is as strong as its members: the sub-model folded beside it"
                 todo = "use the law of the member there"
-            came = f"{math.degrees(plastic.max()):.2g} deg between the planes of measurement"
+                raise StrongCornerError(Problem(what, came, "", todo, where=self.title))
+            what, todo = "the sub-model folded elsewhere", "give these hinges a law of their own"
             raise InputError(Problem(what, came, "", todo, where=self.title))
         curve = law_curve(plastic, moment, self.largest)
         return curve if flexibility == 0.0 else curve.with_stiffness(1.0 / flexibility)

@@ -8,10 +8,13 @@ from crumple.characterisation.crush import Crush
 from crumple.characterisation.curve import LawCurve
 from crumple.characterisation.sub_model import SubModel
 from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
-from crumple.hinge.measured.place_hash import PLACE
+from crumple.hinge.measured.place_hash import CORNER, PLACE, REVISION
 from crumple.hinge.measured.stored import StoredCurve, StoredLaw
 from crumple.version import __version__
 
+CORNER_METHOD = 4
+"""Number of the way in which sub-models of corners are built and measured; before 4 the pieces of deep
+sections at steep angles were too short for a mitre."""
 CITATION = "shell sub-model, docs/theory/characterisation.md"
 
 
@@ -51,6 +54,8 @@ def law_of(
         "made_by": f"crumple {__version__}, crumple characterise",
         **facts,
     }
+    if CORNER in origin:
+        origin[REVISION] = str(CORNER_METHOD)
     far = f"shortening of {1e3 * reach:.4g} mm" if slip else f"rotation of {math.degrees(reach):.0f} deg"
     basis = f"shell sub-model solved up to a plastic {far}"
     return StoredLaw(

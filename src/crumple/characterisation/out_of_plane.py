@@ -18,7 +18,7 @@ from crumple.analysis import Analysis
 from crumple.characterisation.bending import elastic_flexibility, second_piece
 from crumple.characterisation.curve import LawCurve, law_curve
 from crumple.characterisation.resolution import NOMINAL, Resolution
-from crumple.characterisation.sub_model import is_mirrored, largest_side
+from crumple.characterisation.sub_model import corner_piece, is_mirrored, largest_side
 from crumple.errors import InputError, Problem
 from crumple.hinge.measured.place_hash import CORNER, Load, place_hash
 from crumple.material import Material
@@ -125,8 +125,9 @@ class OutOfPlane:
 
     @property
     def piece(self) -> float:
-        """Length of each piece [m]."""
-        return STUB * self.length_factor * largest_side(self.section)
+        """Length of each piece [m], long enough for a mitre."""
+        usual = STUB * self.length_factor * largest_side(self.section)
+        return max(usual, corner_piece(self.section, self.axis, self.angle))
 
     @property
     def length(self) -> float:

@@ -14,7 +14,7 @@ from crumple.characterisation.curve import LawCurve
 from crumple.characterisation.interaction import interaction_errors
 from crumple.characterisation.law import law_of
 from crumple.characterisation.rate import Turned, at_rest, faster, rate_law, rate_pair
-from crumple.characterisation.sub_model import Model, Solvable, SubModel
+from crumple.characterisation.sub_model import Model, Solvable, StrongCornerError, SubModel
 from crumple.errors import InputError, Problem, Status
 from crumple.hinge.measured.stored import StoredLaw
 from crumple.material import CowperSymonds
@@ -41,7 +41,7 @@ class Characterised:
     curve
         In the sense of the model.
     result
-        Shell run of the nominal mesh in this sense.
+        Shell run of the nominal mesh in this sense; in the other one where a corner folds only in that.
     kinetic
         Largest kinetic over internal energy after 2 degrees [-].
     error
@@ -96,10 +96,13 @@ def characterise(
     solver = _Solver(threads, progress, cancel)
     pair = rate_pair(model.material)
     static = model if pair is None else at_rest(model)
-    result, curve, kinetic, slow = solver.run(static, "nominal mesh")
-    opposite = None
-    if not model.one_law:
-        opposite = solver.run(replace(slow, sense=-model.sense), "other sense")[1]
+    try:
+        result, curve, kinetic, slow = solver.run(static, "nominal mesh")
+        folds = model.sense
+    except StrongCornerError:
+        result, curve, kinetic, slow = solver.run(replace(static, sense=-model.sense), "other sense")
+        folds = -model.sense
+    opposite, borrowed = (None, {}) if model.one_law else solver.opposite(slow, known=folds != model.sense)
     error = None
     if converge:
         elements = slow.resolution.elements
@@ -112,6 +115,7 @@ def characterise(
         ]
         error = energy_error(curve, *finer)
     facts = {
+        **borrowed,
         **slow.measured(result, curve),
         "mesh": f"{slow.resolution.elements:g} elements along half a fold",
         "kinetic_energy": f"at most {kinetic:.2%} of the internal energy after {_amount(slow)}",
@@ -119,11 +123,12 @@ def characterise(
     }
     if interaction and isinstance(slow, Bending) and slow.angle is None:
         facts |= interaction_errors(slow, lambda one: solver.run(one, one.title)[1])
-    law = law_of(model, curve, opposite, facts, error)
     moving = replace(slow, material=model.material)
+    law = replace(law_of(moving, curve, opposite, facts, error), title=model.title)
     if pair is not None and isinstance(moving, Turned):
         law = solver.with_rate(law, moving, pair, curve)
-    return Characterised(law, curve, result, kinetic, error)
+    own = curve if folds == model.sense or opposite is None else opposite
+    return Characterised(law, own, result, kinetic, error)
 
 
 @dataclass(frozen=True)
@@ -173,6 +178,26 @@ class _Solver:
             slower = one.resolution.slowness * 1.2 * float(np.sqrt(kinetic / MOST_KINETIC))
             one = replace(one, resolution=replace(one.resolution, slowness=slower))
         raise InputError(failed)
+
+    def opposite(self, one: SubModel, *, known: bool) -> tuple[LawCurve, dict[str, str]]:
+        """Law in the other sense, and an entry of the law file if a corner has that of its members there.
+
+        Parameters
+        ----------
+        one
+            Solved in its own sense.
+        known
+            Whether the corner is known to be as strong as its members in the other sense.
+        """
+        other = replace(one, sense=-one.sense)
+        if not known:
+            try:
+                return self.run(other, "other sense")[1], {}
+            except StrongCornerError:
+                pass
+        curve = self.run(replace(other, angle=None), "the member, where the corner is as strong")[1]
+        doing = "closed" if other.sense > 0 else "opened"
+        return curve, {doing: "as strong as the members, so it has the law of the straight member"}
 
     def with_rate(self, law: StoredLaw, model: Turned, pair: CowperSymonds, static: LawCurve) -> StoredLaw:
         """The law with the rate law of its fold, and its check in the origin."""

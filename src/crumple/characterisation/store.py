@@ -12,13 +12,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from crumple.analysis import input_hash
+from crumple.characterisation.law import CORNER_METHOD
 from crumple.characterisation.sub_model import SubModel
 from crumple.hinge.measured.law_file import read_law, write_law
+from crumple.hinge.measured.place_hash import CORNER
 from crumple.hinge.measured.stored import StoredLaw
 from crumple.portable import replacing
 
 METHOD = 3
-"""Number of the way in which sub-models are built and measured: laws of another method are computed again."""
+"""Number of the way in which sub-models are built and measured: laws of another method are computed again.
+That of corners is in their law files too, as `CORNER_METHOD`."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +39,8 @@ class LawStore:
     def path(self, model: SubModel) -> Path:
         """File of a sub-model's law."""
         words = re.sub(r"[^a-z0-9]+", "-", model.title.lower()).strip("-")
-        return self.folder / f"{words[:80]}-{METHOD}-{input_hash(model.analysis())[:16]}.law.yaml"
+        method = CORNER_METHOD if CORNER in model.origin else METHOD
+        return self.folder / f"{words[:80]}-{method}-{input_hash(model.analysis())[:16]}.law.yaml"
 
     def law(self, model: SubModel) -> StoredLaw | None:
         """Law of a sub-model, or None where it is not there.

@@ -9,11 +9,17 @@ import numpy as np
 from crumple.analysis import Analysis
 from crumple.characterisation.curve import LawCurve
 from crumple.characterisation.resolution import Resolution
+from crumple.errors import InputError
 from crumple.hinge.measured.place_hash import Load
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.result import Result
 from crumple.section import Axis, Section
+from crumple.shell.mesh.joints import shortest_with_mitre
+
+
+class StrongCornerError(InputError):
+    """A corner did not fold: its members did, beside it."""
 
 
 class Solvable(Protocol):
@@ -98,6 +104,13 @@ Model = TypeVar("Model", bound=Solvable)
 def largest_side(section: Section) -> float:
     """Largest extent of the outer outline [m]."""
     return float(np.ptp(section.outer_outline(), axis=0).max())
+
+
+def corner_piece(section: Section, axis: Axis, angle: float) -> float:
+    """Least length of the pieces of a corner [m], so that shells join them by a mitre."""
+    across = 1 if axis == "y" else 0
+    reach = float(np.abs(section.outer_outline()[:, across]).max())
+    return shortest_with_mitre(reach, angle)
 
 
 def is_mirrored(section: Section, axis: Axis) -> bool:

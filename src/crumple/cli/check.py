@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
@@ -25,11 +26,25 @@ def check(
 ) -> None:
     """Report every mistake in an input or study file, and the notes of a solver before its first step."""
     if _is_study(file):
-        from crumple.study import LoadedStudy, check_study
+        from crumple.study import LoadedStudy, LoadedTarget, check_study, check_target, is_target
 
-        check_study(LoadedStudy(file))
+        if is_target(file):
+            check_target(LoadedTarget(file))
+        else:
+            check_study(LoadedStudy(file))
         typer.echo(f"{file}: no mistakes found")
         return
+    # what a check makes it keeps until its end, and an input is bounded: there is no garbage to look for
+    collected = gc.isenabled()
+    gc.disable()
+    try:
+        _check_input(file, fidelity)
+    finally:
+        if collected:
+            gc.enable()
+
+
+def _check_input(file: Path, fidelity: Fidelity) -> None:
     from crumple.analysis import load_input
     from crumple.errors import InputError
 
@@ -57,8 +72,9 @@ def _is_study(file: Path) -> bool:
 def _multibody_notes(analysis: Analysis) -> Iterator[str]:
     """Motions of the structure that are free, and constraints that are redundant."""
     from crumple.multibody import infinitesimal, link, notes, stuck_drives, stuck_note, unheld_notes
+    from crumple.structure import with_elastic_members
 
-    linkage = link(analysis.structure)
+    linkage = link(with_elastic_members(analysis.structure, analysis.multibody))
     loose = unheld_notes(analysis.structure, linkage, analysis.stages)
     stuck = stuck_note(stuck_drives(analysis.structure, linkage))
     yield from filter(None, (*notes(linkage), infinitesimal(linkage), stuck, *loose))

@@ -56,7 +56,10 @@ def compare(
         ),
     ] = None,
     variants: Annotated[
-        bool, typer.Option(help="Solve also multibody models with elastic hinges and members.")
+        bool,
+        typer.Option(
+            help="Solve also multibody models with elastic hinges and members, and the modes of an impact."
+        ),
     ] = True,
     restart: Annotated[
         Path | None,

@@ -6,14 +6,17 @@ No large package is imported here or at the top of a command's file, so that `cr
 from __future__ import annotations
 
 import gc
+import os
 import sys
 from typing import Annotated
 
 import typer
 
+from crumple.cli.app import app as app_verb
 from crumple.cli.characterise import characterise
 from crumple.cli.check import check
 from crumple.cli.compare import compare
+from crumple.cli.completion import completion, prepare_answers
 from crumple.cli.console.defect import EXIT_CODE, DefectError, show_defect
 from crumple.cli.console.refusal import show_refusal
 from crumple.cli.hinge import hinge
@@ -42,8 +45,21 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,  # rich takes 60 ms to import: a third of the time allowed for --help
 )
-for verb in (run, compare, layouts, study, view, check, schema, hinge, section, characterise):
-    app.command()(verb)
+for verb in (
+    run,
+    compare,
+    layouts,
+    study,
+    app_verb,
+    view,
+    check,
+    schema,
+    hinge,
+    section,
+    characterise,
+    completion,
+):
+    app.command(verb.__name__)(verb)
 
 
 def _print_version(wanted: bool) -> None:
@@ -64,6 +80,9 @@ def _options(
 def main() -> None:
     """Run the command; a refusal ends with exit code 2, a defect of Crumple with 3, none with a traceback."""
     prepare_consoles()
+    prepare_answers()
+    # before numpy is imported: threads that wait for small matrices take a fifth of the processor time
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     gc.set_threshold(COLLECTED_EVERY, *gc.get_threshold()[1:])
     try:
         app()

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from crumple.cli.console.beside import Moded, Uncertain, with_its_modes, with_scatter
 from crumple.cli.console.fidelity import Fidelity
 from crumple.cli.console.laws import Freeze, Laws, law_lines, range_lines, with_store
 
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 MOST_HINGES = 20
 """Number of hinges in the table; the files contain all."""
 QUICK = 5.0
-"""Time of a run up to which its range from the hinge laws is computed without being requested [s]."""
+"""Time of a run up to which range from the hinge laws and modes are computed without being requested [s]."""
 
 
 def run(
@@ -54,6 +55,17 @@ def run(
             show_default=False,
         ),
     ] = None,
+    modes: Moded = None,
+    uncertainty: Uncertain = True,
+    explore: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NUMBERS",
+            help="Solve also a grid of one or two numbers of the input, as 'thickness,mass=200 kg..400 kg' "
+            "(without a range +- 30 %), and write explore.html with sliders.",
+            show_default=False,
+        ),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print summary.json instead of the table.")] = False,
 ) -> None:
     """Solve an input file and report. Writes summary, histories, shapes, figures and a page to a folder."""
@@ -63,10 +75,18 @@ def run(
     source = with_store(load_input(file), laws, freeze_laws)
     if restart is not None and fidelity is not Fidelity.SHELL:
         raise typer.BadParameter("only shell runs have restart files", param_hint="--restart")
+    if explore is not None:
+        from crumple.cli.console.exploring import checked
+
+        checked(explore, source, fidelity)
     both = fidelity is Fidelity.BOTH
     within = tuple(one.value for one in fidelity.solvers) if both else ()
     with results_folder(out, file, within) as folder:
-        good = _run(source, folder, (fidelity, threads, restart), law_range, as_json=as_json)
+        also = (law_range, modes, uncertainty)
+        good = _run(source, folder, (fidelity, threads, restart), also, as_json=as_json)
+        from crumple.cli.console.exploring import explored
+
+        explored(explore if good else None, source, folder, quiet=as_json)
     if not good:
         raise typer.Exit(1)
 
@@ -75,7 +95,7 @@ def _run(
     source: LoadedInput,
     folder: Path,
     how: tuple[Fidelity, int | None, Path | None],
-    law_range: bool | None,
+    also: tuple[bool | None, bool | None, bool],
     *,
     as_json: bool,
 ) -> bool:
@@ -86,7 +106,7 @@ def _run(
     summaries, good = {}, True
     for one in fidelity.solvers:
         place = folder / one.value if fidelity is Fidelity.BOTH else folder
-        result = _solve(source, place, (one, threads, restart), law_range)
+        result = _solve(source, place, (one, threads, restart), also)
         good = good and result.status.ok
         if as_json:
             summaries[one.value] = _summary(result)
@@ -110,9 +130,12 @@ def _solve(
     source: LoadedInput,
     folder: Path,
     how: tuple[Fidelity, int | None, Path | None],
-    law_range: bool | None,
+    also: tuple[bool | None, bool | None, bool],
 ) -> Result:
-    """Solve with one solver and write its files; `how`: solver, threads, restart file."""
+    """Solve with one solver and write its files.
+
+    `how`: solver, threads, restart file; `also`: whether range from the laws, modes and scatter are wanted.
+    """
     from crumple.analysis import solve_with_frames
     from crumple.cli.console.progress import progress_bar
     from crumple.cli.console.shell_run import long_run_of, remove_restart
@@ -142,9 +165,13 @@ def _solve(
             raise source.with_lines(error) from None
         if not result.time.size:
             raise CancelledError(result.reason)
-        wanted = result.solve_seconds < QUICK if law_range is None else law_range
-        if wanted and not is_shell and result.status.ok:
+        quick, sound = result.solve_seconds < QUICK, not is_shell and result.status.ok
+        if sound and (quick if also[0] is None else also[0]):
             result = _with_range(result, source, threads or available_cores(), cancel)
+        if sound and (quick if also[1] is None else also[1]):
+            result = with_its_modes(result, source, threads or available_cores(), cancel)
+        if also[2] and sound:
+            result = with_scatter(result, source, threads or available_cores(), cancel)
         # still inside: Ctrl-C while figures are drawn must not lose the result
         if result.status is Status.CANCELLED:
             typer.echo("Stopped. Writing the results so far; another Ctrl-C discards them.", err=True)
@@ -198,6 +225,7 @@ def _show(result: Result, folder: Path, source: LoadedInput) -> None:
     from rich.console import Console
     from rich.text import Text
 
+    from crumple.report.wording.scatter import sentences as sentences_of_scatter
     from crumple.result import sentences
     from crumple.units import format_quantity
 
@@ -215,11 +243,17 @@ def _show(result: Result, folder: Path, source: LoadedInput) -> None:
         console.print(_hinge_table(bending))
     if crushing:
         console.print(_crush_table(crushing))
+    if any(hinge.stretch is not None for hinge in result.hinges.values()):
+        console.print(_stretch_table(result.hinges))
     if max(len(bending), len(crushing)) > MOST_HINGES:
         console.print(
             f"At most {MOST_HINGES} of {len(result.hinges)} hinges, those with the largest absorbed energy"
         )
     for line in range_lines(result):
+        console.print(Text(line), soft_wrap=True)
+    if result.modes is not None and result.modes.unique:
+        console.print(Text(result.modes.sentence), soft_wrap=True)
+    for line in sentences_of_scatter(result):
         console.print(Text(line), soft_wrap=True)
     for line in law_lines(result, source):
         console.print(Text(line), soft_wrap=True)
@@ -266,6 +300,17 @@ def _crush_table(summaries: Mapping[str, HingeSummary]) -> Table:
     )
     names = [f"{name} (bottomed out)" if crush.bottomed_out else name for name, crush in zones]
     return _table("Crush zone", names, columns)
+
+
+def _stretch_table(summaries: Mapping[str, HingeSummary]) -> Table:
+    """One row per hinge that lengthened along its member."""
+    hinges = [(name, h.stretch) for name, h in _most_absorbing(summaries) if h.stretch is not None]
+    columns = (
+        ("Lengthening", [stretch.length for _, stretch in hinges], "m"),
+        ("Peak tension", [stretch.peak_force for _, stretch in hinges], "N"),
+        ("Energy of tension", [stretch.energy for _, stretch in hinges], "J"),
+    )
+    return _table("Stretched hinge", [name for name, _ in hinges], columns)
 
 
 def _table(what: str, names: list[str], columns: tuple[tuple[str, list[Any], str], ...]) -> Table:

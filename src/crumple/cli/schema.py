@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -19,9 +19,18 @@ def schema(
 
     if study:
         from crumple.analysis.schema import schema_of
-        from crumple.study import Study
+        from crumple.study import Study, TargetFile
 
-        found = schema_of(Study, "Crumple study file, format 1")
+        found = _either(schema_of(Study, "Study"), schema_of(TargetFile, "Inverse design"))
     else:
         found = json_schema()
     typer.echo(json.dumps(found, indent=2, ensure_ascii=not console_takes_all()))
+
+
+def _either(study: dict[str, Any], target: dict[str, Any]) -> dict[str, Any]:
+    """Schema of a study file: a study, or a target."""
+    parts = {**study.pop("$defs"), **target.pop("$defs"), "Study": study, "TargetFile": target}
+    dialect = study.pop("$schema")
+    target.pop("$schema")
+    choices = [{"$ref": "#/$defs/Study"}, {"$ref": "#/$defs/TargetFile"}]
+    return {"$schema": dialect, "title": "Crumple study file, format 1", "$defs": parts, "anyOf": choices}

@@ -11,6 +11,8 @@ from crumple.comparison.cautions.trust import trust_of
 from crumple.comparison.comparison import Comparison, Opening, Source
 from crumple.comparison.measure.corner_motion import with_corners
 from crumple.comparison.measure.crush import CrushComparison, crush_figures, crushable
+from crumple.comparison.measure.decisive import Figure, figures_of
+from crumple.comparison.measure.measures import measurable, measure
 from crumple.comparison.measure.metrics import HingeComparison, compared, metrics_of
 from crumple.comparison.measure.motion import Measured, channel_motions, measured, member_sections
 from crumple.comparison.measure.sections import at_times
@@ -20,6 +22,7 @@ from crumple.comparison.rating.signal import member_signals, signals_of
 from crumple.errors import InputError, Problem
 from crumple.result import Result
 from crumple.structure import PlacedHinge, Structure, plastic_hinges
+from crumple.structure.hinges.automatic import lengthens
 
 SAME_TIME = 1e-9
 """Share of the run below which the times of two shapes are equal but for rounding."""
@@ -93,15 +96,25 @@ def compare(
         opened=opened,
         until=until,
         crushes=_crushes(candidate, reference, structure, hinges, until),
+        figures=_figures(candidate, reference, structure),
     )
     return replace(found, trust=trust_of(found, structure))
+
+
+def _figures(candidate: Result, reference: Result, structure: Structure) -> Mapping[str, Sequence[Figure]]:
+    """What engineers decide on, if both runs are whole and long alike and their shapes are known."""
+    ends = [float(result.time[-1]) for result in (candidate, reference)]
+    alike = abs(ends[0] - ends[1]) <= SAME_TIME * max(ends)
+    if not alike or not all(measurable(result) for result in (candidate, reference)):
+        return {}
+    return figures_of(measure(candidate, structure), measure(reference, structure))
 
 
 def _crushes(
     candidate: Result, reference: Result, structure: Structure, hinges: Sequence[PlacedHinge], until: float
 ) -> tuple[CrushComparison, ...]:
-    """Every member that can shorten, in both results."""
-    members = crushable(hinges)
+    """Every member that can shorten, in both results; not those that only a held run lets lengthen."""
+    members = [name for name in crushable(hinges) if not lengthens(structure, name)]
     if not members:
         return ()
     seen = [(result, member_sections(result, structure)) for result in (candidate, reference)]

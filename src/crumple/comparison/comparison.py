@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from crumple.comparison.measure.crush import CrushComparison
+from crumple.comparison.measure.decisive import Figure
 from crumple.comparison.measure.metrics import HingeComparison
 from crumple.comparison.measure.motion import HingeMotion
 from crumple.comparison.rating.curve_file import CurveFile
@@ -138,6 +139,8 @@ class Comparison:
     busy_share: float | None = None
     crushes: tuple[CrushComparison, ...] = ()
     """Members that can shorten, candidate against reference."""
+    figures: Mapping[str, Sequence[Figure]] = field(default_factory=dict)
+    """What engineers decide on, by kind, candidate against reference; empty where a run did not complete."""
 
     @property
     def speed_ratio(self) -> float | None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crumple.analysis import Analysis, input_hash, solve
+from crumple.analysis import Analysis, input_hash, solve, with_modes
 from crumple.comparison.comparing import compare
 from crumple.comparison.comparison import Comparison, Timing
 from crumple.comparison.measure.sections import at_times
@@ -66,7 +66,8 @@ def solve_and_compare(
     curves
         Curves from files, to be compared as well.
     variants
-        Whether to solve further multibody models: elastic hinges, elastic members, laws of the shell run.
+        Whether to solve further multibody models: elastic hinges, elastic members, laws of the shell run; and
+        the modes of an impact.
     second_mesh
         Factor on the size of all elements of a further shell run, which shows how accurate the reference
         is; None: no such run.
@@ -91,6 +92,8 @@ def solve_and_compare(
     candidate = _hashed(solve(dense, cancel=cancel), analysis)
     if not candidate.time.size:
         raise CancelledError(candidate.reason)
+    if variants and candidate.status.ok and candidate.solve_seconds < TIMED_BELOW:
+        candidate = with_modes(candidate, analysis, threads, cancel=cancel)
     if keep is not None:
         keep(candidate)
     begin, worked = time.perf_counter(), time.process_time()

@@ -42,6 +42,7 @@ class Trust(Enum):
     MEASURED = "measured curve supplied by the user"
     COMPUTED = "computed with shell finite elements of this program"
     ASSUMED = "chosen by the user"
+    FITTED = "derived here, with constants fitted to a few shell solutions and checked against others"
     ESTIMATED = "estimated here; not checked against anything"
 
 

@@ -71,6 +71,8 @@ BENDING: Registry[LawType] = Registry(
         "oblique": "crumple.hinge.bending.oblique:ObliqueLaw",
         "circular": "crumple.hinge.bending.circular:CircularLaw",
         "folded_profile": "crumple.hinge.bending.folded_profile:FoldedProfileLaw",
+        "mitred_corner": "crumple.hinge.corner.mitred_corner:MitredCornerLaw",
+        "mitred_corner_across": "crumple.hinge.corner.mitred_corner_across:MitredCornerAcrossLaw",
         "measured": "crumple.hinge.measured.measured_law:MeasuredLaw",
         "file": "crumple.hinge.measured.file_law:FileLaw",
         "estimate": "crumple.hinge.bending.estimate:EstimatedLaw",

@@ -16,11 +16,13 @@ from crumple.multibody.planar.plane import Plane
 from crumple.multibody.run import Run
 from crumple.multibody.solve import solve_multibody, solver_of
 from crumple.multibody.timing import least_seconds, stepping_seconds
-from crumple.multibody.variants.law_range import law_range
+from crumple.multibody.variants.law_range import law_factors, law_range
+from crumple.multibody.variants.modes import modes
 from crumple.multibody.variants.sensitivity import Sensitivities, sensitivities
-from crumple.multibody.variants.variants import VariantTable, solve_variants
+from crumple.multibody.variants.variants import OTHER_PARTS, VariantTable, solve_variants
 
 __all__ = [
+    "OTHER_PARTS",
     "Connection",
     "Link",
     "Linkage",
@@ -32,10 +34,12 @@ __all__ = [
     "VariantTable",
     "dead_centres",
     "infinitesimal",
+    "law_factors",
     "law_range",
     "least_seconds",
     "link",
     "lower",
+    "modes",
     "notes",
     "planar_initial_motion",
     "sensitivities",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -34,7 +34,10 @@ STATUS = {
 
 @dataclass(frozen=True)
 class Run:
-    """Settings of a run: duration and output interval [s], settings, outputs."""
+    """Settings of a run: duration and output interval [s], outputs, factors on the capacities of hinges.
+
+    Without `checks` its error is not estimated, nor whether its mechanism is unique.
+    """
 
     duration: float
     every: float
@@ -42,6 +45,8 @@ class Run:
     outputs: Outputs = field(default_factory=Outputs)
     title: str = ""
     stages: tuple[Stage, ...] = ()
+    capacities: Mapping[str, float] = field(default_factory=dict)
+    checks: bool = True
 
 
 def output_times(run: Run, *, ends_only: bool = False) -> Floats:

@@ -24,7 +24,7 @@ from crumple.multibody.answer.histories import (
 from crumple.multibody.answer.shapes import refuse_pictures, states_of
 from crumple.multibody.answer.solved import HingeHistory, Solved, Solver
 from crumple.multibody.checks import trust
-from crumple.multibody.checks.collapse import changed_capacities, collapse_log, not_unique
+from crumple.multibody.checks.collapse import changed_capacities, collapse_log, not_unique, scaled_hinge
 from crumple.multibody.checks.physics import physics_cautions
 from crumple.multibody.kernel_choice import why_spatial
 from crumple.multibody.planar.solver import TreeSolver
@@ -32,7 +32,7 @@ from crumple.multibody.run import CHECK_FACTOR, Cancel, Progress, Run, outcome_s
 from crumple.multibody.spatial.solver import SpatialSolver
 from crumple.numeric.arrays import Floats
 from crumple.result import Provenance, Result, missing_pictures, sentences
-from crumple.structure import Structure, any_automatic, law_uses, placed_hinges
+from crumple.structure import Structure, any_automatic, law_uses, placed_hinges, with_elastic_members
 
 
 def solve_multibody(
@@ -67,6 +67,7 @@ def solve_multibody(
     tests/verification.
     """
     begin = time.perf_counter()
+    structure = with_elastic_members(structure, run.settings)
     accuracy = run.settings.accuracy
     poll = poll_of(run.duration, (0.0, 0.7), progress, cancel)
     try:
@@ -78,7 +79,7 @@ def solve_multibody(
             solved = rough = solver.run(accuracy / CHECK_FACTOR, poll)
     except CancelledError as error:
         return _nothing_solved(run, str(error), time.perf_counter() - begin)
-    if solved.outcome is Outcome.COMPLETE:
+    if solved.outcome is Outcome.COMPLETE and run.checks:
         poll = poll_of(run.duration, (0.7, 1.0), progress, cancel)
         try:
             with asking(cancel):
@@ -87,9 +88,9 @@ def solve_multibody(
             reason = "asked to stop while the error was estimated; the run itself is complete"
             solved = rough = replace(solved, outcome=Outcome.CANCELLED, reason=reason)
     errors = None
-    if solved.outcome is Outcome.COMPLETE and rough.outcome is Outcome.COMPLETE:
+    if run.checks and solved.outcome is Outcome.COMPLETE and rough.outcome is Outcome.COMPLETE:
         errors = _errors(rough, solved)
-    doubt = _doubt(structure, run, solver, rough, cancel)
+    doubt = _doubt(structure, run, solver, rough, cancel) if run.checks else None
     seconds = time.perf_counter() - begin
     return _result(structure, run, solver, solved, errors=errors, doubt=doubt, seconds=seconds)
 
@@ -115,6 +116,8 @@ def _final(hinge: HingeHistory) -> float:
 def solver_of(structure: Structure, run: Run) -> Solver:
     """The structure prepared for the kernel that suits it, or that the settings name."""
     hinges = placed_hinges(structure)
+    if run.capacities:
+        hinges = tuple(scaled_hinge(one, run.capacities.get(one.name, 1.0)) for one in hinges)
     if why_spatial(structure, hinges, run) is None:
         return TreeSolver(structure, run, hinges)
     return SpatialSolver(structure, run, hinges)
@@ -166,7 +169,7 @@ def _result(
         *clearance_channels(structure, solved.poses, run.outputs),
     ]
     channels = [
-        *hinge_channels(solved.hinges),
+        *hinge_channels(solved.hinges, solved.spread),
         *energy_channels(solved),
         *gravity_channels(structure, solved.poses),
     ]

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from crumple._core.outcome import Outcome
 from crumple.multibody.run import Run
 from crumple.multibody.solve import solver_of
-from crumple.structure import Structure
+from crumple.structure import Structure, with_elastic_members
 
 REPEATS = 20
 """Number of runs of which the fastest counts: the first one fills caches, and others may be interrupted."""
@@ -33,7 +33,7 @@ def stepping_seconds(structure: Structure, run: Run) -> float | None:
     run
         How long, with which settings and outputs.
     """
-    solver = solver_of(structure, run)
+    solver = solver_of(with_elastic_members(structure, run.settings), run)
     if solver.run(run.settings.accuracy, None).outcome is not Outcome.COMPLETE:
         return None
     return least_seconds(lambda: solver.run(run.settings.accuracy, None).stepping_seconds)

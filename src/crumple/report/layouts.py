@@ -216,6 +216,22 @@ def _scene(layouts: Sequence[Layout], title: str) -> Scene | None:
     return write_scene(shown[:MOST_SHOWN], title)
 
 
+def _warned(layouts: Sequence[Layout]) -> list[str]:
+    """Failures and warnings of the layouts; alike ones in one line."""
+    from crumple.report.wording.answer import grouped  # noqa: PLC0415
+
+    lines = []
+    for layout in layouts:
+        if layout.result is None:
+            lines.append(f"{layout.name}: {layout.reason}")
+            continue
+        if not layout.result.status.ok:
+            told = (layout.name, layout.result.status.value, layout.result.reason)
+            lines.append(": ".join(part for part in told if part))
+        lines += [f"{layout.name}: {warning}" for warning in layout.result.warnings]
+    return grouped(lines, [layout.name for layout in layouts])
+
+
 def _render(
     layouts: Sequence[Layout],
     title: str,
@@ -243,6 +259,6 @@ def _render(
         tables=[table for table in (layout_table(layouts), _output_table(layouts, outputs)) if table.rows],
         number=len(layouts),
         figures=figures,
-        warned=[x for x in layouts if x.result is None or x.result.warnings or not x.result.status.ok],
+        warned=_warned(layouts),
         pages=[(x.name, x.title, f"{quote(x.name)}/report.html") for x in layouts if x.result is not None],
     )

@@ -6,7 +6,6 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,13 +13,12 @@ from crumple.hinge.law_use import INPUT
 from crumple.portable import write_text
 
 if TYPE_CHECKING:
+    from crumple.report.drawing.plots import Plots
     from crumple.report.scene.scene import Scene
     from crumple.report.wording.wording import Table
     from crumple.result import Result
-    from crumple.structure import Structure
+    from crumple.structure import Outputs, Structure
 
-MAX_MOMENT_FIGURES = 12
-"""Most hinges drawn with their laws; each figure adds some 8 kB to the page."""
 MAX_INPUT = 60_000
 """Most characters of input printed; longer input is cut, and the page states this."""
 
@@ -45,6 +43,8 @@ class ReportInput:
         Requested from the stepper [-].
     structure
         What was described: its obstacles, masses and supports are shown with the shapes.
+    outputs
+        What was requested: intrusions, clearances and filtered channels have figures of their own.
     """
 
     title: str = ""
@@ -54,12 +54,13 @@ class ReportInput:
     residual_bound: float | None = None
     accuracy: float | None = None
     structure: Structure | None = None
+    outputs: Outputs | None = None
 
 
 @dataclass(frozen=True)
 class _Figure:
     number: int
-    svg: Any
+    panels: tuple[Any, ...]
     caption: str
 
 
@@ -89,7 +90,10 @@ def write_report(
     OSError
         If the folder cannot be written.
     """
+    from crumple.report.drawing.plots import flat  # noqa: PLC0415
+    from crumple.report.page_figures import draw  # noqa: PLC0415
     from crumple.report.scene.page import store_scene  # noqa: PLC0415
+    from crumple.report.scene.paraview import write_surroundings  # noqa: PLC0415
 
     folder = Path(directory)
     settings = result.provenance.settings
@@ -97,10 +101,11 @@ def write_report(
         source.residual_bound if source.residual_bound is not None else settings.get("energy_residual_bound")
     )
     accuracy = source.accuracy if source.accuracy is not None else settings.get("accuracy")
-    drawn = _draw(result, bound)
-    write_figures(folder, drawn)
+    drawn = draw(result, bound, source.structure, source.outputs)
+    write_figures(folder, flat(drawn))
     scene = _scene(frames or result, source)
     store_scene(scene, folder)
+    write_surroundings(scene, folder)
     page = folder / "report.html"
     write_text(page, _render(result, source, drawn, (bound, accuracy), scene))
     return page
@@ -121,99 +126,29 @@ def write_figures(folder: Path, drawn: Sequence[tuple[str, str, str]]) -> None:
         write_text(folder / "figures" / f"{name}.svg", '<?xml version="1.0" encoding="utf-8"?>\n' + svg)
 
 
-def _draw(result: Result, bound: float | None) -> list[tuple[str, str, str]]:
-    """File name, SVG and caption of every figure for which the result has data."""
-    from crumple.report.drawing.style import drawing  # noqa: PLC0415
-    from crumple.report.figures import curves, fold, moment, shape, welds  # noqa: PLC0415
-
-    with drawing():
-        loads = welds.weld_loads(result)
-        figures = [
-            (
-                "deformation",
-                shape.deformation(result),
-                "Deformed member walls at the picture times over the undeformed shape in grey, "
-                "all at one scale. Circles mark hinges.",
-            ),
-            *((f"fold_{i + 1}", svg, caption) for i, (svg, caption) in enumerate(fold.folds(result))),
-            (
-                "rotation",
-                curves.rotations(result),
-                "Rotation and angular velocity of the hinges over time."
-                + _named(result, curves.NAMED, curves.DRAWN),
-            ),
-            (
-                "energy_rotation",
-                curves.energy_over_rotation(result),
-                "Energy dissipated in each hinge over its rotation, "
-                "positive in the sense of its largest rotation." + _named(result, curves.NAMED, curves.DRAWN),
-            ),
-            *_moment_figures(result, moment.moment_over_rotation),
-            *([] if loads is None else [("welds", *loads)]),
-            ("energy", curves.ledger(result, bound), _ledger_caption(result)),
-            ("outputs", curves.outputs(result), "Requested outputs over time."),
-        ]
-    return [(name, svg, caption) for name, svg, caption in figures if svg is not None]
-
-
-def _named(result: Result, named: int, drawn: int) -> str:
-    count = len(result.hinges)
-    only = f"Of {count} hinges the {drawn} that absorbed most energy are drawn. " if count > drawn else ""
-    return f" {only}The {named} hinges that absorbed most energy are named." if count > named else ""
-
-
-def _moment_figures(result: Result, draw: Any) -> list[tuple[str, str | None, str]]:
-    from crumple.report.figures.curves import ranked_hinges  # noqa: PLC0415
-    from crumple.report.wording.wording import angle, sentence_case  # noqa: PLC0415
-
-    figures = []
-    for i, hinge in enumerate(ranked_hinges(result)[:MAX_MOMENT_FIGURES]):
-        summary = result.hinges[hinge]
-        law = " and its law" if summary.law else ""
-        parts = [f"Moment over rotation of hinge {hinge}: path of the run{law}."]
-        named = (("Law", summary.law), ("Source", summary.source))
-        parts += [sentence_case(f"{name}: {text}") for name, text in named if text]
-        if summary.validity_rotation is not None and isfinite(summary.validity_rotation):
-            parts.append(f"Range of validity: up to {angle(summary.validity_rotation)}.")
-        figures.append((f"moment_{i + 1}", draw(result, hinge, f"moment-{i + 1}"), " ".join(parts)))
-    return figures
-
-
-def _ledger_caption(result: Result) -> str:
-    shown = "Energies over time"
-    if "energy.residual" not in result.channels:
-        return f"{shown}."
-    return (
-        f"{shown} and, on the right, the residual of their balance: kinetic, elastic and dissipated energy"
-        f"{_further_energies(result)} minus external work and the energy at the start. "
-        "Dissipation is integrated independently."
-    )
-
-
-def _further_energies(result: Result) -> str:
-    """Terms that only some solvers have."""
-    named = [name for name in ("hourglass", "contact", "damping") if f"energy.{name}" in result.channels]
-    return f", energy of {' and '.join(named)}," if named else ""
-
-
 def _render(
     result: Result,
     source: ReportInput,
-    drawn: list[tuple[str, str, str]],
+    drawn: Sequence[Plots],
     limits: tuple[float | None, float | None],
     scene: Scene | None,
 ) -> str:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined  # noqa: PLC0415
     from markupsafe import Markup  # noqa: PLC0415
 
+    from crumple.report.drawing.window import window_sentence  # noqa: PLC0415
+    from crumple.report.page_figures import MAX_MOMENT_FIGURES  # noqa: PLC0415
     from crumple.report.scene.page import page_parts  # noqa: PLC0415
-    from crumple.report.wording import wording  # noqa: PLC0415
+    from crumple.report.wording import along, wording  # noqa: PLC0415
+    from crumple.report.wording.answer import MOST_CAUTIONS, grouped, members_of, one_mode, three_sentences  # noqa: PLC0415
     from crumple.report.wording.law_range import range_table  # noqa: PLC0415
+    from crumple.report.wording.scatter import criterion_sentences  # noqa: PLC0415
 
     # the figures and the style are our own; everything else is escaped
-    figures = {name: _Figure(i + 1, Markup(svg), caption) for i, (name, svg, caption) in enumerate(drawn)}
-    close_ups = [figure for name, figure in figures.items() if name.startswith("fold_")]
-    moments = [figure for name, figure in figures.items() if name.startswith("moment_")]
+    figures = {
+        figure.name: _Figure(i, tuple(Markup(svg) for _, svg in figure.panels), figure.caption)
+        for i, figure in enumerate(drawn, 1)
+    }
     here = Path(__file__).parent / "templates"
     environment = Environment(
         loader=FileSystemLoader(here),
@@ -222,17 +157,26 @@ def _render(
         trim_blocks=True,
     )
     text = embedded(source)
-    named = ("deformation", "rotation", "energy_rotation", "welds", "energy", "outputs")
+    named = ("scatter", "answers", "hinges", "deformation", "moments", "welds", "energy", "outputs")
+    verdict = wording.verdict(result, *limits)
     return environment.get_template("page.html.jinja").render(
         **page_parts(scene),
         title=source.title or result.title or "Crash analysis",
         meta=_meta(result, source),
-        verdict=wording.verdict(result, *limits),
+        verdict=verdict,
+        sentences=[*three_sentences(result, verdict), *one_mode(result), *criterion_sentences(result)],
+        cautions=grouped(verdict.warnings, [*result.hinges, *members_of(result)]),
+        most_cautions=MOST_CAUTIONS,
+        shown_times=window_sentence(result),
         key_figures=wording.key_figures(result),
-        figures={**{name: figures.get(name) for name in named}, "moments": moments, "folds": close_ups},
+        figures={
+            **{name: figures.get(name) for name in named},
+            "folds": [figure for name, figure in figures.items() if name.startswith("fold_")],
+        },
         omitted_hinges=max(len(result.hinges) - MAX_MOMENT_FIGURES, 0),
         hinge_table=wording.hinge_table(result),
-        crush_table=wording.crush_table(result),
+        crush_table=along.crush_table(result),
+        stretch_table=along.stretch_table(result),
         collapse_table=wording.collapse_table(result),
         stage_table=wording.stage_table(result),
         output_table=wording.output_table(result),

@@ -3,7 +3,7 @@
 from crumple.result.caution import Caution, sentences
 from crumple.result.crush import CrushSummary, crush_summary
 from crumple.result.filters import ChannelClass, Standard, cfc
-from crumple.result.law_range import LawRange
+from crumple.result.nearby import LawRange, Mode, Modes
 from crumple.result.pictures import missing_pictures
 from crumple.result.result import (
     Channel,
@@ -25,6 +25,8 @@ __all__ = [
     "CrushSummary",
     "HingeSummary",
     "LawRange",
+    "Mode",
+    "Modes",
     "Opening",
     "OutputSummary",
     "Provenance",

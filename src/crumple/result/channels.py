@@ -228,6 +228,11 @@ def kind_of(name: str) -> str:
     return ".".join(parts)
 
 
+def unit_of(name: str) -> str | None:
+    """SI unit of a channel with such a name, requested outputs apart; None if there is no such kind."""
+    return _UNITS.get(kind_of(name))
+
+
 def names_of(family: str, name: str) -> Iterator[str]:
     """Names of the channels of one hinge, node or obstacle, without those of a hinge's components."""
     for kind in KINDS:

@@ -1,4 +1,4 @@
-"""What a hinge that shortens along its member did: the usual figures of a crush zone."""
+"""What a hinge that shortens or lengthens along its member did: figures of a crush zone, and of a stretch."""
 
 from __future__ import annotations
 
@@ -12,6 +12,30 @@ BENT = 1e-3
 """Rotation [rad] below which a crush zone did not bend: what it shows then is rounding."""
 
 
+MOVED = 1e-3
+"""Lengthening over the length of the member up to which a hinge is not reported as stretched."""
+
+
+@dataclass(frozen=True)
+class StretchSummary:
+    """Stretching of one hinge.
+
+    Attributes
+    ----------
+    length, length_final
+        Largest lengthening, and that at the end [m].
+    peak_force
+        Largest tension [N].
+    energy
+        Work of the tension [J].
+    """
+
+    length: float
+    length_final: float
+    peak_force: float
+    energy: float
+
+
 @dataclass(frozen=True)
 class CrushSummary:
     """Crushing of one hinge.
@@ -23,7 +47,7 @@ class CrushSummary:
     peak_force, mean_force
         Largest compression [N], and the work of crushing over the largest shortening [N]; 0 without any.
     energy
-        Work of crushing [J].
+        Work of crushing [J]; where the hinge also lengthens, that of the compression alone.
     stroke
         Shortening at which the folds are closed [m]; None where the law has none.
     efficiency
@@ -62,8 +86,10 @@ def crush_summary(
     """
     shortening = np.maximum(-travel, 0.0)
     length = float(shortening.max(initial=0.0))
-    if energy is None:
-        energy = float(((force[1:] + force[:-1]) / 2.0 * np.diff(travel)).sum())
+    if float(travel.max(initial=0.0)) > MOVED * member_length:
+        energy = _work(travel, np.minimum(force, 0.0))
+    elif energy is None:
+        energy = _work(travel, force)
     return CrushSummary(
         length=length,
         length_final=float(shortening[-1]) if shortening.size else 0.0,
@@ -74,3 +100,19 @@ def crush_summary(
         efficiency=length / member_length,
         bottomed_out=stroke is not None and length > stroke,
     )
+
+
+def stretch_summary(travel: Floats, force: Floats, member_length: float) -> StretchSummary | None:
+    """Figures of a hinge that lengthens along its member; None up to `MOVED`.  See `crush_summary`."""
+    lengthening = np.maximum(travel, 0.0)
+    length = float(lengthening.max(initial=0.0))
+    if length <= MOVED * member_length:
+        return None
+    tension = np.maximum(force, 0.0)
+    return StretchSummary(
+        length, float(lengthening[-1]), float(tension.max(initial=0.0)), _work(travel, tension)
+    )
+
+
+def _work(travel: Floats, force: Floats) -> float:
+    return float(((force[1:] + force[:-1]) / 2.0 * np.diff(travel)).sum())

@@ -11,6 +11,8 @@ from pathlib import Path
 from crumple.portable import PART, replace
 
 SUMMARY = "summary.json"
+SOMETIMES = ("bands.csv",)
+"""Files that only some runs have: those of an earlier run are taken away with its summary."""
 
 
 @contextmanager
@@ -39,6 +41,8 @@ def published(folder: Path, last: str = SUMMARY) -> Iterator[Path]:
         files = [path for path in staging.rglob("*") if path.is_file()]
         if any(path.name == last for path in files):
             (folder / last).unlink(missing_ok=True)
+            for name in SOMETIMES:
+                (folder / name).unlink(missing_ok=True)
         for path in sorted(files, key=lambda path: path.name == last):
             place = folder / path.relative_to(staging)
             place.parent.mkdir(exist_ok=True)

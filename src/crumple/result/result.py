@@ -14,8 +14,10 @@ from crumple.errors import InputError, Problem, Status
 from crumple.hinge.law_use import LawUse
 from crumple.numeric.arrays import Floats, Integers
 from crumple.result.caution import Caution
-from crumple.result.crush import BENT, CrushSummary
-from crumple.result.law_range import LawRange
+from crumple.result.crush import BENT, CrushSummary, StretchSummary
+from crumple.result.nearby import LawRange, Modes
+from crumple.result.scatter import Judged, Scatter
+from crumple.result.tables import imported_pandas
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -103,6 +105,8 @@ class HingeSummary:
     """Where its law comes from; None where it was measured."""
     crush: CrushSummary | None = None
     """Of a hinge that can shorten along its member; None for all others."""
+    stretch: StretchSummary | None = None
+    """Of a hinge that lengthened along its member; None for all others."""
 
     @property
     def bends(self) -> bool:
@@ -249,6 +253,12 @@ class Result:
     warnings."""
     law_range: LawRange | None = None
     """Range from the bands of the hinge laws, if it was computed."""
+    modes: Modes | None = None
+    """Modes of collapse that appear beside this one, if they were looked for."""
+    criteria: tuple[Judged, ...] = ()
+    """Criteria of the input and the values of the run."""
+    scatter: Scatter | None = None
+    """How the result scatters with the input, if that has a block `uncertainty`."""
 
     def __getitem__(self, name: str) -> Floats:
         """Values of one channel, (n_times,); KeyError with similar names if there is none."""
@@ -312,11 +322,17 @@ class Result:
         return _same(self, other)
 
     def to_pandas(self) -> pd.DataFrame:
-        """Histories as a table indexed by time [s], columns named ``name [unit]``; needs pandas."""
-        import pandas as pd  # noqa: PLC0415  (optional, and slow to import)
+        """Histories as a table indexed by time [s], columns named ``name [unit]``.
 
+        Raises
+        ------
+        InputError
+            If pandas is not installed.
+        """
+        pandas = imported_pandas()
         columns = {f"{c.name} [{c.unit}]": c.values for c in self.channels.values()}
-        return pd.DataFrame(columns, index=pd.Index(self.time, name="time [s]"))
+        found: pd.DataFrame = pandas.DataFrame(columns, index=pandas.Index(self.time, name="time [s]"))
+        return found
 
 
 def _same(a: Any, b: Any) -> bool:

@@ -10,6 +10,7 @@ from crumple.portable import replacing, write_text
 from crumple.result.format import FORMAT
 from crumple.result.histories import histories_csv
 from crumple.result.result import Result
+from crumple.result.scatter import BANDS, bands_csv
 from crumple.result.summary import summary_json
 from crumple.result.vtkhdf import FILE_NAME, read_vtkhdf, write_vtkhdf
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def write(result: Result, directory: Path | str) -> None:
-    """Write summary.json, histories.csv and result.vtkhdf.
+    """Write summary.json, histories.csv, result.vtkhdf and, of a result with a scatter, bands.csv.
 
     Each file appears whole or not at all; files of an earlier run are replaced.
 
@@ -38,6 +39,8 @@ def write(result: Result, directory: Path | str) -> None:
     with replacing(folder / FILE_NAME) as temporary:
         write_vtkhdf(result, temporary)
     write_text(folder / "histories.csv", histories_csv(result))
+    if result.scatter is not None and result.scatter.bands:
+        write_text(folder / BANDS, bands_csv(result.scatter))
     # last, so that a summary means that everything else is there
     write_text(folder / "summary.json", summary_json(result))
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from crumple.result.format import FORMAT
 from crumple.result.result import HingeSummary, Result
+from crumple.result.scatter import Scatter
 
 _HINGE_KEYS = (
     "rotation_max", "rotation_final", "time_of_rest", "energy", "moment_max", "rotation_error",
@@ -57,6 +58,9 @@ def summary(result: Result) -> dict[str, Any]:
             for c in result.cautions
         ],
         "law_range": None if result.law_range is None else asdict(result.law_range),
+        "modes": None if result.modes is None else asdict(result.modes),
+        "criteria": [asdict(criterion) for criterion in result.criteria],
+        "scatter": _of_scatter(result.scatter),
         "warnings": result.warnings,
         "assumptions": result.assumptions,
         "provenance": {
@@ -71,10 +75,18 @@ def summary(result: Result) -> dict[str, Any]:
 
 
 def _of_hinge(hinge: HingeSummary) -> dict[str, Any]:
-    """Figures of one hinge; of one that can shorten along its member also those of crushing."""
+    """Figures of one hinge; of one that can shorten or lengthen along its member also those of that."""
     figures = {key: getattr(hinge, key) for key in _HINGE_KEYS}
     figures["law_use"] = None if hinge.law_use is None else asdict(hinge.law_use)
-    return figures if hinge.crush is None else {**figures, "crush": asdict(hinge.crush)}
+    further = {"crush": hinge.crush, "stretch": hinge.stretch}
+    return figures | {name: asdict(figure) for name, figure in further.items() if figure is not None}
+
+
+def _of_scatter(scatter: Scatter | None) -> dict[str, Any] | None:
+    """Scatter without its bands, which bands.csv has."""
+    if scatter is None:
+        return None
+    return {key: value for key, value in asdict(scatter).items() if key not in {"times", "bands"}}
 
 
 def summary_json(result: Result) -> str:

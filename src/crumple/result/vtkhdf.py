@@ -24,9 +24,9 @@ from numpy.typing import NDArray
 from crumple.errors import Status
 from crumple.hinge.law_use import LawUse
 from crumple.result.caution import Caution
-from crumple.result.crush import CrushSummary
+from crumple.result.crush import CrushSummary, StretchSummary
 from crumple.result.format import FORMAT, former_names_note, present_name
-from crumple.result.law_range import LawRange
+from crumple.result.nearby import LawRange, modes_of
 from crumple.result.result import (
     Channel,
     HingeSummary,
@@ -36,6 +36,7 @@ from crumple.result.result import (
     StageSummary,
     States,
 )
+from crumple.result.scatter import judged_of, scatter_of
 
 if TYPE_CHECKING:
     import h5py
@@ -85,60 +86,65 @@ def write_vtkhdf(result: Result, path: Path) -> None:
 
 def _write_grid(group: h5py.Group, states: States) -> FieldNames:
     """The grid: in every step the same cells over moved points; without steps the undeformed shape alone."""
-    group.attrs["Version"] = np.array([2, 0], dtype=np.int64)
-    # the specification wants a fixed-length ASCII string
-    group.attrs["Type"] = np.bytes_(b"UnstructuredGrid")
+    describe_grid(group)
     n_points, n_quads, n_steps = len(states.points), len(states.quads), len(states.times)
     moved = states.points + states.displacement if n_steps else states.points
-    _store(group, "NumberOfPoints", np.array([n_points]))
-    _store(group, "NumberOfCells", np.array([n_quads]))
-    _store(group, "NumberOfConnectivityIds", np.array([4 * n_quads]))
-    _store(group, "Points", moved.reshape(-1, 3))
-    _store(group, "Connectivity", states.quads.reshape(-1))
-    _store(group, "Offsets", 4 * np.arange(n_quads + 1))
-    _store(group, "Types", np.full(n_quads, VTK_QUAD, dtype=np.uint8))
+    store_array(group, "NumberOfPoints", np.array([n_points]))
+    store_array(group, "NumberOfCells", np.array([n_quads]))
+    store_array(group, "NumberOfConnectivityIds", np.array([4 * n_quads]))
+    store_array(group, "Points", moved.reshape(-1, 3))
+    store_array(group, "Connectivity", states.quads.reshape(-1))
+    store_array(group, "Offsets", 4 * np.arange(n_quads + 1))
+    store_array(group, "Types", np.full(n_quads, VTK_QUAD, dtype=np.uint8))
     points = group.create_group("PointData")
     for name in _STILL_FIELDS:
-        _store(points, name, getattr(states, name))
+        store_array(points, name, getattr(states, name))
     if not n_steps:
         return {}
-    steps = _write_steps(group, states)
+    steps = write_steps(group, states.times, n_points)
     point_offsets = steps.create_group("PointDataOffsets")
     for name in _STILL_FIELDS:
-        _store(point_offsets, name, np.zeros(n_steps, dtype=np.int64))
+        store_array(point_offsets, name, np.zeros(n_steps, dtype=np.int64))
     moving = {"displacement": states.displacement, **states.point_data}
     return {
-        "PointData": _write_fields(points, point_offsets, moving, n_points),
-        "CellData": _write_fields(
+        "PointData": write_fields(points, point_offsets, moving, n_points),
+        "CellData": write_fields(
             group.create_group("CellData"), steps.create_group("CellDataOffsets"), states.cell_data, n_quads
         ),
     }
 
 
-def _write_fields(
+def describe_grid(group: h5py.Group) -> None:
+    """Version and type of the grid, as the specification wants them."""
+    group.attrs["Version"] = np.array([2, 0], dtype=np.int64)
+    # a fixed-length ASCII string
+    group.attrs["Type"] = np.bytes_(b"UnstructuredGrid")
+
+
+def write_fields(
     group: h5py.Group, offsets: h5py.Group, fields: Mapping[str, NDArray[np.float64]], n: int
 ) -> dict[str, str]:
     """Fields that change with time, one step after the other; gives the name in the grid for each."""
     names = {}
     for name, values in fields.items():
         names[name] = plain = _field_name(name, group)
-        _store(group, plain, values.reshape(-1, *values.shape[2:]))
-        _store(offsets, plain, n * np.arange(len(values)))
+        store_array(group, plain, values.reshape(-1, *values.shape[2:]))
+        store_array(offsets, plain, n * np.arange(len(values)))
     return names
 
 
-def _write_steps(group: h5py.Group, states: States) -> h5py.Group:
+def write_steps(group: h5py.Group, times: NDArray[np.float64], n_points: int) -> h5py.Group:
     """Times and offsets: one part, the same cells in every step, new points in each."""
-    n_steps = len(states.times)
+    n_steps = len(times)
     still = np.zeros(n_steps, dtype=np.int64)
     steps = group.create_group("Steps")
     steps.attrs["NSteps"] = n_steps
-    _store(steps, "Values", states.times)
-    _store(steps, "PartOffsets", still)
-    _store(steps, "NumberOfParts", still + 1)
-    _store(steps, "PointOffsets", len(states.points) * np.arange(n_steps))
-    _store(steps, "CellOffsets", still[:, None])
-    _store(steps, "ConnectivityIdOffsets", still[:, None])
+    store_array(steps, "Values", times)
+    store_array(steps, "PartOffsets", still)
+    store_array(steps, "NumberOfParts", still + 1)
+    store_array(steps, "PointOffsets", n_points * np.arange(n_steps))
+    store_array(steps, "CellOffsets", still[:, None])
+    store_array(steps, "ConnectivityIdOffsets", still[:, None])
     return steps
 
 
@@ -149,7 +155,7 @@ def _write_rest(group: h5py.Group, result: Result, field_names: FieldNames) -> N
     for index, hinge in enumerate(hinges.values()):
         envelope = envelopes.create_group(str(index), track_order=True)
         for key, values in hinge.pop("envelope").items():
-            _store(envelope, key, values)
+            store_array(envelope, key, values)
     channels = list(result.channels.items())
     text = {
         "status": result.status.name,
@@ -169,18 +175,21 @@ def _write_rest(group: h5py.Group, result: Result, field_names: FieldNames) -> N
         "cautions": [asdict(caution) for caution in result.cautions],
         "stages": [asdict(stage) for stage in result.stages],
         "law_range": None if result.law_range is None else asdict(result.law_range),
+        "modes": None if result.modes is None else asdict(result.modes),
+        "criteria": [asdict(criterion) for criterion in result.criteria],
+        "scatter": None if result.scatter is None else asdict(result.scatter),
         "member_names": None if result.states is None else result.states.member_names,
         "fields": field_names,
     }
-    _store(group, "text", np.frombuffer(json.dumps(text, default=_plain).encode(), dtype=np.uint8))
-    _store(group, "time", result.time)
+    store_array(group, "text", np.frombuffer(json.dumps(text, default=_plain).encode(), dtype=np.uint8))
+    store_array(group, "time", result.time)
     values = [channel.values for _, channel in channels]
-    _store(group, "channels", np.array(values).reshape(len(channels), result.time.size))
+    store_array(group, "channels", np.array(values).reshape(len(channels), result.time.size))
     if result.states is not None:
-        _store(group, "points", result.states.points)
+        store_array(group, "points", result.states.points)
 
 
-def _store(group: h5py.Group, name: str, values: NDArray[Any]) -> h5py.Dataset:
+def store_array(group: h5py.Group, name: str, values: NDArray[Any]) -> h5py.Dataset:
     """Store an array with a checksum, compressed when it is large enough to gain."""
     if not values.size:
         return group.create_dataset(name, data=values)
@@ -226,10 +235,11 @@ def read_vtkhdf(file: h5py.File) -> Result:
     for index, (name, hinge) in enumerate(text["hinges"].items()):
         envelope = {key: dataset[...] for key, dataset in group["envelopes"][str(index)].items()}
         # results of earlier versions have none
-        crush, use = hinge.pop("crush", None), hinge.pop("law_use", None)
+        crush, stretch, use = (hinge.pop(key, None) for key in ("crush", "stretch", "law_use"))
         hinges[name] = HingeSummary(
             **{**hinge, "position": tuple(hinge["position"]), "envelope": envelope},
             crush=None if crush is None else CrushSummary(**crush),
+            stretch=None if stretch is None else StretchSummary(**stretch),
             law_use=None if use is None else LawUse(**use),
         )
     return Result(
@@ -254,6 +264,9 @@ def read_vtkhdf(file: h5py.File) -> Result:
         cautions=tuple(Caution(**caution) for caution in text.get("cautions", ())),
         stages=tuple(StageSummary(**stage) for stage in text.get("stages", ())),
         law_range=_law_range(text.get("law_range")),
+        modes=modes_of(text.get("modes")),
+        criteria=judged_of(text.get("criteria")),
+        scatter=scatter_of(text.get("scatter")),
     )
 
 

@@ -15,6 +15,7 @@ from crumple.section.geometry.plates import plates_of
 from crumple.section.geometry.skeleton import Complexes, Skeleton
 from crumple.section.properties.polygons import above, equal_level
 from crumple.section.properties.properties import SectionProperties, properties_of
+from crumple.section.properties.shear_area import shear_area_of
 from crumple.section.section import Axis, ByAxis, checked_axis, in_mm
 from crumple.section.wall import Wall, Weld
 
@@ -79,10 +80,14 @@ class WalledSection(ByAxis):
 
     def transformed(self, material: Material) -> SectionProperties:
         """Properties in which walls of other metals count by their moduli over those of a material."""
+        return properties_of(self.skeleton, *self._relative_moduli(material))
+
+    def _relative_moduli(self, material: Material) -> tuple[Floats, Floats]:
+        """Young's and shear modulus of each edge over those of a material."""
         metals = self.metals(material)
         stretch = np.array([metal.youngs_modulus for metal in metals]) / material.youngs_modulus
         shear = np.array([metal.shear_modulus for metal in metals]) / material.shear_modulus
-        return properties_of(self.skeleton, stretch, shear)
+        return stretch, shear
 
     def metals(self, material: Material) -> list[Material]:
         """Metal of each edge of the skeleton; ``material`` where the wall names none."""
@@ -122,6 +127,11 @@ class WalledSection(ByAxis):
     def shear_centre(self) -> tuple[float, float]:
         """Shear centre (y, z) from the centroid [m], of the mid-lines."""
         return self.properties.shear_centre
+
+    def shear_area(self, axis: Axis | float, material: Material) -> float:
+        """Shear area for bending about an axis [m^2], of the mid-lines; other metals by their moduli."""
+        stretch, shear = self._relative_moduli(material)
+        return shear_area_of(self.skeleton, stretch, shear, angle_of(axis))
 
     def second_moment(self, axis: Axis | float) -> float:
         """Second moment of area about an axis through the centroid [m^4], exact."""

@@ -20,6 +20,7 @@ from crumple.structure.checks.limit_checks import history_problems
 from crumple.structure.checks.obstacle_checks import gap, stage_problems
 from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges.asked import any_automatic
+from crumple.structure.hinges.elastic_members import with_elastic_members
 from crumple.structure.hinges.hinges import PlacedHinge, placed_hinges, plastic_hinges, shares_left_out
 from crumple.structure.hinges.law_use import law_uses, used_texts, with_used_laws
 from crumple.structure.hinges.places import HingePlace, hinge_places, member_hinge_places
@@ -116,5 +117,6 @@ __all__ = [
     "stage_problems",
     "used_texts",
     "value_at",
+    "with_elastic_members",
     "with_used_laws",
 ]

@@ -15,6 +15,9 @@ from crumple.numeric.arrays import Floats
 from crumple.structure.geometry import FLAT
 from crumple.structure.parts import StructureParts
 
+PLANAR = ("planar", "")
+"""Key of the answer of `planar` among the structure's derived data."""
+
 
 def bending_axis(structure: StructureParts, member: str) -> Literal["y", "z"]:
     """Section axis of a member nearest to the normal of the bending plane; "y" if nothing bends it.
@@ -30,13 +33,16 @@ def bending_axis(structure: StructureParts, member: str) -> Literal["y", "z"]:
     normal = structure.bending_normal
     if normal is None:
         return "y"
-    return "z" if abs(frame.z @ normal) > abs(frame.y @ normal) * (1.0 + FLAT) else "y"
+    _, y, z = np.abs(frame.axes @ np.array(normal)).tolist()
+    return "z" if z > y * (1.0 + FLAT) else "y"
 
 
 def planar(structure: StructureParts) -> bool:
     """Whether a structure lies in a plane and has no motion or load normal to it."""
     normal = structure.bending_normal
-    return normal is not None and across_plane(structure, np.asarray(normal)) is None
+    return normal is not None and structure.kept.once(
+        *PLANAR, lambda: across_plane(structure, np.asarray(normal)) is None
+    )
 
 
 def across_plane(structure: StructureParts, normal: Floats) -> str | None:

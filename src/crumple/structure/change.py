@@ -7,8 +7,16 @@ from collections.abc import Mapping
 from typing import Any
 
 from crumple.errors import InputError, Problem
-from crumple.structure.schema.spec import Spec
+from crumple.structure.bending import PLANAR
+from crumple.structure.checks.checks import problems_in
+from crumple.structure.schema.mapping import frozen
+from crumple.structure.schema.spec import Spec, raise_all
 from crumple.structure.structure import Structure
+
+WALLS = ("sections", "materials")
+"""Parts that say nothing of where a structure is and how it moves."""
+SHARED = ("bending_normal", "supports_at", "masses_at", "joints_at", "members_at")
+"""Derived data that does not depend on them."""
 
 
 def changed(structure: Structure, values: Mapping[str, Any]) -> Structure:
@@ -25,9 +33,30 @@ def changed(structure: Structure, values: Mapping[str, Any]) -> Structure:
     InputError
         If a path does not exist, or the changed structure is refused.
     """
-    found: Structure = _changed(
-        structure, {tuple(path.split(".")): value for path, value in values.items()}, ""
-    )
+    paths = {tuple(path.split(".")): value for path, value in values.items()}
+    if paths and all(head in WALLS and len(rest) > 1 for head, *rest in paths):
+        return _with_walls(structure, paths)
+    found: Structure = _changed(structure, paths, "")
+    return found
+
+
+def _with_walls(structure: Structure, values: Mapping[tuple[str, ...], Any]) -> Structure:
+    """Copy with other sections or materials, each checked by itself and all of them together.
+
+    The rest was checked before, and what was derived of places and directions alone is that of the original.
+    """
+    groups: dict[str, dict[tuple[str, ...], Any]] = defaultdict(dict)
+    for (head, *rest), value in values.items():
+        groups[head][tuple(rest)] = value
+    fields = {name: getattr(structure, name) for name in type(structure).model_fields}
+    for head, inner in groups.items():
+        fields[head] = frozen(_changed(fields[head], inner, head))
+    found = type(structure).model_construct(**fields)
+    found.__dict__.update({name: structure.__dict__[name] for name in SHARED if name in structure.__dict__})
+    found.kept.frames.update(structure.kept.frames)
+    if PLANAR in structure.kept:
+        found.kept[PLANAR] = structure.kept[PLANAR]
+    raise_all(problems_in(found))
     return found
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from crumple.numeric.arrays import Floats
 from crumple.structure.remembered import remembered
 
-Triple = tuple[float, ...]
+Triple = tuple[float, float, float]
 
 NEARLY_PARALLEL = 1e-6
 """Sine of the angle between member and `up` below which the direction across the member is noise."""
@@ -85,39 +85,57 @@ def frame_of(
     ValueError
         If the nodes coincide or ``up`` is along the member.
     """
-    direction = None if up is None else tuple(map(float, up))
-    return _frame(tuple(map(float, first)), tuple(map(float, second)), direction, float(roll))
+    return _frame(_triple(first), _triple(second), None if up is None else _triple(up), float(roll))
+
+
+def _triple(vector: Sequence[float]) -> Triple:
+    x, y, z = vector
+    return float(x), float(y), float(z)
 
 
 # every solver uses the same few frames repeatedly
 @remembered(4096)
 def _frame(first: Triple, second: Triple, up: Triple | None, roll: float) -> Frame:
-    origin = np.asarray(first, float)
-    span = np.asarray(second, float) - origin
+    # plain numbers: NumPy takes five times as long for single vectors
+    span = _along(second, -1.0, first)
     length = _size(span)
     if length == 0.0:
         raise ValueError("the nodes of the member coincide")
-    x = span / length
+    x = (span[0] / length, span[1] / length, span[2] / length)
     if up is None:
         up = (0.0, 0.0, 1.0) if math.hypot(x[0], x[1]) > NEARLY_PARALLEL else (1.0, 0.0, 0.0)
-    direction = np.asarray(up, float)
-    direction = direction / _size(direction)
-    across = direction - (direction @ x) * x
+    size = _size(up)
+    direction = (up[0] / size, up[1] / size, up[2] / size)
+    across = _along(direction, -(direction[0] * x[0] + direction[1] * x[1] + direction[2] * x[2]), x)
     size = _size(across)
     if size <= NEARLY_PARALLEL:
         raise ValueError("'up' lies along the member")
-    z = across / size
-    y = cross(z, x)
-    cosine, sine = np.cos(roll), np.sin(roll)
-    axes = np.array([x, cosine * y + sine * z, cosine * z - sine * y])
+    z = (across[0] / size, across[1] / size, across[2] / size)
+    y = (z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0])
+    if roll != 0.0:
+        cosine, sine = math.cos(roll), math.sin(roll)
+        y, z = (
+            _triple([cosine * b + sine * c for b, c in zip(y, z, strict=True)]),
+            _triple([cosine * c - sine * b for b, c in zip(y, z, strict=True)]),
+        )
+    origin, axes = np.array(first, float), np.array((x, y, z))
     # shared by all callers
     origin.flags.writeable = axes.flags.writeable = False
     return Frame(origin, axes, length)
 
 
-def _size(vector: Floats) -> float:
-    """Length of one vector; NumPy's own function takes five times as long."""
-    return math.sqrt(float(vector @ vector))
+def _along(start: Triple, distance: float, direction: Triple) -> Triple:
+    """Start, and a distance along a direction."""
+    return (
+        start[0] + distance * direction[0],
+        start[1] + distance * direction[1],
+        start[2] + distance * direction[2],
+    )
+
+
+def _size(vector: Triple) -> float:
+    """Length of one vector."""
+    return math.sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2])
 
 
 def cross(a: Sequence[float] | Floats, b: Sequence[float] | Floats) -> Floats:

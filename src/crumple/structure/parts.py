@@ -111,7 +111,7 @@ class StructureParts(Spec):
         """Whether a member's nodes exist and its axes are defined; always so in a sound structure."""
         if member not in self.members or not all(node in self.nodes for node in self.members[member].nodes):
             return False
-        if ("frame", member) in self.kept:
+        if member in self.kept.frames:
             return True
         try:
             self.frame_of(member)
@@ -121,8 +121,11 @@ class StructureParts(Spec):
 
     def frame_of(self, member: str) -> Frame:
         """Origin, axes and length of a member at the start."""
-        found: Frame | None = self.kept.get(("frame", member))
-        return self.kept.once("frame", member, lambda: self._frame_of(member)) if found is None else found
+        frames = self.kept.frames
+        found: Frame | None = frames.get(member)
+        if found is None:
+            found = frames[member] = self._frame_of(member)
+        return found
 
     def _frame_of(self, member: str) -> Frame:
         spec = self.members[member]

@@ -30,6 +30,8 @@ class Kept(dict[tuple[str, Hashable], Any]):
 
     def __init__(self) -> None:
         super().__init__()
+        self.frames: dict[str, Any] = {}
+        """Frames of members by name: asked for so often that they have a place of their own."""
         _structures[id(self)] = self
 
     def __eq__(self, other: object) -> bool:
@@ -39,6 +41,11 @@ class Kept(dict[tuple[str, Hashable], Any]):
 
     def __reduce__(self) -> tuple[type[Kept], tuple[()]]:
         return (Kept, ())
+
+    def clear(self) -> None:
+        """Forget all."""
+        super().clear()
+        self.frames.clear()
 
     def once(self, kind: str, name: Hashable, compute: Callable[[], T]) -> T:
         """Data of a kind and name; computed when first needed."""

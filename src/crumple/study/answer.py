@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
+import csv
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-from scipy import special
 
 from crumple.numeric.arrays import Floats, Integers
+from crumple.numeric.binomial import clopper_pearson
+from crumple.portable import replacing
 from crumple.study.formula import Formula
+from crumple.study.front import nondominated
 from crumple.study.study_file import Study
 from crumple.study.table import Table
 
-CONFIDENCE = 0.95
-"""Of intervals."""
 Limits = Sequence[tuple[str, float, float]]
+"""Of constraints: response, lower limit and upper limit."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +46,13 @@ class Answer:
         Row with the best objective among those that meet all constraints; None without one.
     indices
         Sobol' indices of each response, or why there are none.
+    verification
+        What a slower model says of the best rows and of random ones, see `crumple.study.verify`.
+    front
+        With several objectives: the rows that meet all constraints and that no other such row is better than
+        in one goal and at least equal to in the others, by the first goal.
+    limits
+        Of each constraint: response, lower limit and upper limit.
     """
 
     rows: int
@@ -54,6 +64,9 @@ class Answer:
     probabilities: Sequence[Mapping[str, Any]] = ()
     best: Mapping[str, Any] | None = None
     indices: Mapping[str, Any] | str = field(default_factory=dict)
+    verification: Mapping[str, Any] | None = None
+    front: Sequence[Mapping[str, Any]] = ()
+    limits: Limits = ()
 
     def plain(self) -> dict[str, Any]:
         """Content of study.json; without `solved`, which a resumed study has otherwise."""
@@ -66,7 +79,23 @@ class Answer:
             "probabilities": list(self.probabilities),
             "best": self.best,
             "indices": self.indices,
+            "front": list(self.front),
+            "verification": self.verification,
         }
+
+
+def write_front(answer: Answer, path: Path) -> None:
+    """Write the rows of the Pareto front as CSV in SI units; without several objectives there is no file."""
+    if not answer.front:
+        path.unlink(missing_ok=True)
+        return
+    first = answer.front[0]
+    with replacing(path) as file, file.open("w", encoding="utf-8", newline="") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(["row", *first["variables"], *first["responses"]])
+        writer.writerows(
+            [one["row"], *one["variables"].values(), *one["responses"].values()] for one in answer.front
+        )
 
 
 def columns_of(study: Study, table: Table) -> dict[str, Floats]:
@@ -87,25 +116,41 @@ def derived_columns(study: Study, table: Table) -> dict[str, Floats]:
     return found
 
 
-def violation_of(study: Study, table: Table, limits: Limits, first: int = 0) -> tuple[Floats, Floats]:
-    """Objective, made small, and violation of the constraints of the rows from `first`, (n,) each.
+def judged_rows(study: Study, table: Table, limits: Limits, first: int = 0) -> tuple[Floats, Floats]:
+    """Goals, each made small, (goals, n), and violation of the constraints, (n,), of the rows from `first`.
 
     The violation is the sum of excesses over limits, each over the limit's magnitude; infinite in failed
     rows.
     """
     columns = {name: column[first:] for name, column in columns_of(study, table).items()}
-    objective = study.objective
-    name = "" if objective is None else objective.minimise or objective.maximise
-    wanted = columns[name] if name else np.zeros(len(table.rows) - first)
-    violation = np.where(np.isfinite(wanted), 0.0, np.inf)
+    count = len(table.rows) - first
+    goals = [goal.sign * columns[goal.response] for goal in study.goals]
+    wanted = np.array(goals, float).reshape(len(goals), count)
+    violation = np.where(np.isfinite(wanted).all(axis=0), 0.0, np.inf)
     for response, low, high in limits:
         values = columns[response]
         for excess, limit in ((low - values, low), (values - high, high)):
             if math.isfinite(limit):
                 beyond = np.maximum(excess, 0.0) / (abs(limit) or 1.0)
                 violation = violation + np.where(np.isfinite(beyond), beyond, np.inf)
-    sign = -1.0 if objective is not None and objective.maximise else 1.0
-    return sign * wanted, violation
+    return wanted, violation
+
+
+def violation_of(study: Study, table: Table, limits: Limits, first: int = 0) -> tuple[Floats, Floats]:
+    """First goal, made small, and violation of the constraints of the rows from `first`, (n,) each."""
+    wanted, violation = judged_rows(study, table, limits, first)
+    return (wanted[0] if len(wanted) else np.zeros(violation.size)), violation
+
+
+def front_of(study: Study, table: Table, limits: Limits) -> list[int]:
+    """Numbers of the rows of the Pareto front, in the order of the first goal; of equal rows the first one.
+
+    Empty without several objectives.
+    """
+    if len(study.goals) < 2 or not table.rows:
+        return []
+    wanted, violation = judged_rows(study, table, limits)
+    return nondominated(wanted, np.flatnonzero(violation == 0.0))
 
 
 def answer_of(
@@ -129,7 +174,7 @@ def answer_of(
         As `Answer` has them.
     """
     columns, ok = columns_of(study, table), table.ok
-    failures = Counter(row.status for row in table.rows if not row.ok)
+    failures = Counter(table.rows[i].status for i in np.flatnonzero(~ok).tolist())
     statistics = {name: _statistics(columns[name]) for name in study.responses}
     likely = []
     if study.method.type == "monte_carlo":
@@ -144,6 +189,8 @@ def answer_of(
         likely,
         _best(study, table, limits, columns),
         indices or {},
+        front=[_shown_row(study, table, columns, row) for row in front_of(study, table, limits)],
+        limits=limits,
     )
 
 
@@ -173,13 +220,8 @@ def _probability(name: str, low: float, high: float, column: Floats) -> dict[str
     }
     found: dict[str, Any] = {"response": name, **limits, "rows": int(known.size), "beyond": beyond}
     if known.size:
-        outside, inside, tail = beyond, int(known.size) - beyond, 0.5 * (1.0 - CONFIDENCE)
-        low_end = special.betaincinv(outside, inside + 1, tail) if outside else 0.0
-        high_end = special.betaincinv(outside + 1, inside, 1.0 - tail) if inside else 1.0
-        found |= {
-            "probability": beyond / known.size,
-            "interval": [float(low_end), float(high_end)],
-        }
+        interval = clopper_pearson(beyond, int(known.size))
+        found |= {"probability": beyond / known.size, "interval": list(interval)}
     return found
 
 
@@ -189,11 +231,13 @@ def _best(study: Study, table: Table, limits: Limits, columns: Mapping[str, Floa
     objective, violation = violation_of(study, table, limits)
     if not (violation == 0.0).any():
         return None
-    row = int(np.argmin(np.where(violation == 0.0, objective, np.inf)))
-    variables = {axis.name: table.points[row][k] for k, axis in enumerate(table.axes)}
+    return _shown_row(study, table, columns, int(np.argmin(np.where(violation == 0.0, objective, np.inf))))
+
+
+def _shown_row(study: Study, table: Table, columns: Mapping[str, Floats], row: int) -> dict[str, Any]:
     return {
         "row": row,
-        "variables": variables,
+        "variables": {axis.name: table.points[row][k] for k, axis in enumerate(table.axes)},
         "responses": {name: float(columns[name][row]) for name in study.responses},
     }
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +11,7 @@ from typing import Annotated, Literal
 from pydantic import Field, ValidationError
 
 from crumple.analysis import LoadedInput, load_input
+from crumple.analysis.distribution import Distribution, Value
 from crumple.analysis.reading import read_file
 from crumple.errors import InputError, Problem
 from crumple.structure.schema.problems import Place, path_of, placed_problems, shown
@@ -19,28 +20,7 @@ from crumple.study.formula import Formula
 
 MOST_ROWS = 1_000_000
 """Rows of one study."""
-Value = float | str
-"""A number, or a text: a quantity with its unit, or a name."""
-OPTIMISERS = ("optimise",)
-
-
-class Distribution(Spec):
-    """How a variable scatters."""
-
-    type: Literal["normal", "lognormal", "uniform", "table"]
-    """Kind of distribution."""
-    mean: Value | None = None
-    """Mean (normal, lognormal)."""
-    deviation: Value | None = None
-    """Standard deviation (normal, lognormal)."""
-    low: Value | None = None
-    """Smallest value (uniform)."""
-    high: Value | None = None
-    """Largest value (uniform)."""
-    values: tuple[Value, ...] = ()
-    """Values of a table, increasing; between them the probability is interpolated."""
-    cumulative: tuple[float, ...] = ()
-    """Probability of being below each value of the table, from 0 to 1."""
+OPTIMISERS = ("optimise", "lightest")
 
 
 class Variable(Spec):
@@ -103,18 +83,45 @@ class Objective(Spec):
     maximise: str = ""
     """Response to make large."""
 
+    @property
+    def response(self) -> str:
+        """Its response."""
+        return self.minimise or self.maximise
+
+    @property
+    def sign(self) -> float:
+        """Factor that makes a small value the better one."""
+        return -1.0 if self.maximise else 1.0
+
 
 class Method(Spec):
     """How the points are chosen."""
 
-    type: Literal["points", "grid", "latin_hypercube", "sobol", "monte_carlo", "sobol_indices", "optimise"]
+    type: Literal[
+        "points", "grid", "latin_hypercube", "sobol", "monte_carlo", "sobol_indices", "optimise", "lightest"
+    ]
     """Kind of method."""
     file: str = ""
     """CSV file of points: a column per variable, in SI units (points)."""
     rows: Annotated[int, Field(ge=1, le=MOST_ROWS)] = 256
-    """Number of points; of blocks (sobol_indices); the largest number of rows (optimise)."""
+    """Number of points; of blocks (sobol_indices); the largest number of rows (optimise, lightest)."""
     seed: Annotated[int, Field(ge=0, le=2**32 - 1)] = 0
     """Of the random numbers: the same seed gives the same rows."""
+    gradient: bool = False
+    """Whether 'optimise' goes downhill from the base's values, with the derivatives of the kernels."""
+
+
+class Verify(Spec):
+    """Rows that are solved again by a slower model."""
+
+    best: Annotated[int, Field(ge=0, le=1000)] = 3
+    """Number of the best rows, by objective and constraints."""
+    sample: Annotated[int, Field(ge=0, le=10_000)] = 20
+    """Number of random rows, for errors and the rank correlation."""
+    fidelity: Literal["multibody", "shell"] = "shell"
+    """Solver, with its settings in the base."""
+    reserve: Annotated[float, Field(ge=0.0, le=0.9)] = 0.0
+    """Share by which the fast model must stay clear of each limit, which the slower one keeps as it is."""
 
 
 class Study(Spec):
@@ -126,6 +133,8 @@ class Study(Spec):
     """One line for people."""
     base: str = ""
     """Input file that the study varies; relative to the study file."""
+    bases: tuple[str, ...] = ()
+    """Several input files in its place; a variable with the path 'base' chooses among their names."""
     fidelity: Literal["multibody", "shell"] = "multibody"
     """Solver of the rows."""
     variables: Named[Variable]
@@ -136,8 +145,68 @@ class Study(Spec):
     """Limits of responses."""
     objective: Objective | None = None
     """What an optimisation seeks."""
+    objectives: tuple[Objective, ...] = ()
+    """Several goals at once, in place of 'objective': the answer is the front of the best compromises."""
     method: Method
     """How the points are chosen."""
+    verify: Verify | None = None
+    """Whether the best rows and random ones are solved again by a slower model."""
+
+    @property
+    def goals(self) -> tuple[Objective, ...]:
+        """All objectives, none, one or several."""
+        return (self.objective,) if self.objective is not None else self.objectives
+
+
+class StudyDocument:
+    """Content of a study file, and the lines of its keys.
+
+    Parameters
+    ----------
+    path
+        YAML file.
+
+    Attributes
+    ----------
+    places
+        From the key that a refusal names to the key of the file.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, or is not a study file.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path, self._document = path, read_file(path)
+        self.places: Callable[[str], str] = str
+        data = self.data = self._document.data
+        if not isinstance(data, dict) or data.get("crumple_study") != 1:
+            version = data.get("crumple_study") if isinstance(data, dict) else data
+            what, todo = "this is not a study file", "write 'crumple_study: 1' as the first line"
+            raise InputError(Problem(what, shown(version), "crumple_study: 1", todo, file=str(path), line=1))
+
+    def refuse_unreadable(self) -> None:
+        """Raise for mistakes of the text itself."""
+        if self._document.problems:
+            raise self.with_lines([])
+
+    def with_lines(self, problems: list[tuple[Place, Problem]] | InputError) -> InputError:
+        """Problems with the file and their lines."""
+        if isinstance(problems, InputError):
+            named = [replace(problem, where=self.places(problem.where)) for problem in problems.problems]
+            problems = [(path_of(problem.where), problem) for problem in named]
+        placed = [
+            problem
+            if problem.line or problem.file
+            else replace(problem, file=str(self.path), line=self._document.line_of(place))
+            for place, problem in problems
+        ]
+        return InputError([*self._document.problems, *placed])
+
+
+LAYOUT = "base"
+"""Path of the variable that chooses among several base inputs."""
 
 
 class LoadedStudy:
@@ -155,27 +224,56 @@ class LoadedStudy:
     """
 
     def __init__(self, path: Path) -> None:
-        self.path, self._document = path, read_file(path)
-        data = self._document.data
-        if not isinstance(data, dict) or data.get("crumple_study") != 1:
-            version = data.get("crumple_study") if isinstance(data, dict) else data
-            what, todo = "this is not a study file", "write 'crumple_study: 1' as the first line"
-            raise InputError(Problem(what, shown(version), "crumple_study: 1", todo, file=str(path), line=1))
+        self.document = StudyDocument(path)
         try:
-            self.study = Study.model_validate(data, context={"file": True})
+            self.study = Study.model_validate(self.document.data, context={"file": True})
         except ValidationError as error:
-            raise self.with_lines(placed_problems(error, Study)) from None
-        if self._document.problems:
-            raise self.with_lines([])
-        if not self.study.base:
+            raise self.document.with_lines(placed_problems(error, Study)) from None
+        self.document.refuse_unreadable()
+        names = (*((self.study.base,) if self.study.base else ()), *self.study.bases)
+        if not names:
             what, todo = "the base input is missing", "write 'base: tube.yaml'"
-            raise self.with_lines([(("base",), Problem(what, "", "the name of an input file", todo, "base"))])
-        self.base: LoadedInput = load_input(path.parent / self.study.base)
+            problem = Problem(what, "", "the name of an input file", todo, "base")
+            raise self.document.with_lines([(("base",), problem)])
+        self.bases = {Path(name).stem: load_input(path.parent / name) for name in names}
+        self.base: LoadedInput = next(iter(self.bases.values()))
+        self.study = self._with_layouts(len(names))
+
+    def _with_layouts(self, count: int) -> Study:
+        """The study with the names of its bases as values of the variable that chooses among them."""
+        study, problems = self.study, []
+        chosen = [name for name, variable in study.variables.items() if LAYOUT in variable.places]
+        if len(self.bases) < count:
+            problems.append(
+                Problem("two bases have the same name", "", "", "rename one of the files", "bases")
+            )
+        if (count > 1 or chosen) and (count < 2 or len(chosen) != 1):
+            what, todo = (
+                "one variable chooses among several bases",
+                "write 'layout: {path: base}' and 'bases'",
+            )
+            problems.append(Problem(what, ", ".join(chosen), "", todo, "bases" if count > 1 else "variables"))
+        for name in chosen:
+            unknown = [str(value) for value in study.variables[name].values if value not in self.bases]
+            if unknown:
+                what, where = "there is no such base", f"variables.{name}.values"
+                problems.append(Problem(what, unknown[0][:60], ", ".join(self.bases), "name one", where))
+        if count > 1 and (study.method.gradient or study.method.type == "lightest"):
+            what, todo = "this method has one base", "use 'optimise' without gradient, or a target"
+            problems.append(Problem(what, study.method.type, "", todo, "method"))
+        if problems:
+            raise self.document.with_lines(InputError(problems))
+        names = {
+            name: variable.model_copy(update={"values": variable.values or tuple(self.bases)})
+            for name, variable in study.variables.items()
+            if name in chosen
+        }
+        return study.model_copy(update={"variables": {**study.variables, **names}})
 
     @property
     def folder(self) -> Path:
         """Folder that file names in it are relative to."""
-        return self.path.parent
+        return self.document.path.parent
 
     @contextmanager
     def lines(self) -> Iterator[None]:
@@ -183,19 +281,7 @@ class LoadedStudy:
         try:
             yield
         except InputError as error:
-            raise self.with_lines(error) from None
-
-    def with_lines(self, problems: list[tuple[Place, Problem]] | InputError) -> InputError:
-        """Problems with the file and their lines."""
-        if isinstance(problems, InputError):
-            problems = [(path_of(problem.where), problem) for problem in problems.problems]
-        placed = [
-            problem
-            if problem.line or problem.file
-            else replace(problem, file=str(self.path), line=self._document.line_of(place))
-            for place, problem in problems
-        ]
-        return InputError([*self._document.problems, *placed])
+            raise self.document.with_lines(error) from None
 
 
 def refuse_contradictions(study: Study) -> None:
@@ -226,6 +312,8 @@ def _variable_problems(study: Study) -> Iterator[Problem]:
             yield Problem("the distribution is missing", "", "", "add 'distribution', or low and high", where)
         elif kind != "points" and not (scatters or bounded or variable.values):
             yield Problem("the range is missing", "", "", "add low and high, or values", where)
+        elif kind == "lightest" and not variable.values:
+            yield Problem("'lightest' needs values", "", "catalogue sizes", "add values", where)
         elif kind in {"grid", "optimise"} and not (bounded or variable.values):
             yield Problem(f"'{kind}' needs a range", "", "", "add low and high, or values", where)
         elif kind == "grid" and not variable.values and variable.steps is None:
@@ -266,10 +354,38 @@ def _goal_problems(study: Study) -> Iterator[Problem]:
             what = "the limit is missing"
             yield Problem(what, "", "at_most, at_least", "add one", f"constraints.{i}")
     if objective is not None:
-        if bool(objective.minimise) == bool(objective.maximise):
-            yield Problem("an objective has one goal", "", "minimise or maximise", "keep one", "objective")
-        elif (objective.minimise or objective.maximise) not in study.responses:
-            came = (objective.minimise or objective.maximise)[:60]
-            yield Problem("there is no such response", came, allowed, "name one", "objective")
-    elif study.method.type in OPTIMISERS:
+        yield from _objective_problems(study, objective, "objective")
+        if study.objectives:
+            what, todo = "there are 'objective' and 'objectives'", "keep one of them"
+            yield Problem(what, "", "one of the two", todo, "objectives")
+    elif study.method.type in OPTIMISERS and not study.objectives:
         yield Problem("the objective is missing", "", "minimise or maximise", "add 'objective'", "method")
+    for i, one in enumerate(study.objectives):
+        yield from _objective_problems(study, one, f"objectives.{i}")
+    names = [one.response for one in study.objectives]
+    if len(names) == 1 or len(set(names)) < len(names):
+        what, todo = "several objectives are several responses", "write one as 'objective'"
+        yield Problem(what, ", ".join(names)[:60], "two or more different ones", todo, "objectives")
+    if study.method.gradient and (
+        study.method.type != "optimise" or study.objective is None or not study.base
+    ):
+        what, todo = "'gradient' is for 'optimise' with one objective", "leave it out"
+        yield Problem(what, study.method.type, "", todo, "method.gradient")
+    if study.objectives and study.method.type == "lightest":
+        what, todo = "'lightest' has one objective, the mass", "write 'objective', or use 'optimise'"
+        yield Problem(what, "", "", todo, "objectives")
+
+
+def _objective_problems(study: Study, objective: Objective, where: str) -> Iterator[Problem]:
+    if bool(objective.minimise) == bool(objective.maximise):
+        yield Problem("an objective has one goal", "", "minimise or maximise", "keep one", where)
+    elif objective.response not in study.responses:
+        allowed = ", ".join(study.responses)
+        yield Problem("there is no such response", objective.response[:60], allowed, "name one", where)
+    elif study.method.type == "lightest" and not _is_mass(study, objective.minimise):
+        what, todo = "'lightest' makes the mass small", "minimise a response with 'mass: true'"
+        yield Problem(what, objective.response, "", todo, where)
+
+
+def _is_mass(study: Study, name: str) -> bool:
+    return name in study.responses and study.responses[name].mass

@@ -13,7 +13,7 @@ def columns(record: Any, within: str = "") -> Iterator[tuple[str, Any]]:
         value = getattr(record, field.name)
         if is_dataclass(value):
             yield from columns(value, f"{within}{field.name}.")
-        else:
+        elif not isinstance(value, dict):
             yield f"{within}{field.name}", value
 
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from crumple.analysis.reading import DEEPEST, _plain_scalar, _Reader, read_text
+from crumple.analysis.reading import DEEPEST, Document, _plain_scalar, _Reader, read_text
 from crumple.analysis.simple_yaml import SimpleText
 from crumple.errors import InputError
 
@@ -28,7 +28,10 @@ def same(text: str) -> bool:
         return False
     full = _Reader(text, "").read()
     assert repr(quick.data) == repr(full.data)  # type: ignore[attr-defined]
-    assert quick.lines == full.lines
+    # what is in brackets is in the line of what they belong to
+    read = Document(quick.data, quick.lines)  # type: ignore[attr-defined]
+    assert {place: read.line_of(place) for place in full.lines} == full.lines
+    assert quick.lines.keys() <= full.lines.keys()
     assert not full.problems
     return True
 
@@ -43,6 +46,8 @@ SIMPLE = [
     "a:\n- 1\n- b: 2\n  c: 3\n-   - x\n    - y\nd: ~\n",
     "a: 1 # note\n# note\n\n'b': \"c: d\"\ne:\nf: true\n",
     "a: {}\nb: []\nc: .inf\nd: .nan\ne: +5\nf: -.5\r\ng: x, y [z] {w}\n",
+    "a: [{b: 1, c: x}]\nb: [[1], 2]\nc: {d: {e: 1}}\nd: [ 1 , 2 mm ]\n",
+    "e: [{a: 1}, {b: 2}]\nf: {g: ~ , 'h': 1}\n",
     "größe: 20 °\n1: 2\n_x: no\n",
 ]
 

@@ -1,17 +1,20 @@
 """Sub-models of members and corners: geometry, mirror images, kept laws."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from crumple.characterisation import Bending, LawCurve, LawStore, characterise
+from crumple.analysis import solve
+from crumple.characterisation import Bending, LawCurve, LawStore, OutOfPlane, characterise
 from crumple.characterisation.law import law_of
 from crumple.characterisation.resolution import Resolution
 from crumple.characterisation.solving import energy_error
-from crumple.characterisation.sub_model import is_mirrored
+from crumple.characterisation.sub_model import StrongCornerError, is_mirrored
 from crumple.errors import InputError
 from crumple.hinge.measured.law_file import read_law, write_law
+from crumple.hinge.measured.library import by_place
 from crumple.material import Material
 from crumple.section import half_fold_length
 from crumple.section.shapes.hat import Hat
@@ -103,3 +106,51 @@ def test_a_sub_model_that_folds_outside_its_gauge_is_refused_with_the_reason(ang
     }
     with pytest.raises(InputError, match=message):
         model.curve(history)
+
+
+@pytest.mark.parametrize("axis", ["y", "z"])
+@pytest.mark.parametrize("degrees", [30.0, 90.0, 100.0])
+@pytest.mark.parametrize("kind", [Bending, OutOfPlane])
+def test_shells_join_the_pieces_of_a_corner_by_a_mitre(kind, degrees, axis):
+    deep = RectangularTube(width=0.050, depth=0.060, thickness=0.002)
+    coarse = Resolution(elements=2.0)
+    analysis = kind(deep, STEEL, axis=axis, angle=math.radians(degrees), resolution=coarse).analysis()
+    said = " ".join(solve(analysis, "shell", 1, cancel=lambda: True).assumptions)
+    assert "Walls are shells" in said
+    assert "move as one rigid body" not in said
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_corner_that_is_too_strong_in_one_sense_has_the_law_of_its_member_there(monkeypatch, sense):
+    coarse = {"largest": math.radians(8.0), "resolution": Resolution(2.0, 7.0)}
+    model = Bending(TUBE, STEEL, sense=sense, angle=math.radians(20.0), **coarse)
+    measured = Bending.curve
+
+    def curve(self, result):
+        if self.angle is not None and self.sense < 0:
+            raise StrongCornerError("as strong as its members")
+        return measured(self, result)
+
+    monkeypatch.setattr(Bending, "curve", curve)
+    done = characterise(model)
+    member = characterise(Bending(TUBE, STEEL, sense=-1, **coarse)).curve
+    assert done.law.curve.negative == (tuple(member.rotation.tolist()), tuple(member.moment.tolist()))
+    assert done.law.curve.positive[1][0] < 0.99 * member.moment[0]
+    assert "straight member" in dict(done.law.origin)["opened"]
+    assert "closed" not in dict(done.law.origin)
+    assert done.curve.moment[0] == done.law.points(sense)[1][0]
+    assert done.law.title == model.title
+
+
+def test_laws_of_corners_of_an_earlier_method_are_computed_again_and_not_preferred(tmp_path):
+    model = Bending(TUBE, STEEL, angle=1.0)
+    curve = LawCurve(np.array([0.0, 0.2]), np.array([900.0, 500.0]), np.array([0.0, 140.0]))
+    law = law_of(model, curve, curve, {}, None)
+    path = LawStore(tmp_path).path(model)
+    assert "-4-" in path.name
+    assert "-3-" in LawStore(tmp_path).path(Bending(TUBE, STEEL)).name
+    # the earlier law has a known error, which decides among laws of one method
+    origin = tuple(one for one in law.origin if one[0] != "revision")
+    earlier = replace(law, origin=origin, validity=replace(law.validity, uncertainty=0.01))
+    texts = [write_law(earlier), write_law(law)]
+    assert by_place(texts) == {model.place: texts[1]}

@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from crumple.characterisation import Crush, LawStore, characterise
-from crumple.characterisation.folds import fold_count, stroke
+from crumple.characterisation.crush import fold_count, stroke
 from crumple.characterisation.resolution import Resolution
 from crumple.cli.main import app
 from crumple.errors import InputError, Status

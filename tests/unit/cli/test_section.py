@@ -63,6 +63,8 @@ def row(out: str, label: str) -> list[str]:
     [
         ("rectangular_tube 50x25x2 mm, corner radius 5 mm", room.RectangularTube(0.05, 0.025, 0.002, 0.005)),
         ("square tube 4x0.2 cm", room.square_tube(0.04, 0.002)),
+        ("square_tube 70x70x2", room.square_tube(0.07, 0.002)),
+        ("circular_tube 60x2", room.CircularTube(0.06, 0.002)),
         ("circular_tube 60x2 mm", room.CircularTube(0.06, 0.002)),
         (
             "channel 40x80x2 mm, lip 15 mm, corner radius 4 mm",
@@ -96,6 +98,7 @@ def test_sections_in_one_line(text: str, meant: object) -> None:
         ("angle 40x60x3 mm, lip 5 mm", "does not belong to an angle"),
         ("multi_cell_tube 90x60x3 mm, cells 30x2", "1 to 20"),
         ("square_tube 40x30x2 mm", "2 dimensions, not 3"),
+        ("square_tube 40x40x40x2", "2 dimensions, not 4"),
         ("hat 60x50x40 mm, flange 20 mm", "half"),
         ("walls 50x25x2 mm", "this is not a section"),
     ],

@@ -84,8 +84,10 @@ CALLS = {
         "ShellState(model()).advance(1e-6, steps=-1)",
         "ShellState(model()).deform(place, place, place, 0.0)",
         "ShellState(model()).deform(place[:3], place, place, 1.0)",
-        "ShellState(model(settings=ShellSettings(self_contact=True))).restore("
-        "ShellState(model()).checkpoint() | {'contact': np.zeros(5)})",
+        "touching = model(settings=ShellSettings(self_contact=True))\n"
+        "ShellState(touching).restore(ShellState(touching).checkpoint() | {'contact': np.zeros(5)})",
+        "ShellState(model()).restore(ShellState(model(position=2 * place)).checkpoint())",
+        "ShellState(model()).restore(ShellState(model()).checkpoint() | {'marks': np.zeros(3)})",
         "kernel.Simulation.__new__(kernel.Simulation).advance(1.0, 1.0, 1, 1)",
         "state = ShellState(model())\n"
         "work = threading.Thread(target=state.advance, args=(1.0,), daemon=True)\n"
@@ -147,6 +149,8 @@ CALLS = {
         "run(length=float('inf'))",
         "run(joints=[held]).stage(False, [], [], [(4, 1.0, 0, 3, [-1, -1], [[], []])])",
         "run(joints=[held]).stage(False, [], [], [(4, 1.0, 9, 3, [-1, -1], [[0.0] * 3] * 2)])",
+        "run(joints=[held]).stage(False, [], [], [(4, 1.0, 0, 6, [-1, -1], [[0.0] * 3] * 2)])",
+        "run(joints=[held]).stage(False, [], [], [(4, nan, 0, 3, [-1, -1], [[0.0] * 3] * 2)])",
         "run(joints=[held]).stage(False, [5], [], [])",
         "run().stage(False, [], [], [(0,)])",
         "k.Simulation(model(), nan, nan, nan)",

@@ -3,6 +3,7 @@
 Processes of their own lower their limit of address space until only some of the threads find room for stacks.
 """
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -12,7 +13,11 @@ import pytest
 ROOT = Path(__file__).parents[3]
 STACK, ROOM = 64 << 20, 160 << 20
 
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+SANITIZED = "san.so" in os.environ.get("LD_PRELOAD", "")
+pytestmark = [
+    pytest.mark.skipif(sys.platform != "linux", reason="reads /proc"),
+    pytest.mark.skipif(SANITIZED, reason="sanitizers need the address space that is taken away here"),
+]
 
 LIMIT = f"""
 import resource

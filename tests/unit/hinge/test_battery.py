@@ -67,6 +67,7 @@ OPTIONS = {
         {"angle": math.pi / 4, "after_jamming": "hold"},
         {"angle": 1.2, "after_jamming": "stop", "rolling_weight": 0.0},
     ],
+    "mitred_corner": [{"angle": math.pi / 2}, {"angle": 0.5, "closing": "negative"}],
     "measured": [
         {
             "rotations": [(0.0, 0.004, 0.006, 0.01, 0.02, 0.1, 0.4)],
@@ -82,7 +83,11 @@ OPTIONS = {
         {"after_jamming": "stop"},
     ],
 }
-ASYMMETRIC = {("table", 1), *(("folded_profile", number) for number in range(4))}
+ASYMMETRIC = {
+    ("table", 1),
+    *(("folded_profile", number) for number in range(4)),
+    *(("mitred_corner", number) for number in range(2)),
+}
 
 
 def sheet(tube):

@@ -19,6 +19,8 @@ def test_laws_are_found_by_the_files_of_their_folder():
         "folded_profile",
         "kecman",
         "measured",
+        "mitred_corner",
+        "mitred_corner_across",
         "oblique",
         "table",
         "wierzbicki",

@@ -5,9 +5,10 @@ import pytest
 from tests.support.multibody.frames import CLAMP, LAW, member, structure
 
 from crumple.errors import InputError
-from crumple.multibody import Run, solve_multibody
+from crumple.multibody import Run, solve_multibody, solver_of
 from crumple.multibody.answer.solved import HingeHistory
-from crumple.multibody.checks.collapse import collapse_log, not_unique
+from crumple.multibody.checks.collapse import changed_capacities, collapse_log, not_unique, scaled_hinge
+from crumple.multibody.spatial.solver import SpatialSolver
 from crumple.structure import MultibodySettings, Outputs, Stage, placed_hinges
 
 G = 9.81
@@ -192,6 +193,16 @@ def test_a_mechanism_that_a_small_change_moves_elsewhere_is_named():
     assert text == "The mechanism is not unique. With capacities changed by 1 %: k opens instead of i."
 
 
+def test_rotations_of_rounding_are_no_mechanism():
+    h, i, _ = hinges()
+    for size, unique in ((1e-17, True), (1e-6, False)):
+        runs = [
+            [history(h, 2 * size), history(i, 0.1 * size)],
+            [history(h, 0.3 * size), history(i, 4 * size)],
+        ]
+        assert (not_unique(runs) is None) == unique
+
+
 def test_equal_hinges_at_a_corner_make_a_mechanism_that_is_not_unique():
     nodes = {"a": (0, 0, 0), "b": (0, 0, 1), "c": (1, 0, 1)}
     members = {name: member(*name) | {"up": (0.0, 1.0, 0.0)} for name in ("ab", "bc")}
@@ -224,3 +235,99 @@ def test_candidates_that_stay_closed_change_nothing():
     assert result.hinges["bar-a"].rotation_final == pytest.approx(
         single.hinges["bar-a"].rotation_final, rel=1e-4
     )
+
+
+def test_a_solver_with_other_laws_at_the_same_places_is_that_of_a_structure_with_these():
+    across = {"axis": None, "axes": ("y", "z")}
+    members = {"ab": member("a", "b", ("h", 0.3, across), ("i", 0.6, across))}
+    thrown = [{"rotation": 5.0, "axis": (0.0, 1.0, 1.0)}]
+    whole = structure(members=members, initial_velocity=thrown)
+    run = Run(0.02, 0.02)
+    first = solver_of(whole, run)
+    for hinges in changed_capacities(placed_hinges(whole)):
+        shared = first.with_hinges(hinges).run(1e-3, None, ends_only=True)
+        anew = SpatialSolver(whole, run, hinges).run(1e-3, None, ends_only=True)
+        assert [h.rotation_max for h in shared.hinges] == [h.rotation_max for h in anew.hinges]
+        assert shared.hinges[0].hinge is hinges[0]
+    assert first.run(1e-3, None, ends_only=True).hinges[0].hinge is first.hinges[0]
+
+
+def test_a_run_with_other_laws_takes_the_steps_of_the_first_one_and_is_as_accurate():
+    across = {"axis": None, "axes": ("y", "z")}
+    members = {"ab": member("a", "b", ("h", 0.2, across), ("i", 0.5, across), ("j", 0.8, across))}
+    whole = structure(members=members, initial_velocity=[{"rotation": 12.0, "axis": (0.0, 1.0, 0.7)}])
+    solver = solver_of(whole, Run(0.05, 0.05))
+    leader = solver.run(1e-3, None, ends_only=True)
+    for hinges in changed_capacities(placed_hinges(whole)):
+        guided, alone = solver.with_hinges(hinges), SpatialSolver(whole, Run(0.05, 0.05), hinges)
+        found, own, exact = (
+            each.run(accuracy, None, ends_only=True)
+            for each, accuracy in ((guided, 1e-3), (alone, 1e-3), (alone, 1e-5))
+        )
+        assert found.steps == leader.steps
+        assert found.rejected < own.rejected
+        assert found.solves < 0.7 * own.solves
+        rotations = np.array([[h.rotation_max for h in run.hinges] for run in (found, exact)])
+        assert np.abs(rotations[0] - rotations[1]).max() < 2e-3 * rotations[1].max()
+        assert found.residual < 1e-4
+
+
+@pytest.mark.parametrize("axis", [(0.0, 1.0, 0.7), (0.0, 0.2, 1.0), (0.3, 1.0, 0.0)])
+def test_the_run_that_estimates_the_error_takes_pairs_of_steps_as_one(axis):
+    across = {"axis": None, "axes": ("y", "z")}
+    members = {"ab": member("a", "b", ("h", 0.2, across), ("i", 0.5, across), ("j", 0.8, across))}
+    whole = structure(members=members, initial_velocity=[{"rotation": 12.0, "axis": axis}])
+    run = Run(0.05, 0.05)
+    solver = solver_of(whole, run)
+    result = solver.run(2.5e-4, None)
+    rough = solver.run(1e-3, None, ends_only=True)
+    alone, exact = (
+        SpatialSolver(whole, run, placed_hinges(whole)).run(accuracy, None, ends_only=True)
+        for accuracy in (1e-3, 1e-5)
+    )
+    assert rough.steps < 0.8 * result.steps
+    assert rough.solves < 0.6 * alone.solves
+    found, coarse, true = (np.array([h.rotation_max for h in r.hinges]) for r in (result, rough, exact))
+    assert np.abs(coarse - found).max() > np.abs(true - found).max()
+    assert np.abs(coarse - found).max() < 1e-2 * true.max()
+
+
+def test_a_run_that_departs_from_its_leader_goes_on_by_itself():
+    members = {"ab": member("a", "b", ("h", 0.2, {"axis": "y"}), ("i", 0.5, {"axis": "z"}))}
+    whole = structure(members=members, initial_velocity=[{"rotation": 8.0, "axis": (0.0, 1.0, 0.7)}])
+    solver = solver_of(whole, Run(0.05, 0.05))
+    solver.run(1e-3, None, ends_only=True)
+    strong = tuple(scaled_hinge(hinge, 3.0) for hinge in placed_hinges(whole))
+    found = solver.with_hinges(strong).run(1e-3, None, ends_only=True)
+    exact = SpatialSolver(whole, Run(0.05, 0.05), strong).run(1e-5, None, ends_only=True)
+    assert found.rejected > 0
+    rotations = np.array([[h.rotation_max for h in run.hinges] for run in (found, exact)])
+    assert np.abs(rotations[0] - rotations[1]).max() < 4e-3 * rotations[1].max()
+
+
+@pytest.mark.parametrize(
+    ("least", "velocity", "unique"),
+    [
+        (300.0, (-3.0, 0.0, -6.0), False),
+        (900.0, (-3.0, 0.0, -6.0), False),
+        (900.0, (-3.0, 1.0, -6.0), False),
+        (900.0, (-1.0, 2.0, -8.0), False),
+        (300.0, (-3.0, 1.0, -6.0), True),
+        (300.0, (-1.0, 2.0, -8.0), True),
+    ],
+)
+def test_guided_runs_leave_the_mechanism_of_their_leader_where_runs_alone_do(least, velocity, unique):
+    nodes = {"a": (0, 0, 0), "b": (0, 0, 1), "c": (1, 0, 1)}
+    members = {name: member(*name) | {"up": (0.0, 1.0, 0.0)} for name in ("ab", "bc")}
+    table = {"type": "table", "rotation": (0.0, 0.5), "moment": (1000.0, least)}
+    thrown = [{"translation": velocity, "nodes": ("c",)}]
+    masses = {"m": {"node": "c", "mass": 10.0}}
+    frame = structure(nodes, members, hinges={"law": table}, masses=masses, initial_velocity=thrown)
+    run = Run(0.05, 0.05)
+    solver = SpatialSolver(frame, run, placed_hinges(frame))
+    guided, alone = [[solver.run(1e-3, None, ends_only=True).hinges] for _ in range(2)]
+    for hinges in changed_capacities(placed_hinges(frame)):
+        guided.append(solver.with_hinges(hinges).run(1e-3, None, ends_only=True).hinges)
+        alone.append(SpatialSolver(frame, run, hinges).run(1e-3, None, ends_only=True).hinges)
+    assert (not_unique(guided) is None) == unique
+    assert not_unique(guided) == not_unique(alone)

@@ -1,6 +1,7 @@
 """Several layouts on one page: table, data, figures; refusals are rows."""
 
 import csv
+import html
 from dataclasses import replace
 from xml.etree import ElementTree
 
@@ -68,3 +69,13 @@ def test_page_of_refusals_alone_is_written(layouts, tmp_path):
     page = write_layouts(layouts[2:], "Layouts", tmp_path).read_text(encoding="utf-8")
     assert "refused" in page
     assert not (tmp_path / "figures").exists()
+
+
+def test_alike_warnings_of_layouts_are_one_line(tmp_path):
+    warned = [
+        Layout(name, "", 1.0, tube_result(warnings=(f"{share} J are lost.", f"Only {name}.")))
+        for name, share in (("one", 4.0), ("two", 5.0))
+    ]
+    text = html.unescape(write_layouts(warned, "two", tmp_path).read_text(encoding="utf-8"))
+    assert "<li>one: 4.0 J are lost. The same of two.</li>" in text
+    assert "two: 5.0 J" not in text

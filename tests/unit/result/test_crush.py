@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from crumple.result import crush_summary
+from crumple.result.crush import stretch_summary
 
 
 def test_a_constant_force_is_its_own_mean_and_peak():
@@ -30,3 +31,15 @@ def test_beyond_the_stroke_it_has_bottomed_out():
 def test_tension_crushes_nothing():
     crush = crush_summary(np.array([0.0, 0.01]), np.array([2e4, 2e4]), 0.25, 0.06)
     assert (crush.length, crush.peak_force, crush.mean_force, crush.efficiency) == (0.0, 0.0, 0.0, 0.0)
+
+
+def test_of_a_hinge_that_lengthens_crushing_is_the_compression_alone():
+    travel, force = np.array([0.0, -1e-5, 0.0, 0.01, 0.008]), np.array([0.0, -2e4, 0.0, 3e4, 3e4])
+    crush = crush_summary(travel, force, 0.25, None, energy=500.0)
+    # 1e-5 m out and back under the same force is no work
+    assert (crush.energy, crush.mean_force) == (pytest.approx(0.0), pytest.approx(0.0))
+    assert crush.peak_force == 2e4
+    stretch = stretch_summary(travel, force, 0.25)
+    assert (stretch.length, stretch.length_final, stretch.peak_force) == (0.01, 0.008, 3e4)
+    assert stretch.energy == pytest.approx(3e4 * 0.01 / 2.0 - 3e4 * 0.002)
+    assert stretch_summary(travel / 100.0, force, 0.25) is None

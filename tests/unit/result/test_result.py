@@ -2,6 +2,7 @@
 
 import json
 import math
+import sys
 
 import numpy as np
 import pytest
@@ -74,6 +75,12 @@ def test_to_pandas(tube):
     table = tube.to_pandas()
     assert table.index.name == "time [s]"
     np.testing.assert_array_equal(table["hinge.root.moment [N*m]"], tube["hinge.root.moment"])
+
+
+def test_without_pandas_a_table_says_what_to_do(tube, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(InputError, match=r"(?s)pandas is not installed.*pip install pandas"):
+        tube.to_pandas()
 
 
 def test_summary_has_the_keys_of_the_contract(tube):

@@ -5,15 +5,22 @@ import sqlite3
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
 import pytest
 from tests.unit.cli.test_cli import run_command  # noqa: F401  (a fixture)
 
+from crumple.analysis import load, solve
+from crumple.analysis.criteria import Measured, measure
 from crumple.errors import InputError
-from crumple.study import LoadedStudy, Study, run_study, study_of
+from crumple.structure import changed
+from crumple.study import LoadedStudy, Study, Table, run_study, study_of
+from crumple.study import table as study_table
 from crumple.study.formula import Formula
+from crumple.study.rows import Model, Row, batch
+from crumple.study.space import axes_of
 
 BASE = Path("examples/01_tube_bending.yaml").resolve()
 SPEED = "{path: initial_velocity, low: 0.5, high: 1.5}"
@@ -51,20 +58,126 @@ def test_rows_do_not_depend_on_workers(tmp_path, kind):
     assert rows_of(tmp_path / "1") == rows_of(tmp_path / "3")
 
 
-def test_processes_give_the_rows_of_batches(tmp_path):
-    """A value at a time is not among what batches give; the last one is both.
+AT_EARLIER = AT_THE_END.replace("100 ms", "43.7 ms")
+DEFLECTION = "{channel: node.tip.displacement.z, take: max}"
 
-    They agree to the accuracy of the base's settings, 1e-3: a single run's steps end at its output times.
+
+@pytest.mark.parametrize("response", [ROTATION, AT_THE_END, AT_EARLIER, DEFLECTION, "{mass: true}"])
+def test_rows_of_processes_have_the_bits_of_batches(tmp_path, response):
+    """Whoever solves a row: the batch, a process, or an executor that is given."""
+    file = written(tmp_path, "{type: grid}", WALL.replace("3 mm", "3 mm, steps: 3"), response)
+    with ThreadPoolExecutor(1) as executor:
+        for name, given in (("batch", None), ("alone", executor)):
+            (tmp_path / name).mkdir()
+            table, _ = run_study(LoadedStudy(file), tmp_path / name, executor=given)
+            assert all(row.ok for row in table.rows)
+    assert rows_of(tmp_path / "batch") == rows_of(tmp_path / "alone")
+
+
+def test_single_runs_agree_with_batches_within_their_error(tmp_path):
+    """A rate of rotation is not among what batches give, so these rows are those of `solve`.
+
+    That solves at a quarter of the accuracy, with steps that end at its outputs: the difference is the error
+    of the run at the accuracy itself, which it reports.
     """
-    for name, response in (("a", "{channel: hinge.root.rotation}"), ("b", AT_THE_END)):
+    more = "\n  s: {channel: node.tip.rotation_rate.y, take: max}"
+    for name, response in (("a", ROTATION), ("b", ROTATION + more)):
         file = written(tmp_path, "{type: grid}", WALL.replace("3 mm", "3 mm, steps: 3"), response)
         (tmp_path / name).mkdir()
-        table, _ = run_study(LoadedStudy(file), tmp_path / name, 2)
-        assert all(row.ok for row in table.rows)
+        run_study(LoadedStudy(file), tmp_path / name, 2)
     a, b = (list(csv.reader(rows_of(tmp_path / name).decode().splitlines())) for name in "ab")
     assert [row[1] for row in a] == [row[1] for row in b]
-    for one, other in zip(a[1:], b[1:], strict=True):
-        assert float(one[2]) == pytest.approx(float(other[2]), rel=1e-3)
+    for wall, one, other in zip(
+        *([row[k] for row in t[1:]] for t, k in ((a, 1), (a, 2), (b, 2))), strict=True
+    ):
+        analysis = load(BASE)
+        structure = changed(analysis.structure, {"sections.tube.thickness": float(wall)})
+        result = solve(analysis.model_copy(update={"structure": structure}))
+        assert float(other) == result.hinges["root"].rotation_max
+        assert 0.0 < abs(float(one) - float(other)) <= result.hinges["root"].rotation_error
+
+
+DERIVED = {
+    "filtered": "{channel: smooth, take: max}",
+    "filtered_end": "{channel: smooth}",
+    "filtered_at": "{channel: smooth, take: at, time: 31.3 ms}",
+    "turned": "{channel: turned, take: max}",
+    "mean": "{channel: node.tip.acceleration.z, take: max}",
+    "speed": "{channel: node.tip.velocity.z, take: max}",
+    "speed_end": "{channel: node.tip.velocity.z}",
+    "speed_at": "{channel: node.tip.velocity.z, take: at, time: 31.3 ms}",
+}
+
+
+def derived(folder, base):
+    """Rows of a batch, and of single runs at the accuracy of the batch."""
+    file = written(folder, "{type: grid}", WALL.replace("3 mm}", "3 mm, steps: 2}"), ROTATION)
+    text = file.read_text().replace(f"base: {BASE}", f"base: {base}")
+    text = text.replace(f"r: {ROTATION}", "\n  ".join(f"{name}: {given}" for name, given in DERIVED.items()))
+    file.write_text(text, encoding="utf-8")
+    loaded = LoadedStudy(file)
+    table, _ = run_study(loaded, folder, 1)
+    analysis = loaded.base.analysis
+    for (wall,), row in zip(table.points, table.rows, strict=True):
+        structure = changed(analysis.structure, {"sections.tube.thickness": wall})
+        result = solve(analysis.model_copy(update={"structure": structure}))
+        measured = [
+            measure(result, Measured(name, given.channel, given.take, 0.0313))
+            for name, given in loaded.study.responses.items()
+        ]
+        yield dict(zip(DERIVED, row.values, strict=True)), dict(zip(DERIVED, measured, strict=True))
+
+
+@pytest.mark.parametrize("space", [False, True])
+def test_batches_give_velocities_accelerations_and_filtered_channels(tmp_path, space, monkeypatch):
+    """As single runs do, at a quarter of the accuracy of 1e-3: the largest difference is 2e-5."""
+    from crumple.study.rows import process
+
+    base = tmp_path / "base.yaml"
+    filters = (
+        "  filters:\n    smooth: {channel: node.tip.acceleration.z, cfc: 60}\n"
+        "    turned: {channel: hinge.root.rotation, cfc: 60}\n  nodes: [tip]"
+    )
+    text = BASE.read_text().replace("  nodes: [tip]", filters)
+    if space:
+        text = text.replace("{accuracy: 1e-3}", "{accuracy: 1e-3, kernel: spatial}")
+    base.write_text(text, encoding="utf-8")
+    monkeypatch.setattr(process, "solve", None)  # single runs are not needed
+    for rows, single in derived(tmp_path, base):
+        for name, value in rows.items():
+            scale = max(abs(value) for key, value in single.items() if key[:4] == name[:4])
+            assert value == pytest.approx(single[name], abs=1e-4 * scale), name
+
+
+def test_long_studies_of_walls_are_shared_by_processes(tmp_path, monkeypatch):
+    """The same rows as without them."""
+    file = written(tmp_path, "{type: sobol, rows: 64}", WALL, DEFLECTION)
+    monkeypatch.setattr(batch, "SHARED_FROM", 0.0)
+    for name, workers in (("one", 1), ("two", 2)):
+        (tmp_path / name).mkdir()
+        table, answer = run_study(LoadedStudy(file), tmp_path / name, workers)
+        assert answer.solved == len(table.rows) == 64
+    assert rows_of(tmp_path / "one") == rows_of(tmp_path / "two")
+
+
+def test_slow_rows_are_kept_while_others_are_in_work(tmp_path, monkeypatch):
+    """A row that is known is in the file before the next one is."""
+    monkeypatch.setattr(study_table, "LATEST", 0.0)
+    kept = []
+
+    class Slow(Model):
+        def rows(self, points):
+            for i in range(len(points)):
+                yield [(i, Row((float(i),), "complete", ""))]
+                kept.append(count(tmp_path))
+
+    study = LoadedStudy(written(tmp_path, "{type: sobol, rows: 2}"))
+    axes = axes_of(study.study, study.base.document.data)
+    table = Table(axes, ["r"], Slow(), tmp_path / "study.sqlite", "x")
+    table.solve([(0.1,), (0.2,), (0.3,)])
+    assert kept == [1, 2, 3]
+    table.close()
+    assert count(tmp_path) == 3
 
 
 def test_a_killed_study_goes_on(tmp_path):
@@ -130,6 +243,10 @@ def test_failed_rows_are_rows(tmp_path):
     assert (answer.complete, answer.solved) == (2, 2)
     assert "thickness" in table.rows[1].reason
     assert "refused" in rows_of(tmp_path).decode()
+    frame = table.to_pandas()
+    assert list(frame.columns) == ["v", "r", "status", "reason"]
+    assert frame["v"].tolist() == [0.002, 0.014, 0.002]
+    assert frame["r"].isna().tolist() == [False, True, False]
 
 
 def test_names_are_varied(tmp_path):
@@ -137,6 +254,34 @@ def test_names_are_varied(tmp_path):
     table, _ = run_study(LoadedStudy(file), tmp_path, 1)
     assert [point[0] for point in table.points] == ["kecman", "nothing"]
     assert [row.ok for row in table.rows] == [True, False]
+
+
+def test_values_that_connect_other_parts_are_solved_as_structures_of_their_own(tmp_path):
+    """Members that meet in a corner with one wall have one hinge there, with two walls two hinges."""
+    base = Path("examples/studies/two_storeys.yaml").resolve()
+    file = written(
+        tmp_path,
+        "{type: grid}",
+        "{path: sections.roof.thickness, values: [3 mm, 4 mm]}"
+        "\n  s: {path: initial_velocity, values: [1, 0.7]}",
+        "{channel: node.left_roof.displacement.x, take: max}\n  m: {mass: true}",
+    )
+    file.write_text(file.read_text().replace(str(BASE), str(base)))
+    table, _ = run_study(LoadedStudy(file), tmp_path)
+    assert [row.ok for row in table.rows] == [True] * 4
+    analysis = load(base)
+    for (wall, speed), row in zip(table.points, table.rows, strict=True):
+        structure = changed(analysis.structure, {"sections.roof.thickness": wall})
+        assert row.values[1] == pytest.approx(structure.mass_of_members, rel=1e-12)
+        if speed == 1.0:
+            result = solve(analysis.model_copy(update={"structure": structure}))
+            swayed = np.abs(result["node.left_roof.displacement.x"]).max()
+            assert row.values[0] == pytest.approx(swayed, abs=1e-3)
+    assert table.rows[3].values[0] < 0.7 * table.rows[2].values[0]
+    with ThreadPoolExecutor(1) as executor:
+        (tmp_path / "other").mkdir()
+        run_study(LoadedStudy(file), tmp_path / "other", executor=executor)
+    assert rows_of(tmp_path) == rows_of(tmp_path / "other")
 
 
 def test_points_come_from_a_file(tmp_path):

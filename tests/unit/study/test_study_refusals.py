@@ -7,11 +7,14 @@ from tests.unit.study.test_study import ROTATION, SPEED, WALL, written
 
 from crumple.errors import InputError
 from crumple.study import LoadedStudy, run_study
+from crumple.study.methods import asking
 
 SCATTER = "{path: initial_velocity, distribution: {type: %s}}"
 GRID, RANDOM, OPTIMISE = "{type: grid}", "{type: monte_carlo, rows: 2}", "{type: optimise, rows: 2}"
+LIGHTEST = "{type: lightest, rows: 2}"
 SAMPLE = "{type: sobol, rows: 2}"
 AT = "{channel: hinge.root.rotation, take: at, time: 50 ms}"
+SIZES = "{path: sections.tube.thickness, values: [%g mm, %g mm]}"
 
 
 @pytest.mark.parametrize(
@@ -20,7 +23,7 @@ AT = "{channel: hinge.root.rotation, take: at, time: 50 ms}"
         (GRID, SPEED.replace("}", ", steps: 10000}") + "\n  w: " + WALL.replace("}", ", steps: 999}"),
          ROTATION, "", "the grid has too many points"),
         ("{type: points, file: none.csv}", SPEED, ROTATION, "", "the points cannot be read"),
-        (SAMPLE, SPEED, AT, "", "a factor is possible only where"),
+        (SAMPLE, SPEED, "{channel: node.tip.rotation_rate.y}", "", "a factor is possible only where"),
         (SAMPLE, "{path: members.tube.section, low: 1, high: 2}", ROTATION, "", "leads to no number"),
         (RANDOM, SCATTER % "table, values: [1, 2], cumulative: [0, 0.5]", ROTATION, "", "not a distribution"),
         (RANDOM, SCATTER % "normal, mean: 1", ROTATION, "", "a normal distribution needs 'deviation'"),
@@ -37,6 +40,8 @@ AT = "{channel: hinge.root.rotation, take: at, time: 50 ms}"
         (SAMPLE, SPEED, ROTATION, "constraints: [{response: q, at_most: 1}]", "there is no such response"),
         (SAMPLE, SPEED, ROTATION, "objective: {minimise: r, maximise: r}", "an objective has one goal"),
         (SAMPLE, SPEED, ROTATION, "objective: {minimise: q}", "there is no such response"),
+        (LIGHTEST, WALL, "{mass: true}", "objective: {minimise: r}", "'lightest' needs values"),
+        (LIGHTEST, SIZES % (2, 3), ROTATION, "objective: {minimise: r}", "'lightest' makes the mass small"),
     ],
 )  # fmt: skip
 def test_contradictions(tmp_path, method, variable, response, more, said):
@@ -60,6 +65,13 @@ def test_missing_parts(tmp_path, old, new, said):
     file = written(tmp_path, SAMPLE)
     file.write_text(file.read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
     with pytest.raises(InputError, match=said):
+        run_study(LoadedStudy(file), tmp_path)
+
+
+def test_too_many_combinations_to_weigh(tmp_path, monkeypatch):
+    monkeypatch.setattr(asking, "MOST_COMBINATIONS", 1)
+    file = written(tmp_path, LIGHTEST, SIZES % (2, 3), "{mass: true}", "objective: {minimise: r}")
+    with pytest.raises(InputError, match="too many combinations"):
         run_study(LoadedStudy(file), tmp_path)
 
 

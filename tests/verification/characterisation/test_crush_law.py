@@ -16,7 +16,7 @@ import pytest
 import crumple
 from crumple.analysis import load_input, loads
 from crumple.characterisation import Crush, LawStore, characterise
-from crumple.characterisation.folds import fold_count
+from crumple.characterisation.crush import fold_count
 from crumple.characterisation.resolution import Resolution
 from crumple.hinge import build_axial_law
 from crumple.material import Material

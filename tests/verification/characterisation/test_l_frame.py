@@ -62,13 +62,13 @@ class Course(NamedTuple):
 
 
 def frame(folder: Path, degrees: float, sense: int, laws: dict[str, str] | None) -> crumple.Analysis:
-    """The L-frame with automatic hinges, or with texts of law files of its corner and its members."""
+    """The L-frame with hinges on both sides of its corner, or with law files of its corner and members."""
     turn = math.radians(degrees)
     along = math.cos(turn), math.sin(turn)
     keys = {"x": -LEG * along[0], "z": -LEG * along[1], "up": -along[1], "z_up": along[0]}
     keys["travel"] = -sense * TRAVEL
     if laws is None:
-        text = FRAME.format(hinge_laws="", post="", arm="", hinges="hinges: auto", **keys)
+        text = FRAME.format(hinge_laws="", post="", arm="", hinges="hinges: {law: kecman}", **keys)
     else:
         for name, law in laws.items():
             (folder / f"{name}.yaml").write_text(law, encoding="utf-8")

@@ -50,8 +50,7 @@ def test_work_is_that_of_longer_pieces(record_figure):
 @pytest.mark.slow
 def test_frame_out_of_its_plane_follows_its_shells(tmp_path, record_figure):
     path = tmp_path / "frame.yaml"
-    text = FRAME.replace("hinges: auto", ELASTIC).replace("every: 50 ms", "every: 20 ms")
-    path.write_text(text.replace("nodes: [knee]", "nodes: [knee, tip]"))
+    path.write_text(FRAME.replace("hinges: auto", ELASTIC))
     source = load_input(path)
     structure = source.analysis.structure
     metal = structure.section_of("post"), structure.material_of("post")

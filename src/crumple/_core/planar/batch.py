@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +40,9 @@ class TreeEndValues(TreeEnds):
         Codes of `Outcome`, (n,).
     steps
         Steps taken, (n,).
+    samples
+        With times the columns of `TreeRows` at these, (n times, ...), all times of a variant in sequence;
+        zeros at times that it did not reach.
     """
 
     time: Floats
@@ -46,6 +50,7 @@ class TreeEndValues(TreeEnds):
     lost: Floats
     outcome: NDArray[np.int64]
     steps: NDArray[np.int64]
+    samples: dict[str, Any] = field(default_factory=dict)
 
 
 def solve_many(
@@ -57,11 +62,13 @@ def solve_many(
     threads: int = 1,
     *,
     poll: Callable[[float], bool] | None = None,
+    times: Sequence[float] = (),
 ) -> TreeEndValues:
     """Solve every variant up to time ``end`` [s], bit for bit as a `Simulation` of it.
 
     ``poll(share)`` is called at intervals with the share done and returns False to cancel; variants that were
-    not begun then have the outcome CANCELLED.
+    not begun then have the outcome CANCELLED.  At increasing ``times`` [s] steps end, as at the output times
+    of a run, and the states there are kept.
     """
     out = _kernels.planar.solve_many(
         [kernel_model(model) for model in variants.cases],
@@ -73,5 +80,7 @@ def solve_many(
         maximum_step,
         threads,
         poll,
+        times,
     )
-    return TreeEndValues(**named(out))
+    samples = named(out.pop("samples", {}))
+    return TreeEndValues(**named(out), samples=samples)

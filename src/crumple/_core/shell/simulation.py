@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from crumple._core.shell.build import built, floats, kernel
+from crumple._core.shell.mark import marks
 from crumple._core.shell.model import (
     Cut,
     Element,
@@ -83,6 +84,7 @@ class ShellState:
             self._core = kernel.Simulation(built(model), isa or os.environ.get("CRUMPLE_ISA", ""))
         except ValueError as error:
             raise InputError(str(error)) from error
+        self._marks = marks(model)
 
     def advance(
         self,
@@ -276,7 +278,8 @@ class ShellState:
 
         It fits the instruction set that made it: the layout depends on its lanes.
         """
-        return {name: _array(values) for name, values in self._core.save().items()}
+        saved = {name: _array(values) for name, values in self._core.save().items()}
+        return saved | {"marks": self._marks.copy()}
 
     def add_motion(self, velocity: Floats, spin: Floats) -> None:
         """Add velocities [m/s] and angular velocities [rad/s], (n, 3) each; not to held or driven nodes."""
@@ -299,7 +302,11 @@ class ShellState:
         InputError
             If the checkpoint belongs to another model or instruction set.
         """
+        own = self._marks[:1] if of_stage_before else self._marks
         try:
+            given = np.asarray(saved["marks"])
+            if given.shape != self._marks.shape or not np.array_equal(given[: len(own)], own):
+                raise ValueError("the checkpoint belongs to another model")
             self._core.restore({name: floats(saved[name]) for name in saved}, not of_stage_before)
         except ValueError as error:
             raise InputError(str(error)) from error

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,6 +57,9 @@ class SpatialEndValues(SpatialRows):
         Codes of `Outcome`, (n,).
     steps
         Steps taken, (n,).
+    samples
+        With times the columns of `SpatialRows` at these, (n times, ...), all times of a variant in sequence;
+        zeros at times that it did not reach.
     """
 
     time: Floats
@@ -65,6 +69,7 @@ class SpatialEndValues(SpatialRows):
     lost: Floats
     outcome: NDArray[np.int64]
     steps: NDArray[np.int64]
+    samples: dict[str, Any] = field(default_factory=dict)
 
 
 def solve_many(
@@ -76,11 +81,12 @@ def solve_many(
     *,
     poll: Callable[[float], bool] | None = None,
     led: bool = False,
+    times: Sequence[float] = (),
 ) -> SpatialEndValues:
     """Solve every variant through its stages, bit for bit as a `SpatialSimulation` of it.
 
     ``poll(share)`` is called at intervals with the share done and returns False to cancel; variants that were
-    not begun then have the outcome CANCELLED.
+    not begun then have the outcome CANCELLED.  The states at increasing ``times`` [s] are kept.
 
     `led`: the first variant alone is solved so.  The others take its steps, and in place of every solution of
     Newton's method the first Newton step from the leader's: half the difference of two of them that lie close
@@ -97,8 +103,10 @@ def solve_many(
         threads,
         poll,
         led,
+        times,
     )
-    return SpatialEndValues(**named(out))
+    samples = named(out.pop("samples", {}))
+    return SpatialEndValues(**named(out), samples=samples)
 
 
 def kernel_case(case: StagedModel) -> _kernels._Spatial.Case:

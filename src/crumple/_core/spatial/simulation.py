@@ -221,6 +221,22 @@ class SpatialSimulation:
         out = self._kernel.run(np.asarray(times, float).tolist(), poll)
         return SpatialRecord(**named(out) | {"outcome": Outcome(out["outcome"])})
 
+    def keep_guide(self) -> None:
+        """Keep the steps from now on, for `guide`."""
+        self._kernel.keep_guide()
+
+    @property
+    def guide(self) -> Any:
+        """Steps kept since `keep_guide`, for `be_guided_by` of runs of similar models."""
+        return self._kernel.guide()
+
+    def be_guided_by(self, guide: Any, *, pairs: bool = False) -> None:
+        """Take lengths of steps and starts of their solution from another run; errors are controlled.
+
+        With `pairs`, two of its steps are one.
+        """
+        self._kernel.be_guided_by(guide, pairs)
+
     def step(self, time_step: float) -> bool:
         """Take one step of fixed length [s]; False when it did not converge and nothing changed."""
         return self._kernel.step(time_step)

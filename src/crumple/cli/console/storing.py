@@ -36,6 +36,7 @@ def report_input(source: LoadedInput, fidelity: str | None = None) -> ReportInpu
         residual_bound=bounds.get(fidelity or ""),
         accuracy=analysis.multibody.accuracy if fidelity == "multibody" else None,
         structure=analysis.structure,
+        outputs=analysis.outputs,
     )
 
 

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 from crumple.comparison.cautions.run_cautions import outside_folds
 from crumple.comparison.comparison import Comparison
+from crumple.comparison.measure.decisive import TARGETS, Figure
 from crumple.comparison.measure.metrics import HingeComparison, deg, percent, signed
+from crumple.units import format_quantity
 
 AGREES = 0.12
 """Relative error of largest rotation and plastic energy up to which a concept-stage result agrees."""
@@ -16,6 +20,24 @@ SMALL = 0.1
 """Share of the largest plastic energy, in either result, below which a hinge does not affect the verdict."""
 MOSTLY = 0.5
 """Share of plastic work outside folds from which it is the headline of a comparison without folds."""
+ZONES = "energy by zone"
+TITLES = {
+    "displacement": "largest displacements",
+    "rotations": "rotations of joints",
+    "peak force": "peak forces",
+    ZONES: "energies of zones (of the whole)",
+}
+"""Kinds of figures that decide, in the order in which they are told."""
+WHAT = {
+    "displacement": "largest displacement of",
+    "rotations": "rotation of",
+    ZONES: "energy at",
+    "peak force": "peak force of",
+}
+FAR = 2.0
+"""Error over what is allowed from which a figure is wrong."""
+MOST_NAMED = 3
+"""Number of figures that the headline names, the worst first."""
 MOST_LISTED = 8
 """Number of hinges whose errors are listed one by one, the largest errors first."""
 
@@ -33,19 +55,68 @@ def verdict(comparison: Comparison, missed: str, doubtful: bool) -> tuple[str, s
         Whether there are cautions.
     """
     first, second = comparison.candidate.name, comparison.reference.name
+    elsewhere = ""
     if missed:
-        return (
-            "bad",
-            f"The {first} result is wrong: the {second} run folds where there is no hinge ({missed}).",
-        )
-    alone = _alone(comparison)
-    if alone:
-        return (
-            "bad",
-            f"The {first} result disagrees with the {second} run: it folds where that run does not "
-            f"({', '.join(alone)}).",
-        )
+        elsewhere = f"the {second} run folds where there is no hinge ({missed})"
+    elif alone := _alone(comparison):
+        elsewhere = f"it folds where the {second} run does not ({', '.join(alone)})"
+    if any(kind in comparison.figures for kind in TITLES):
+        return _by_figures(comparison, elsewhere, doubtful)
+    if missed:
+        return "bad", f"The {first} result is wrong: {elsewhere}."
+    if elsewhere:
+        return "bad", f"The {first} result disagrees with the {second} run: {elsewhere}."
     return _by_errors(comparison, doubtful)
+
+
+def _by_figures(comparison: Comparison, elsewhere: str, doubtful: bool) -> tuple[str, str]:
+    """Level and headline by what engineers decide on; `elsewhere`: folds that only one of the results has."""
+    first, second = comparison.candidate.name, comparison.reference.name
+    judged = _decisive(comparison)
+    excess = {id(f): f.error / f.allowed for _, f in judged}
+    wrong = sorted((one for one in judged if not one[1].right), key=lambda one: -excess[id(one[1])])
+    named = "; ".join(_figure_text(kind, f, comparison) for kind, f in wrong[:MOST_NAMED])
+    further = f"; {len(wrong) - MOST_NAMED} further figures" if len(wrong) > MOST_NAMED else ""
+    if wrong and excess[id(wrong[0][1])] > FAR:
+        start = "is wrong" if elsewhere else f"disagrees with the {second} run"
+        reason = f"{elsewhere}; " if elsewhere else ""
+        return "bad", f"The {first} result {start}: {reason}{named}{further}."
+    if wrong:
+        return "caution", f"The {first} result agrees only roughly with the {second} run: {named}{further}."
+    within = ", ".join(
+        f"{title} within {percent(max(f.error for own, f in judged if own == kind))}"
+        for kind, title in TITLES.items()
+        if any(own == kind for own, _ in judged)
+    )
+    if elsewhere:
+        return "caution", f"Both results agree, with reservations ({elsewhere}): {within}."
+    if doubtful:
+        return "caution", f"Both results agree, with reservations: {within}."
+    return "good", f"Both results agree: {within}."
+
+
+def _decisive(comparison: Comparison) -> list[tuple[str, Figure]]:
+    """Figures that decide, with their kind; energies of zones are relative to that of the whole."""
+    found = [(kind, f) for kind in TITLES for f in comparison.figures.get(kind, ()) if kind != ZONES]
+    zones = comparison.figures.get(ZONES, ())
+    whole = sum(abs(zone.shell) for zone in zones)
+    for zone in zones:
+        error = abs(zone.model - zone.shell) / whole if whole else math.inf
+        found.append((ZONES, replace(zone, error=error, allowed=TARGETS[ZONES])))
+    return found
+
+
+def _figure_text(kind: str, figure: Figure, comparison: Comparison) -> str:
+    """What differs: both values with their unit."""
+    turned = kind == "rotations"
+    unit = {"displacement": "m", ZONES: "J", "peak force": "N"}.get(kind, "")
+    values = [
+        deg(value) if turned else format_quantity(value, unit, 3) for value in (figure.model, figure.shell)
+    ]
+    return (
+        f"{WHAT[kind]} {figure.name} {values[0]} {comparison.candidate.name}, "
+        f"{values[1]} {comparison.reference.name}"
+    )
 
 
 def _by_errors(comparison: Comparison, doubtful: bool) -> tuple[str, str]:

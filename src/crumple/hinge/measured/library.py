@@ -14,7 +14,7 @@ from pathlib import Path
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.measured.law_file import read_law
-from crumple.hinge.measured.place_hash import CORNER, PLACE, content_hash
+from crumple.hinge.measured.place_hash import CORNER, PLACE, REVISION, content_hash
 from crumple.hinge.measured.stored import StoredCurve, StoredLaw
 
 ENDING = ".law.yaml"
@@ -70,8 +70,8 @@ def frozen(texts: Iterable[str], notes: Iterable[str] = ()) -> str:
 def by_place(texts: Iterable[str]) -> Mapping[str, str]:
     """Text of the law of each place.
 
-    Of several laws of one place the one with a known error is taken, then the one with the largest rotation,
-    then the first by its text: the order of files in a folder does not matter.
+    Of several laws of one place that of the latest method is taken, then the one with a known error, then the
+    one with the largest rotation, then the first by its text: the order of files in a folder does not matter.
     """
     best: dict[str, str] = {}
     for text in sorted(texts):
@@ -111,9 +111,14 @@ def _law(text: str) -> StoredLaw:
     return read_law(text)
 
 
-def _rank(text: str) -> tuple[bool, float]:
-    validity = _law(text).validity
-    return validity.uncertainty is not None, validity.rotation_max
+def _rank(text: str) -> tuple[int, bool, float]:
+    law = _law(text)
+    revision, validity = dict(law.origin).get(REVISION, ""), law.validity
+    return (
+        int(revision) if revision.isdecimal() else 0,
+        validity.uncertainty is not None,
+        validity.rotation_max,
+    )
 
 
 def _laws_in(file: Path) -> list[str]:

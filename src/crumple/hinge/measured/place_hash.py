@@ -29,6 +29,8 @@ PLACE = "place"
 """Key of the hash in the origin of a law file."""
 CORNER = "corner"
 """Key of the corner's angle in the origin of a law file; a law without it is that of a straight member."""
+REVISION = "revision"
+"""Key of the number of the method that made a law of a corner; laws from before it was written have none."""
 
 
 def place_hash(

@@ -18,6 +18,7 @@ from crumple.numeric.arrays import Floats
 from crumple.structure import Outputs, Structure
 
 OF_NODES = ("displacement", "rotation")
+"""Motions of nodes among the quantities."""
 
 
 class Ends(Rows, Protocol):
@@ -53,6 +54,11 @@ class Ended(Protocol):
 
 def end_quantities(case: Ended, ends: Ends, outputs: Outputs) -> dict[str, Floats]:
     """Named final quantities of runs that share a case, (n,) each."""
+    return common_quantities(case, ends) | placed_quantities(case, ends, outputs)
+
+
+def common_quantities(case: Ended, ends: Ends) -> dict[str, Floats]:
+    """Those of hinges and energies: for runs of any cases of one topology, (n,) each."""
     found: dict[str, Floats] = {}
     for k, hinge, columns in hinge_columns(case.hinges, ends):
         found |= {
@@ -63,17 +69,21 @@ def end_quantities(case: Ended, ends: Ends, outputs: Outputs) -> dict[str, Float
         found[f"hinge.{hinge.name}.rotation_max"] = ends.summary.rotation_max[:, k]
         found[f"hinge.{hinge.name}.moment_max"] = ends.summary.moment_max[:, k]
     energy = ledger(ends, touched=case.touched, slowed=case.slowed)
-    found |= {f"energy.{name}": values for name, values in energy.items()}
-    return found | _places(case.structure, case.end_poses(ends), outputs)
+    return found | {f"energy.{name}": values for name, values in energy.items()}
 
 
-def _places(structure: Structure, poses: Poses, outputs: Outputs) -> dict[str, Floats]:
-    """Requested outputs of nodes, sections, distances and clearances, (n,) each."""
+def placed_quantities(
+    case: Ended, ends: Ends, outputs: Outputs, of_nodes: Sequence[str] = OF_NODES
+) -> dict[str, Floats]:
+    """Requested outputs of nodes, sections, distances and clearances of runs that share a case, (n,) each."""
+    if not (outputs.nodes or outputs.section_rotations or outputs.distances or outputs.clearances):
+        return {}
+    structure, poses = case.structure, case.end_poses(ends)
     found = {
         channel.name: channel.values
         for name in outputs.nodes
         for channel in node_motion(structure, poses, name)
-        if channel.name.split(".")[2] in OF_NODES
+        if channel.name.split(".")[2] in of_nodes
     }
     for channels in (section_channels, distance_channels, clearance_channels):
         found |= {channel.name: channel.values for channel in channels(structure, poses, outputs)}

@@ -29,7 +29,7 @@ from crumple.multibody.bodies.assembly import Piece
 from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.bodies.rigid import piece_mass
 from crumple.numeric.arrays import Floats
-from crumple.numeric.rotation import product, turned, vector_quaternion
+from crumple.numeric.rotation import cross, product, turned, vector_quaternion
 from crumple.result import Channel
 from crumple.result.channels import AXES, channels_along
 from crumple.section import fitted_interaction, plastic_interaction
@@ -46,7 +46,7 @@ class Wrench:
 
     def about(self, point: Floats) -> Floats:
         """Moment about another point [N m], (n, 3)."""
-        return self.moment + np.cross(self.point - point, self.force)
+        return self.moment + cross(self.point - point, self.force)
 
     def opposite(self) -> Wrench:
         """The reaction: the same with opposite sign."""
@@ -55,13 +55,19 @@ class Wrench:
 
 def on_second(poses: SpatialHistory, number: int) -> Wrench:
     """Force and moment that a connection exerts on its second body, about its place on the first."""
-    connection = poses.linkage.connections[number]
-    half = vector_quaternion(poses.relative(connection.first, connection.second) / 2.0)
-    middle = product(poses.quaternion(connection.first), half)
-    axes = turned(middle[:, None], connection.axes[None])
-    force, moment = np.split(poses.record.joint_force[:, number], 2, axis=1)
-    place = poses.place(connection.first, connection.position)[0]
-    return Wrench(np.einsum("nk,nki->ni", force, axes), np.einsum("nk,nki->ni", moment, axes), place)
+    kept = poses.wrenches
+    if number not in kept:
+        connection = poses.linkage.connections[number]
+        half = vector_quaternion(poses.relative(connection.first, connection.second) / 2.0)
+        middle = product(poses.quaternion(connection.first), half)
+        axes = turned(middle[:, None], connection.axes[None])
+        force, moment = np.split(poses.record.joint_force[:, number], 2, axis=1)
+        place = poses.place(connection.first, connection.position)[0]
+        kept[number] = Wrench(
+            np.einsum("nk,nki->ni", force, axes), np.einsum("nk,nki->ni", moment, axes), place
+        )
+    wrench: Wrench = kept[number]
+    return wrench
 
 
 def force_channels(structure: Structure, poses: SpatialHistory, local_time: Floats) -> Iterator[Channel]:
@@ -167,7 +173,7 @@ def _momentum_rate(
     centre, _ = poses.place(piece.body, stretch.centre)
     if piece.body == GROUND:
         force = np.tile(-stretch.mass * gravity, (poses.rows, 1))
-        return force, np.cross(centre - section, force)
+        return force, cross(centre - section, force)
     record, body = poses.record, poses.linkage.bodies[piece.body]
     after, _ = np.split(record.velocity[:, piece.body], 2, axis=1)
     turning, moving = np.split(record.acceleration[:, piece.body], 2, axis=1)
@@ -175,7 +181,7 @@ def _momentum_rate(
     before, spin = after - step * turning, after - step * turning / 2.0
     arm = centre - record.centre[:, piece.body]
     moved = stretch.mass * (moving - gravity)
-    force = moved + stretch.mass * (np.cross(turning, arm) + np.cross(spin, np.cross(spin, arm)))
+    force = moved + stretch.mass * (cross(turning, arm) + cross(spin, cross(spin, arm)))
     # about the body's centre, between the true ends of the step as the kernel takes it
     offset = np.asarray(stretch.centre - body.centre)
     inertia = stretch.inertia + stretch.mass * (offset @ offset * np.eye(3) - np.outer(offset, offset))
@@ -183,8 +189,8 @@ def _momentum_rate(
     middle = poses.quaternion(piece.body)
     change = _momentum(inertia, product(vector_quaternion(half), middle), after)
     change -= _momentum(inertia, product(vector_quaternion(-half), middle), before)
-    about = change / step + np.cross(arm, moved)
-    return force, about + np.cross(centre - arm - section, force)
+    about = change / step + cross(arm, moved)
+    return force, about + cross(centre - arm - section, force)
 
 
 def _momentum(inertia: Floats, quaternion: Floats, spin: Floats) -> Floats:
@@ -237,7 +243,7 @@ def _on_clamp(structure: Structure, poses: SpatialHistory, node: str, local_time
     if part in linkage.part_mass:
         lump = linkage.part_mass[part]
         weight = lump.mass * np.asarray(structure.gravity, float)
-        force, moment = force + weight, moment + np.cross(lump.centre - place, weight)
+        force, moment = force + weight, moment + cross(lump.centre - place, weight)
     for load in structure.loads:
         if linkage.node_part[load.node] != part:
             continue
@@ -246,7 +252,7 @@ def _on_clamp(structure: Structure, poses: SpatialHistory, node: str, local_time
             pushed, bent = getattr(load.force, axis), getattr(load.moment, axis)
             if pushed is not None:
                 one = np.outer(pushed(local_time), np.eye(3)[i])
-                force, moment = force + one, moment + np.cross(arm, one)
+                force, moment = force + one, moment + cross(arm, one)
             if bent is not None:
                 moment = moment + np.outer(bent(local_time), np.eye(3)[i])
     return Wrench(force, moment, np.broadcast_to(place, force.shape))

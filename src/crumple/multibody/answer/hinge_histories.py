@@ -112,6 +112,16 @@ def hinge_histories(
         )
 
 
+def spread_energy(hinges: Sequence[RecordedHinge], rows: Rows) -> dict[str, Floats]:
+    """Energy dissipated in the joints of elastic members [J], (n,), by member."""
+    found: dict[str, Floats] = {}
+    for k, recorded in enumerate(hinges):
+        if not recorded.hinge.plastic:
+            member, own = recorded.hinge.member, rows.hinge_energy.dissipated[:, k]
+            found[member] = found[member] + own if member in found else own
+    return found
+
+
 def ledger(rows: Rows, *, touched: bool = False, slowed: bool = False) -> dict[str, Floats]:
     """Terms of the energy ledger [J], (n,) each; `touched`: with contact, friction; `slowed`: with damping.
 

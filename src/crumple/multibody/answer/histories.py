@@ -18,9 +18,12 @@ from crumple.structure import Outputs, Structure
 from crumple.structure.bending import bending_axis
 
 
-def hinge_channels(hinges: Iterable[HingeHistory]) -> Iterator[Channel]:
-    """Rotation, rates, moment, capacity and energy of every hinge, and the energy of every member."""
-    by_member: dict[str, Floats] = {}
+def hinge_channels(hinges: Iterable[HingeHistory], spread: Mapping[str, Floats]) -> Iterator[Channel]:
+    """Rotation, rates, moment, capacity and energy of every hinge, and the energy of every member.
+
+    `spread`: what elastic members dissipated between their hinges [J], by member.
+    """
+    by_member: dict[str, Floats] = dict(spread)
     for history in hinges:
         member = history.hinge.member
         by_member[member] = by_member.get(member, 0.0) + history.values("energy")

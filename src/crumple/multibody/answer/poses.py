@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Generic, Protocol, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from crumple.multibody.planar.mechanism import Mechanism
 from crumple.numeric.arrays import Floats, Integers
 from crumple.numeric.rotation import (
     continuous,
+    cross,
     inverse,
     product,
     quaternion_vector,
@@ -154,6 +155,11 @@ class SpatialPoses(Generic[SpatialKind]):
         """Centres of the bodies at the start [m], at the end the origin for the ground, (bodies + 1, 3)."""
         return np.array([*(body.centre for body in self.linkage.bodies), np.zeros(3)])
 
+    @cached_property
+    def wrenches(self) -> dict[int, Any]:
+        """Forces of connections that were asked for, by number, for `on_second`."""
+        return {}
+
     @property
     def rows(self) -> int:
         """See `Poses`."""
@@ -180,7 +186,7 @@ class SpatialPoses(Generic[SpatialKind]):
             return _still(self.rows, point)
         arm = turned(self.quaternion(body), np.asarray(point - self.linkage.bodies[body].centre))
         spin, velocity = np.split(self.record.velocity[:, body], 2, axis=1)
-        return self.record.centre[:, body] + arm, velocity + np.cross(spin, arm)
+        return self.record.centre[:, body] + arm, velocity + cross(spin, arm)
 
     def quaternion(self, body: int) -> Floats:
         """See `Poses`."""
@@ -227,7 +233,7 @@ class SpatialEndPoses(SpatialPoses[SpatialEndValues]):
             return super().place(body, point)
         arm = turned(self.quaternion(body), point - self.record.start[:, body])
         spin, velocity = np.split(self.record.velocity[:, body], 2, axis=1)
-        return self.record.centre[:, body] + arm, velocity + np.cross(spin, arm)
+        return self.record.centre[:, body] + arm, velocity + cross(spin, arm)
 
     def rotation(self, body: int) -> tuple[Floats, Floats]:
         """See `Poses`."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
@@ -91,6 +91,8 @@ class Solved:
         Where the bodies are.
     hinges
         One history each.
+    spread
+        Energy that the walls of each elastic member dissipated between its hinges [J], (n,), by member.
     energy
         ``kinetic``, ``elastic``, ``dissipated``, ``external_work`` and, with obstacles, ``contact`` and
         ``friction`` [J], (n,) each.
@@ -120,6 +122,7 @@ class Solved:
     hinges: tuple[HingeHistory, ...]
     energy: Mapping[str, Floats]
     stepping_seconds: float
+    spread: Mapping[str, Floats] = field(default_factory=dict)
     further: tuple[Channel, ...] = ()
     stages: tuple[StageSummary, ...] = ()
     crushed: tuple[CrushedContact, ...] = ()

@@ -7,7 +7,7 @@ that is held in all six freedoms belongs to the ground.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -166,6 +166,15 @@ def _link(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Linkage:
         part_mass={part: masses[part] for part in clamped if part in masses},
         ground_parts=frozenset(clamped),
     )
+
+
+def with_laws(linkage: Linkage, hinges: tuple[PlacedHinge, ...]) -> Linkage:
+    """A linkage with other laws in its hinges, found by their names; places and axes are kept."""
+    laws = {hinge.name: hinge for hinge in hinges}
+    connections = tuple(
+        c if c.hinge is None else replace(c, hinge=laws[c.hinge.name]) for c in linkage.connections
+    )
+    return replace(linkage, connections=connections)
 
 
 def hinge_axes(structure: Structure, hinge: PlacedHinge) -> Floats:

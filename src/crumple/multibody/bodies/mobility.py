@@ -199,10 +199,11 @@ def notes(linkage: Linkage) -> tuple[str, ...]:
         text = _named("Hinge or joint", "Hinges and joints", [names[i] for i in free.stuck])
         found.append(f"{text} cannot move at the start: the closed loops around prevent it.")
     if free.redundant:
+        # loops of supports alone have no connection with a name
+        through = f" (in the loops through {listed(names[i] for i in free.loops)})" if free.loops else ""
         found.append(
-            f"{free.redundant} of the constraints are redundant (in the loops through "
-            f"{listed(names[i] for i in free.loops)}): the motion is unique, the forces across it "
-            "are not, and one possible set is given."
+            f"{free.redundant} of the constraints are redundant{through}: the motion is unique, the forces "
+            "across it are not, and one possible set is given."
         )
     return tuple(found)
 

@@ -2,7 +2,8 @@
 
 A fixed obstacle is part of the ground.  One with a mass is a body that slides along its guide, a driven one a
 body whose every freedom is held and some are driven.  Members touch with capsules: segments with a radius.  A
-section wider than deep gets two of them side by side, so that its width and its depth are both right.
+section wider than deep gets two of them side by side, so that its width and its depth are both right.  Planes
+are also touched by the corners of free end faces, since a face that tilts on a wall rolls about its rim.
 """
 
 from __future__ import annotations
@@ -38,6 +39,12 @@ LIGHT = 1e-3
 but the work of its drive; far smaller ones would cost digits."""
 MOST_PAIRS = 1_000_000
 """Pairs of bars that may touch each other; the kernel looks at each."""
+WITHIN = 1.001
+"""Distance of a capsule's last ball from a free end, over its radius: the corners of the face touch first."""
+POINT = 1e-3
+"""Radius of the corners of an end face, over that of the member's capsules."""
+DIRECTIONS = 8
+"""Directions in which an end face has a corner: 4 different ones of a rectangle, 8 of a round tube."""
 ROUND = 1.1
 """Ratio of the sides of a section up to which one row of capsules represents it."""
 
@@ -58,6 +65,8 @@ class Touching:
         Velocity at the start of every body after those of the linkage [m/s], (obstacle bodies, 3).
     members
         Member of every capsule.
+    corners
+        Number of the last capsules that are corners of end faces.
     """
 
     model: SpatialModel
@@ -65,6 +74,7 @@ class Touching:
     drives: tuple[str, ...]
     velocity: Floats
     members: tuple[str, ...] = ()
+    corners: int = 0
 
 
 def with_obstacles(
@@ -86,6 +96,7 @@ def with_obstacles(
     if not structure.obstacles and structure.member_contact is None:
         return Touching(model, {}, owners, np.zeros((0, 3)))
     capsules, member = member_capsules(structure, linkage.pieces)
+    corners, of_corner = end_faces(structure, linkage.pieces)
     bodies, joints, drives, names = list(model.bodies), list(model.joints), list(model.drives), list(owners)
     light = LIGHT * sum(body.mass for body in bodies)
     obstacles, velocity, joint = [], [], {}
@@ -101,9 +112,10 @@ def with_obstacles(
             joints.append(added)
             drives += driven
             names += [name] * len(driven)
-        touching = None
-        if obstacle.members is not None:
-            touching = tuple(i for i, owner in enumerate(member) if owner in obstacle.members)
+        reached = (*member, *of_corner) if isinstance(obstacle, PlaneObstacle) else member
+        touching = tuple(
+            i for i, owner in enumerate(reached) if obstacle.members is None or owner in obstacle.members
+        )
         obstacles.append(_shape(obstacle, body, touching))
     contact = structure.member_contact
     pairs = SpatialContact()
@@ -117,14 +129,14 @@ def with_obstacles(
         joints=tuple(joints),
         drives=tuple(drives),
         obstacles=tuple(obstacles),
-        capsules=tuple(capsules),
+        capsules=(*capsules, *corners),
         contact=pairs,
     )
     moving = np.array(velocity, float).reshape(-1, 3)
-    return Touching(touching_model, joint, tuple(names), moving, tuple(member))
+    return Touching(touching_model, joint, tuple(names), moving, (*member, *of_corner), len(corners))
 
 
-def _shape(obstacle: Obstacle, body: int, touching: tuple[int, ...] | None) -> SpatialObstacle:
+def _shape(obstacle: Obstacle, body: int, touching: tuple[int, ...]) -> SpatialObstacle:
     place = np.asarray(obstacle.point, float)
     plain = SpatialObstacle(
         ObstacleKind.SPHERE,
@@ -196,21 +208,57 @@ def member_capsules(
     for name, pieces in of_member.items():
         frame, nodes = structure.frame_of(name), structure.members[name].nodes
         places, radius = capsule_rows(structure.section_of(name).outer_outline())
-        # the round end of a capsule coincides with a free end of the member, and rounds a corner
-        inset = [radius if ends[node] == 1 else 0.0 for node in nodes]
+        # the round end of a capsule lies within a free end of the member, and rounds a corner
+        inset = radius if held else WITHIN * radius
+        first, last = (inset if ends[node] == 1 else 0.0 for node in nodes)
+        spine = (first, frame.length - last)
+        if spine[0] > spine[1]:
+            spine = (frame.length / 2.0, frame.length / 2.0)
         for piece in pieces:
-            if (piece.body == GROUND) is not held:
+            start, end = max(piece.start, spine[0]), min(piece.end, spine[1])
+            if (piece.body == GROUND) is not held or start > end:
                 continue
-            start = piece.start + (inset[0] if piece.start == 0.0 else 0.0)
-            end = piece.end - (inset[1] if piece is pieces[-1] else 0.0)
-            if start > end:
-                start = end = (piece.start + piece.end) / 2.0
             for place in places:
                 shift = place @ frame.axes[1:]
-                first, second = frame.position(start) + shift, frame.position(end) + shift
-                capsules.append(SpatialCapsule(piece.body, first, second, radius))
+                capsules.append(
+                    SpatialCapsule(
+                        piece.body, frame.position(start) + shift, frame.position(end) + shift, radius
+                    )
+                )
                 owner.append(name)
     return capsules, owner
+
+
+def end_faces(
+    structure: Structure, of_member: Mapping[str, tuple[Piece, ...]]
+) -> tuple[list[SpatialCapsule], list[str]]:
+    """Corners of the free end faces of moving members, as small balls within them, and the member of each."""
+    ends = Counter(node for member in structure.members.values() for node in member.nodes)
+    balls, owner = [], []
+    for name, pieces in of_member.items():
+        frame, nodes = structure.frame_of(name), structure.members[name].nodes
+        outline = structure.section_of(name).outer_outline()
+        radius = POINT * capsule_rows(outline)[1]
+        for node, piece, station in zip(
+            nodes, (pieces[0], pieces[-1]), (radius, frame.length - radius), strict=True
+        ):
+            if ends[node] > 1 or piece.body == GROUND:
+                continue
+            for place in _face_corners(outline, radius):
+                centre = frame.position(station) + place @ frame.axes[1:]
+                balls.append(SpatialCapsule(piece.body, centre, centre, radius))
+                owner.append(name)
+    return balls, owner
+
+
+def _face_corners(outline: Floats, inset: float) -> Floats:
+    """Points of an outline that are outermost in `DIRECTIONS`, moved in, (points, 2) [m]."""
+    turns = 2.0 * np.pi * (np.arange(DIRECTIONS) + 0.5) / DIRECTIONS
+    outwards = np.stack([np.cos(turns), np.sin(turns)], axis=1)
+    found = np.unique((outline @ outwards.T).argmax(axis=0))
+    middle = (outline.min(axis=0) + outline.max(axis=0)) / 2.0
+    points = outline[found]
+    return np.asarray(points - inset * np.sign(points - middle))
 
 
 def capsule_rows(outline: Floats) -> tuple[Floats, float]:

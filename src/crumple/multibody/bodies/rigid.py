@@ -37,12 +37,12 @@ NOTHING = RigidMass(0.0, np.zeros(3), np.zeros((3, 3)))
 
 def combined(parts: list[RigidMass]) -> RigidMass:
     """One rigid body made of several (parallel axis theorem)."""
+    parts = [part for part in parts if part is not NOTHING]
+    if len(parts) == 1:
+        return parts[0]
     mass = sum(part.mass for part in parts)
     if mass == 0.0:
         return RigidMass(0.0, np.zeros(3), sum((part.inertia for part in parts), np.zeros((3, 3))))
-    if len(parts) == 1:
-        return parts[0]
-    parts = [part for part in parts if part is not NOTHING]
     centre = sum((part.mass * part.centre for part in parts), np.zeros(3)) / mass
     inertia, unit = np.zeros((3, 3)), np.eye(3)
     for part in parts:

@@ -20,6 +20,7 @@ import numpy as np
 
 from crumple.hinge import Envelope, HingeRecord
 from crumple.multibody.answer.solved import HingeHistory
+from crumple.numeric.arrays import Floats
 from crumple.result import Opening
 from crumple.structure import PlacedHinge
 from crumple.text.names import listed
@@ -32,6 +33,8 @@ CHANGE = 0.01
 """Change of the capacities: less than the uncertainty of any law or material."""
 PART = 0.2
 """Share of the largest rotation from which a hinge is part of the mechanism; below half of it, it is not."""
+ROUNDING = 1e-9
+"""Plastic rotation [rad] up to which all hinges count as closed: the rates of locked hinges are rounded."""
 
 
 def collapse_log(hinges: Sequence[HingeHistory], time: np.ndarray) -> tuple[tuple[Opening, ...], float]:
@@ -63,6 +66,18 @@ def collapse_log(hinges: Sequence[HingeHistory], time: np.ndarray) -> tuple[tupl
     return tuple(sorted(openings, key=lambda opening: opening.time)), threshold
 
 
+def patterns(count: int) -> dict[str, Floats]:
+    """Senses in which capacities are changed along a structure, (count,) of 1 and -1, by name."""
+    alternate = np.resize([1.0, -1.0], count)
+    at_random = np.random.default_rng(0).choice([1.0, -1.0], count)
+    return {
+        "alternating": alternate,
+        "alternating, reversed": -alternate,
+        "at random": at_random,
+        "at random, reversed": -at_random,
+    }
+
+
 def changed_capacities(hinges: tuple[PlacedHinge, ...]) -> Iterator[tuple[PlacedHinge, ...]]:
     """Hinges with capacities 1 % up and down: alternately along the structure, at random, and both reversed.
 
@@ -71,17 +86,17 @@ def changed_capacities(hinges: tuple[PlacedHinge, ...]) -> Iterator[tuple[Placed
     hinges
         In the structure's order.
     """
-    alternate = np.resize([1.0, -1.0], len(hinges))
-    at_random = np.random.default_rng(0).choice([1.0, -1.0], len(hinges))
-    for signs in (alternate, -alternate, at_random, -at_random):
+    for signs in patterns(len(hinges)).values():
         factors = 1.0 + CHANGE * signs
-        yield tuple(_scaled(hinge, float(factor)) for hinge, factor in zip(hinges, factors, strict=True))
+        yield tuple(scaled_hinge(hinge, float(factor)) for hinge, factor in zip(hinges, factors, strict=True))
 
 
 def not_unique(runs: Sequence[Sequence[HingeHistory]]) -> str | None:
     """A warning if runs with changed capacities fold elsewhere; the first run is the unchanged one."""
     turned = [{h.hinge.name: float(np.abs(h.values("plastic_rotation")[-1])) for h in run} for run in runs]
     largest = max((value for run in turned for value in run.values()), default=0.0)
+    if largest <= ROUNDING:
+        return None
     part = PART * largest
     base = turned[0]
     variants = []
@@ -104,7 +119,8 @@ def _s(names: list[str]) -> str:
     return "s" if len(names) == 1 else ""
 
 
-def _scaled(hinge: PlacedHinge, factor: float) -> PlacedHinge:
+def scaled_hinge(hinge: PlacedHinge, factor: float) -> PlacedHinge:
+    """The hinge with its capacities multiplied by a factor."""
     spatial = hinge.spatial
     if spatial is not None:
         parts = (replace(part, record=_stronger(part.record, factor)) for part in spatial.components)

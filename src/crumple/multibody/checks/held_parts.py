@@ -7,8 +7,6 @@ translation at the output times; planes with an edge and obstacles that turn are
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 
 from crumple._core.outcome import Outcome
@@ -30,10 +28,11 @@ def held_part_warnings(structure: Structure, solved: Solved) -> list[str]:
     """A sentence for every moving obstacle that passes through held parts while it presses on other parts."""
     channels = {channel.name: channel.values for channel in solved.further}
     found = []
-    # pressing on it may end the run as soon as the surfaces meet
+    # pressing on it may end the run as soon as the surfaces meet, before there is a force
+    ended, last = solved.outcome is not Outcome.COMPLETE, len(solved.time) - 1
     deepest = np.full(len(solved.time), -DEPTH)
-    if solved.outcome is not Outcome.COMPLETE:
-        deepest[-1] = DEPTH
+    if ended:
+        deepest[last] = DEPTH
     capsules, owner = member_capsules(structure, solved.poses.pieces, held=True)
     for name, obstacle in structure.obstacles.items():
         if f"obstacle.{name}.displacement.x" not in channels or obstacle.turning is not None:
@@ -44,15 +43,15 @@ def held_part_warnings(structure: Structure, solved: Solved) -> list[str]:
         for capsule, member in zip(capsules, owner, strict=True):
             if obstacle.members is not None and member not in obstacle.members:
                 continue
-            gaps = np.fromiter(_gaps(obstacle, travel, capsule), float)
+            gaps = _gaps(obstacle, travel, capsule)
             inside = np.flatnonzero(gaps < deepest[: len(gaps)])
-            if inside.size and force[inside[0] :].any():
+            if inside.size and (force[inside[0] :].any() or (ended and inside[0] == last)):
                 met[member] = min(int(inside[0]), met.get(member, len(travel)))
         if met:
             since = format_quantity(float(solved.time[min(met.values())]), "s", 3)
             parts = f"held parts of {', '.join(f'member {m}' for m in met)}"
-            last = min(met.values()) == len(travel) - 1
-            how = f"meets {parts} at {since}" if last else f"passes through {parts} from {since} on"
+            only_met = min(met.values()) == last
+            how = f"meets {parts} at {since}" if only_met else f"passes through {parts} from {since} on"
             found.append(
                 f"Obstacle {name} {how}: "
                 "held parts have no contact, so it loads only the moving parts, perhaps where these "
@@ -61,19 +60,20 @@ def held_part_warnings(structure: Structure, solved: Solved) -> list[str]:
     return found
 
 
-def _gaps(obstacle: Obstacle, travel: Floats, capsule: SpatialCapsule) -> Iterator[float]:
+def _gaps(obstacle: Obstacle, travel: Floats, capsule: SpatialCapsule) -> Floats:
     """Distance of the surfaces [m] at every output; none for a plane with an edge."""
     ends = np.asarray(capsule.first, float), np.asarray(capsule.second, float)
     if isinstance(obstacle, PlaneObstacle):
-        if obstacle.edge is None:
-            normal = np.asarray(obstacle.normal, float) / np.linalg.norm(obstacle.normal)
-            nearest = min(float(normal @ (end - np.asarray(obstacle.point))) for end in ends)
-            yield from nearest - capsule.radius - travel @ normal
-        return
+        if obstacle.edge is not None:
+            return np.zeros(0)
+        normal = np.asarray(obstacle.normal, float) / np.linalg.norm(obstacle.normal)
+        nearest = min(float(normal @ (end - np.asarray(obstacle.point))) for end in ends)
+        return np.asarray(nearest - capsule.radius - travel @ normal)
     assert isinstance(obstacle, CylinderObstacle | SphereObstacle)
     half = np.zeros(3)
     if isinstance(obstacle, CylinderObstacle):
         axis = np.asarray(obstacle.axis, float)
         half = axis / np.linalg.norm(axis) * (obstacle.length / 2.0 if obstacle.length else LONG)
-    for centre in np.asarray(obstacle.point, float) + travel:
-        yield segment_distance((centre - half, centre + half), ends) - obstacle.radius - capsule.radius
+    centre = np.asarray(obstacle.point, float) + travel
+    apart = segment_distance((centre - half, centre + half), ends)
+    return np.asarray(apart - obstacle.radius - capsule.radius)

@@ -7,6 +7,7 @@ import numpy as np
 from crumple.multibody.bodies.linkage import link
 from crumple.multibody.bodies.obstacle_bodies import member_capsules, touching_pairs
 from crumple.numeric.arrays import Floats
+from crumple.numeric.rotation import cross
 from crumple.structure import Structure
 from crumple.text.names import listed
 
@@ -25,10 +26,12 @@ def overlap_warnings(structure: Structure) -> tuple[str, ...]:
     deepest: dict[tuple[str, str], float] = {}
     crossing: set[tuple[str, str]] = set()
     capsules, owner = member_capsules(structure, link(structure).pieces)
-    for i, j in touching_pairs(structure, capsules, owner):
-        first, second = capsules[i], capsules[j]
-        radii = first.radius + second.radius
-        apart = segment_distance((first.first, first.second), (second.first, second.second))
+    pairs = np.array(list(touching_pairs(structure, capsules, owner)), int).reshape(-1, 2)
+    ends = np.array([(capsule.first, capsule.second) for capsule in capsules], float).reshape(-1, 2, 3)
+    first, second = ends[pairs[:, 0]], ends[pairs[:, 1]]
+    distances = segment_distance((first[:, 0], first[:, 1]), (second[:, 0], second[:, 1]))
+    for (i, j), apart in zip(pairs.tolist(), distances.tolist(), strict=True):
+        radii = capsules[i].radius + capsules[j].radius
         names = (owner[i], owner[j])
         if apart < JOINED * radii:
             crossing.add(names)
@@ -50,26 +53,32 @@ def overlap_warnings(structure: Structure) -> tuple[str, ...]:
     return tuple(found)
 
 
-def segment_distance(first: tuple[Floats, Floats], second: tuple[Floats, Floats]) -> float:
-    """Smallest distance of two segments [m]: inside both, or from an end of one to the other."""
-    a, b = (np.asarray(end[1], float) - end[0] for end in (first, second))
-    between = np.asarray(second[0], float) - first[0]
-    normal = np.cross(a, b)
-    square = float(normal @ normal)
-    if square > 0.0:
-        s = float(np.cross(between, b) @ normal) / square
-        t = float(np.cross(between, a) @ normal) / square
-        if 0.0 <= s <= 1.0 and 0.0 <= t <= 1.0:
-            return abs(float(between @ normal)) / float(np.sqrt(square))
-    ends = [(point, second) for point in first] + [(point, first) for point in second]
-    return min(_from_point(point, segment) for point, segment in ends)
+def segment_distance(first: tuple[Floats, Floats], second: tuple[Floats, Floats]) -> Floats:
+    """Smallest distances of pairs of segments [m], (...), with ends (..., 3).
+
+    Inside both, or from an end of one to the other.
+    """
+    (start, end), (other, far) = first, second
+    a, b, between = end - start, far - other, other - start
+    normal = cross(a, b)
+    square = _dot(normal, normal)
+    safe = np.where(square > 0.0, square, 1.0)
+    s, t = _dot(cross(between, b), normal) / safe, _dot(cross(between, a), normal) / safe
+    inside = (square > 0.0) & (s >= 0.0) & (s <= 1.0) & (t >= 0.0) & (t <= 1.0)
+    across = np.where(inside, np.abs(_dot(between, normal)) / np.sqrt(safe), np.inf)
+    ends = [_from_point(point, second) for point in first] + [_from_point(point, first) for point in second]
+    return np.asarray(np.minimum.reduce([across, *ends]))
 
 
-def _from_point(point: Floats, segment: tuple[Floats, Floats]) -> float:
-    start, along = np.asarray(segment[0], float), np.asarray(segment[1], float) - segment[0]
-    square = float(along @ along)
-    share = min(max(float((point - start) @ along) / square, 0.0), 1.0) if square > 0.0 else 0.0
-    return float(np.linalg.norm(point - start - share * along))
+def _from_point(point: Floats, segment: tuple[Floats, Floats]) -> Floats:
+    start, along = segment[0], segment[1] - segment[0]
+    square = _dot(along, along)
+    share = np.clip(_dot(point - start, along) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
+    return np.asarray(np.linalg.norm(point - start - share[..., None] * along, axis=-1))
+
+
+def _dot(first: Floats, second: Floats) -> Floats:
+    return np.asarray((first * second).sum(axis=-1))
 
 
 def _pairs(names: list[tuple[str, str]]) -> str:

@@ -233,8 +233,8 @@ def impact_losses(solved: Solved, total: float) -> Iterator[Caution]:
             IMPACT * total,
             "J",
             "",
-            f"{lost:.4g} J of {total:.4g} J energy input ({lost / total:.0%}) are lost in {where}; a shell "
-            "run shows where it goes.",
+            f"{format_quantity(lost, 'J', 4)} of {format_quantity(total, 'J', 4)} energy input "
+            f"({lost / total:.0%}) are lost in {where}; a shell run shows where it goes.",
         )
 
 

@@ -154,7 +154,8 @@ def warnings(
         )
     found += _slowed(solved)
     if solved.forced:
-        found.append(f"{solved.forced} steps were taken at the smallest step without meeting the accuracy.")
+        steps = "One step was" if solved.forced == 1 else f"{solved.forced} steps were"
+        found.append(f"{steps} taken at the smallest step without meeting the accuracy.")
     return tuple(found)
 
 

@@ -71,6 +71,20 @@ class PlanarCase:
         """See `Case`: the joints, from which the kernel counts centres."""
         return np.zeros((len(self.mechanism.bodies), 2))
 
+    @property
+    def lumps(self) -> object:
+        """See `Case`: places of nodes, and the motion at the start."""
+        return self.structure.nodes, self.structure.initial_velocity
+
+    def moved_mass(self, raw: Floats, other: PlanarCase) -> Floats:
+        """See `Case`: about this case's joints."""
+        joints = [np.array([link.position for link in one.mechanism.links]) for one in (other, self)]
+        dx, dy = self.mechanism.plane.flat(joints[0] - joints[1]).T
+        m, mx, my, about, spin, px, py, blow, bx, by = raw.T
+        inertia = about + 2.0 * (dx * mx + dy * my) + m * (dx * dx + dy * dy)
+        spins = spin + dx * py - dy * px, blow + dx * by - dy * bx
+        return np.stack([m, mx + m * dx, my + m * dy, inertia, spins[0], px, py, spins[1], bx, by], axis=1)
+
     def raw_mass(self, about: Floats) -> Floats:
         """Mass, momentum and impulse of every body about a place of its frame, (bodies, 10).
 

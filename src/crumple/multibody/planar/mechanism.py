@@ -137,7 +137,7 @@ class _Graph:
 
 
 def _graph(structure: Structure, linkage: Linkage, plane: Plane) -> _Graph:
-    held = {node: plane.held(structure, node) for node in structure.nodes}
+    held = {node: plane.held(structure, node) for node in structure.nodes if node in structure.supports_at}
     clamped = {linkage.node_body[node] for node, by in held.items() if by.clamped}
     pinned = [(linkage.node_body[node], node) for node, by in held.items() if by.pinned and not by.clamped]
     pieces = [piece.body for pieces in linkage.pieces.values() for piece in pieces]

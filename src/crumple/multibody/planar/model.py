@@ -25,7 +25,7 @@ from crumple.multibody.bodies.hinge_constants import FORMS, SOFTENING, hinge_con
 from crumple.multibody.bodies.initial_motion import InitialMotion, motion_of, moving_parts, refuse_speeding
 from crumple.multibody.bodies.linkage import GROUND
 from crumple.multibody.bodies.sampled_functions import breaks_of
-from crumple.multibody.planar.mechanism import Mechanism
+from crumple.multibody.planar.mechanism import Mechanism, hinge_links
 from crumple.numeric.arrays import Floats
 from crumple.structure import Structure
 
@@ -44,21 +44,9 @@ def tree_model(structure: Structure, mechanism: Mechanism, duration: float) -> T
         Functions of time are sampled over it [s].
     """
     plane = mechanism.plane
-    bodies, hinges = [], []
-    dof = 0
-    for body, link in zip(mechanism.bodies, mechanism.links, strict=True):
-        go_on()
-        joint = JointKind.FREE if link.free else JointKind.REVOLUTE
-        parent = mechanism.links[link.parent].position if link.parent != GROUND else np.zeros(3)
-        anchor, centre = plane.flat(link.position - parent), plane.flat(body.centre - link.position)
-        inertia = float(plane.normal @ body.inertia @ plane.normal)
-        bodies.append(TreeBody(link.parent, joint, _pair(anchor), _pair(centre), body.mass, inertia))
-        if link.hinge is not None:
-            hinges.append(tree_hinge(link.hinge.record, dof, link.sign))
-        dof += bodies[-1].dofs
     return TreeModel(
-        bodies=tuple(bodies),
-        hinges=tuple(hinges),
+        bodies=tuple(_bodies(mechanism)),
+        hinges=tuple(_hinges(mechanism)),
         loads=tuple(_loads(structure, mechanism, duration)),
         drives=tuple(_drives(structure, mechanism, duration)),
         holds=tuple(_holds(structure, mechanism)),
@@ -67,6 +55,29 @@ def tree_model(structure: Structure, mechanism: Mechanism, duration: float) -> T
         length=max(structure.frame_of(name).length for name in structure.members),
         breaks=breaks_of(structure, duration),
     )
+
+
+def _bodies(mechanism: Mechanism) -> Iterator[TreeBody]:
+    """Bodies in the plane; all vectors are projected at once, a chain has thousands."""
+    plane, links = mechanism.plane, mechanism.links
+    position = np.array([link.position for link in links]).reshape(-1, 3)
+    # the ground's frame is that of the world
+    parent = np.array([link.parent for link in links], int)
+    start = np.where(parent[:, None] == GROUND, 0.0, position[parent])
+    centre = np.array([body.centre for body in mechanism.bodies]).reshape(-1, 3)
+    inertia = np.array([body.inertia for body in mechanism.bodies]).reshape(-1, 3, 3)
+    anchors, centres = plane.flat(position - start).tolist(), plane.flat(centre - position).tolist()
+    about = (plane.normal @ inertia @ plane.normal).tolist()
+    for i, (body, link) in enumerate(zip(mechanism.bodies, links, strict=True)):
+        go_on()
+        joint = JointKind.FREE if link.free else JointKind.REVOLUTE
+        yield TreeBody(link.parent, joint, tuple(anchors[i]), tuple(centres[i]), body.mass, about[i])
+
+
+def _hinges(mechanism: Mechanism) -> Iterator[TreeHinge]:
+    for dof, hinge, sign in hinge_links(mechanism.links):
+        go_on()
+        yield tree_hinge(hinge.record, dof, sign)
 
 
 def tree_hinge(record: HingeRecord, dof: int, sign: float = 1.0) -> TreeHinge:

@@ -14,7 +14,7 @@ import numpy as np
 
 from crumple.errors import InputError, Problem
 from crumple.numeric.arrays import Floats
-from crumple.structure import PlacedHinge, Structure, Support
+from crumple.structure import PlacedHinge, Structure
 from crumple.structure.geometry import cross
 from crumple.structure.keys.motion import FREEDOMS
 
@@ -88,12 +88,9 @@ class Plane:
 
     def held(self, structure: Structure, node: str) -> Held:
         """Freedoms of a node that supports hold, without driven freedoms."""
-        rows = [self.row(freedom) for support in _of(structure, node) for freedom in support.held]
+        supports = structure.supports_at.get(node, ())
+        rows = [self.row(freedom) for _, support in supports for freedom in support.held]
         return Held(tuple(row for row in rows if any(row)))
-
-
-def _of(structure: Structure, node: str) -> list[Support]:
-    return [support for support in structure.supports.values() if support.node == node]
 
 
 def plane_of(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Plane:

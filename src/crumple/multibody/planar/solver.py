@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from crumple._core.planar.simulation import Simulation, kernel_model
-from crumple.multibody.answer.hinge_histories import hinge_histories, ledger
+from crumple.multibody.answer.hinge_histories import hinge_histories, ledger, spread_energy
 from crumple.multibody.answer.poses import TreePoses
 from crumple.multibody.answer.solved import Poll, Solved
 from crumple.multibody.planar.case import recorded_hinges
@@ -92,4 +92,5 @@ class TreeSolver:
             hinges=tuple(hinge_histories(recorded_hinges(self.mechanism), record, record.summary)),
             energy=ledger(record),
             stepping_seconds=seconds,
+            spread=spread_energy(recorded_hinges(self.mechanism), record),
         )

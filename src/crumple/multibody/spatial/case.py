@@ -96,6 +96,16 @@ class SpatialCase:
         names = (recorded.hinge.name for recorded in self.hinges)
         return (*names, joints, hinges, bodies, counts)
 
+    @property
+    def lumps(self) -> object:
+        """See `Case`: not shared, as bodies turn about centres of mass."""
+        return id(self)
+
+    def moved_mass(self, raw: Floats, other: SpatialCase) -> Floats:
+        """See `Case`."""
+        assert other is self
+        return raw
+
     def raw_mass(self, about: Floats) -> Floats:
         """Mass, momenta and impulses of every body about a fixed point of each, (bodies, 13 + 12 stages).
 

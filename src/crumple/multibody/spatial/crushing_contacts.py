@@ -16,18 +16,24 @@ def with_crushing(structure: Structure, touching: Touching) -> Touching:
 
     Capsules side by side in a section share it.  Of two members in contact the weaker one counts.  The squash
     load, area times yield stress, is an upper bound of what a wall carries under a contact; see
-    docs/theory/rigid_contact.md.
+    docs/theory/rigid_contact.md.  End faces are round: the crushed end of a wall has no corners.
     """
+    members = touching.members[: len(touching.members) - touching.corners]
     force = {
         member: _squash_load(structure, member)
         / len(capsule_rows(structure.section_of(member).outer_outline())[0])
-        for member in set(touching.members)
+        for member in set(members)
     }
-    capsules = (
+    capsules = tuple(
         replace(capsule, crush_force=force[member])
-        for capsule, member in zip(touching.model.capsules, touching.members, strict=True)
+        for capsule, member in zip(touching.model.capsules, members, strict=False)
     )
-    return replace(touching, model=replace(touching.model, capsules=tuple(capsules)))
+    obstacles = tuple(
+        replace(obstacle, capsules=tuple(i for i in obstacle.capsules or () if i < len(members)))
+        for obstacle in touching.model.obstacles
+    )
+    model = replace(touching.model, capsules=capsules, obstacles=obstacles)
+    return replace(touching, model=model, members=members, corners=0)
 
 
 def crushed_contacts(

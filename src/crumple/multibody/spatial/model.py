@@ -49,16 +49,21 @@ def spatial_model(structure: Structure, linkage: Linkage, duration: float) -> Sp
     return SpatialModel(
         bodies=tuple(SpatialBody(body.mass, body.inertia, body.centre) for body in linkage.bodies),
         joints=tuple(_joint(connection) for connection in linkage.connections),
-        hinges=tuple(
-            _hinge(i, connection)
-            for i, connection in enumerate(linkage.connections)
-            if connection.hinge is not None
-        ),
+        hinges=kernel_hinges(linkage),
         loads=tuple(_loads(structure, linkage, duration)),
         drives=tuple(drive for _, drive in support_drives(structure, linkage, duration)),
         gravity=(x, y, z),
         length=max(structure.frame_of(name).length for name in structure.members),
         breaks=breaks_of(structure, duration),
+    )
+
+
+def kernel_hinges(linkage: Linkage) -> tuple[SpatialHinge, ...]:
+    """Hinges of the kernel's model."""
+    return tuple(
+        _hinge(i, connection)
+        for i, connection in enumerate(linkage.connections)
+        if connection.hinge is not None
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from copy import copy
 from dataclasses import replace
 from typing import Any
 
@@ -14,12 +15,12 @@ from crumple._core.records import joined
 from crumple._core.spatial.simulation import SpatialRecord, SpatialSimulation
 from crumple.errors import InputError, Problem
 from crumple.multibody.answer.forces import check_sections, force_channels, section_force_channels
-from crumple.multibody.answer.hinge_histories import hinge_histories, ledger
+from crumple.multibody.answer.hinge_histories import hinge_histories, ledger, spread_energy
 from crumple.multibody.answer.poses import SpatialHistory
 from crumple.multibody.answer.solved import Poll, Solved
 from crumple.multibody.bodies.dead_centres import dead_centres
 from crumple.multibody.bodies.initial_motion import Placed
-from crumple.multibody.bodies.linkage import check_inertia, described, link
+from crumple.multibody.bodies.linkage import check_inertia, described, link, with_laws
 from crumple.multibody.bodies.mobility import free_parts
 from crumple.multibody.bodies.obstacle_bodies import with_obstacles
 from crumple.multibody.checks.infinitesimal import dead_centre_notes
@@ -27,7 +28,7 @@ from crumple.multibody.checks.stuck_drives import stuck_drives, stuck_note
 from crumple.multibody.run import Run, output_times, refuse_unbegun, step_bounds
 from crumple.multibody.spatial.case import added_motion, kernel_stage, recorded_hinges
 from crumple.multibody.spatial.crushing_contacts import crushed_contacts, with_crushing
-from crumple.multibody.spatial.model import spatial_model, support_drives
+from crumple.multibody.spatial.model import kernel_hinges, spatial_model, support_drives
 from crumple.multibody.spatial.off_dead_centres import off_dead_centres, with_held_moments
 from crumple.multibody.spatial.stages import (
     end_reason,
@@ -81,6 +82,10 @@ class SpatialSolver:
         self._model, self._dead_centres = touching.model, dead_centres(self.linkage)
         self._touching = touching
         self._touch(aside=False, crushing=False)
+        # steps of the run with outputs, of the one that estimates its error, and those that guide this model
+        self._steps: Any = None
+        self._guide: Any = None
+        self._lead: Any = None
 
     @property
     def moving(self) -> bool:
@@ -98,8 +103,14 @@ class SpatialSolver:
         return dead_centre_notes(self.linkage, self._dead_centres, aside=self._aside)
 
     def with_hinges(self, hinges: tuple[PlacedHinge, ...]) -> SpatialSolver:
-        """See `Solver`."""
-        return SpatialSolver(self._structure, self._run, hinges)
+        """See `Solver`; bodies, contacts, dead centres and what the runs so far needed are shared."""
+        other = copy(self)
+        other.linkage = with_laws(self.linkage, hinges)
+        model = replace(self._model, hinges=kernel_hinges(other.linkage))
+        other._model, other._touching = model, replace(self._touching, model=model)
+        other._touch(aside=self._aside, crushing=self._crushing)
+        other._steps, other._guide, other._lead = None, None, self._guide
+        return other
 
     def run(self, accuracy: float, poll: Poll | None, *, ends_only: bool = False) -> Solved:
         """See `Solver`.
@@ -132,14 +143,14 @@ class SpatialSolver:
     def _run_once(self, accuracy: float, poll: Poll | None, ends_only: bool) -> Solved:
         model, settings = self._touching.model, self._run.settings
         longest, least_parts = step_bounds(self._run, ends_only=ends_only)
-        if not ends_only:
-            # with error control alone, hinges that lock within a step would err by twice the accuracy
+        if not ends_only and self._run.every / 2 < settings.minimum_time_step:
+            raise _too_close(self._run.every, settings.minimum_time_step)
+        if not ends_only and any(stage.kind == "quasi-static" for stage in self._stages):
             longest = min(longest, self._run.every / 2)
-            if longest < settings.minimum_time_step:
-                raise _too_close(self._run.every, settings.minimum_time_step)
         simulation = SpatialSimulation(
             model, accuracy, settings.minimum_time_step, longest, parts=least_parts
         )
+        self._guide_by_last(simulation, ends_only)
         grid = output_times(self._run, ends_only=ends_only)
         records: list[SpatialRecord] = []
         stages: list[StageSummary] = []
@@ -178,7 +189,21 @@ class SpatialSolver:
         )
         if stuck:
             record = replace(record, reason=f"{record.reason}. {stuck_note(stuck)}")
-        return self._solved(record, stages, (given, lost, seconds), simulation.crushed)
+        sums = (given, lost, seconds)
+        return self._solved(record, stages, sums, simulation.crushed, ends_only=ends_only)
+
+    def _guide_by_last(self, simulation: SpatialSimulation, ends_only: bool) -> None:
+        """Keep the steps of a run, and guide one without outputs by those of the run before."""
+        if ends_only and self._lead is not None:
+            simulation.be_guided_by(self._lead)
+            return
+        if ends_only and self._steps is not None:
+            simulation.be_guided_by(self._steps, pairs=True)
+        simulation.keep_guide()
+        if ends_only:
+            self._guide = simulation.guide
+        else:
+            self._steps = simulation.guide
 
     def _begin(
         self, simulation: SpatialSimulation, stage: Stage, before: SpatialRecord | None
@@ -202,12 +227,11 @@ class SpatialSolver:
         stages: list[StageSummary],
         sums: tuple[float, float, float],
         crushed: list[tuple[int, int, int, float]],
+        *,
+        ends_only: bool,
     ) -> Solved:
         poses = SpatialHistory(self.linkage, record)
         given, lost, seconds = sums
-        begins = np.array([stage.start for stage in stages])
-        # an output at the border of two stages belongs to the first
-        local = record.time - begins[np.maximum(np.searchsorted(begins, record.time) - 1, 0)]
         return Solved(
             outcome=record.outcome,
             reason=record.reason,
@@ -231,13 +255,24 @@ class SpatialSolver:
                 slowed=any(stage.kind == "quasi-static" for stage in self._stages),
             ),
             stepping_seconds=seconds,
-            further=(
-                *force_channels(self._structure, poses, local),
-                *section_force_channels(self._structure, poses, self._run.outputs),
-                *self._obstacle_channels(record),
-            ),
+            spread=spread_energy(recorded_hinges(self.linkage, self._touching.model), record),
+            # of a run that checks another only the hinges are compared
+            further=() if ends_only else self._further(poses, record, stages),
             stages=tuple(stages) if self._run.stages else (),
             crushed=tuple(crushed_contacts(self._structure, self._touching, crushed)),
+        )
+
+    def _further(
+        self, poses: SpatialHistory, record: SpatialRecord, stages: list[StageSummary]
+    ) -> tuple[Channel, ...]:
+        """Channels of forces and obstacles."""
+        begins = np.array([stage.start for stage in stages])
+        # an output at the border of two stages belongs to the first
+        local = record.time - begins[np.maximum(np.searchsorted(begins, record.time) - 1, 0)]
+        return (
+            *force_channels(self._structure, poses, local),
+            *section_force_channels(self._structure, poses, self._run.outputs),
+            *self._obstacle_channels(record),
         )
 
     def _obstacle_channels(self, record: SpatialRecord) -> Iterator[Channel]:

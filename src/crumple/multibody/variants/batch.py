@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -15,7 +16,7 @@ from crumple._core.records import each_array
 from crumple._core.spatial import batch as spatial_kernel
 from crumple._core.spatial.batch import SpatialEndValues
 from crumple._core.variants import Variants
-from crumple.multibody.answer.end_values import Ended, end_quantities
+from crumple.multibody.answer.end_values import OF_NODES, Ended, common_quantities, placed_quantities
 from crumple.multibody.answer.solved import Poll
 from crumple.multibody.kernel_choice import refuse_spatial
 from crumple.multibody.planar.case import planar_case
@@ -59,6 +60,13 @@ class Case(Ended, Protocol):
     def reference_points(self) -> Floats:
         """A fixed place of every body, about which `raw_mass` is taken."""
 
+    @property
+    def lumps(self) -> object:
+        """Cases with equal ones have lumps at the same places with the same motion."""
+
+    def moved_mass(self, raw: Floats, other: Any) -> Floats:
+        """Raw mass of what has equal `lumps` in another case, about this one's reference points."""
+
     def raw_mass(self, about: Floats) -> Floats:
         """Mass, moments and momenta of every body about a fixed place, linear in masses, (bodies, k)."""
 
@@ -84,7 +92,9 @@ class Batch(ABC):
         """Lower a structure; `moved`: its nodes are not at the places of the original structure's."""
 
     @abstractmethod
-    def solve_many(self, variants: Variants[Any], threads: int, poll: Poll | None, led: bool) -> EndValues:
+    def solve_many(
+        self, variants: Variants[Any], threads: int, poll: Poll | None, led: bool, times: Sequence[float]
+    ) -> EndValues:
         """Call the kernel."""
 
     def solve(
@@ -96,18 +106,38 @@ class Batch(ABC):
         poll: Poll | None,
         *,
         led: bool = False,
+        times: Sequence[float] = (),
     ) -> EndValues:
         """Solve variants, (n,), with `values` of the quick parameters, each with one of the cases.
 
         `led`: all but the first follow the first one's steps, see the spatial kernel's `solve_many`.
+        `times`: states at these are kept too.
         """
-        return self.solve_many(self._variants(values, cases, case_of), threads, poll, led)
+        return self.solve_many(self._variants(values, cases, case_of), threads, poll, led, times)
 
-    def quantities(self, case: Case, ends: EndValues) -> dict[str, Floats]:
-        """Named quantities of variants that share a case, (n,) each."""
-        found = end_quantities(case, ends, self.run.outputs)
-        found["energy_residual"] = ends.residual
-        return found
+    def quantities(
+        self,
+        cases: Sequence[Case],
+        case_of: NDArray[np.int64],
+        ends: EndValues,
+        of_nodes: Sequence[str] = OF_NODES,
+    ) -> dict[str, Floats]:
+        """Named quantities of variants, (n,) each; `of_nodes`: which motions of nodes are among them."""
+        outputs = self.run.outputs
+        # the values of a failed run have no meaning
+        with np.errstate(all="ignore"):
+            found = {name: values.copy() for name, values in common_quantities(cases[0], ends).items()}
+            if not placed_quantities(cases[0], part_of(ends, np.arange(1)), outputs):
+                return found | {"energy_residual": ends.residual.copy()}
+            order = np.argsort(case_of, kind="stable")
+            bounds = np.searchsorted(case_of[order], np.arange(len(cases) + 1))
+            for i, case in enumerate(cases):
+                rows = order[bounds[i] : bounds[i + 1]]
+                if rows.size:
+                    placed = placed_quantities(case, part_of(ends, rows), outputs, of_nodes)
+                    for name, column in placed.items():
+                        found.setdefault(name, np.zeros(case_of.size))[rows] = column
+        return found | {"energy_residual": ends.residual.copy()}
 
     def _variants(
         self, values: Mapping[str, Floats], cases: Sequence[Case], case_of: Integers
@@ -123,7 +153,7 @@ class Batch(ABC):
             about = np.stack([case.reference_points for case in cases])
             raw = np.stack([case.raw_mass(case.reference_points) for case in cases])[case_of]
             for name, column in masses.items():
-                steps = np.stack([self._per_kilogram(case, name) for case in cases])
+                steps = self._per_kilogram(cases, name)
                 since = np.array([value_at(case.structure, name) for case in cases])
                 raw += (column - since[case_of])[:, None, None] * steps[case_of]
             bodies, velocity, impulse = base.kernel_arrays(raw, about[case_of])
@@ -138,12 +168,18 @@ class Batch(ABC):
         kernel_cases = [case.kernel_case for case in cases]
         return Variants(kernel_cases, case_of, velocity, impulse, scale, loads, bodies, gravity)
 
-    def _per_kilogram(self, case: Case, name: str) -> Floats:
+    def _per_kilogram(self, cases: Sequence[Case], name: str) -> Floats:
         """Mass, moments and momentum that one more kilogram of a lump adds; these are linear in it."""
-        more = self.case(changed(case.structure, {name: value_at(case.structure, name) + 1.0}))
-        about = case.reference_points
-        step: Floats = more.raw_mass(about) - case.raw_mass(about)
-        return step
+        known: dict[object, tuple[Floats, Case]] = {}
+        found = []
+        for case in cases:
+            key = case.lumps
+            if key not in known:
+                more = self.case(changed(case.structure, {name: value_at(case.structure, name) + 1.0}))
+                step = more.raw_mass(case.reference_points) - case.raw_mass(case.reference_points)
+                known[key] = step, case
+            found.append(case.moved_mass(*known[key]))
+        return np.stack(found)
 
 
 class PlanarBatch(Batch):
@@ -155,11 +191,15 @@ class PlanarBatch(Batch):
             refuse_spatial(structure, self.run)
         return planar_case(structure, self.run.duration)
 
-    def solve_many(self, variants: Variants[Any], threads: int, poll: Poll | None, led: bool) -> EndValues:
+    def solve_many(
+        self, variants: Variants[Any], threads: int, poll: Poll | None, led: bool, times: Sequence[float]
+    ) -> EndValues:
         """See `Batch`; it has exact derivatives in place of followers."""
         settings, end = self.run.settings, self.run.duration
         bounds = settings.minimum_time_step, settings.maximum_time_step
-        return planar_kernel.solve_many(variants, end, settings.accuracy, *bounds, threads, poll=poll)
+        return planar_kernel.solve_many(
+            variants, end, settings.accuracy, *bounds, threads, poll=poll, times=times
+        )
 
 
 class SpatialBatch(Batch):
@@ -169,16 +209,26 @@ class SpatialBatch(Batch):
         """See `Batch`; a structure that lies in a plane can still move in space."""
         return spatial_case(structure, self.run)
 
-    def solve_many(self, variants: Variants[Any], threads: int, poll: Poll | None, led: bool) -> EndValues:
+    def solve_many(
+        self, variants: Variants[Any], threads: int, poll: Poll | None, led: bool, times: Sequence[float]
+    ) -> EndValues:
         """See `Batch`."""
         settings = self.run.settings
         bounds = settings.minimum_time_step, settings.maximum_time_step
-        return spatial_kernel.solve_many(variants, settings.accuracy, *bounds, threads, poll=poll, led=led)
+        return spatial_kernel.solve_many(
+            variants, settings.accuracy, *bounds, threads, poll=poll, led=led, times=times
+        )
 
 
 def part_of(ends: EndValues, rows: NDArray[np.int64]) -> EndValues:
     """Some of the rows."""
     return each_array(ends, lambda column: column[rows])
+
+
+def samples_of(ends: EndValues, count: int) -> EndValues:
+    """The samples of runs at so many times as if each were the end of a run, (n count) rows."""
+    repeated = each_array(ends, lambda column: np.repeat(column, count, axis=0))
+    return replace(repeated, **ends.samples, samples={})
 
 
 def hinge_names(case: Case) -> list[str]:

@@ -79,7 +79,8 @@ def spatial_ends(
     found = batch.solve(_values(rows), rows.cases, case_of, threads, poll, led=True)
     ends = []
     for row, number in enumerate(rows.case_of):
-        of_row = batch.quantities(rows.cases[number], part_of(found, np.array([row])))
+        alone = part_of(found, np.array([row]))
+        of_row = batch.quantities([rows.cases[number]], np.zeros(1, np.int64), alone)
         ends.append({key: float(column[0]) for key, column in of_row.items()})
         if found.outcome[row] != Outcome.COMPLETE and row > 0:
             ends[-1] = dict.fromkeys(ends[-1], np.nan)

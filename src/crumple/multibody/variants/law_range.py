@@ -13,7 +13,7 @@ import numpy as np
 from crumple.multibody.run import Cancel, Run
 from crumple.multibody.variants.variants import VariantTable, solve_variants
 from crumple.numeric.arrays import Floats
-from crumple.result.law_range import LawRange
+from crumple.result.nearby import LawRange
 from crumple.result.result import Result
 from crumple.structure import Structure, plastic_hinges
 
@@ -52,19 +52,27 @@ def law_range(
     ----------
     docs/theory/measured_curves.md.  Verified in tests/unit/multibody/variants/test_law_range.py.
     """
-    widths = {hinge.name: hinge.law.validity.uncertainty for hinge in plastic_hinges(structure)}
-    bands = {name: min(width, WIDEST) for name, width in widths.items() if width}
+    bands, without, factors = law_factors(structure)
     if not bands:
         return None
+    table = solve_variants(structure, run, factors, threads, cancel=cancel)
+    good = np.array([status.ok for status in table.status])
+    failed = tuple(name for name, ok in zip(CASES, good.tolist(), strict=True) if not ok)
+    return LawRange(_ranges(table, good, nominal), bands, without, failed)
+
+
+def law_factors(structure: Structure) -> tuple[dict[str, float], tuple[str, ...], dict[str, Floats]]:
+    """Half-widths of the bands by hinge, hinges without a known band, and factors of all runs by parameter.
+
+    The factors are those of `CASES`, shape (5,) each, as `solve_variants` takes them.
+    """
+    widths = {hinge.name: hinge.law.validity.uncertainty for hinge in plastic_hinges(structure)}
+    bands = {name: min(width, WIDEST) for name, width in widths.items() if width}
     factors = {
         f"hinges.{name}.capacity": np.array([1.0 + sense(k) * band for sense in CASES.values()])
         for k, (name, band) in enumerate(bands.items())
     }
-    table = solve_variants(structure, run, factors, threads, cancel=cancel)
-    good = np.array([status.ok for status in table.status])
-    failed = tuple(name for name, ok in zip(CASES, good.tolist(), strict=True) if not ok)
-    without = tuple(name for name in widths if name not in bands)
-    return LawRange(_ranges(table, good, nominal), bands, without, failed)
+    return bands, tuple(name for name in widths if name not in bands), factors
 
 
 def _ranges(table: VariantTable, good: Floats, nominal: Result) -> dict[str, tuple[float, float]]:

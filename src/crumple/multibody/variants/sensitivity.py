@@ -11,7 +11,7 @@ from crumple.multibody.run import Cancel, Run, outcome_status
 from crumple.multibody.variants.batch import Batch, PlanarBatch, SpatialBatch
 from crumple.multibody.variants.directions import planar_ends
 from crumple.multibody.variants.followers import spatial_ends
-from crumple.structure import Structure, placed_hinges
+from crumple.structure import Structure, placed_hinges, with_elastic_members
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,6 +78,7 @@ def sensitivities(
     Derivation and limits in docs/theory/sensitivities.md.
     Verified in tests/verification/derivatives/test_sensitivities.py and test_space_sensitivities.py.
     """
+    structure = with_elastic_members(structure, run.settings)
     given = {parameters: None} if isinstance(parameters, str) else parameters
     steps = given if isinstance(given, Mapping) else dict.fromkeys(given)
     in_space = why_spatial(structure, placed_hinges(structure), run) is not None

@@ -12,13 +12,15 @@ without Python in between.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from crumple._core.outcome import Outcome
 from crumple.errors import InputError, Problem, Status
+from crumple.multibody.answer.end_values import OF_NODES
 from crumple.multibody.answer.solved import Poll
 from crumple.multibody.kernel_choice import why_spatial
 from crumple.multibody.run import Cancel, Progress, Run, outcome_status
@@ -29,12 +31,16 @@ from crumple.multibody.variants.batch import (
     PlanarBatch,
     SpatialBatch,
     hinge_names,
-    part_of,
+    samples_of,
 )
 from crumple.multibody.variants.factors import checked_names, quick
 from crumple.numeric.arrays import Floats
 from crumple.portable import available_cores
-from crumple.structure import Structure, changed, placed_hinges
+from crumple.result.tables import imported_pandas
+from crumple.structure import Structure, changed, placed_hinges, with_elastic_members
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 REASONS = {
     Outcome.REFUSED: "masses, inertias and capacities must be positive, and every value finite",
@@ -44,6 +50,9 @@ REASONS = {
     Outcome.STALLED: "the run hardly advanced any more",
     Outcome.LIMIT_LOAD: "loads or gravity exceed the limit load of the structure in a quasi-static stage",
 }
+
+OTHER_PARTS = "these values connect other parts than in the structure"
+"""Why a variant is refused that has other bodies and joints: as a structure of its own it can be solved."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,12 +74,18 @@ class VariantTable:
         How each variant ended.
     reason
         Why, where it did not reach its end.
+    times, histories
+        Times that were asked for [s], (m,), and the same quantities at them, (n, m) each, without the largest
+        values and with ``node.NAME.velocity.x`` of the nodes asked for; NaN at times that a variant did not
+        reach.
     """
 
     parameters: Mapping[str, Floats]
     quantities: Mapping[str, Floats]
     status: tuple[Status, ...]
     reason: tuple[str, ...]
+    times: Floats = field(default_factory=lambda: np.empty(0))
+    histories: Mapping[str, Floats] = field(default_factory=dict)
 
     def __len__(self) -> int:
         """Number of variants."""
@@ -80,6 +95,19 @@ class VariantTable:
         """A quantity or a parameter by name."""
         return self.quantities[name] if name in self.quantities else self.parameters[name]
 
+    def to_pandas(self) -> pd.DataFrame:
+        """One row per variant in SI units: parameters, quantities, status and reason.
+
+        Raises
+        ------
+        InputError
+            If pandas is not installed.
+        """
+        pandas = imported_pandas()
+        ended = {"status": [status.value for status in self.status], "reason": list(self.reason)}
+        found: pd.DataFrame = pandas.DataFrame({**self.parameters, **self.quantities, **ended})
+        return found
+
 
 def solve_variants(
     structure: Structure,
@@ -88,6 +116,8 @@ def solve_variants(
     threads: int | None = None,
     progress: Progress | None = None,
     cancel: Cancel | None = None,
+    *,
+    times: ArrayLike = (),
 ) -> VariantTable:
     """Solve a structure for many values of its parameters.
 
@@ -103,6 +133,9 @@ def solve_variants(
         Number of threads; None for as many as there are cores for this process.  Results do not depend on it.
     progress, cancel
         As in `solve_multibody`; variants not begun when cancelled have that status.
+    times
+        Increasing times [s] at which quantities are wanted too.  In a plane and in quasi-static stages steps
+        end at them, so that final values differ from those without them within the accuracy.
 
     Returns
     -------
@@ -125,11 +158,13 @@ def solve_variants(
     ----------
     docs/theory/variants.md.  Verified in tests/unit/multibody/variants/test_variants.py.
     """
+    structure = with_elastic_members(structure, run.settings)
     count = threads or available_cores()
     poll = _poll(progress, cancel)
+    sampled = np.asarray(times, float)
     if why_spatial(structure, placed_hinges(structure), run) is None:
-        return _table(PlanarBatch(run), structure, parameters, count, poll, run)
-    return _table(SpatialBatch(run), structure, parameters, count, poll, run)
+        return _table(PlanarBatch(run), structure, parameters, count, poll, sampled)
+    return _table(SpatialBatch(run), structure, parameters, count, poll, sampled)
 
 
 def _table(
@@ -138,19 +173,23 @@ def _table(
     parameters: Mapping[str, ArrayLike],
     threads: int,
     poll: Poll | None,
-    run: Run,
+    times: Floats,
 ) -> VariantTable:
     base = batch.case(structure)
     values = _columns(structure, hinge_names(base), parameters)
     cases, case_of, refused = _cases(batch, structure, values, base)
-    ends = batch.solve(values, cases, case_of, threads, poll)
-    bound = run.settings.energy_residual_bound
+    ends = batch.solve(values, cases, case_of, threads, poll, times=times.tolist())
+    bound = batch.run.settings.energy_residual_bound
     status, reason = _outcomes(ends.outcome, ends.residual, refused, bound)
-    quantities = _quantities(batch, cases, case_of, ends)
+    quantities = batch.quantities(cases, case_of, ends)
     lost = np.array([state is Status.REFUSED for state in status])
     for column in quantities.values():
         column[lost] = np.nan
-    return VariantTable(values, quantities, status, reason)
+    histories = _histories(batch, cases, case_of, ends, times) if times.size else {}
+    for column in histories.values():
+        column[lost] = np.nan
+        column[ends.time[:, None] < times * (1.0 - 1e-12)] = np.nan
+    return VariantTable(values, quantities, status, reason, times, histories)
 
 
 def _columns(
@@ -198,7 +237,7 @@ def _cases(
             new = changed(structure, dict(zip(slow, map(float, combined), strict=True)))
             case = batch.case(new, moved=moved)
             if case.topology != base.topology:
-                raise InputError("these values connect other parts than in the structure")
+                raise InputError(OTHER_PARTS)
         except InputError as error:
             failed[i] = str(error)
             continue
@@ -235,20 +274,14 @@ def _outcomes(
     return tuple(status), tuple(reason)
 
 
-def _quantities(
-    batch: Batch, cases: Sequence[Case], case_of: NDArray[np.int64], ends: EndValues
+def _histories(
+    batch: Batch, cases: Sequence[Case], case_of: NDArray[np.int64], ends: EndValues, times: Floats
 ) -> dict[str, Floats]:
-    """Final quantities of all variants, model by model."""
-    found: dict[str, Floats] = {}
-    order = np.argsort(case_of, kind="stable")
-    bounds = np.searchsorted(case_of[order], np.arange(len(cases) + 1))
-    for i, case in enumerate(cases):
-        rows = order[bounds[i] : bounds[i + 1]]
-        if rows.size == 0:
-            continue
-        # the values of a failed run have no meaning
-        with np.errstate(all="ignore"):
-            named = batch.quantities(case, part_of(ends, rows))
-        for name, column in named.items():
-            found.setdefault(name, np.zeros(case_of.size))[rows] = column
-    return found
+    """Quantities at the times of samples, (n, times) each; the largest values of whole runs are left out."""
+    rows = samples_of(ends, times.size)
+    found = batch.quantities(cases, np.repeat(case_of, times.size), rows, (*OF_NODES, "velocity"))
+    return {
+        name: column.reshape(-1, times.size)
+        for name, column in found.items()
+        if not name.endswith(("_max", "energy_residual"))
+    }

@@ -12,6 +12,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
 MOST_VALUES = 12_000
 """Most values of a figure that are kept in it; one with more has none (the result's files have all)."""
@@ -50,6 +51,10 @@ def _csv(axes: list[Axes]) -> str:
     columns: list[list[str]] = []
     for one in axes:
         x_name, y_name = str(one.get_label()).split("\n")[:2]
+        bars = [bar.get_width() for bar in one.patches if isinstance(bar, Rectangle)]
+        if one.containers:
+            columns.append(["", *(label.get_text() for label in one.get_yticklabels())])
+            columns.append([y_name, *map(_number, bars)])
         for line in one.lines:
             label = str(line.get_label())
             if label.startswith(" "):

@@ -1,4 +1,7 @@
-"""Histories: rotation and angular velocity, energy against rotation, the energy ledger, requested outputs."""
+"""Histories: rotation and angular velocity, energy against rotation, the energy ledger, requested outputs.
+
+Curves over time are drawn where something happens, see `drawing.window`.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,6 @@ from crumple.report.drawing.style import (
     MUTED,
     RULE,
     WARNING,
-    WIDTH,
     Line,
     add_axes,
     draw_lines,
@@ -25,6 +27,7 @@ from crumple.report.drawing.style import (
     short,
     to_svg,
 )
+from crumple.report.drawing.window import happening
 from crumple.result import Result
 
 NAMED = 6
@@ -70,25 +73,65 @@ def ranked_hinges(result: Result) -> list[str]:
     return sorted(result.hinges, key=lambda name: -result.hinges[name].energy)
 
 
-def rotations(result: Result) -> str | None:
-    """Rotation and angular velocity of the hinges against time, side by side, as SVG."""
-    turned = _hinge_lines(result, "rotation", _DEGREES)
-    turning = _hinge_lines(result, "rotation_rate", 1.0)
-    if not turned or not len(result.time):
+def panel(
+    name: str,
+    description: str,
+    lines: Sequence[Line],
+    axes_names: tuple[str, str],
+    *,
+    over: Floats | None = None,
+) -> str | None:
+    """Curves on axes of half the width of a page as SVG; None without any.
+
+    Parameters
+    ----------
+    name, description
+        Of the figure, see `to_svg`.
+    lines
+        In display units; the names of several are written at their ends.
+    axes_names
+        Of x and y; over time, x is named by `over`.
+    over
+        Times [s] if the curves are over time; their x is then in its unit.
+    """
+    if not lines or not len(lines[0].x):
         return None
-    figure = new_figure(WIDTH, _HEAD + _PANEL + _FOOT)
-    # one hinge: radians stand right of its rotation; several: their names stand right of both
-    room = label_room([line.name for line in turned if not line.faint])
-    right = (_LEFT, _EDGE) if len(turned) == 1 else (room, room)
-    width = (WIDTH - 2 * _LEFT - sum(right)) / 2
-    axes = add_axes(figure, _LEFT, _FOOT, width, _PANEL)
-    over_time(axes, result.time, turned, "Rotation, deg")
-    if len(turned) == 1:
-        _radians_on_the_right(axes)
-    if turning:
-        axes = add_axes(figure, WIDTH - width - right[1], _FOOT, width, _PANEL)
-        over_time(axes, result.time, turning, "Angular velocity, rad/s")
-    return to_svg(figure, "rotation", "Rotation and angular velocity of the hinges against time.")
+    labels = sum(not line.faint for line in lines) > 1
+    figure = new_figure(HALF, _HEAD + _PANEL + _FOOT)
+    right = label_room([line.name for line in lines if not line.faint]) if labels else _EDGE
+    axes = add_axes(figure, _LEFT, _FOOT, HALF - _LEFT - right, _PANEL)
+    if over is not None:
+        over_time(axes, over, lines, axes_names[1], labels=labels)
+    else:
+        axes.set_xlim(*spread([line.x for line in lines], margin=0.04))
+        axes.set_ylim(*spread([line.y for line in lines]))
+        name_axes(axes, *axes_names)
+        draw_lines(axes, lines, labels=labels)
+    return to_svg(figure, name, description)
+
+
+def rotation(result: Result) -> str | None:
+    """Rotation of the hinges against time, as SVG."""
+    turned = _hinge_lines(result, "rotation", _DEGREES)
+    if len(turned) != 1:
+        text = "Rotation of the hinges against time."
+        return panel("rotation", text, turned, ("", "Rotation, deg"), over=_shown_times(result))
+    figure = new_figure(HALF, _HEAD + _PANEL + _FOOT)
+    # radians stand right of it
+    axes = add_axes(figure, _LEFT, _FOOT, HALF - 2 * _LEFT, _PANEL)
+    if not len(result.time):
+        return None
+    over_time(axes, _shown_times(result), turned, "Rotation, deg")
+    _radians_on_the_right(axes)
+    return to_svg(figure, "rotation", "Rotation of the hinge against time.")
+
+
+def angular_velocity(result: Result) -> str | None:
+    """Angular velocity of the hinges against time, as SVG."""
+    turning = _hinge_lines(result, "rotation_rate", 1.0)
+    text = "Angular velocity of the hinges against time."
+    names = ("", "Angular velocity, rad/s")
+    return panel("angular-velocity", text, turning, names, over=_shown_times(result))
 
 
 def energy_over_rotation(result: Result) -> str | None:
@@ -98,23 +141,30 @@ def energy_over_rotation(result: Result) -> str | None:
     unit, factor = display_unit("J", peak)
     for index, name in enumerate(ranked_hinges(result)[:DRAWN]):
         rotation, energy = (hinge_channel(result, name, quantity) for quantity in ("rotation", "energy"))
-        if rotation is not None and energy is not None:
+        if rotation is not None and energy is not None and result.hinges[name].bends:
             x = sense(result, name) * rotation * _DEGREES
             lines.append(Line(name, x, energy / factor, index, faint=index >= NAMED))
-    if not lines or not len(result.time):
+    text = "Energy dissipated in each hinge against its rotation."
+    return panel("energy-rotation", text, lines, ("rotation, deg", f"Dissipated energy, {unit}"))
+
+
+def energies(result: Result) -> str | None:
+    """Kinetic, elastic and dissipated energy and so on against time, as SVG."""
+    shown = [(name, result.channels[key], index) for name, key, index in _LEDGER if key in result.channels]
+    if not shown or not len(result.time):
         return None
-    figure = new_figure(HALF, _HEAD + _PANEL + _FOOT)
-    right = label_room([line.name for line in lines if not line.faint]) if len(lines) > 1 else _EDGE
-    axes = add_axes(figure, _LEFT, _FOOT, HALF - _LEFT - right, _PANEL)
-    axes.set_xlim(*spread([line.x for line in lines], margin=0.04))
-    axes.set_ylim(*spread([line.y for line in lines]))
-    name_axes(axes, "rotation, deg", f"Dissipated energy, {unit}")
-    draw_lines(axes, lines, labels=len(lines) > 1)
-    return to_svg(figure, "energy-rotation", "Energy dissipated in each hinge against its rotation.")
+    peak = largest([channel.values for _, channel, _ in shown])
+    unit, factor = display_unit("J", peak)
+    part = happening(result)
+    lines = [Line(name, _times(result), channel.values[part] / factor, i) for name, channel, i in shown]
+    # energies that stay below a thousandth of the total would lie on the axis
+    lines = [line for line in lines if largest([line.y]) > 1e-3 * peak / factor] or lines[:1]
+    text = "Kinetic, elastic and dissipated energy and external work against time."
+    return panel("energy", text, lines, ("", f"Energy, {unit}"), over=_shown_times(result))
 
 
-def ledger(result: Result, bound: float | None = None) -> str | None:
-    """Energies over time and, beside them, the residual of their balance with its bound, as SVG.
+def residual(result: Result, bound: float | None = None) -> str | None:
+    """Residual of the energy balance with its bound, as SVG.
 
     Parameters
     ----------
@@ -123,26 +173,13 @@ def ledger(result: Result, bound: float | None = None) -> str | None:
     bound
         Largest residual allowed, over the energy input [-]; None if unknown.
     """
-    shown = [(name, result.channels[key], index) for name, key, index in _LEDGER if key in result.channels]
-    if not shown or not len(result.time):
+    share = residual_share(result) if len(result.time) else None
+    if share is None:
         return None
-    peak = largest([channel.values for _, channel, _ in shown])
-    unit, factor = display_unit("J", peak)
-    lines = [Line(name, _times(result), channel.values / factor, i) for name, channel, i in shown]
-    # energies that stay below a thousandth of the total would lie on the axis
-    lines = [line for line in lines if largest([line.y]) > 1e-3 * peak / factor] or lines[:1]
-    share = residual_share(result)
-    figure = new_figure(WIDTH, _HEAD + _PANEL + 0.15 + _FOOT)
-    names = 0.9
-    beside = 1.5 if share is not None else 0.0
-    width = WIDTH - _LEFT - names - (0.5 + beside + _EDGE if beside else 0.0)
-    axes = add_axes(figure, _LEFT, _FOOT, width, _PANEL + 0.15)
-    over_time(axes, result.time, lines, f"Energy, {unit}", labels=True)
-    if share is not None:
-        axes = add_axes(figure, WIDTH - beside - _EDGE, _FOOT, beside, _PANEL + 0.15)
-        _draw_residual(axes, result.time, 100 * share, None if bound is None else 100 * bound)
-    description = "Kinetic, elastic and dissipated energy and external work against time, and their residual."
-    return to_svg(figure, "energy", description)
+    figure = new_figure(HALF, _HEAD + _PANEL + _FOOT)
+    axes = add_axes(figure, _LEFT + 0.1, _FOOT, HALF - _LEFT - 0.1 - _EDGE, _PANEL)
+    _draw_residual(axes, result.time, 100 * share, None if bound is None else 100 * bound)
+    return to_svg(figure, "residual", "Residual of the energy balance against time.")
 
 
 def residual_share(result: Result) -> Floats | None:
@@ -177,42 +214,44 @@ def _draw_residual(axes: Axes, time: Floats, percent: Floats, bound: float | Non
         axes.set_yticks([0.0])
 
 
-def outputs(result: Result) -> str | None:
-    """Requested channels against time, the directions of a vector together, two panels in a row, as SVG."""
-    groups = output_groups(result)[0][:MAX_OUTPUTS]
-    if not groups or not len(result.time):
-        return None
-    columns = 2
-    rows = math.ceil(len(groups) / columns)
-    height, head = 1.3, 0.36
-    figure = new_figure(WIDTH, rows * (head + height + _FOOT))
-    for i, group in enumerate(groups):
-        row, column = divmod(i, columns)
-        bottom = (rows - row - 1) * (head + height + _FOOT) + _FOOT
-        labelled = any(label for label, _ in group.channels)
-        width = WIDTH / columns - _LEFT - (0.24 if labelled else _EDGE)
-        axes = add_axes(figure, _LEFT + column * WIDTH / columns, bottom, width, height)
+def outputs(result: Result) -> list[str | None]:
+    """Requested channels against time, the directions of a vector together, each as SVG."""
+    found = []
+    for i, group in enumerate(output_groups(result)[0][:MAX_OUTPUTS], 1):
         unit, factor = display_unit(group.unit, largest([channel.values for _, channel in group.channels]))
         lines = [
-            Line(label, _times(result), channel.values / factor, max("xyz".find(label), 0) if label else 0)
+            Line(
+                label,
+                _times(result),
+                channel.values[happening(result)] / factor,
+                max("xyz".find(label), 0) if label else 0,
+            )
             for label, channel in group.channels
         ]
         name = f"{short(group.name, 44)}, {unit}" if unit else short(group.name, 44)
-        over_time(axes, result.time, lines, name, labels=labelled)
-    return to_svg(figure, "outputs", "Requested outputs against time.")
+        text = "A requested output against time."
+        found.append(panel(f"output-{i}", text, lines, ("", name), over=_shown_times(result)))
+    return found
+
+
+def _shown_times(result: Result) -> Floats:
+    """Output times that are shown [s]."""
+    return result.time[happening(result)]
 
 
 def _times(result: Result) -> Floats:
-    """Times in the unit of the time axis."""
-    return result.time / time_unit(float(result.time[-1]))[1] if len(result.time) else result.time
+    """Times that are shown, in the unit of the time axis."""
+    shown = _shown_times(result)
+    return shown / time_unit(float(shown[-1]))[1] if len(shown) else shown
 
 
 def _hinge_lines(result: Result, quantity: str, factor: float) -> list[Line]:
     lines = []
     for index, name in enumerate(ranked_hinges(result)[:DRAWN]):
         values = hinge_channel(result, name, quantity)
-        if values is not None:
-            lines.append(Line(name, _times(result), values * factor, index, faint=index >= NAMED))
+        if values is not None and result.hinges[name].bends:
+            shown = values[happening(result)] * factor
+            lines.append(Line(name, _times(result), shown, index, faint=index >= NAMED))
     return lines
 
 

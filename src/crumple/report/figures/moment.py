@@ -1,4 +1,4 @@
-"""Moment over rotation of one hinge: its law, the range of validity of the law, and the path of the run."""
+"""Moment over rotation of one hinge: its law with its band and range of validity, and the path of the run."""
 
 from __future__ import annotations
 
@@ -52,10 +52,13 @@ def moment_over_rotation(result: Result, hinge: str, name: str) -> str | None:
     limits = _rotation_limits(path[0] * side if path else None, reached, summary.validity_rotation)
     curves = _envelopes(summary, side, limits)
     unit, factor = display_unit("N*m", largest([*(y for _, y in curves), *([path[1]] if path else [])]))
+    band = summary.law_use.band if summary.law_use is not None else None
     figure = new_figure(HALF, 2.35)
     axes = add_axes(figure, 0.42, 0.34, HALF - 0.42 - 0.12, 1.75)
     axes.set_xlim(limits[0] * _DEGREES, limits[1] * _DEGREES)
-    heights = [y / factor for _, y in curves] + ([path[1] * side / factor] if path else [])
+    heights = [(1.0 + (band or 0.0)) * y / factor for _, y in curves] + (
+        [path[1] * side / factor] if path else []
+    )
     axes.set_ylim(*spread(heights, margin=0.08))
     low, high = axes.get_ylim()
     if low < 0 < high:
@@ -63,6 +66,9 @@ def moment_over_rotation(result: Result, hinge: str, name: str) -> str | None:
     name_axes(axes, "rotation, deg", f"Moment in {short(hinge, 20)}, {unit}")
     _shade_outside(axes, summary.validity_rotation, limits)
     for x, y in curves:
+        if band:
+            least, most = (1.0 - band) * y / factor, (1.0 + band) * y / factor
+            axes.fill_between(x * _DEGREES, least, most, color=INK, alpha=0.12, linewidth=0, zorder=1)
         axes.plot(x * _DEGREES, y / factor, color=INK, linewidth=0.9, linestyle=(0, (4, 2)), zorder=3)
     if path:
         _draw_path(axes, path[0] * side * _DEGREES, path[1] * side / factor)

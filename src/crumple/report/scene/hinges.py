@@ -17,6 +17,8 @@ TURNS = 0.02
 """Share of a hinge's largest plastic rotation rate above which it counts as rotating."""
 OPEN = np.radians(0.5)
 """Plastic rotation [rad] below which a hinge counts as closed."""
+SHORTER = 1e-3
+"""Change of length [m] below which it counts as closed."""
 
 
 def hinges_of_comparison(source: Source, states: States) -> list[dict[str, Any]]:
@@ -43,6 +45,10 @@ def hinges_of_result(result: Result, states: States) -> list[dict[str, Any]]:
         # with several axes the length of the vector can shrink; a hinge that opened stays open
         reached = np.maximum.accumulate(np.abs(np.nan_to_num(plastic)))
         state = _states(reached, result.time, states.times)
+        travel = result.channels.get(f"hinge.{name}.slip.x.travel")
+        if travel is not None:
+            reached = np.maximum.accumulate(np.abs(np.nan_to_num(travel.values)))
+            state = _either(state, _states(reached, result.time, states.times, SHORTER))
         shown = np.interp(states.times, result.time, np.nan_to_num(rotation))
         found.append(_hinge(result, name, places[name], state, shown, states.times))
     return found
@@ -57,8 +63,8 @@ def _hinge(
         "state": state,
         "rotation": np.round(rotation, 5).tolist(),
     }
-    for kind in ("moment", "energy"):
-        channel = result.channels.get(f"hinge.{name}.{kind}")
+    for kind, of in (("moment", "moment"), ("energy", "energy"), ("travel", "slip.x.travel")):
+        channel = result.channels.get(f"hinge.{name}.{of}")
         if channel is not None and np.isfinite(channel.values).all():
             values = np.interp(times, result.time, channel.values)
             entry[kind] = [float(f"{value:.4g}") for value in values]
@@ -83,7 +89,7 @@ def law_energy(summary: HingeSummary) -> float | None:
     if end is not None and rotation[0] < end < rotation[-1]:
         moment = np.append(moment[rotation < end], np.interp(end, rotation, moment))
         rotation = np.append(rotation[rotation < end], end)
-    energy = float(np.trapezoid(moment, rotation))
+    energy = float(np.diff(rotation) @ (moment[1:] + moment[:-1])) / 2.0
     return energy if np.isfinite(energy) and energy > 0.0 else None
 
 
@@ -103,10 +109,16 @@ def hinge_states(motion: HingeMotion, times: Floats) -> list[int]:
     return _states(plastic, motion.time, times)
 
 
-def _states(plastic: Floats, time: Floats, times: Floats) -> list[int]:
+def _either(first: list[int], second: list[int]) -> list[int]:
+    """State of a hinge that turns and changes its length: what moves goes before what rests."""
+    order = (CLOSED, RESTING, TURNING)
+    return [max(pair, key=order.index) for pair in zip(first, second, strict=True)]
+
+
+def _states(plastic: Floats, time: Floats, times: Floats, least: float = OPEN) -> list[int]:
     """States at some times from the plastic rotation reached at others, which never decreases."""
     rate = np.gradient(plastic, time) if time.size > 1 else np.zeros_like(plastic)
     fast = float(np.max(rate, initial=0.0))
     now, speed = np.interp(times, time, plastic), np.interp(times, time, rate)
-    state = np.where(now < OPEN, CLOSED, np.where(speed > TURNS * fast, TURNING, RESTING))
+    state = np.where(now < least, CLOSED, np.where(speed > TURNS * fast, TURNING, RESTING))
     return [int(value) for value in state]

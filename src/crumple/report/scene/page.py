@@ -24,13 +24,16 @@ MOST_STORED = 50_000_000
 """Largest scene file that is read [bytes]; those that are written have some 3 MB."""
 
 
-def page_parts(scene: Scene | None, *styles: str) -> dict[str, Any]:
-    """What a template needs of a scene: `scene`, `scripts`, `hashes`, `style`; for all pages alike."""
+def page_parts(scene: Scene | None, *styles: str, script: str = "") -> dict[str, Any]:
+    """What a template needs of a scene: `scene`, `scripts`, `hashes`, `style`; for all pages alike.
+
+    `styles` and `script`, which comes before the viewer, are further files of the templates.
+    """
     from markupsafe import Markup  # noqa: PLC0415
 
-    names = ["figures.js", "copy.js"]
+    names = [*([script] if script and scene is None else []), "page.js"]
     if scene is not None:
-        names = ["scene.js", "painters.js", "viewer.js", *names]
+        names = [*([script] if script else []), "viewer.js", *names]
     scripts = [text_of(f"templates/{name}") for name in names]
     if scene is not None:
         scripts.insert(0, text_of("vendor/three.min.js"))

@@ -66,7 +66,7 @@ class Scene:
         return json.dumps({**json.loads(self.header), "payload": self.payload}, ensure_ascii=True)
 
 
-def write_scene(models: Sequence[Shown], title: str = "") -> Scene | None:
+def write_scene(models: Sequence[Shown], title: str = "", *, compression: int = 9) -> Scene | None:
     """The scene of some results in step, or None if one of them has no shapes.
 
     Parameters
@@ -75,6 +75,8 @@ def write_scene(models: Sequence[Shown], title: str = "") -> Scene | None:
         Drawn side by side; the last one sets the times and the view.
     title
         Of the page.
+    compression
+        Level of zlib, 1 (fast) to 9 (small).
     """
     found = [finite_states(model.result.states) for model in models]
     states = [s for s in found if s is not None]
@@ -113,7 +115,7 @@ def write_scene(models: Sequence[Shown], title: str = "") -> Scene | None:
     }
     for model, mine in zip(models, described, strict=True):
         mine["obstacles"] = obstacles(model.structure, model.result, times, low, high)
-    payload = base64.b64encode(zlib.compress(b"".join(parts), 9)).decode()
+    payload = base64.b64encode(zlib.compress(b"".join(parts), compression)).decode()
     # a text element of the page ends at this mark
     text = json.dumps(header, ensure_ascii=True, allow_nan=False).replace("<", "\\u003c")
     return Scene(text, payload, strain, len(times))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -54,7 +55,7 @@ def verdict(result: Result, bound: float | None, accuracy: float | None) -> Verd
     unreported = [
         sentence
         for name, sentence in outside.items()
-        if not any(warning.startswith(f"Hinge {name} turned") for warning in result.warnings)
+        if not any(_tells_of_range(warning, name) for warning in result.warnings)
     ]
     warnings = (*result.warnings, *unreported)
     reasons = [_balance(result, bound)]
@@ -72,6 +73,15 @@ def verdict(result: Result, bound: float | None, accuracy: float | None) -> Verd
     if warnings:
         return Verdict("caution", "Complete, with reservations.", tuple(reasons), warnings)
     return Verdict("good", "Complete.", tuple(reasons), ())
+
+
+def _tells_of_range(warning: str, hinge: str) -> bool:
+    """Whether a sentence of the solver says that a hinge, or many with it, left the range of its law."""
+    if warning.startswith(f"Hinge {hinge} turned"):
+        return True
+    head, _, rest = warning.partition(": ")
+    named = re.search(rf"(?<![\w-]){re.escape(hinge)}(?![\w-])", head) is not None or head.endswith(" more")
+    return "the law is valid up to" in rest and named
 
 
 def outside_range(result: Result, name: str) -> str:
@@ -196,27 +206,6 @@ def hinge_table(result: Result) -> Table:
     )
     dash = " A dash: still rotating at the end." if any(h.time_of_rest is None for h in hinges) else ""
     return Table(f"Rotation, time of rest, energy and moment of each hinge.{dash}", heads, rows)
-
-
-def crush_table(result: Result) -> Table:
-    """Crush length, forces, energy and stroke of every hinge that can shorten along its member."""
-    zones = {name: hinge.crush for name, hinge in result.hinges.items() if hinge.crush is not None}
-    length_unit, lengths = column([zone.length for zone in zones.values()], "m")
-    stroke_unit, strokes = column(
-        [math.nan if zone.stroke is None else zone.stroke for zone in zones.values()], "m"
-    )
-    peak_unit, peaks = column([zone.peak_force for zone in zones.values()], "N")
-    mean_unit, means = column([zone.mean_force for zone in zones.values()], "N")
-    energy_unit, energies = column([zone.energy for zone in zones.values()], "J")
-    efficiencies = [percent(zone.efficiency, 3) for zone in zones.values()]
-    closed = ["yes" if zone.bottomed_out else "no" for zone in zones.values()]
-    heads = (
-        "Crush zone", f"Crush length, {length_unit}", "Stroke efficiency", f"Folds closed at, {stroke_unit}",
-        "Bottomed out", f"Peak force, {peak_unit}", f"Mean force, {mean_unit}", f"Energy, {energy_unit}",
-    )  # fmt: skip
-    rows = list(zip(zones, lengths, efficiencies, strokes, closed, peaks, means, energies, strict=True))
-    caption = "What each crush zone did. Stroke efficiency: crush length over the length of the member."
-    return Table(caption, heads, rows)
 
 
 def collapse_table(result: Result) -> Table:

@@ -2,9 +2,11 @@
 
 rectangular_tube 50x25x2.65 mm, corner radius 5 mm
 multi_cell_tube 90x60x3 mm, cells 3x2, inner walls 2 mm
+square_tube 70x70x2
 
 The sizes are the keys of the shape that must be given, in their order; details are the others, by their words
-(`crumple.registry.keys.Word`).  Keys that share a word are written together, as the cells are.
+(`crumple.registry.keys.Word`).  Keys that share a word are written together, as the cells are.  Sizes without
+a unit are in mm, as catalogues write them; the side of a square tube can be written twice, as of others.
 """
 
 from __future__ import annotations
@@ -20,7 +22,7 @@ from crumple.section.shapes.registry import SHAPES
 from crumple.units import parse_quantity
 
 _SIZES = re.compile(
-    r"(?P<kind>[A-Za-z]+(?:[ _-][A-Za-z]+){0,2})\s+(?P<numbers>[0-9.eE+x×-]+)\s*(?P<unit>[A-Za-z]+)"
+    r"(?P<kind>[A-Za-z]+(?:[ _-][A-Za-z]+){0,2})\s+(?P<numbers>[0-9.eE+x×-]+)\s*(?P<unit>[A-Za-z]*)"
 )
 _DETAIL = re.compile(r"(?P<words>[A-Za-z]+(?:[ _-][A-Za-z]+)?)\s+(?P<value>[0-9.].{0,40})")
 _COUNT = re.compile("[0-9]{1,3}")
@@ -50,11 +52,13 @@ def written_section(text: str, allowed: str = "") -> Section:
     keys = [key for key in shape.keys if key.measure is not None]
     sizes = [key for key in keys if not key.words]
     numbers = re.split("[x×]", match["numbers"])
+    if kind == "square_tube" and len(numbers) == len(sizes) + 1 and numbers[0] == numbers[1]:
+        numbers = numbers[1:]
     if len(numbers) != len(sizes):
         what = f"{_one(kind)} has {len(sizes)} dimensions, not {len(numbers)}"
         raise _refused(what, text, _grammar(kind, keys))
     values: dict[str, float] = {
-        key.name: parse_quantity(f"{number} {match['unit']}", "m")
+        key.name: parse_quantity(f"{number} {match['unit'] or 'mm'}", "m")
         for key, number in zip(sizes, numbers, strict=True)
     }
     for extra in extras:

@@ -64,6 +64,12 @@ def assumptions(structure: Structure, case: ShellCase, settings: ShellSettings) 
         if joint.kind is Kind.RIGID and len(joint.ends) > 1:
             members = ", ".join(end.member for end in joint.ends)
             found.append(f"The ends of {members} at node {node} are cut back and move as one rigid body.")
+        elif joint.tee is not None:
+            tee = joint.tee
+            found.append(
+                f"The walls of {tee.branch.member} are welded at node {node} to the face of {tee.before} and "
+                f"{tee.after} that they meet."
+            )
         elif joint.is_body:
             found.append(f"The section at node {node} is rigid.")
     found += weld_assumptions(structure, case)

@@ -1,4 +1,4 @@
-"""Treatment of the members' ends at each node: clamped, joined by a mitre, made rigid, or left free.
+"""Treatment of the members' ends at each node: clamped, joined by a mitre, welded, made rigid, or left free.
 
 Members that meet at a node are cut back so that their walls do not cross, and their end sections move as one
 rigid body; what was cut away stays as its mass.  With outgoing unit vectors x_i and x_j at an angle a, and
@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 from crumple.errors import InputError, Problem
 from crumple.numeric.arrays import Floats
 from crumple.shell.mesh.contour import Contour
+from crumple.shell.mesh.end import End
+from crumple.shell.mesh.tees import Tee, tees_of, with_rows
 from crumple.structure import FREEDOMS, Structure
 
 SHARPEST_MITRE = np.radians(100.0)
@@ -38,15 +40,21 @@ class Kind(Enum):
     FREE = "free"
     CLAMPED = "clamped"
     MITRED = "mitred"
+    WELDED = "welded"
     RIGID = "rigid"
 
 
-@dataclass(frozen=True)
-class End:
-    """One end of a member: the second if ``second``, else the first."""
+def shortest_with_mitre(reach: float, turn: float) -> float:
+    """Length from which a member can share a mitre [m]; the ends of a shorter one are joined rigidly.
 
-    member: str
-    second: bool
+    Parameters
+    ----------
+    reach
+        Of its section from its axis, in the plane of the mitre [m].
+    turn
+        Change of direction between both members [rad].
+    """
+    return SHEARED_LENGTH * reach * float(np.tan(turn / 2.0)) / LONGEST_CUT
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,8 +73,11 @@ class Joint:
         Length that each end is cut back by [m], (ends,).
     slant
         Of a mitre: shift into the member of every contour point of each end [m], else empty.
+    tee
+        Of a welded T-joint, whose ends are those of both members in line, then the branch's.
     match
-        Of a mitre: index of the first end's contour point for each of the second's.
+        Of a mitre, and of both members in line of a T-joint: index of the first end's contour point for each
+        of the second's.
     rigid_ring
         Whether a mitre's shared section is rigid, because something acts on the node.
     """
@@ -78,6 +89,7 @@ class Joint:
     slant: tuple[Floats, ...] = ()
     match: NDArray[np.int64] = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     rigid_ring: bool = False
+    tee: Tee | None = None
 
     @property
     def is_body(self) -> bool:
@@ -85,28 +97,74 @@ class Joint:
         return self.kind is Kind.RIGID or self.rigid_ring
 
 
-def joints_of(structure: Structure, contours: dict[str, Contour]) -> dict[str, Joint]:
+def joints_of(
+    structure: Structure, contours: dict[str, Contour], welded: dict[str, Tee] | None = None
+) -> dict[str, Joint]:
     """Joint of every node at which a member ends.
+
+    Parameters
+    ----------
+    structure, contours
+        Members and their divided sections.
+    welded
+        Welded T-joints by node.
 
     Raises
     ------
     InputError
         If members overlap along their length, or one is too short for its joints.
     """
-    ends: dict[str, list[End]] = defaultdict(list)
-    for name, member in structure.members.items():
-        ends[member.nodes[0]].append(End(name, False))
-        ends[member.nodes[1]].append(End(name, True))
+    tees = welded or {}
+    branches = {tee.branch.member for tee in tees.values()}
     loaded = _loaded_nodes(structure)
     joints, problems = {}, []
-    for node, meeting in ends.items():
+    for node, meeting in _ends(structure).items():
+        if node in tees:
+            joints[node] = _welded(structure, contours, tees[node])
+            continue
+        mitre = not branches & {end.member for end in meeting}
         try:
-            joints[node] = _joint(structure, contours, node, tuple(meeting), node in loaded)
+            joints[node] = _joint(structure, contours, node, meeting, loaded=node in loaded, mitre=mitre)
         except InputError as error:
             problems += error.problems
     if problems:
         raise InputError(problems)
     return joints
+
+
+def welded_joints(
+    structure: Structure, contours: dict[str, Contour], size: float
+) -> tuple[dict[str, Tee], dict[str, Contour]]:
+    """T-joints that can be welded, by node, and the sections with rows of nodes along their outlines.
+
+    Nodes that are held, loaded or heavy stay rigid.
+    """
+    loaded = _loaded_nodes(structure)
+    ends = {node: meeting for node, meeting in _ends(structure).items() if node not in loaded}
+    tees = tees_of(structure, contours, ends, size)
+    return tees, with_rows(contours, tees.values(), size)
+
+
+def _ends(structure: Structure) -> dict[str, tuple[End, ...]]:
+    """Ends of members at every node."""
+    ends: dict[str, list[End]] = defaultdict(list)
+    for name, member in structure.members.items():
+        ends[member.nodes[0]].append(End(name, False))
+        ends[member.nodes[1]].append(End(name, True))
+    return {node: tuple(meeting) for node, meeting in ends.items()}
+
+
+def _welded(structure: Structure, contours: dict[str, Contour], tee: Tee) -> Joint:
+    """Joint of a welded branch, whose slant is that of its outline once its section is divided there."""
+    x, out = outgoing(structure, tee.branch), structure.frame_of(tee.before).axes[1 + tee.out]
+    normal = tee.side * out
+    arms = contours[tee.branch.member].points @ structure.frame_of(tee.branch.member).axes[1:]
+    slant = -(arms @ normal) / float(x @ normal)
+    straight = np.zeros(len(contours[tee.before].points))
+    ends = (End(tee.before, True), End(tee.after, False), tee.branch)
+    cut = (0.0, 0.0, tee.height / float(x @ normal))
+    match = np.arange(len(straight))
+    return Joint(tee.node, Kind.WELDED, ends, cut, (straight, straight, slant), match, tee=tee)
 
 
 def is_clamped(structure: Structure, node: str) -> bool:
@@ -136,16 +194,22 @@ def _loaded_nodes(structure: Structure) -> set[str]:
 
 
 def _joint(
-    structure: Structure, contours: dict[str, Contour], node: str, ends: tuple[End, ...], loaded: bool
+    structure: Structure,
+    contours: dict[str, Contour],
+    node: str,
+    ends: tuple[End, ...],
+    *,
+    loaded: bool,
+    mitre: bool,
 ) -> Joint:
     clamped = is_clamped(structure, node)
     if len(ends) == 1:
         kind = Kind.CLAMPED if clamped else Kind.RIGID if loaded else Kind.FREE
         return Joint(node, kind, ends, (0.0,))
-    if len(ends) == 2 and not clamped:
-        mitre = _mitre(structure, contours, node, ends, loaded)
-        if mitre is not None:
-            return mitre
+    if len(ends) == 2 and not clamped and mitre:
+        shared = _mitre(structure, contours, node, ends, loaded)
+        if shared is not None:
+            return shared
     cut = tuple(_cut(structure, contours, node, end, ends) for end in ends)
     return Joint(node, Kind.CLAMPED if clamped else Kind.RIGID, ends, cut)
 

@@ -13,8 +13,9 @@ from crumple.shell.checks.refusals import refuse_sizes, refuse_waves
 from crumple.shell.mesh.bays import Bays, Levels, bays_of, coarse_rings, left_out, levels_of, without_points
 from crumple.shell.mesh.contour import Contour, contour_of
 from crumple.shell.mesh.imperfection import offsets
-from crumple.shell.mesh.joints import SHEARED_LENGTH, Joint, Kind, joints_of
+from crumple.shell.mesh.joints import SHEARED_LENGTH, Joint, Kind, joints_of, welded_joints
 from crumple.shell.mesh.stations import Sizes, Zone, stations
+from crumple.shell.mesh.tees import Seam, Tee, branch_contour, seam_of, shared_nodes
 from crumple.structure import Frame, Outputs, ShellSettings, Structure, member_hinge_places
 
 MOST_ELEMENTS = 5_000_000
@@ -152,14 +153,37 @@ def mesh_of(structure: Structure, settings: ShellSettings, outputs: Outputs | No
     refuse_sizes(structure, settings)
     size = settings.fine_size or settings.element_size
     contours = {name: contour_of(structure.section_of(name), size) for name in structure.members}
-    joints = joints_of(structure, contours)
+    tees: dict[str, Tee] = {}
+    if settings.t_joints == "welded":
+        tees, contours = welded_joints(structure, contours, size)
+    joints = joints_of(structure, contours, tees)
     rings = {
         name: _rings(structure, name, settings, joints, outputs or Outputs()) for name in structure.members
     }
+    seams = {}
+    for node, tee in tees.items():
+        seams[node] = seam_of(structure, tee, contours[tee.before], rings)
+        contours[tee.branch.member] = branch_contour(structure, tee, seams[node])
+    if tees:
+        # the same stations: what changed is where branches are divided
+        joints = joints_of(structure, contours, tees)
     _check_number(contours, rings)
     refuse_waves(settings, contours, rings)
-    halved = {name: _halved(settings, contours[name], at) for name, at in rings.items()}
-    return _joined(structure, contours, joints, rings, halved, imperfection=settings.imperfection)
+    welded = {name for tee in tees.values() for name in (tee.before, tee.after, tee.branch.member)}
+    halved = {name: _halved(settings, contours[name], at, whole=name in welded) for name, at in rings.items()}
+    parts = _Parts(contours, joints, rings, halved, seams)
+    return _joined(structure, parts, imperfection=settings.imperfection)
+
+
+@dataclass(frozen=True, eq=False)
+class _Parts:
+    """Divided sections, joints, stations of rings, their levels, and seams of welded branches."""
+
+    contours: dict[str, Contour]
+    joints: dict[str, Joint]
+    rings: dict[str, Floats]
+    halved: dict[str, Levels]
+    seams: dict[str, Seam]
 
 
 def _rings(
@@ -182,15 +206,17 @@ def _rings(
         if rotation.member == member
         for station in (rotation.start, rotation.end)
     ]
+    for joint in joints.values():
+        asked += joint.tee.stations(member, length) if joint.tee is not None else []
     asked += [at for part in structure.members[member].rigid_parts(length) for at in part]
     fine = settings.fine_size or settings.element_size
     sizes = Sizes(settings.element_size, fine, settings.growth)
     return stations(ends, asked, _fine_zones(structure, member, settings, joints, ends), sizes)
 
 
-def _halved(settings: ShellSettings, contour: Contour, at: Floats) -> Levels:
-    """How often the section is divided half as finely at every ring."""
-    if settings.coarse_sections == "off" or settings.fine_size is None:
+def _halved(settings: ShellSettings, contour: Contour, at: Floats, *, whole: bool) -> Levels:
+    """How often the section is divided half as finely at every ring; never in members of welded joints."""
+    if whole or settings.coarse_sections == "off" or settings.fine_size is None:
         return np.zeros(len(at), dtype=np.int64)
     return coarse_rings(at, settings.fine_size, len(levels_of(contour)) - 1)
 
@@ -229,28 +255,22 @@ def _check_number(contours: dict[str, Contour], rings: dict[str, Floats]) -> Non
         raise InputError(Problem(what, str(number), allowed, todo, "analysis.shell.element_size"))
 
 
-def _joined(
-    structure: Structure,
-    contours: dict[str, Contour],
-    joints: dict[str, Joint],
-    rings: dict[str, Floats],
-    halved: dict[str, Levels],
-    *,
-    imperfection: float,
-) -> Mesh:
-    """Nodes numbered member by member; a mitre's second end takes the nodes of its first."""
+def _joined(structure: Structure, parts: _Parts, *, imperfection: float) -> Mesh:
+    """Nodes numbered member by member; a mitre's second end and a welded branch take nodes that are there."""
+    contours, joints, halved = parts.contours, parts.joints, parts.halved
     positions: list[Floats] = []
     quads: list[Integers] = []
     tubes: dict[str, Tube] = {}
     count = elements = 0
-    for name in structure.members:
+    branches = {joint.tee.branch.member for joint in joints.values() if joint.tee is not None}
+    for name in sorted(structure.members, key=lambda one: one in branches):
         frame, around = structure.frame_of(name), len(contours[name].points)
-        numbers = np.full((len(rings[name]), around), -1, dtype=np.int64)
-        points = _points(structure, name, contours[name].points, rings[name], joints)
+        numbers = np.full((len(parts.rings[name]), around), -1, dtype=np.int64)
+        points = _points(structure, name, contours[name].points, parts.rings[name], joints)
         if imperfection:
             points = points + offsets(contours[name], len(points), imperfection, len(tubes)) @ frame.axes[1:]
         for second in (False, True):
-            shared = _shared(structure, joints, tubes, name, second)
+            shared = _shared(structure, parts, tubes, name, second)
             if shared is not None:
                 numbers[-1 if second else 0] = shared
         new = (numbers < 0) & ~left_out(contours[name], halved[name])
@@ -259,7 +279,7 @@ def _joined(
         positions.append(points[new])
         numbers = without_points(numbers, contours[name], halved[name])
         bays = bays_of(contours[name], halved[name])
-        tubes[name] = Tube(frame, contours[name], rings[name], numbers, bays, elements)
+        tubes[name] = Tube(frame, contours[name], parts.rings[name], numbers, bays, elements)
         quads.append(numbers.reshape(-1)[bays.corners])
         elements += len(quads[-1])
     bodies = [node for node, joint in joints.items() if joint.is_body]
@@ -274,7 +294,7 @@ def _points(structure: Structure, member: str, ring: Floats, at: Floats, joints:
     along = np.repeat(at[:, None], len(ring), axis=1)
     for second in (False, True):
         joint = joints[structure.members[member].nodes[int(second)]]
-        if joint.kind is not Kind.MITRED:
+        if joint.kind not in (Kind.MITRED, Kind.WELDED):
             continue
         which = next(i for i, end in enumerate(joint.ends) if end.member == member and end.second == second)
         slant = joint.slant[which]
@@ -287,13 +307,15 @@ def _points(structure: Structure, member: str, ring: Floats, at: Floats, joints:
 
 
 def _shared(
-    structure: Structure, joints: dict[str, Joint], tubes: dict[str, Tube], member: str, second: bool
+    structure: Structure, parts: _Parts, tubes: dict[str, Tube], member: str, second: bool
 ) -> Integers | None:
     """Nodes of an end that another member's mesh has made already; None: its own."""
-    joint = joints[structure.members[member].nodes[int(second)]]
-    if joint.kind is not Kind.MITRED:
+    joint = parts.joints[structure.members[member].nodes[int(second)]]
+    if joint.kind not in (Kind.MITRED, Kind.WELDED):
         return None
     mine = next(i for i, end in enumerate(joint.ends) if end.member == member and end.second == second)
+    if mine == 2:
+        return shared_nodes(parts.seams[joint.node], {name: tube.nodes for name, tube in tubes.items()})
     other = joint.ends[1 - mine]
     if other.member not in tubes:
         return None

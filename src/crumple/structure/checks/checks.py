@@ -24,7 +24,7 @@ from crumple.structure.checks.rigid_checks import rigid_problems
 from crumple.structure.checks.start_checks import start_problems
 from crumple.structure.checks.weld_checks import pitch_problems, spot_weld_problems
 from crumple.structure.keys.hinge_axes import AxisLaws, HingeAxes
-from crumple.structure.keys.member import AutomaticHinges
+from crumple.structure.keys.member import AutomaticHinges, Member
 from crumple.structure.keys.outputs import Outputs
 from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import Names, one_of, outside, shown, suggestion, unknown
@@ -32,12 +32,18 @@ from crumple.structure.settings.shell_settings import ShellSettings
 
 COINCIDENT = 1e-6
 """Distance [m] below which two nodes are one place: a thousandth of a wall, far above rounding."""
+ASKEW = np.array([0.26726, 0.53452, 0.80178])
+"""Direction of about unit length."""
+ROUNDING = 1e-12
+"""Error of a coordinate along it, as a share of the coordinate."""
 JUMP = 1e-12
 """Prescribed displacement [m] or rotation [rad] at the start that is still rounding."""
 FLAT = 1e-9
 """Area over the square of the size below which a polygon has none."""
 UNEVEN = 1e-3
 """Distance from its plane over the size up to which a polygon counts as plane."""
+NO_LAWS = AxisLaws()
+UNDIVIDED = Member.model_fields["bars"].default
 KINDS = ("nodes", "members", "sections", "materials", "hinge_laws", "supports", "obstacles")
 
 Defined = Mapping[str, Iterable[str]]
@@ -154,11 +160,15 @@ def _names(structure: StructureParts, known: Known) -> Iterator[Problem]:
         yield from _unknown_laws(structure.hinges, laws, "hinges")
     for name, member in structure.members.items():
         where = f"members.{name}"
-        for i, node in enumerate(member.nodes):
-            yield from unknown("node", node, known["nodes"], f"{where}.nodes[{i}]")
-        yield from unknown("section", member.section, known["sections"], f"{where}.section")
-        yield from unknown("material", member.material, known["materials"], f"{where}.material")
-        yield from _unknown_laws(member.bars, laws, f"{where}.bars")
+        if not known["nodes"].issuperset(member.nodes):
+            for i, node in enumerate(member.nodes):
+                yield from unknown("node", node, known["nodes"], f"{where}.nodes[{i}]")
+        if member.section not in known["sections"]:
+            yield from unknown("section", member.section, known["sections"], f"{where}.section")
+        if member.material not in known["materials"]:
+            yield from unknown("material", member.material, known["materials"], f"{where}.material")
+        if member.bars is not UNDIVIDED:
+            yield from _unknown_laws(member.bars, laws, f"{where}.bars")
         if isinstance(member.hinges, AutomaticHinges):
             yield from _unknown_laws(member.hinges, laws, f"{where}.hinges")
         for i, hinge in enumerate(member.given_hinges):
@@ -208,7 +218,8 @@ def _members(structure: StructureParts, known: Known) -> Iterator[Problem]:
 def _coincident(structure: StructureParts, known: Known) -> Iterator[Problem]:
     """Nodes at one place."""
     cells: dict[tuple[int, ...], list[str]] = defaultdict(list)
-    for name, position in structure.nodes.items():
+    for name in _perhaps_coincident(structure):
+        position = structure.nodes[name]
         # every cell that the node is near to: two close nodes share one whatever side of an edge they lie on
         around = ((int(x // COINCIDENT), int(x // COINCIDENT) + 1) for x in position)
         for cell in product(*around):
@@ -222,6 +233,18 @@ def _coincident(structure: StructureParts, known: Known) -> Iterator[Problem]:
         if dist(structure.nodes[first], structure.nodes[second]) < COINCIDENT:
             todo = f"use one node, or move '{second}'"
             yield Problem(f"the nodes '{first}' and '{second}' coincide", where=f"nodes.{second}", todo=todo)
+
+
+def _perhaps_coincident(structure: StructureParts) -> list[str]:
+    """Nodes that are near to another one along some direction: all that coincide and few others, in order."""
+    names = list(structure.nodes)
+    # few nodes of a drawing lie in a plane across this direction
+    along = np.array([structure.nodes[name] for name in names], float).reshape(-1, 3) @ ASKEW
+    order = np.argsort(along)
+    near = np.diff(along[order]) <= 2.0 * COINCIDENT + ROUNDING * np.abs(along).max(initial=0.0)
+    found = np.zeros(len(names), bool)
+    found[order[:-1][near]] = found[order[1:][near]] = True
+    return [names[i] for i in np.flatnonzero(found)]
 
 
 def _connections(structure: StructureParts, known: Known) -> Iterator[Problem]:
@@ -289,7 +312,7 @@ def _carriers(structure: StructureParts) -> Iterator[tuple[str, str, str]]:
 
 
 def _unknown_laws(keys: HingeAxes, known: Names, where: str) -> Iterator[Problem]:
-    own = keys.laws or AxisLaws()
+    own = keys.laws or NO_LAWS
     for key, law in (("law", keys.law), ("laws.y", own.y), ("laws.z", own.z)):
-        if isinstance(law, str):
+        if isinstance(law, str) and law not in known:
             yield from unknown("hinge law", law, known, f"{where}.{key}")

@@ -5,6 +5,9 @@ all sit on nodes: so a candidate lies at each end of a member, half a fold lengt
 can carry a moment.  Distributed inertia and long spans also bend members in between: `spacing` puts further
 candidates there.  A candidate that is never loaded to its capacity stays rigid, and changes nothing.
 
+Members of a straight run between supports (held_runs) also lengthen at their hinges, unless the input says
+otherwise.
+
 A corner whose law is stored has one hinge at its node in place of the candidates in its zone.
 """
 
@@ -18,7 +21,8 @@ from crumple.section import Axis, half_fold_length
 from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import automatic_of
 from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
-from crumple.structure.keys.hinge_axes import HingeAxes
+from crumple.structure.hinges.held_runs import held_runs
+from crumple.structure.keys.hinge_axes import AxialSlip, HingeAxes
 from crumple.structure.keys.member import Hinge
 from crumple.structure.parts import StructureParts
 
@@ -36,6 +40,8 @@ def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
             if flat
             else {"axes": ("y", "z", "x") if twists(structure, member) else ("y", "z")}
         )
+    if lengthens(structure, member):
+        keys["axial"] = AxialSlip()
     axes = (keys["axis"],) if keys["axis"] else tuple(axis for axis in keys["axes"] if axis != "x")
     stations = automatic_stations(structure, member, axes, asked.spacing)
     parts = structure.members[member].rigid_parts(structure.frame_of(member).length)
@@ -45,6 +51,13 @@ def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
     found = [Hinge.model_construct(name=name, at=station, **keys) for name, station in stations.items()]
     found += corner_hinges(structure, member, keys)
     return tuple(sorted(found, key=lambda hinge: float(hinge.at)))
+
+
+def lengthens(structure: StructureParts, member: str) -> bool:
+    """Whether the automatic hinges of a member lengthen although the input does not say so."""
+    asked = automatic_of(structure, member)
+    unsaid = asked is not None and "axial" not in asked.model_fields_set
+    return unsaid and member in held_runs(structure)
 
 
 def twists(structure: StructureParts, member: str) -> bool:

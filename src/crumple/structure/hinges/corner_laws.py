@@ -1,10 +1,12 @@
-"""Hinges at mitred corners whose law is stored: one at the node, for both members."""
+"""Hinges at mitred corners: one at the node, for both members, with the stored law or the estimate."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
 
+from crumple.errors import InputError
+from crumple.hinge import HingeLaw, build_law
 from crumple.hinge.measured.law_file import read_law, write_law
 from crumple.hinge.measured.library import mirrored
 from crumple.structure.bending import planar
@@ -16,28 +18,49 @@ from crumple.structure.keys.law import LawKeys, LawReference
 from crumple.structure.keys.member import Hinge
 from crumple.structure.parts import StructureParts
 
-ELASTIC = "elastic-plastic"
+ELASTIC, MITRED, ACROSS = "elastic-plastic", "mitred_corner", "mitred_corner_across"
 
 
 def corner_laws(structure: StructureParts) -> Mapping[str, tuple[Corner, LawKeys]]:
-    """Corners of automatic hinges whose law is stored, by node, with the law of the hinge there."""
-    if structure.laws is None:
-        return {}
+    """Corners of automatic hinges with a law, stored or estimated, by node, and that law."""
     return structure.kept.once("corner laws", "", lambda: _corner_laws(structure))
 
 
 def _corner_laws(structure: StructureParts) -> dict[str, tuple[Corner, LawKeys]]:
-    found = {}
+    found: dict[str, tuple[Corner, LawKeys]] = {}
+    if not any(automatic_of(structure, member) for member in structure.members):
+        return found
     for node, corner in corners(structure).items():
         asked = _asked(structure, corner)
-        text = None if asked is None else stored_text(structure, corner.place(structure))
-        if asked is not None and text is not None:
-            own = text if corner.sense > 0 else write_law(mirrored(read_law(text)))
-            law = with_type(asked, "file", text=own)
-            if planar(structure) and law.form == "set-valued":
-                law = law.model_copy(update={"form": ELASTIC})
+        if asked is None:
+            continue
+        text = stored_text(structure, corner.place(structure))
+        law = (
+            _estimated(structure, corner, asked) if text is None else _stored(structure, corner, asked, text)
+        )
+        if law is not None:
             found[node] = (corner, law)
     return found
+
+
+def _stored(structure: StructureParts, corner: Corner, asked: LawKeys, text: str) -> LawKeys:
+    """Stored law of a corner; in a plane with the spring of its walls."""
+    own = text if corner.sense > 0 else write_law(mirrored(read_law(text)))
+    law = with_type(asked, "file", text=own)
+    if planar(structure) and law.form == "set-valued":
+        law = law.model_copy(update={"form": ELASTIC})
+    return law
+
+
+def _estimated(structure: StructureParts, corner: Corner, asked: LawKeys) -> LawKeys | None:
+    """Estimate of a corner without a stored law; None where there is none for its section or angle."""
+    section, material = structure.section_of(corner.first), structure.material_of(corner.first)
+    own = {"angle": corner.angle, "closing": "positive" if corner.sense > 0 else "negative"}
+    try:
+        build_law(MITRED, section, material, corner.axis, **own)
+    except InputError:
+        return None
+    return with_type(asked, MITRED, **own)
 
 
 def _asked(structure: StructureParts, corner: Corner) -> LawKeys | None:
@@ -104,9 +127,25 @@ def corner_hinges(structure: StructureParts, member: str, keys: Mapping[str, Any
 def _out_of_plane(
     structure: StructureParts, corner: Corner, asked: LawReference | None
 ) -> LawReference | None:
-    """Law about the other bending axis of a corner's hinge: that out of its plane if it is stored."""
+    """Law about the other bending axis of a corner's hinge: stored, else the estimate, else its member's."""
     law, text = automatic_law(structure, asked), out_of_plane_text(structure, corner)
-    return asked if law is None or text is None else with_type(law, "file", text=text)
+    if law is None:
+        return asked
+    if text is not None:
+        return with_type(law, "file", text=text)
+    return asked if across_law(structure, corner) is None else with_type(law, ACROSS)
+
+
+def across_law(structure: StructureParts, corner: Corner) -> HingeLaw | None:
+    """Estimate of a corner out of its plane; None where there is none for its section or angle."""
+    if corner.place_out_of_plane(structure) is None:
+        return None
+    try:
+        return build_law(
+            ACROSS, structure.section_of(corner.first), structure.material_of(corner.first), corner.axis
+        )
+    except InputError:
+        return None
 
 
 def out_of_plane_text(structure: StructureParts, corner: Corner) -> str | None:

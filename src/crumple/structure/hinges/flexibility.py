@@ -11,14 +11,16 @@ lengths w_i as weights.  It is exact for every linear moment if
 
 and so are all deflections of the ends (Castigliano).  Of all weights that fulfil this, those nearest to the
 tributary lengths t_i are taken, w_i = t_i p(x_i) with a quadratic p.  Where one would be negative or very
-small, elastic joints are added as further points.  Limits and proof: docs/theory/member_stiffness.md.
+small, elastic joints are added as further points.  A bar that shears stores 1/2 int m'(x)^2/(G A_s) dx more,
+which with c = E I/(G A_s) adds int c dx to the third condition.  Limits and proof:
+docs/theory/member_stiffness.md.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import combinations, pairwise
+from itertools import combinations
 
 import numpy as np
 
@@ -68,6 +70,7 @@ def flexibility(
     length: float,
     rigid: Stretches = (),
     free: tuple[bool, bool] = (False, False),
+    shear: float = 0.0,
 ) -> Flexibility:
     """Share the flexibility of a bar among its hinges.
 
@@ -82,13 +85,15 @@ def flexibility(
     free
         Whether the first and the last end carry no moment.  With a free end fewer conditions remain, so that
         joints are not needed.
+    shear
+        E I/(G A_s) [m^2]; 0: it does not shear.  A bar too short to be represented so shears less.
 
     References
     ----------
     docs/theory/member_stiffness.md.  Verified in tests/unit/structure/hinges/test_flexibility.py and
     tests/verification/hinge/test_member_stiffness.py.
     """
-    bar = _Bar(length, _complement(length, rigid))
+    bar = _Bar(length, _complement(length, rigid), shear)
     points = np.asarray(stations, float)
     lengths, least = bar.exact(points)
     if least >= LEAST:
@@ -99,6 +104,8 @@ def flexibility(
     joints = bar.joints_beside(points)
     together = np.sort(np.concatenate([points, joints]))
     lengths, least = bar.exact(together)
+    if not least > 0.0 and shear:
+        return flexibility(stations, length, rigid, free, 0.8 * shear if shear > 1e-3 * length**2 else 0.0)
     if not least > 0.0:
         return Flexibility(_numbers(bar.tributary(points)))
     added = np.isin(together, joints)
@@ -127,6 +134,7 @@ class _Bar:
 
     length: float
     flexible: Stretches
+    shear: float = 0.0
 
     @property
     def total(self) -> float:
@@ -146,13 +154,21 @@ class _Bar:
         """Weights exact for quadratics, and the least over its tributary length; -1: there are none."""
         near = self.tributary(points)
         powers = np.vander(self._scaled(points), 3, increasing=True).T
-        ends = self._scaled(np.array(self.flexible))
-        order = np.arange(1, 4)[:, None]
-        integrals = (ends[:, 1] ** order - ends[:, 0] ** order).sum(axis=1) / order[:, 0] * self.length / 2.0
+        integrals = self._integrals
         change = np.linalg.lstsq((powers * near) @ powers.T, integrals - powers @ near, rcond=1e-10)[0]
         weights = near * (1.0 + change @ powers)
         exact = np.abs(powers @ weights - integrals).max() <= EXACT * self.total
         return weights, float((weights / near).min()) if exact else -1.0
+
+    @property
+    def _integrals(self) -> Floats:
+        """Of 1, s and s^2 over what bends, (3,), for the place s from -1 to 1 along the bar."""
+        ends = self._scaled(np.array(self.flexible))
+        order = np.arange(1, 4)[:, None]
+        powers: Floats = (ends[:, 1] ** order - ends[:, 0] ** order).sum(axis=1)
+        integrals: Floats = powers / order[:, 0] * self.length / 2.0
+        integrals[2] += 4.0 * self.shear / self.length**2 * self.total
+        return integrals
 
     def with_free_end(self, points: Floats, free: tuple[bool, bool]) -> Floats | None:
         """Weights where moments vanish at free ends: exact for the one linear field that is left."""
@@ -164,6 +180,7 @@ class _Bar:
             return None
         end = 0.0 if free[0] else self.length
         integral = sum(((b - end) ** 3 - (a - end) ** 3) / 3.0 for a, b in self.flexible)
+        integral += self.shear * self.total
         sampled = float(near @ (points - end) ** 2)
         # a hinge near the free end would have to be softer than the whole bar
         return near * (integral / sampled) if integral <= MOST * sampled else None
@@ -172,15 +189,42 @@ class _Bar:
         """Fewest further points that give all weights at least their least share, the most even ones."""
         best, stations = LEAST, np.zeros(0)
         for number in range(1, MOST_JOINTS + 1):
-            for chosen in combinations(self._candidates(points, number), number):
-                if any(b - a < self._clearance for a, b in pairwise(sorted(chosen))):
-                    continue
-                least = self.exact(np.sort(np.concatenate([points, chosen])))[1]
+            chosen = np.array(list(combinations(self._candidates(points, number), number))).reshape(
+                -1, number
+            )
+            apart = (np.diff(np.sort(chosen, axis=1), axis=1) >= self._clearance).all(axis=1)
+            chosen = chosen[apart]
+            if not len(chosen):
+                continue
+            together = np.sort(np.hstack([np.tile(points, (len(chosen), 1)), chosen]), axis=1)
+            for i, least in enumerate(self._least(together).tolist()):
                 if least > best * (1.0 + EXACT):
-                    best, stations = least, np.array(chosen)
+                    best, stations = least, chosen[i]
             if len(stations):
                 break
         return stations
+
+    def _least(self, points: Floats) -> Floats:
+        """What `exact` gives as the least weight, of many sets of points, (sets, points), at once."""
+        near = self._tributaries(points)
+        powers = self._scaled(points)[:, None, :] ** np.arange(3)[:, None]
+        weighted = powers * near[:, None, :]
+        needed = self._integrals - weighted.sum(axis=2)
+        inverse = np.linalg.pinv(weighted @ powers.transpose(0, 2, 1), rcond=1e-10, hermitian=True)
+        weights = near * (1.0 + ((inverse @ needed[:, :, None]) * powers).sum(axis=1))
+        moments = (powers * weights[:, None, :]).sum(axis=2)
+        exact = np.abs(moments - self._integrals).max(axis=1) <= EXACT * self.total
+        return np.where(exact, (weights / near).min(axis=1), -1.0)
+
+    def _tributaries(self, points: Floats) -> Floats:
+        """`tributary` of many sets of points, (sets, points)."""
+        ends = np.zeros((len(points), 1))
+        borders = np.hstack([ends, (points[:, 1:] + points[:, :-1]) / 2.0, ends + self.length])
+        below = sum((np.clip(borders, a, b) - a for a, b in self.flexible), np.zeros(borders.shape))
+        near, least = np.diff(below, axis=1), FLOOR * self.total / points.shape[1]
+        raised = np.maximum(near, least)
+        scaled = raised * (self.total / raised.sum(axis=1, keepdims=True))
+        return np.where((near >= least).all(axis=1, keepdims=True), near, scaled)
 
     @property
     def _clearance(self) -> float:
@@ -188,19 +232,20 @@ class _Bar:
 
     def _candidates(self, points: Floats, number: int) -> list[float]:
         """Places for joints, away from hinges and ends; for one joint and one hinge also the exact one."""
-        places = []
-        gone = 0.0
+        found, gone, total = [], 0.0, self.total
         for a, b in self.flexible:
-            steps = (k * self.total / PLACES - gone + a for k in range(PLACES + 1))
-            places += [step for step in steps if a <= step <= b]
+            steps = np.arange(PLACES + 1) * total / PLACES - gone + a
+            found.append(steps[(a <= steps) & (steps <= b)])
             gone += b - a
+        places: list[float] = np.concatenate(found).tolist()
         if len(points) == number == 1:
             first, second, third = (sum((b**k - a**k) / k for a, b in self.flexible) for k in (1, 2, 3))
             arm = second - points[0] * first
             partner = (third - points[0] * second) / arm if arm else np.inf
             places += [partner] if any(a <= partner <= b for a, b in self.flexible) else []
         taken = np.concatenate([points, [0.0, self.length]])
-        return [place for place in places if np.abs(taken - place).min() >= self._clearance]
+        away = np.abs(taken[:, None] - np.array(places)).min(axis=0) >= self._clearance
+        return [place for place, good in zip(places, away.tolist(), strict=True) if good]
 
     def _scaled(self, stations: Floats) -> Floats:
         return np.asarray(2.0 * stations / self.length - 1.0)

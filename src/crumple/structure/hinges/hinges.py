@@ -24,6 +24,7 @@ from crumple.hinge import (
 )
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis
+from crumple.structure.hinges.elastic_members import yielding_record
 from crumple.structure.hinges.places import (
     MADE,
     HingePlace,
@@ -40,7 +41,7 @@ from crumple.structure.hinges.shares import (
     moment_free_ends,
 )
 from crumple.structure.hinges.spatial_hinges import BENDING, spatial_hinge_record
-from crumple.structure.hinges.stored_loads import laws_of_loads
+from crumple.structure.hinges.stored_loads import laws_of_loads, twist_law
 from crumple.structure.keys.law import LawKeys, Stops
 from crumple.structure.parts import StructureParts
 from crumple.structure.remembered import remembered
@@ -114,8 +115,11 @@ def _placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
     for place in hinge_places(structure):
         by_member[place.member].append(place)
     free = moment_free_ends(structure)
-    for member, places in by_member.items():
-        shares, about = member_shares(structure, places, free(member))
+    for member, spec in structure.members.items():
+        places = by_member[member]
+        if not places and not spec.elastic:
+            continue
+        shares, about = member_shares(structure, member, places, free(member))
         own = []
         for place, share in zip(places, shares, strict=True):
             go_on()
@@ -124,7 +128,7 @@ def _placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
             except InputError as error:
                 problems += [replace(p, where=p.where or f"members.{member}") for p in error.problems]
         placed += own
-        placed += elastic_joints(structure, own, about) if own else []
+        placed += elastic_joints(structure, member, own, about) if own or spec.elastic else []
     if problems:
         raise InputError(problems)
     return tuple(placed)
@@ -141,41 +145,33 @@ def shares_left_out(structure: StructureParts) -> dict[str, dict[Axis, AxisShare
     found: dict[str, dict[Axis, AxisShares]] = {}
     for member in structure.members:
         places = member_hinge_places(structure, member)
-        about = member_shares(structure, places, free(member))[1] if places else {}
+        about = member_shares(structure, member, places, free(member))[1] if places else {}
         found[member] = {axis: shares for axis, shares in about.items() if shares.rigid}
     return found
 
 
 def elastic_joints(
-    structure: StructureParts, own: list[PlacedHinge], about: dict[Axis, AxisShares]
+    structure: StructureParts, member: str, own: list[PlacedHinge], about: dict[Axis, AxisShares]
 ) -> list[PlacedHinge]:
-    """Elastic joints of the member of some hinges: points that bend elastically and have no plastic law."""
+    """Joints of a member besides its hinges: points at which it bends elastically.
+
+    Those of an elastic member yield as its section does; the others have no plastic law.
+    """
     lengths: dict[float, dict[Axis, float]] = defaultdict(dict)
     for axis, shares in about.items():
         for station, length in shares.joints if shares.elastic else ():
             lengths[station][axis] = length
-    if not lengths:
-        return []
-    member = own[0].member
-    strongest = max(
-        float(curve.moment.max()) for h in own for curve in (h.record.positive, h.record.negative)
-    )
-    law = ConstantLaw(FIRM * strongest)
     found = []
     for i, (station, by_axis) in enumerate(sorted(lengths.items()), 1):
         # no name of the input has a blank
         name = f"{member} elastic" if len(lengths) == 1 else f"{member} elastic {i}"
         records = {
-            axis: hinge.record_of(
-                law,
-                form=Form.ELASTIC_PLASTIC,
-                elastic_stiffness=structure.flexural_rigidity(member, axis) / length,
-            )
-            for axis, length in by_axis.items()
+            axis: _joint_record(structure, member, axis, length, own) for axis, length in by_axis.items()
         }
         first = next(iter(records))
         place = HingePlace(name, member, station, first, None, f"members.{member}")
         components = [HingeComponent(BENDING[axis], record) for axis, record in records.items()]
+        coupling = Coupling.ELLIPSOID if structure.members[member].elastic else Coupling.NONE
         found.append(
             PlacedHinge(
                 name=name,
@@ -185,15 +181,27 @@ def elastic_joints(
                 position=structure.frame_of(member).position(station),
                 direction=_direction(structure, place),
                 tributary_length=by_axis[first],
-                law=law,
+                law=ConstantLaw(float(records[first].positive.moment.max())),
                 record=records[first],
-                spatial=hinge.spatial_record(components, coupling=Coupling.NONE)
-                if len(records) > 1
-                else None,
+                spatial=hinge.spatial_record(components, coupling=coupling) if len(records) > 1 else None,
                 plastic=False,
             )
         )
     return found
+
+
+def _joint_record(
+    structure: StructureParts, member: str, axis: Axis, length: float, own: list[PlacedHinge]
+) -> HingeRecord:
+    """Record of a joint that stands for a length [m] of its member."""
+    if structure.members[member].elastic:
+        return yielding_record(structure, member, axis, length)
+    strongest = max(
+        float(curve.moment.max()) for h in own for curve in (h.record.positive, h.record.negative)
+    )
+    stiffness = structure.flexural_rigidity(member, axis) / length
+    law = ConstantLaw(FIRM * strongest)
+    return hinge.record_of(law, form=Form.ELASTIC_PLASTIC, elastic_stiffness=stiffness)
 
 
 def _bending(
@@ -236,15 +244,14 @@ def spatial_record_of(
         return _bending(structure, about_axis(place, axis), shares)[1]
 
     metal = structure.section_of(place.member), structure.material_of(place.member)
-    stored = laws_of_loads(structure, place)
     return spatial_hinge_record(
         place.keys,
         record_about,
         place.axis,
         metal,
         shares,
-        torsion=stored.get("torsion"),
-        crush=stored.get("crush"),
+        torsion=twist_law(structure, place),
+        crush=laws_of_loads(structure, place).get("crush"),
     )
 
 
@@ -271,9 +278,12 @@ def _direction(structure: StructureParts, place: HingePlace) -> Floats:
     normal = structure.bending_normal
     if normal is None or structure.section_of(place.member).kind != "circular_tube":
         return axis
-    along = float(np.asarray(normal) @ axis)
+    across = np.array(normal)
+    along = float(across @ axis)
     # the given axis determines which of the two it is, and its sense
-    return np.sign(along) * np.asarray(normal) if abs(along) > NEARER else axis
+    if abs(along) <= NEARER:
+        return axis
+    return across if along > 0.0 else -across
 
 
 @remembered(MADE)

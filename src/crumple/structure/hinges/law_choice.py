@@ -67,7 +67,7 @@ def stored_texts(structure: StructureParts) -> Mapping[str, str]:
     return {} if store is None else structure.kept.once("stored laws", "", lambda: by_place(store.texts))
 
 
-def with_type(asked: LawKeys, kind: str, **own: str) -> LawKeys:
+def with_type(asked: LawKeys, kind: str, **own: str | float) -> LawKeys:
     """Keys of a law of another type, with those that every law has."""
     common = {key: getattr(asked, key) for key in LawKeys.model_fields if key in asked.model_fields_set}
     return LawKeys(**{**common, **own, "type": kind})

@@ -122,7 +122,23 @@ def holds_rotation(structure: StructureParts, node: str, direction: Floats) -> b
 
 
 def law_spec(structure: StructureParts, place: HingePlace) -> LawKeys:
-    """Law that a hinge refers to: the one it names, else a stored one, a formula, or an estimate."""
+    """Law that a hinge refers to: the one it names, else a stored one, a formula, or an estimate.
+
+    A rigid hinge of an elastic member becomes an elastic one.
+    """
+    spec = _law_spec(structure, place)
+    if structure.members[place.member].elastic and spec.form == "set-valued":
+        return _elastic(spec)
+    return spec
+
+
+# the same for every hinge of a chain
+@remembered(MADE)
+def _elastic(spec: LawKeys) -> LawKeys:
+    return spec.model_copy(update={"form": "elastic-plastic"})
+
+
+def _law_spec(structure: StructureParts, place: HingePlace) -> LawKeys:
     asked = automatic_law(structure, place.law)
     if asked is not None:
         return chosen_law(structure, place.member, place.axis, asked)

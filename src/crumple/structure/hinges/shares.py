@@ -10,6 +10,8 @@ from typing import Literal, get_args
 from crumple.errors import InputError
 from crumple.hinge.measured.library import is_of_corner
 from crumple.section import Axis
+from crumple.structure.hinges.corner_laws import MITRED
+from crumple.structure.hinges.elastic_members import joint_stations, shear_stretch
 from crumple.structure.hinges.flexibility import flexibility, tributary_lengths
 from crumple.structure.hinges.places import HingePlace, law_of, law_spec
 from crumple.structure.parts import StructureParts
@@ -63,7 +65,7 @@ class AxisShares:
 
 
 def member_shares(
-    structure: StructureParts, places: Sequence[HingePlace], free: tuple[bool, bool]
+    structure: StructureParts, name: str, places: Sequence[HingePlace], free: tuple[bool, bool]
 ) -> tuple[list[HingeShares], dict[Axis, AxisShares]]:
     """Shares of each hinge of a member, and those about each bending axis.
 
@@ -71,15 +73,16 @@ def member_shares(
     ----------
     structure
         Its members and laws.
+    name
+        Of the member.
     places
-        Hinges of one member, along it; at least one.
+        Its hinges, along it.
     free
         Whether the member's first and second end carry no moment.
     """
-    member = structure.members[places[0].member]
-    length = structure.frame_of(places[0].member).length
+    member, length = structure.members[name], structure.frame_of(name).length
     rigid = member.rigid_parts(length)
-    about = {axis: _about(structure, places, axis, (length, rigid, free)) for axis in AXES}
+    about = {axis: _about(structure, name, places, axis, (length, rigid, free)) for axis in AXES}
     found = {axis: shares for axis, shares in about.items() if shares is not None}
 
     def along(takes_part: Callable[[HingePlace], bool]) -> dict[str, float]:
@@ -91,7 +94,7 @@ def member_shares(
 
     axial = along(lambda place: place.keys.axial is not None)
     twist = along(lambda place: "x" in (place.keys.axes or ()))
-    nearest = along(lambda place: True) if len(places) > 1 else {places[0].name: length}
+    nearest = along(lambda place: True) if len(places) != 1 else {places[0].name: length}
     return [
         HingeShares(
             {
@@ -119,14 +122,16 @@ def about_axis(place: HingePlace, axis: Axis) -> HingePlace:
 
 def _about(
     structure: StructureParts,
+    member: str,
     places: Sequence[HingePlace],
     axis: Axis,
     bar: tuple[float, tuple[tuple[float, float], ...], tuple[bool, bool]],
 ) -> AxisShares | None:
-    """Shares about an axis: of the elastic hinges, or of all where none is elastic."""
+    """Shares about an axis: of elastic hinges and the member's joints, or of all where none is elastic."""
     # the spring of a corner adds to the flexibility of the members
     own = [place for place in places if axis in axes_of(place) and not _of_corner(structure, place, axis)]
-    if not own:
+    between = joint_stations(structure, member, axis, tuple(place.station for place in own))
+    if not own and not between:
         return None
     seen: dict[int, Spring] = {}
     springs: list[Spring] = []
@@ -137,15 +142,19 @@ def _about(
         springs.append(seen[id(place.keys)])
     elastic = [place for place, spring in zip(own, springs, strict=True) if spring != "none"]
     points = elastic or own
-    shared = flexibility(tuple(place.station for place in points), *bar)
-    lengths = {place.name: length for place, length in zip(points, shared.lengths, strict=True)}
-    return AxisShares(lengths, shared.joints, "auto" in springs, not elastic)
+    together = sorted([*((place.station, place.name) for place in points), *((at, "") for at in between)])
+    shared = flexibility(tuple(at for at, _ in together), *bar, shear_stretch(structure, member, axis))
+    found = list(zip(together, shared.lengths, strict=True))
+    lengths = {name: length for (_, name), length in found if name}
+    joints = (*((at, length) for (at, name), length in found if not name), *shared.joints)
+    return AxisShares(lengths, joints, "auto" in springs or bool(between), not elastic and not between)
 
 
 def _of_corner(structure: StructureParts, place: HingePlace, axis: Axis) -> bool:
     about = about_axis(place, axis)
     try:
-        return law_spec(structure, about).type == "file" and is_of_corner(law_of(structure, about))
+        spec = law_spec(structure, about)
+        return spec.type == MITRED or (spec.type == "file" and is_of_corner(law_of(structure, about)))
     except InputError:
         # reported when the hinge is built
         return False

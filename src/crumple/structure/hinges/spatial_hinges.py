@@ -20,7 +20,7 @@ from crumple.hinge.measured.stored_crushing import StoredCrushing
 from crumple.hinge.record.spatial_record import Coupling, Freedom, HingeComponent, SpatialHingeRecord
 from crumple.hinge.record.spatial_recording import spatial_record
 from crumple.material import Material
-from crumple.section import Section
+from crumple.section import CircularTube, Section
 from crumple.structure.keys.hinge_axes import AxialSlip, BendingAxis, HingeAxes, Twist
 from crumple.structure.remembered import remembered
 
@@ -80,6 +80,9 @@ def spatial_hinge_record(
         components.append(HingeComponent(Freedom.AXIAL, _axial(keys.axial, crush, first, metal, shares)))
     coupling = Coupling(keys.coupling or "section")
     several = len(components) > 1
+    if coupling is Coupling.SECTION and isinstance(section, CircularTube) and keys.axial is None:
+        # its walls share every moment alike, so the ellipsoid is their interaction and needs no fit
+        coupling = Coupling.ELLIPSOID
     return spatial_record(
         components,
         coupling=coupling,

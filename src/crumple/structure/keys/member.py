@@ -118,6 +118,10 @@ class Division(Spec):
     """How many bars; the hinge after bar i is named MEMBER-i."""
 
 
+SEGMENTS, MOST_SEGMENTS = 6, 32
+"""Usual and largest number of segments of an elastic member."""
+
+
 class Bars(HingeAxes, Division):
     """Division of a member into equal rigid bars, with a hinge between neighbours."""
 
@@ -152,6 +156,18 @@ Rigid = Annotated[
 """Whether a member is rigid, or which parts of it are."""
 
 
+def _segments(given: Any) -> Any:
+    return SEGMENTS * given if isinstance(given, bool) else given
+
+
+Elastic = Annotated[
+    int,
+    Field(ge=0, le=MOST_SEGMENTS),
+    BeforeValidator(_segments, json_schema_input_type=bool | Annotated[int, Field(ge=0, le=MOST_SEGMENTS)]),
+]
+"""Number of segments of an elastic member; 0: rigid bars."""
+
+
 class Member(Spec):
     """Straight bar of one section and one material between two nodes.
 
@@ -173,6 +189,9 @@ class Member(Spec):
     """Equal rigid bars with hinges between them; a plain number stands for `{number: ...}`."""
     hinges: GivenOrAutomatic = ()
     """Further hinges, one by one; or `auto`: candidates wherever a fold can form."""
+    elastic: Elastic | None = None
+    """Whether it bends and yields along its length in the multibody model: `true` (6 segments), `false`, or a
+    number of segments; without it as `analysis.multibody.members`."""
     rigid: Rigid = False
     """`true`: it does not deform, in either solver, and has no hinges; or the parts of it that do not."""
 

@@ -7,8 +7,10 @@ without a unit is refused.  Either way a refusal is one `InputError` that holds 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import lru_cache
 from numbers import Integral
+from operator import itemgetter
 from typing import TYPE_CHECKING, Annotated, Any, Self, TypeVar, cast
 
 from pydantic import (
@@ -44,6 +46,12 @@ class _Refusing(ModelMetaclass):
             raise InputError(problems_of(error, cast(type[BaseModel], cls))) from None
 
 
+@lru_cache(None)
+def _keys_of(kind: type[BaseModel]) -> Callable[[Mapping[str, Any]], Any]:
+    """Values of a part's own keys from its attributes."""
+    return itemgetter(*kind.model_fields) if kind.model_fields else lambda _: ()
+
+
 class Spec(BaseModel, metaclass=_Refusing):
     """Base of every part: frozen, unknown keys refused."""
 
@@ -54,6 +62,12 @@ class Spec(BaseModel, metaclass=_Refusing):
         if update is None:
             return super().model_copy(deep=deep)
         return type(self)(**{**{name: getattr(self, name) for name in self.key_names}, **update})
+
+    def __hash__(self) -> int:
+        """Of all keys: pydantic's own leaves out those of a type, so that all tubes would share one hash."""
+        kind, more = type(self), self.__pydantic_extra__
+        keys = _keys_of(kind)(self.__dict__)
+        return hash((kind, keys, tuple(more.values())) if more else (kind, keys))
 
     @property
     def key_names(self) -> list[str]:
@@ -73,6 +87,9 @@ def _text_of_number(value: Any) -> Any:
 
 
 def _name(value: Any) -> Any:
+    # nearly all names of a large input
+    if type(value) is str and len(value) <= 64 and value.isalnum():
+        return value
     value = _text_of_number(value)
     if (
         not isinstance(value, str)

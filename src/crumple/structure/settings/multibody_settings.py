@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from crumple.registry.quantity import Accuracy, Fraction, PositiveTime
 from crumple.registry.refusal import refuse
+from crumple.structure.keys.member import MOST_SEGMENTS, SEGMENTS
 from crumple.structure.schema.spec import Spec
 
 
@@ -16,6 +17,10 @@ class MultibodySettings(Spec):
 
     kernel: Literal["auto", "tree", "spatial"] = "auto"
     """Solver kernel: planar tree, spatial, or the tree wherever it is applicable."""
+    members: Literal["rigid", "elastic"] = "rigid"
+    """Whether members between their hinges are rigid bars, or bend and yield along their length."""
+    segments: Annotated[int, Field(ge=2, le=MOST_SEGMENTS)] = SEGMENTS
+    """Segments of each elastic member; a member that states its own keeps them."""
     accuracy: Accuracy = 1e-3
     """Relative error allowed in the rotations."""
     minimum_time_step: PositiveTime = 1e-9

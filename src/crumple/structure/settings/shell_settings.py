@@ -55,6 +55,10 @@ class ShellSettings(Spec):
     coarse_sections: Switch = "off"
     """Divide sections half as finely where the elements are longer than twice the fine size, again where they
     are longer than four times it, and so on: fewer elements, with triangles where both meet."""
+    t_joints: Literal["welded"] | None = None
+    """How three rectangular tubes are joined of which two lie in line with one section: `welded`, the third
+    one's walls to the face that they meet, so that the face can yield; without it all ends are one rigid
+    body, as where members are held or loaded at the node."""
     fine_at: tuple[FinePlace, ...] = ()
     """Further places with a fine mesh."""
     weld_pitch: PositiveLength | None = None

@@ -49,13 +49,19 @@ def _read(given: Any, info: ValidationInfo) -> Any:
         return given
     folder = (info.context or {}).get("directory")
     path = Path(folder or ".") / given
-    if folder is not None and not path.resolve().is_relative_to(Path(folder).resolve()):
+    if folder is not None and _leaves(path, Path(folder)):
         what, todo = "this store lies outside the folder of the input file", "copy it there, or use --laws"
         refuse(what, allowed="a folder or file in the folder of the input file, or below it", todo=todo)
     try:
         return StoredLaws(name=given, texts=read_store(path))
     except InputError as error:
         refuse("the store of laws cannot be read", problems=error.problems[:10])
+
+
+def _leaves(store: Path, folder: Path) -> bool:
+    """Whether a store, or a law in it, is elsewhere; links are followed."""
+    laws = [store, *(store.glob("*") if store.is_dir() else [])]
+    return any(not law.resolve().is_relative_to(folder.resolve()) for law in laws)
 
 
 LawsOrFolder = Annotated[StoredLaws, BeforeValidator(_read, json_schema_input_type=str)]

@@ -142,9 +142,24 @@ def test_capsule_tipping_over_the_edge_touches_the_corner_at_right_angles():
         np.array([math.sin(slope), 0, math.cos(slope)]),
     )
     middle = 0.06 * normal
-    gap, direction, _ = touches(WEDGE, middle - 0.4 * along, middle + 0.6 * along, 0.05)[2]
+    found = touches(WEDGE, middle - 0.4 * along, middle + 0.6 * along, 0.05)
+    gap, direction, _ = min(found.values(), key=lambda touch: touch[0])
     assert gap == pytest.approx(0.01, abs=1e-9)
     np.testing.assert_allclose(direction, normal, atol=1e-6)
+
+
+@pytest.mark.parametrize("tilt", [1e-4, 5e-3, 0.1, 0.7])
+@pytest.mark.parametrize("oblique", [0.0, 0.4])
+def test_gaps_at_the_edge_change_at_the_rate_of_the_capsule_that_slides_and_lifts(tilt, oblique):
+    """Moved by a step: the change of each gap is the step along its normal, to second order."""
+    along = np.array([math.cos(tilt), oblique, -math.sin(tilt)])
+    middle, step = np.array([0.01, 0.0, 0.0502]), 1e-6 * (3 * along + (0.2, 0.1, 0.5))
+    before = touches(WEDGE, middle - 0.4 * along, middle + 0.6 * along, 0.05)
+    after = touches(WEDGE, middle - 0.4 * along + step, middle + 0.6 * along + step, 0.05)
+    assert set(before) == set(after) >= {0, 1, 3}
+    for slot in set(before) - {1}:
+        normal = before[slot][1]
+        assert after[slot][0] - before[slot][0] == pytest.approx(normal @ step, abs=1e-10)
 
 
 def test_capsule_without_a_radius_has_a_normal_on_the_edge():

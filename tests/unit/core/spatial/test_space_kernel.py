@@ -274,3 +274,33 @@ def test_random_frames_run_or_report_why_not(seed, kinds, loop, gravity, speed):
     ):
         assert np.isfinite(values).all()
     assert record.outcome is not Outcome.COMPLETE or record.residual < 5e-3
+
+
+def test_outputs_do_not_change_the_steps():
+    end = np.array([0.1])
+    alone = m4(1e-3).run(end)
+    dense = m4(1e-3).run(np.linspace(0.0, 0.1, 401))
+    assert (dense.steps, dense.rejected) == (alone.steps, alone.rejected)
+    np.testing.assert_array_equal(dense.centre[-1], alone.centre[-1])
+    np.testing.assert_array_equal(dense.time, np.linspace(0.0, 0.1, 401))
+
+
+def test_steps_of_a_smooth_motion_need_one_solve_for_each_step_and_half():
+    joint, _ = JOINTS["revolute"]
+    velocity = np.array([[1, 2, -1, 0.5, 0, 0.2], [-2, 1, 3, 0, 0.7, -0.4]], float)
+    record = started(two_bodies(joint), velocity).run(np.array([0.5]))
+    # the first step predicts its middle by a pass, and so does the trial step that shows the first forces;
+    # one step shows the last ones
+    assert record.solves == 3 * (record.steps + record.rejected) + 1 + 2 + 1
+
+
+def test_a_state_between_steps_is_as_accurate_as_their_ends():
+    # a step takes up to ten outputs; the last step of an output is a quarter of their interval
+    times = np.linspace(0.0, 0.1, 401)
+    found, exact = m4(1e-3).run(times), m4(1e-5).run(times)
+    assert found.steps < 40
+    largest = np.abs(exact.hinge.rotation).max()
+    assert np.abs(found.hinge.rotation - exact.hinge.rotation).max() < 1e-3 * largest
+    assert found.step[1:].max() <= 0.1 / 400 / 4 * (1 + 1e-9)
+    sums = sum(getattr(found.energy, name) for name in ("kinetic", "dissipated", "stop"))
+    assert np.abs(sums - sums[0]).max() < 1e-3 * sums[0]

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from tests.support.multibody.frames import CLAMP, LAW, member, structure
 
+from crumple.analysis import load
 from crumple.errors import InputError
 from crumple.multibody import Run, infinitesimal, link, notes, solve_multibody
 from crumple.multibody.bodies.linkage import GROUND, check_inertia
@@ -53,6 +54,13 @@ def test_a_portal_moves_one_way_and_is_held_thrice_across():
     (note,) = notes(linkage)
     assert note.startswith("3 of the constraints are redundant")
     assert "foot, knee, other_knee, other_foot" in note
+
+
+def test_constraints_that_no_hinge_is_part_of_are_told_without_names():
+    """Its driven corner closes loops of supports alone."""
+    structure = load("examples/14_rops.yaml").structure
+    (note,) = notes(link(structure))
+    assert note.startswith("3 of the constraints are redundant: the motion is unique")
 
 
 def test_pinned_feet_let_a_portal_swing_sideways():

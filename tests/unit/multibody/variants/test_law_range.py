@@ -75,7 +75,7 @@ def test_the_command_prints_the_range_unless_it_is_switched_off(tmp_path):
 
     output, kept, page = run()
     assert "Range from the laws (a range, not a bound): hinge." in output
-    assert kept["ranges"]["hinge.arm-corner.rotation_max"][1] > 0.1
+    assert kept["ranges"]["hinge.corner-corner.rotation_max"][1] > 0.1
     assert "It is a range, not a bound." in page
     output, kept, page = run("--no-law-range")
     assert "Range from the laws" not in output

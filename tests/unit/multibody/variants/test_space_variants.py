@@ -1,5 +1,7 @@
 """Tables of variants in space: every parameter does what changing the input does, and failures are rows."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tests.support.structures import STEEL, TUBE, cantilever
@@ -177,6 +179,29 @@ def test_stages_and_obstacles():
     assert depth[0] == pytest.approx(result["node.tip.displacement.z"][-1], rel=2e-2)
     assert depth[2] < depth[0] < depth[1] < -0.05
     assert (table["energy.contact"] + table["energy.friction"] > 0.0).all()
+
+
+def test_histories_go_through_stages_that_end_early():
+    """At the accuracy of `solve_multibody` they are its samples; a row has no values after its end."""
+    ram = {"type": "sphere", "point": (0.8, 0.5, 0.21), "radius": 0.1, "mass": 30.0, "velocity": (0, 0, -6.0)}
+    hit = angle(obstacles={"ram": ram})
+    stages = (
+        Stage(name="blow", duration=0.04, until=[{"displacement": 0.1, "of": "ram"}]),
+        Stage(name="rest", duration=0.01, obstacles=()),
+    )
+    run = Run(0.05, 0.0025, outputs=Outputs(nodes=("tip",)), stages=stages)
+    result = solve_multibody(hit, run)
+    fine = replace(run, settings=run.settings.model_copy(update={"accuracy": run.settings.accuracy / 4.0}))
+    times = 0.0025 * np.arange(21)
+    table = solve_variants(hit, fine, {"initial_velocity": [1.0]}, times=times)
+    reached = times <= result.time[-1]
+    assert 3 < reached.sum() < times.size
+    for name in ("node.tip.displacement.z", "hinge.root.rotation", "energy.dissipated"):
+        history = table.histories[name][0]
+        assert np.isnan(history[~reached]).all()
+        at = [int(np.argmin(np.abs(result.time - time))) for time in times[reached]]
+        assert np.abs(result.time[at] - times[reached]).max() < 1e-12
+        np.testing.assert_allclose(history[reached], result[name][at], rtol=1e-9, atol=1e-12, err_msg=name)
 
 
 def test_quasi_static_stages():

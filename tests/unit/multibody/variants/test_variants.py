@@ -59,6 +59,16 @@ def test_a_parameter_is_a_change_of_the_input(tube, name, value, path):
     assert abs(table[QUANTITY][0] - alone(tube)[QUANTITY][0]) > 1e-3
 
 
+def test_a_table_for_pandas_has_all_columns(tube):
+    pandas = pytest.importorskip("pandas")
+    table = solve_variants(tube, RUN, {"masses.payload.mass": [7.5, 8.0]}, threads=1)
+    frame = table.to_pandas()
+    assert isinstance(frame, pandas.DataFrame)
+    assert list(frame.columns) == [*table.parameters, *table.quantities, "status", "reason"]
+    assert frame["masses.payload.mass"].tolist() == [7.5, 8.0]
+    np.testing.assert_array_equal(frame[QUANTITY], table[QUANTITY])
+
+
 def test_masses_momenta_and_factors_multiply(tube):
     """A lump moves with the field, so mass and factor of the velocity meet in the momentum."""
     parameters = {

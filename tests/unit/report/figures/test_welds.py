@@ -61,5 +61,5 @@ def test_welds_that_cannot_fail_show_forces_alone():
 @pytest.mark.parametrize(("names", "shown"), [((), False), (("seam",), True)])
 def test_the_page_of_a_run_shows_them(tmp_path, names, shown):
     page = write_report(with_welds(names), ReportInput(), tmp_path).read_text(encoding="utf-8")
-    assert ("<h2>Spot welds</h2>" in page) == shown
+    assert ("<summary>Spot welds</summary>" in page) == shown
     assert (tmp_path / "figures" / "welds.svg").is_file() == shown

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from tests.support.result.synthetic_tube import rotation, tube_result, tube_states
 
-from crumple.analysis import loads, solve_with_frames
+from crumple.analysis import load, loads, solve_with_frames
 from crumple.errors import InputError
 from crumple.report.scene.coarse import coarsened
 from crumple.report.scene.hinges import hinges_of_result, law_energy
@@ -94,6 +94,17 @@ def test_a_run_with_frames_is_the_run_without_them(solved):
     assert len(frames.states.times) > 40
     alike = replace(stored, solve_seconds=plain.solve_seconds)
     assert alike.equals(plain)
+
+
+def test_a_zone_that_folds_along_its_member_is_open_and_says_by_how_much():
+    analysis = load("examples/15_crash_box.yaml")
+    result, frames = solve_with_frames(analysis)
+    hinges = json.loads(scene_of(frames, analysis.structure).header)["models"][0]["hinges"]
+    box, rail = (next(one for one in hinges if one["name"] == name) for name in ("box", "rail"))
+    assert box["travel"][-1] == pytest.approx(-result.hinges["box"].crush.length, rel=1e-3)
+    assert (box["state"][0], max(box["state"]), box["state"][-1]) == (0, 2, 2)
+    assert 1 in box["state"]
+    assert set(rail["state"]) == {0}
 
 
 def test_the_shapes_of_the_payload_are_those_of_the_result():

@@ -1,5 +1,6 @@
 """The viewer in a real browser: it draws, scrubs, picks, shows obstacles, fits a phone."""
 
+import math
 import os
 import time
 
@@ -91,6 +92,15 @@ def test_every_page_draws_and_moves_and_fits(browser, pages, name):
     assert browser.evaluate(DRAWN)[0] > 200
 
 
+def test_it_opens_when_the_deformation_is_next_to_complete(browser, pages):
+    opened(browser, pages["run"])
+    at = browser.evaluate("Number(document.querySelector('#player input[type=range]').value)")
+    hinges = browser.evaluate("crumplePlayer.scene.models[0].hinges")
+    energy = [sum(one["energy"][frame] for one in hinges) for frame in (at - 1, at, -1)]
+    assert energy[0] < 0.995 * energy[2] <= energy[1]
+    assert at < browser.evaluate("crumplePlayer.scene.last")
+
+
 def test_what_is_chosen_changes_the_picture(browser, pages):
     opened(browser, pages["run"])
     seen = [browser.evaluate(DRAWN)[1]]
@@ -131,6 +141,24 @@ def test_a_click_on_a_hinge_shows_its_values_at_that_time(browser, pages):
     assert browser.evaluate("document.querySelectorAll('[data-role=info] polyline').length") == 2
 
 
+def test_a_click_on_a_member_shows_how_far_it_moved(browser, pages):
+    """The tube turns about its hinge 0.1 m from the clamp; its tip, where the mass is, is 0.9 m away."""
+    opened(browser, pages["run"])
+    browser.evaluate("crumplePlayer.seek(crumplePlayer.scene.last); 1")
+    hinge, mass = (browser.evaluate(f"crumplePlayer.seen(0, '{name}')") for name in ("h", "head"))
+    assert "mass head; 1 kg; moved " in click(browser, *mass)
+    shown = click(browser, *((a + b) / 2 for a, b in zip(hinge, mass, strict=True)))
+    assert shown.startswith("member ab; moved ")
+    assert shown.endswith("over time: displacement")
+    angle = browser.evaluate("Math.abs(crumplePlayer.scene.models[0].hinges[0].rotation.at(-1))")
+    moved = float(shown.split("moved ")[1].split(" mm")[0])
+    # the wall that is hit lies within the section beside the middle
+    assert moved == pytest.approx(2e3 * 0.45 * math.sin(angle / 2.0), rel=0.2)
+    browser.evaluate("crumplePlayer.seek(0); 1")
+    assert "moved 0.0 mm" in browser.evaluate("document.querySelector('[data-role=info]').textContent")
+    assert browser.evaluate("document.querySelectorAll('[data-role=info] polyline').length") == 2
+
+
 def test_obstacles_are_drawn_where_they_are_described(browser, pages):
     opened(browser, pages["run"])
     scene = "crumplePlayer.scene"
@@ -147,6 +175,66 @@ def test_obstacles_are_drawn_where_they_are_described(browser, pages):
     for x, _, z in ends:
         # turned right-handed about y: a point at +x goes down
         assert (z - 2.0) == pytest.approx(-x * 0.57735, abs=1e-3)
+
+
+ALPHA = """(() => {
+  const canvas = document.querySelector('#player canvas'), copy = document.createElement('canvas');
+  copy.width = canvas.width; copy.height = canvas.height;
+  const brush = copy.getContext('2d');
+  brush.drawImage(canvas, 0, 0);
+  const data = brush.getImageData(0, 0, copy.width, copy.height).data;
+  let sum = 0;
+  for (let i = 3; i < data.length; i += 4) sum += data[i] / 255;
+  return sum;
+})()"""
+
+
+def test_a_plane_seen_from_its_solid_side_hides_nothing(browser, pages, tmp_path):
+    text = pages["view"].read_text(encoding="utf-8")
+    page = tmp_path / "turned.html"
+    # the same plane with its quadrilateral turned over: its solid is on the other side
+    assert '"quads": [[0, 1, 2, 3]]' in text
+    page.write_text(text.replace('"quads": [[0, 1, 2, 3]]', '"quads": [[3, 2, 1, 0]]'), encoding="utf-8")
+    covered = []
+    for one in (pages["view"], page):
+        opened(browser, one)
+        change(browser, "facing", "z")
+        with_plane = browser.evaluate(ALPHA)
+        change(browser, "surroundings", False)
+        covered.append(with_plane - browser.evaluate(ALPHA))
+    assert 0 < min(covered) < 0.4 * max(covered)
+
+
+KEEP = """(() => {
+  window.kept = [];
+  const make = URL.createObjectURL.bind(URL);
+  URL.createObjectURL = (blob) => { window.made = blob; return make(blob); };
+  HTMLAnchorElement.prototype.click = function () {
+    const made = window.made, entry = [this.download, made.type, made.size, ''];
+    window.kept.push(entry);
+    made.slice(0, 4).arrayBuffer().then((b) => { entry[3] = [...new Uint8Array(b)].join(' '); });
+  };
+  return 1;
+})()"""
+
+
+def test_a_picture_and_a_film_can_be_kept(browser, pages):
+    opened(browser, pages["run"], 500)
+    browser.evaluate(KEEP)
+    change(browser, "speed", 4)
+    for role, first in (("picture", "137 80 78 71"), ("film", "26 69 223 163")):
+        browser.evaluate(f"document.querySelector('[data-role={role}]').click(); window.kept = []; 1")
+        for _ in range(600):
+            kept = browser.evaluate("window.kept")
+            if kept and kept[0][3]:
+                break
+            time.sleep(0.05)
+        ((name, kind, size, start),) = kept
+        assert name == {"picture": "thrown.png", "film": "thrown.webm"}[role]
+        assert kind == {"picture": "image/png", "film": "video/webm"}[role]
+        # the signatures of PNG and of the container of WebM
+        assert start == first
+        assert size > 2_000
 
 
 def test_a_scene_of_a_newer_format_says_so(browser, pages, tmp_path):

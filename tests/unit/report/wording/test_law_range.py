@@ -4,7 +4,7 @@ import math
 from types import SimpleNamespace
 
 from crumple.report.wording.law_range import range_rows
-from crumple.result.law_range import LawRange
+from crumple.result.nearby import LawRange
 
 
 def result_with(ranges):

@@ -77,6 +77,11 @@ def test_verdict_cautions_outside_the_range_once():
     )
     reported = frame_result(warnings=("Hinge h0 turned by 28.6 deg; its law is valid up to 11.5 deg only.",))
     assert len(verdict(reported, 1e-3, None).warnings) == 2
+    said = "turned by 28.6 deg; the law is valid up to 11.5 deg only (formula)"
+    heads = {"Hinge h0": 2, "Hinges h0, h1": 1, "Hinges a, b and 2 more": 1, "Hinge h01": 3}
+    for head, left in heads.items():
+        reported = frame_result(warnings=(f"{head}: {said}",))
+        assert len(verdict(reported, 1e-3, None).warnings) == left
 
 
 def test_verdict_bad_gives_status_and_reason():

@@ -1,5 +1,6 @@
 """Mistakes that no part shows alone: one clear message each, at the place that is to blame."""
 
+import numpy as np
 import pytest
 
 from crumple.errors import InputError
@@ -204,3 +205,19 @@ def test_a_mass_with_an_offset_may_sit_beyond_a_hinge(keys):
         },
     )
     assert Structure(**keys)
+
+
+def test_coincident_nodes_are_found_among_many(keys):
+    """A net in an inclined plane: every third node has a twin within the tolerance, in a random direction."""
+    random = np.random.default_rng(1)
+    across = np.array([[0.6, 0.0, 0.8], [0.48, 0.8, -0.36]])
+    net = np.array([(i, j) for i in range(20) for j in range(20)]) @ across
+    shift = random.normal(size=net.shape)
+    twins = net + 0.9e-6 * shift / np.linalg.norm(shift, axis=1, keepdims=True)
+    keys["nodes"] |= {f"p{i}": tuple(place) for i, place in enumerate(10.0 + net)}
+    keys["nodes"] |= {f"q{i}": tuple(place) for i, place in enumerate(10.0 + twins[::3])}
+    keys["nodes"] |= {f"r{i}": tuple(place) for i, place in enumerate(10.0 + 3.0 * (twins - net) + net)}
+    with pytest.raises(InputError) as refusal:
+        Structure(**keys)
+    found = {problem.what for problem in refusal.value.problems if "coincide" in problem.what}
+    assert found == {f"the nodes 'p{3 * i}' and 'q{i}' coincide" for i in range(len(twins[::3]))}

@@ -24,7 +24,11 @@ def frame(hinges="auto", **parts):
 
 def test_candidates_lie_half_a_fold_inside_every_end_that_can_carry_a_moment():
     # nothing is joined to node c: no moment there
-    assert stations(frame()) == {"ab-a": HALF, "ab-b": 1.0 - HALF, "bc-b": HALF}
+    assert stations(frame(hinges={"law": "kecman"})) == {"ab-a": HALF, "ab-b": 1.0 - HALF, "bc-b": HALF}
+
+
+def test_a_mitred_corner_has_one_hinge_at_its_node():
+    assert stations(frame()) == {"ab-a": HALF, "corner-b": pytest.approx(1.0)}
 
 
 def test_a_mass_with_inertia_or_off_its_node_carries_a_moment_a_point_does_not():

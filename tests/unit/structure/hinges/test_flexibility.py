@@ -6,7 +6,14 @@ Closed forms: Simpson's and Radau's formulas, the triangle of moments of a canti
 import numpy as np
 import pytest
 
-from crumple.structure.hinges.flexibility import LEAST, MOST_JOINTS, PLACES, flexibility, tributary_lengths
+from crumple.structure.hinges.flexibility import (
+    LEAST,
+    MOST_JOINTS,
+    PLACES,
+    _Bar,
+    flexibility,
+    tributary_lengths,
+)
 
 
 def points(stations, length=1.0, rigid=(), free=(False, False)):
@@ -102,3 +109,15 @@ def test_tributary_lengths_leave_out_what_is_rigid_and_are_never_nothing():
     between = tributary_lengths([0.2, 0.5, 0.8], 1.0, ((0.21, 0.49), (0.51, 0.79)))
     assert min(between) > 0.0
     assert sum(between) == pytest.approx(0.44)
+
+
+@pytest.mark.parametrize("stretches", [((0.0, 2.0),), ((0.0, 0.5), (0.8, 2.0))])
+def test_many_sets_of_points_have_the_least_weights_of_each(stretches):
+    """The search of joints takes all sets at once; among them some without exact weights."""
+    bar = _Bar(2.0, stretches)
+    rng = np.random.default_rng(2)
+    for count in (1, 2, 3, 5):
+        sets = np.sort(2.0 * rng.random((40, count)), axis=1)
+        alone = [bar.exact(points)[1] for points in sets]
+        np.testing.assert_allclose(bar._least(sets), alone, rtol=1e-6, atol=1e-9)
+        assert count > 2 or -1.0 in alone

@@ -7,6 +7,7 @@ import pytest
 
 from crumple.errors import InputError
 from crumple.hinge import Coupling, Form, Freedom
+from crumple.section import plastic_interaction
 from crumple.structure import Structure, placed_hinges
 
 PARTS = {
@@ -152,3 +153,16 @@ def test_what_does_not_fit_is_refused_with_its_place(keys, message):
     with pytest.raises(InputError, match=message) as refusal:
         placed(**keys)
     assert "Traceback" not in str(refusal.value)
+
+
+def test_the_interaction_of_a_round_tube_without_slip_is_the_ellipsoid():
+    whole = built("round")
+    exact = plastic_interaction(whole.section_of("bar"), whole.material_of("bar"))
+    rates = np.random.default_rng(1).normal(size=(40, 4)) * [0.0, 1.0, 1.0, 1.0]
+    points = exact.point(rates / exact.scales) / exact.scales
+    # its polygon of walls differs from a circle by 1e-5
+    np.testing.assert_allclose(np.linalg.norm(points[:, 1:], axis=1), 1.0, atol=3e-5)
+    for axes in (["y", "z"], ["x", "y", "z"]):
+        assert placed("round", axes=axes).spatial.surface.coupling is Coupling.ELLIPSOID
+    assert placed("round", axes=["y", "z"], axial=True).spatial.surface.coupling is Coupling.SECTION
+    assert placed("square", axes=["y", "z"]).spatial.surface.coupling is Coupling.SECTION

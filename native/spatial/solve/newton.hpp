@@ -1,0 +1,61 @@
+// Newton's method for the end velocities of a step, on the convex potential of its problem with all laws frozen.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "spatial/solve/central_path.hpp"
+#include "spatial/solve/problem.hpp"
+
+namespace crumple::spatial {
+
+class NewtonSolver {
+public:
+    explicit NewtonSolver(Problem& problem);
+
+    // the links of the problem have changed
+    void relinked();
+    // Before a step; `warm`: it follows on a pass that was solved, and may start from it.
+    void begin(bool warm);
+    // begins the search for locked hinges with such rates
+    void start_from(const std::vector<double>& rates);
+    // Newton's method starts from the rates w, but hinges that were locked in the last pass start with the rates of that pass.
+    void keep_locked();
+    // false if the equations of the pass do not converge
+    bool solve();
+    // a single Newton step; false if its result is not finite
+    bool solve_linear();
+    std::int64_t solves() const { return solves_; }
+    // body at the link with the largest imbalance in the last iteration; -1: the ground
+    int stuck_body() const { return stuck_body_; }
+
+private:
+    friend class CentralPath;
+    bool solve_laws();
+    int most_iterations() const;
+    bool narrow_ramps();
+    void widen(double width, bool& narrowest);
+    bool descend(int limit, bool full_steps);
+    void solve_once();
+    void take();
+    void tangent_of(size_t link, double* offset, double* tangent) const;
+    void linearise(size_t link);
+    bool balanced(double& slope);
+    void take_full_step();
+    bool reverses(size_t link);
+    void stop_reversing(size_t link);
+    double search(double slope_end);
+
+    Problem& p_;
+    CentralPath path_;
+    std::vector<Twist> next_;
+    std::vector<double> overload_, worst_near_;
+    bool solved_ = false;                       // whether w holds the solution of the last pass
+    bool full_steps_ = true;                    // full Newton steps have not cycled in this step
+    double tolerance_ = 0;                      // relative tolerance of impulses at the present width of the ramps
+    double energy_ = 0;                         // kinetic energy of the free motion [J]
+    std::int64_t solves_ = 0, last_solve_ = 0;  // number of solves, and the number at which the present step is abandoned
+    int stuck_body_ = -1;
+};
+
+}  // namespace crumple::spatial

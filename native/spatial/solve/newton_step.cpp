@@ -1,0 +1,157 @@
+// A Newton step: linearisation of the laws, solution of the linear problem, and what is left of the imbalance.
+#include <algorithm>
+#include <cmath>
+
+#include "common/pause.hpp"
+#include "spatial/model/eigen.hpp"
+#include "spatial/solve/newton.hpp"
+
+namespace crumple::spatial {
+
+namespace {
+
+constexpr double energy_rounding = 1e-14;  // energy that a Newton iteration could still change, over the kinetic energy: rounding
+constexpr double no_energy = 1e-60;  // [J]: speeds that decay by friction would otherwise end below the smallest number
+// Tolerance of the rates of held rows and of stiff laws relative to the speed; the rest is projected out at the end of the step.
+constexpr double rate_tolerance = 1e-10;
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+}  // namespace
+
+bool NewtonSolver::solve_linear() {
+    solve_once();
+    take();
+    double sum = 0;
+    for (const Twist& v : p_.velocity) sum += dot(v.w, v.w) + dot(v.v, v.v);
+    solved_ = std::isfinite(sum);
+    return solved_;
+}
+
+// Linearisation of a law, or of its point on the central path, as impulse = offset + tangent w.
+void NewtonSolver::tangent_of(size_t link, double* offset, double* tangent) const {
+    const Link& l = p_.system.links()[link];
+    const int n = l.laws;
+    const double* w = &p_.w[at(p_.start(link) + l.held)];
+    double impulse[most_components] = {}, slope[most_components * most_components] = {};
+    std::fill(offset, offset + n, 0.0);
+    std::fill(tangent, tangent + n * n, 0.0);
+    if (path_.on(link)) {
+        path_.linearise(link, w, impulse, slope, offset, tangent);
+    } else {
+        p_.respond(link, w, impulse, slope);
+    }
+    for (int i = 0; i < n; i++) {
+        offset[i] += impulse[i];
+        for (int j = 0; j < n; j++) {
+            offset[i] -= slope[i * n + j] * w[j];
+            tangent[i * n + j] += slope[i * n + j];
+        }
+    }
+}
+
+// Stores the tangent D = Q d Q^T by its root Q sqrt(d), and the offset of the law.
+void NewtonSolver::linearise(size_t link) {
+    const Link& l = p_.system.links()[link];
+    const int n = l.laws, first = p_.start(link) + l.held;
+    Problem::Tangent& t = p_.tangent[link];
+    double matrix[most_components * most_components];
+    tangent_of(link, t.offset, matrix);
+    eigenvectors(n, matrix, t.value, t.vectors);
+    for (int k = 0; k < n; k++) {
+        const double root = std::sqrt(std::max(t.value[k], 0.0));
+        Row sum;
+        for (int j = 0; j < n; j++) {
+            const Row& row = p_.rows[at(first + j)];
+            const double s = root * t.vectors[j * n + k];
+            sum = {sum.t + s * row.t, sum.ma + s * row.ma, sum.mb + s * row.mb};
+        }
+        p_.system.row(first + k) = sum;
+        t.value[k] = root;
+    }
+}
+
+// solves for velocities, rates and impulses with the tangent of every law at p_.w
+void NewtonSolver::solve_once() {
+    pause();
+    const std::vector<Link>& links = p_.system.links();
+    for (size_t c = 0; c < links.size(); c++) {
+        const int first = p_.start(c);
+        for (int i = 0; i < links[c].held; i++) p_.system.row(first + i) = p_.rows[at(first + i)];
+        if (links[c].laws == 0) continue;
+        linearise(c);
+        for (int k = 0; k < links[c].laws; k++) p_.impulse[at(first + links[c].held + k)] = p_.tangent[c].offset[k];
+    }
+    next_ = p_.free;
+    p_.system.push(p_.rows, p_.impulse.data(), true, next_.data());
+    p_.system.factor();
+    solves_++;
+    p_.system.rates(next_.data(), p_.x.data());
+    for (size_t c = 0; c < links.size(); c++) {
+        const int first = p_.start(c), held = links[c].held, n = links[c].laws;
+        for (int i = 0; i < held; i++) p_.x[at(first + i)] += p_.bias[at(first + i)] - p_.target[at(first + i)];
+        const Problem::Tangent& t = p_.tangent[c];
+        for (int k = 0; k < n; k++) {
+            for (int j = 0; j < n; j++) p_.x[at(first + held + k)] += t.value[k] * t.vectors[j * n + k] * p_.bias[at(first + held + j)];
+        }
+    }
+    p_.system.solve(p_.x.data(), rate_tolerance * p_.speed);
+    p_.system.push(p_.x.data(), next_.data());
+    // rates: in stiff directions from their own unknown, which preserves the digits of a locked hinge
+    p_.rates(p_.rows, next_.data(), p_.w_next.data());
+    for (size_t c = 0; c < links.size(); c++) {
+        const int first = p_.start(c), held = links[c].held, n = links[c].laws;
+        for (int i = 0; i < held; i++) p_.impulse[at(first + i)] = p_.x[at(first + i)];
+        if (n == 0) continue;
+        const Problem::Tangent& t = p_.tangent[c];
+        double* w = &p_.w_next[at(first + held)];
+        double* p = &p_.impulse[at(first + held)];
+        double along[most_components];
+        for (int j = 0; j < n; j++) w[j] += p_.bias[at(first + held + j)];
+        for (int k = 0; k < n; k++) {
+            along[k] = 0;
+            for (int j = 0; j < n; j++) along[k] += t.vectors[j * n + k] * w[j];
+            const double y = p_.x[at(first + held + k)];
+            if (p_.system.diagonal(first + held + k) > 1) along[k] = y / t.value[k];
+            for (int j = 0; j < n; j++) p[j] += t.value[k] * t.vectors[j * n + k] * y;
+        }
+        for (int j = 0; j < n; j++) {
+            w[j] = 0;
+            for (int k = 0; k < n; k++) w[j] += t.vectors[j * n + k] * along[k];
+        }
+    }
+}
+
+// Whether the nonlinear impulses agree with their linearisation at the new rates; `slope`: of the potential along the step.
+bool NewtonSolver::balanced(double& slope) {
+    const std::vector<Link>& links = p_.system.links();
+    bool all = true;
+    double moved = 0, furthest = 0;
+    slope = 0;
+    // friction at a contact with a small normal impulse is compared with the strongest contact
+    double struck = 0;
+    for (size_t i = 0; i < p_.contacts.size(); i++) struck = std::max(struck, -p_.impulse[p_.contact_rows() + p_.contacts.rows() * i]);
+    for (size_t c = 0; c < links.size(); c++) {
+        const int first = p_.start(c) + links[c].held, n = links[c].laws;
+        if (n == 0) continue;
+        double p[most_components];
+        p_.respond(c, &p_.w_next[at(first)], p, nullptr);
+        for (int k = 0; k < n; k++) {
+            const double left = p[k] - p_.impulse[at(first + k)];
+            double scale = std::fabs(p[k]);
+            if (p_.hinge_of(c)) scale += impulse_scale(*p_.hinge_of(c), p_.frozen[at(p_.hinge_index(c))], &p_.w_next[at(first)], k);
+            if (p_.is_contact(c)) scale += struck;
+            if (!(std::fabs(left) <= tolerance_ * scale)) all = false;
+            const double step = left * (p_.w_next[at(first + k)] - p_.w[at(first + k)]);
+            if (std::fabs(step) > furthest) {
+                furthest = std::fabs(step);
+                stuck_body_ = links[c].body[links[c].body[1] >= 0 ? 1 : 0];
+            }
+            slope += step;
+            moved += std::fabs(step);
+        }
+    }
+    return all || moved <= energy_rounding * energy_ + no_energy;
+}
+
+}  // namespace crumple::spatial

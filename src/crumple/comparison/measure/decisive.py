@@ -1,0 +1,138 @@
+"""What engineers decide on: displacements, energy, force and rotations of joints, with errors and targets.
+
+Errors are relative to the reference's value, or to `FLOOR` of the structure's largest value of the same kind
+if that is more.  A rotation is a vector: that of a joint, however its folds share it, beside its direction.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple.comparison.measure.measures import Measures
+
+FLOOR = 0.05
+"""Errors are relative to at least this share of the structure's largest value of the same kind."""
+SMALL_ROTATION = math.radians(5.0)
+"""Rotations that are below it in both are not judged."""
+ROTATION_ROOM = math.radians(2.0)
+"""Difference of rotations that is always allowed [rad]."""
+TARGETS = {
+    "displacement": 0.10,
+    "rotations": 0.15,
+    "energy by zone": 0.15,
+    "peak force": 0.15,
+    "mean force": 0.15,
+    "time of rest": 0.15,
+}
+"""Relative errors; allowed is the larger of target and `SPREADS` times the spread of further references."""
+SPREADS = 2.0
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One figure of one structure.
+
+    Attributes
+    ----------
+    name
+        Of the output, joint, zone or obstacle.
+    shell, model
+        Value of the reference, and of the result that is judged.
+    error, allowed
+        Relative [-]; an infinite error: the run failed.
+    """
+
+    name: str
+    shell: float
+    model: float
+    error: float
+    allowed: float
+
+    @property
+    def right(self) -> bool:
+        """Whether it is within what is allowed."""
+        return self.error <= self.allowed
+
+
+def figures_of(
+    model: Measures, reference: Measures, others: Sequence[Measures] = ()
+) -> dict[str, list[Figure]]:
+    """Figures by kind; those of a run that failed have infinite errors.
+
+    Parameters
+    ----------
+    model, reference
+        What is judged, and by what.
+    others
+        Further runs of the reference, whose spread widens what is allowed.
+    """
+    whole = [one for one in others if one.complete]
+    kinds = {
+        "displacement": _scalars(model, reference, whole, "extents", "displacement"),
+        "rotations": _rotations(model, reference, whole),
+        "energy by zone": _scalars(model, reference, whole, "zones", "energy by zone"),
+        "peak force": _scalars(model, reference, whole, "peak_force", "peak force"),
+        "mean force": _scalars(model, reference, whole, "mean_force", "mean force"),
+        "time of rest": [
+            _figure(
+                "",
+                (reference.rest, model.rest if model.complete else math.inf),
+                (_spread(reference, whole, lambda one: one.rest), reference.rest),
+                TARGETS["time of rest"],
+            )
+        ]
+        if reference.rest > 0.0
+        else [],
+    }
+    return {kind: figures for kind, figures in kinds.items() if figures}
+
+
+def _scalars(
+    model: Measures, reference: Measures, others: Sequence[Measures], values: str, kind: str
+) -> list[Figure]:
+    own, wanted = getattr(model, values), getattr(reference, values)
+    largest = max((abs(value) for value in wanted.values()), default=0.0)
+    names = [*wanted, *(name for name in own if name not in wanted)]
+    figures = []
+    for name in names:
+        shell = wanted.get(name, 0.0)
+        came = own.get(name, 0.0) if model.complete else math.inf
+        if max(shell, came) < FLOOR * largest or max(abs(shell), FLOOR * largest) == 0.0:
+            continue
+        spread = _spread(reference, others, lambda one, name=name: getattr(one, values).get(name, 0.0))  # type: ignore[misc]
+        scale = (spread, max(abs(shell), FLOOR * largest))
+        figures.append(_figure(name, (shell, came), scale, TARGETS[kind]))
+    return figures
+
+
+def _figure(name: str, pair: tuple[float, float], scale: tuple[float, float], target: float) -> Figure:
+    """`pair`: reference and model; `scale`: spread of the references, and what errors are relative to."""
+    shell, model = pair
+    spread, relative_to = scale
+    error = abs(model - shell) / relative_to
+    return Figure(name, shell, model, error, max(target, SPREADS * spread / relative_to))
+
+
+def _rotations(model: Measures, reference: Measures, others: Sequence[Measures]) -> list[Figure]:
+    figures = []
+    for name, wanted in reference.rotations.items():
+        shell = np.array(wanted)
+        own = np.array(model.rotations.get(name, (math.inf,) * 3)) if model.complete else np.full(3, math.inf)
+        size, came = float(np.linalg.norm(shell)), float(np.linalg.norm(own))
+        if max(size, came) < SMALL_ROTATION:
+            continue
+        apart = (float(np.linalg.norm(np.array(one.rotations[name]) - shell)) for one in others)
+        allowed = max(TARGETS["rotations"] * size, ROTATION_ROOM, SPREADS * max(apart, default=0.0))
+        relative_to = max(size, SMALL_ROTATION)
+        error = float(np.linalg.norm(own - shell)) / relative_to
+        figures.append(Figure(name, size, came, error, allowed / relative_to))
+    return figures
+
+
+def _spread(reference: Measures, others: Sequence[Measures], value: Callable[[Measures], float]) -> float:
+    """Largest difference between the reference and its further runs."""
+    return max((abs(value(other) - value(reference)) for other in others), default=0.0)

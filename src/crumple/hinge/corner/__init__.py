@@ -1,0 +1,1 @@
+"""Collapse laws of corners, one per file, with one line each in `crumple.hinge.registry`."""

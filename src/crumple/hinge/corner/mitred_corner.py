@@ -1,0 +1,200 @@
+"""Mitred corner of two rectangular tubes, bent in its plane: an estimate, with constants fitted to shells.
+
+At the mitre the force of a flange changes its direction by the angle alpha between the members. Nothing
+but the bending of the flange's own wall resists what turns it, so that the flange carries little force
+there; the webs carry the moment, over the length h/cos(alpha/2) of the mitre. With the distances b and h
+of the mid-lines of webs and flanges and the wall t,
+
+    M_0 = sigma_y t [h^2/2 (1 - g s^2)/(1 - s^2) + b h min(1, k t/(b s))] <= M_p,    s = sin(alpha/2)
+
+and, with the moment M_K(theta) of the straight member's Kecman-type mechanism,
+
+    closing   M = min(M_0, (1 - c s) M_K)
+    opening   M = min(o M_0, (1 + d s) M_K, M_p)
+
+g, k, c, o, d were fitted to four corners solved by shells. Limits: alpha -> 0 gives the straight member;
+a wall so thick that k t >= b s gives the whole flange. Elastic stiffness of the corner's own: K = r E t
+h^2.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import Enum
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crumple.errors import InputError, Problem
+from crumple.hinge.bending.kecman import KecmanLaw
+from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
+from crumple.hinge.options import choice
+from crumple.hinge.rate import HingeRate, rate_factor
+from crumple.hinge.stop import Stop
+from crumple.material import Material
+from crumple.numeric.arrays import Floats
+from crumple.numeric.sign_change import sign_change
+from crumple.registry.quantity import PositiveAngle
+from crumple.section import Axis, Section
+
+SOURCE = Source(
+    "mitred corner: webs over the mitre, flanges by bending of their walls, softening of the straight tube",
+    Trust.FITTED,
+    "derived here, with five constants fitted to four corners solved by shells; a law from shells "
+    "(crumple characterise) replaces it",
+)
+WEB, FLANGE = 0.56, 2.44
+"""g and k of the moment at the start [-]."""
+CLOSING, OPENING, OPEN_RISE = 0.55, 0.75, 1.12
+"""c, d and o of the moment of both senses [-]."""
+STIFFNESS = 0.34
+"""r of the elastic stiffness [-]."""
+SMALLEST, LARGEST = math.radians(5.0), math.radians(100.0)
+"""Angles between the members: beyond the largest a mitre is longer than the section."""
+REACH = math.radians(40.0)
+"""Rotation up to which the corners were solved by shells."""
+UNCERTAINTY = 0.25
+"""Half-width of the band [-]; see the table in the theory page."""
+
+
+class Closing(Enum):
+    """Sense of the hinge's rotation that closes the corner."""
+
+    POSITIVE = "positive"
+    NEGATIVE = "negative"
+
+
+@dataclass(frozen=True)
+class MitredCornerLaw:
+    """Corner of two rectangular tubes that meet in a mitre, bent in its plane: an estimate fitted to shells.
+
+    Attributes
+    ----------
+    start
+        Moment at which it begins to fold when it is closed [N m].
+    plastic
+        Plastic moment of the members [N m], which no capacity exceeds.
+    slope
+        s, sine of half the angle between the members [-].
+    tube
+        Law of the straight member.
+    closing
+        Sense that closes the corner.
+    elastic_stiffness
+        Of the corner's own walls [N m/rad].
+
+    References
+    ----------
+    docs/theory/mitred_corner.md.  Verified in tests/verification/hinge/test_mitred_corners.py.
+    """
+
+    name: ClassVar[str] = "mitred_corner"
+    source: ClassVar[Source] = SOURCE
+    softening_variable: ClassVar[SofteningVariable] = SofteningVariable.PEAK
+    stop: ClassVar[Stop | None] = None
+    symmetric: ClassVar[bool] = False
+
+    start: float
+    plastic: float
+    slope: float
+    tube: KecmanLaw
+    closing: Closing
+    elastic_stiffness: float | None
+    validity: Validity
+
+    @classmethod
+    def of(
+        cls,
+        section: Section,
+        material: Material,
+        axis: Axis = "y",
+        *,
+        angle: PositiveAngle,
+        closing: Closing | str = Closing.POSITIVE,
+    ) -> MitredCornerLaw:
+        """Law of a corner.
+
+        Parameters
+        ----------
+        section
+            Rectangular tube, of both members.
+        material
+            Yield stress and elastic modulus.
+        axis
+            Axis of the section that is normal to the corner's plane.
+        angle
+            Angle between the members' axes, 0 in line [rad].
+        closing
+            Sense of the hinge's rotation that closes the corner.
+
+        Raises
+        ------
+        InputError
+            If the section is not a rectangular tube, or the angle is outside 5 to 100 degrees.
+        """
+        if not SMALLEST * (1.0 - 1e-9) <= angle <= LARGEST * (1.0 + 1e-9):
+            what, came = "no mitred corner has this angle", f"{math.degrees(angle):.4g} deg"
+            todo = "use the law of the member, or one from shells"
+            raise InputError(Problem(what, came, "5 to 100 deg", todo, "angle"))
+        tube = KecmanLaw.of(section, material, axis, after_jamming="hold")
+        wall = section.thickness
+        across, deep = section.flange_width(axis) - wall, section.bending_depth(axis) - wall
+        s = math.sin(angle / 2.0)
+        webs = deep**2 / 2.0 * (1.0 - WEB * s**2) / (1.0 - s**2)
+        flanges = across * deep * min(1.0, FLANGE * wall / (across * s))
+        plastic = float(tube.moment_capacity(0.0))
+        return cls(
+            min(material.yield_stress * wall * (webs + flanges), plastic),
+            plastic,
+            s,
+            tube,
+            choice("closing", closing, Closing),
+            STIFFNESS * material.youngs_modulus * wall * deep**2,
+            Validity(REACH, "corners of other proportions were solved by shells that far", (), UNCERTAINTY),
+        )
+
+    @property
+    def title(self) -> str:
+        """One line for people."""
+        angle = math.degrees(2.0 * math.asin(self.slope))
+        return f"mitred corner of {angle:.4g} deg, {self.start / 1e3:.4g} kN m at the start"
+
+    @property
+    def jamming_angle(self) -> float | None:
+        """Not known."""
+        return None
+
+    @property
+    def rate(self) -> HingeRate | None:
+        """That of the straight member."""
+        return self.tube.rate
+
+    def kinks(self, sense: int = 1) -> tuple[float, ...]:
+        """Rotations where the slope jumps [rad]."""
+        cap, factor = self._bounds(sense)
+        end = self.tube.jamming_angle
+
+        def above(rotation: Floats) -> Floats:
+            return cap - factor * self.tube.moment_capacity(rotation)
+
+        crossing = sign_change(above, 1e-4 * end, end * (1.0 - 1e-9))
+        # the capped part of the straight member's curve has no kinks
+        governed = {kink for kink in self.tube.kinks(sense) if float(above(np.asarray(kink))) >= 0.0}
+        return tuple(sorted(governed | (set() if crossing is None else {crossing})))
+
+    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
+        """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
+        cap, factor = self._bounds(sense)
+        return np.asarray(np.minimum(cap, factor * self.tube.moment_capacity(rotation, sense)), np.float64)
+
+    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
+        """Factor on the capacity at a rotation rate [rad/s]."""
+        return rate_factor(self.rate, rotation_rate)
+
+    def _bounds(self, sense: int) -> tuple[float, float]:
+        """Largest moment [N m], and factor on the straight member's, of a sense."""
+        if (sense > 0) == (self.closing is Closing.POSITIVE):
+            return self.start, 1.0 - CLOSING * self.slope
+        return min(OPEN_RISE * self.start, self.plastic), 1.0 + OPENING * self.slope

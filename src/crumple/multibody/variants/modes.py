@@ -1,0 +1,164 @@
+"""Which modes of collapse an impact may take if capacities, friction, contact or stiffness change a little.
+
+Two runs have the same mode unless the final plastic rotation of a hinge differs by more than `APART` of the
+largest rotation of all runs, and by more than `ROOM`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from crumple.multibody.checks.collapse import PART, ROUNDING, patterns
+from crumple.multibody.run import Cancel, Progress, Run
+from crumple.multibody.variants.contact_points import contact_points
+from crumple.multibody.variants.law_range import WIDEST
+from crumple.multibody.variants.variants import solve_variants
+from crumple.numeric.arrays import Floats
+from crumple.result.nearby import Mode, Modes
+from crumple.result.result import Result
+from crumple.structure import Structure, any_automatic, plastic_hinges, value_at
+
+BAND = 0.05
+"""Half-width for laws without a known band [-]."""
+FRICTION = 0.25
+"""Change of coefficients of friction [-]."""
+STIFFNESS = 0.10
+"""Change of Young's moduli [-]."""
+APART = 0.3
+"""Difference of a hinge's rotation between two modes over the largest rotation of all runs [-]."""
+ROOM = math.radians(2.0)
+"""Difference up to which two runs have the same mode in any case [rad]."""
+RESULT = "as given"
+"""Name of the run that is the result itself."""
+Changes = dict[str, float]
+"""Values [SI] or factors by path."""
+
+
+def modes(
+    structure: Structure,
+    run: Run,
+    result: Result,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    cancel: Cancel | None = None,
+) -> Modes | None:
+    """Modes of collapse that appear beside that of a result.
+
+    Parameters
+    ----------
+    structure, run
+        As they were solved.
+    result
+        The complete result; its mode comes first.
+    threads, progress, cancel
+        As in `crumple.multibody.solve_variants`.
+
+    Returns
+    -------
+    Modes or None
+        None without an impact, with a single hinge, or where `mechanism_check` is off (``auto``: without
+        automatic hinges).
+
+    References
+    ----------
+    docs/theory/modes.md.  Verified in tests/unit/multibody/variants/test_modes.py.
+    """
+    asked = run.settings.mechanism_check
+    unasked = asked == "off" or (asked == "auto" and not any_automatic(structure))
+    names = [hinge.name for hinge in plastic_hinges(structure)]
+    if unasked or len(names) < 2 or not is_impact(structure, run):
+        return None
+    runs = {**_capacities(structure), **_friction(structure), **contact_points(structure, run)}
+    runs |= _stiffness(structure, run)
+    table = solve_variants(structure, run, _columns(structure, runs), threads, progress, cancel)
+    turned = np.stack([np.abs(table[f"hinge.{name}.plastic_rotation"]) for name in names], axis=1)
+    given = np.array([abs(float(result[f"hinge.{name}.plastic_rotation"][-1])) for name in names])
+    good = [status.ok for status in table.status]
+    ended = {RESULT: given} | {name: turned[i] for i, name in enumerate(runs) if good[i]}
+    failed = tuple(name for name, ok in zip(runs, good, strict=True) if not ok)
+    return Modes(grouped(names, ended), failed)
+
+
+def is_impact(structure: Structure, run: Run) -> bool:
+    """Whether something is thrown, or meets an obstacle, with inertia."""
+    thrown = bool(structure.initial_velocity or structure.impulses)
+    if not run.stages:
+        return thrown or bool(structure.obstacles)
+    dynamic = [stage for stage in run.stages if stage.kind == "dynamic"]
+    met = any(stage.obstacles is None or stage.obstacles for stage in dynamic) and bool(structure.obstacles)
+    return bool(dynamic) and (thrown or met or any(s.initial_velocity or s.impulses for s in dynamic))
+
+
+def grouped(names: list[str], ended: Mapping[str, Floats]) -> tuple[Mode, ...]:
+    """Runs by mode; rotations at the end [rad], without sign, in the order of the hinges' names."""
+    largest = max(float(values.max()) for values in ended.values())
+    if largest <= ROUNDING:
+        return (Mode((), (), tuple(ended)),)
+    part, apart = PART * largest, max(APART * largest, ROOM)
+    groups: list[tuple[Floats, list[str]]] = []
+    for name, values in ended.items():
+        for first, runs in groups:
+            if float(np.abs(values - first).max()) <= apart:
+                runs.append(name)
+                break
+        else:
+            groups.append((values, [name]))
+    found = []
+    for first, runs in groups:
+        order = [int(k) for k in np.argsort(-first, kind="stable") if first[k] > part]
+        hinges = tuple(names[k] for k in order)
+        found.append(Mode(hinges, tuple(float(first[k]) for k in order), tuple(runs)))
+    return tuple(found)
+
+
+def _columns(structure: Structure, runs: Mapping[str, Changes]) -> dict[str, Floats]:
+    """One value per run of everything that any of them changes."""
+    paths = dict.fromkeys(path for changes in runs.values() for path in changes)
+    columns = {}
+    for path in paths:
+        rest = 1.0 if path.startswith("hinges.") else value_at(structure, path)
+        columns[path] = np.array([changes.get(path, rest) for changes in runs.values()])
+    return columns
+
+
+def _capacities(structure: Structure) -> dict[str, Changes]:
+    """Laws at the edges of their bands: alternately along the structure, at random, and both reversed."""
+    hinges = plastic_hinges(structure)
+    widths = [min(hinge.law.validity.uncertainty or BAND, WIDEST) for hinge in hinges]
+    return {
+        f"capacities {name}": {
+            f"hinges.{hinge.name}.capacity": 1.0 + float(sign) * width
+            for hinge, sign, width in zip(hinges, signs, widths, strict=True)
+        }
+        for name, signs in patterns(len(hinges)).items()
+    }
+
+
+def _friction(structure: Structure) -> dict[str, Changes]:
+    given = {
+        f"obstacles.{name}.friction": o.friction for name, o in structure.obstacles.items() if o.friction
+    }
+    if structure.member_contact is not None and structure.member_contact.friction:
+        given["member_contact.friction"] = structure.member_contact.friction
+    if not given:
+        return {}
+    return {
+        "less friction": {path: value * (1.0 - FRICTION) for path, value in given.items()},
+        "more friction": {path: value * (1.0 + FRICTION) for path, value in given.items()},
+    }
+
+
+def _stiffness(structure: Structure, run: Run) -> dict[str, Changes]:
+    """None where nothing is elastic."""
+    bends = run.settings.members == "elastic" or any(member.elastic for member in structure.members.values())
+    springs = any(math.isfinite(hinge.record.elastic_stiffness) for hinge in plastic_hinges(structure))
+    if not (bends or springs):
+        return {}
+    moduli = {f"materials.{name}.youngs_modulus": m.youngs_modulus for name, m in structure.materials.items()}
+    return {
+        "less stiff": {path: value * (1.0 - STIFFNESS) for path, value in moduli.items()},
+        "stiffer": {path: value * (1.0 + STIFFNESS) for path, value in moduli.items()},
+    }

@@ -1,0 +1,40 @@
+"""Tables of hinges that shortened or lengthened along their members."""
+
+from __future__ import annotations
+
+import math
+
+from crumple.report.wording.wording import Table, column, percent
+from crumple.result import Result
+
+
+def crush_table(result: Result) -> Table:
+    """Crush length, forces, energy and stroke of every hinge that can shorten along its member."""
+    zones = {name: hinge.crush for name, hinge in result.hinges.items() if hinge.crush is not None}
+    length_unit, lengths = column([zone.length for zone in zones.values()], "m")
+    stroke_unit, strokes = column(
+        [math.nan if zone.stroke is None else zone.stroke for zone in zones.values()], "m"
+    )
+    peak_unit, peaks = column([zone.peak_force for zone in zones.values()], "N")
+    mean_unit, means = column([zone.mean_force for zone in zones.values()], "N")
+    energy_unit, energies = column([zone.energy for zone in zones.values()], "J")
+    efficiencies = [percent(zone.efficiency, 3) for zone in zones.values()]
+    closed = ["yes" if zone.bottomed_out else "no" for zone in zones.values()]
+    heads = (
+        "Crush zone", f"Crush length, {length_unit}", "Stroke efficiency", f"Folds closed at, {stroke_unit}",
+        "Bottomed out", f"Peak force, {peak_unit}", f"Mean force, {mean_unit}", f"Energy, {energy_unit}",
+    )  # fmt: skip
+    rows = list(zip(zones, lengths, efficiencies, strokes, closed, peaks, means, energies, strict=True))
+    caption = "What each crush zone did. Stroke efficiency: crush length over the length of the member."
+    return Table(caption, heads, rows)
+
+
+def stretch_table(result: Result) -> Table:
+    """Lengthening, tension and energy of every hinge that lengthened along its member."""
+    hinges = {name: hinge.stretch for name, hinge in result.hinges.items() if hinge.stretch is not None}
+    length_unit, lengths = column([hinge.length for hinge in hinges.values()], "m")
+    peak_unit, peaks = column([hinge.peak_force for hinge in hinges.values()], "N")
+    energy_unit, energies = column([hinge.energy for hinge in hinges.values()], "J")
+    heads = ("Hinge", f"Lengthening, {length_unit}", f"Peak tension, {peak_unit}", f"Energy, {energy_unit}")
+    caption = "Hinges whose members were pulled longer. The energy is the work of the tension."
+    return Table(caption, heads, list(zip(hinges, lengths, peaks, energies, strict=True)))

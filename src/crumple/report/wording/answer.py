@@ -1,0 +1,93 @@
+"""What the page says first: three sentences, and cautions with alike ones in one line."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from crumple.report.wording.wording import Verdict, degrees, percent
+from crumple.result import Result
+from crumple.units import format_quantity
+
+MOST_CAUTIONS = 5
+"""Lines of cautions before the pictures; the others are folded."""
+_NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+
+
+def three_sentences(result: Result, verdict: Verdict) -> list[str]:
+    """What was absorbed and where; how far it went; whether it can be trusted."""
+    return [part for part in (_absorbed(result), _reached(result), " ".join(verdict.reasons)) if part]
+
+
+def one_mode(result: Result) -> list[str]:
+    """A sentence if an impact takes one mode alone; several are a caution."""
+    return [result.modes.sentence] if result.modes is not None and result.modes.unique else []
+
+
+def _absorbed(result: Result) -> str:
+    channel = result.channels.get("energy.dissipated")
+    if channel is None or not len(channel.values) or not channel.values[-1] > 0.0:
+        return ""
+    total = format_quantity(float(channel.values[-1]), "J")
+    if not result.hinges:
+        return f"The structure absorbed {total}."
+    name, most = max(result.hinges.items(), key=lambda item: item[1].energy)
+    if len(result.hinges) == 1 or not most.energy > 0.0:
+        return f"The structure absorbed {total}."
+    share = percent(most.energy / sum(hinge.energy for hinge in result.hinges.values()))
+    return f"The structure absorbed {total} in {len(result.hinges)} hinges, {share} of it in {name}."
+
+
+def _reached(result: Result) -> str:
+    zones = {name: hinge.crush for name, hinge in result.hinges.items() if hinge.crush is not None}
+    crushed = max(zones.items(), key=lambda item: item[1].length, default=None)
+    if crushed is not None and crushed[1].length > 0.0:
+        name, zone = crushed
+        length, mean, peak = (
+            format_quantity(value, unit)
+            for value, unit in ((zone.length, "m"), (zone.mean_force, "N"), (zone.peak_force, "N"))
+        )
+        closed = ", until its folds were closed" if zone.bottomed_out else ""
+        return f"{name} was crushed by {length}{closed}, at a mean force of {mean} and a peak of {peak}."
+    bending = {name: hinge for name, hinge in result.hinges.items() if hinge.bends}
+    if not bending:
+        return ""
+    name, most = max(bending.items(), key=lambda item: item[1].rotation_max)
+    rest = "still turning at the end"
+    if most.time_of_rest is not None:
+        rest = f"at rest after {format_quantity(most.time_of_rest, 's')}"
+    moment = format_quantity(most.moment_max, "N*m")
+    return f"{name} turned farthest, by {degrees(most.rotation_max)}°, at up to {moment}, {rest}."
+
+
+def members_of(result: Result) -> list[str]:
+    """Names of the members of which the result knows."""
+    return list(result.states.member_names) if result.states is not None else []
+
+
+def grouped(warnings: Sequence[str], names: Sequence[str]) -> list[str]:
+    """Warnings, those that differ in a name and in numbers only as one line with the other names.
+
+    Parameters
+    ----------
+    warnings
+        Sentences, the most important first.
+    names
+        Of hinges and members.
+    """
+    listed = sorted(filter(None, set(names)), key=len, reverse=True)
+    pattern = re.compile("|".join(rf"(?<![\w-]){re.escape(n)}(?![\w-])" for n in listed)) if listed else None
+    groups: dict[str, list[tuple[str, str]]] = {}
+    for warning in warnings:
+        found = pattern.search(warning) if pattern else None
+        bare = pattern.sub("\0", warning) if pattern else warning
+        key = _NUMBER.sub("#", bare) if found else warning
+        groups.setdefault(key, []).append((warning, found[0] if found else ""))
+    lines = []
+    for members in groups.values():
+        first, *others = members
+        also = [name for _, name in others if name and name != first[1]]
+        lines.append(first[0] + (f" The same of {', '.join(dict.fromkeys(also))}." if also else ""))
+        # alike ones without a further name are repetitions with other numbers: they stay
+        lines += [text for text, name in others if name == first[1] and text != first[0]]
+    return lines

@@ -1,0 +1,120 @@
+"""What nearby inputs give: the range from the bands of the hinge laws, and the modes of an impact."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+MOST_HINGES = 3
+"""Hinges that a sentence names of a mode."""
+MOST_RUNS = 3
+"""Runs that a sentence names of a mode."""
+
+
+@dataclass(frozen=True)
+class LawRange:
+    """Least and largest values of runs with the laws at the edges of their bands; a range, not a bound.
+
+    Attributes
+    ----------
+    ranges
+        Least and largest value by quantity, in SI: ``hinge.NAME.rotation_max``, ``hinge.NAME.energy``,
+        ``node.NAME.displacement.x`` at the end, ``energy.dissipated``.
+    bands
+        Relative half-width of the band by hinge [-].
+    without
+        Hinges whose law has no known band; they keep their law in all runs.
+    failed
+        Runs that did not reach the end, in words; they are not in the ranges.
+    """
+
+    ranges: Mapping[str, tuple[float, float]]
+    bands: Mapping[str, float]
+    without: tuple[str, ...] = ()
+    failed: tuple[str, ...] = ()
+
+    def of(self, quantity: str) -> tuple[float, float] | None:
+        """Range of a quantity; None if it has none."""
+        return self.ranges.get(quantity)
+
+
+@dataclass(frozen=True)
+class Mode:
+    """Runs in which the same hinges turn.
+
+    Attributes
+    ----------
+    hinges
+        Those that turn by more than a fifth of the largest rotation in its first run, the largest first.
+    rotations
+        Their plastic rotations at the end of that run [rad], without sign.
+    runs
+        Names of the runs.
+    """
+
+    hinges: tuple[str, ...]
+    rotations: tuple[float, ...]
+    runs: tuple[str, ...]
+
+    @property
+    def told(self) -> str:
+        """Its largest rotations."""
+        if not self.hinges:
+            return "no hinge turns"
+        angles = (f"{math.degrees(angle):.2g}°" for angle in self.rotations[:MOST_HINGES])
+        shown = ", ".join(map(" ".join, zip(self.hinges[:MOST_HINGES], angles, strict=True)))
+        return shown + (
+            f" and {len(self.hinges) - MOST_HINGES} more" if len(self.hinges) > MOST_HINGES else ""
+        )
+
+    @property
+    def told_runs(self) -> str:
+        """Its runs, the first by their names."""
+        more = f" or {len(self.runs) - MOST_RUNS} more" if len(self.runs) > MOST_RUNS else ""
+        return " or ".join(f"'{name}'" for name in self.runs[:MOST_RUNS]) + more
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Modes of collapse of an impact.
+
+    Attributes
+    ----------
+    modes
+        The first is that of the result itself.
+    failed
+        Runs that did not reach the end; they have no mode.
+    """
+
+    modes: tuple[Mode, ...]
+    failed: tuple[str, ...] = ()
+
+    @property
+    def unique(self) -> bool:
+        """Whether all runs that reached the end fold as the result does."""
+        return len(self.modes) == 1
+
+    @property
+    def sentence(self) -> str:
+        """What was found, for people."""
+        count = sum(len(mode.runs) for mode in self.modes)
+        lost = f" {len(self.failed)} more did not reach their end." if self.failed else ""
+        what = "changed capacities, friction, contact points and stiffness"
+        if self.unique:
+            return f"All {count} runs with {what} fold alike.{lost}"
+        first, *others = self.modes
+        told = "; ".join(f"{mode.told} with {mode.told_runs}" for mode in others)
+        return (
+            f"{len(self.modes)} modes of collapse appear in {count} runs with {what}. "
+            f"As given: {first.told}. Also: {told}.{lost}"
+        )
+
+
+def modes_of(text: Mapping[str, Any] | None) -> Modes | None:
+    """Modes from their entries as they are stored; None without."""
+    if text is None:
+        return None
+    found = (Mode(tuple(m["hinges"]), tuple(m["rotations"]), tuple(m["runs"])) for m in text["modes"])
+    return Modes(tuple(found), tuple(text["failed"]))

@@ -1,0 +1,157 @@
+"""Elastic members: where a member bends between its hinges, and the yielding of its walls there.
+
+A member with N segments has joints at the borders of N equal segments, besides its hinges. Joints and
+hinges share the bending flexibility of the member exactly for end loads
+(crumple.structure.hinges.flexibility); the mass of each segment moves with it, so that the member
+vibrates. A joint yields as the section does with plane walls,
+
+    theta_p(M) = l (kappa(M) - M/EI)        l: length of member that the joint stands for,
+
+from first yield to the largest moment of the straight member's fold: what is beyond belongs to the hinges.
+Theory and limits: docs/theory/elastic_members.md.
+"""
+
+from __future__ import annotations
+
+from typing import TypeVar
+
+import numpy as np
+
+from crumple.hinge import HingeRecord, build_law, record_of
+from crumple.hinge.bending.estimate import formula_or_estimate
+from crumple.hinge.record.record import Form
+from crumple.material import Material
+from crumple.numeric.arrays import Floats
+from crumple.section import Axis, Section
+from crumple.structure.bending import bending_axis, planar
+from crumple.structure.keys.member import Member
+from crumple.structure.parts import StructureParts
+from crumple.structure.remembered import remembered
+from crumple.structure.settings.multibody_settings import MultibodySettings
+
+Parts = TypeVar("Parts", bound=StructureParts)
+
+CURVATURES = np.array([1.0, 1.03, 1.07, 1.12, 1.2, 1.3, 1.5, 2.0, 3.0, 5.0, 10.0, 30.0, 100.0])
+"""Where the moment over curvature is sampled, over the curvature of first yield."""
+CLEAR = 0.35
+"""Least distance of a joint from a hinge, over the length of a segment: a body lies between them."""
+DAMPING = 3e-5
+"""Constant of the damper beside each joint's spring over its stiffness [s]: vibration of a frequency f has pi
+f times it of critical damping, 1 % at 106 Hz and 100 % at 10.6 kHz."""
+SLENDER = 10.0
+"""Length over depth from which the deflection by shear is neglected."""
+KEPT = 1024
+"""Records kept: equal members of a frame share one."""
+
+
+def with_elastic_members(structure: Parts, settings: MultibodySettings) -> Parts:
+    """The structure with the members elastic that do not say otherwise, if the settings say so."""
+    if settings.members == "rigid":
+        return structure
+    members = {
+        name: spec if spec.elastic is not None or spec.rigid is True else _elastic(spec, settings.segments)
+        for name, spec in structure.members.items()
+    }
+    changed = any(spec is not structure.members[name] for name, spec in members.items())
+    return structure.model_copy(update={"members": members}) if changed else structure
+
+
+def _elastic(spec: Member, segments: int) -> Member:
+    return spec.model_copy(update={"elastic": segments})
+
+
+def segments_of(structure: StructureParts, member: str) -> int:
+    """Number of segments of an elastic member; 0 of a rigid one."""
+    return structure.members[member].elastic or 0
+
+
+def joint_stations(
+    structure: StructureParts, member: str, axis: Axis, hinges: tuple[float, ...]
+) -> tuple[float, ...]:
+    """Borders of a member's segments [m] that are clear of its hinges and of its rigid parts.
+
+    Parameters
+    ----------
+    structure, member
+        Elastic or not; a rigid one has none.
+    axis
+        About which it bends; in a plane it bends about one axis alone.
+    hinges
+        Stations of its hinges about that axis [m].
+    """
+    if planar(structure) and axis != bending_axis(structure, member):
+        return ()
+    number, length = segments_of(structure, member), structure.frame_of(member).length
+    if number == 0:
+        return ()
+    segment = length / number
+    rigid = structure.members[member].rigid_parts(length)
+    # without hinges a joint lies in the middle of each segment
+    shift = 0.5 if not hinges else 1.0
+    borders = (segment * (i + shift) for i in range(number if not hinges else number - 1))
+    return tuple(
+        at
+        for at in borders
+        if all(abs(at - hinge) >= CLEAR * segment for hinge in hinges)
+        and not any(a <= at <= b for a, b in rigid)
+    )
+
+
+def shear_stretch(structure: StructureParts, member: str, axis: Axis) -> float:
+    """Square of the length at which an elastic member shears as much as it bends, E I/(G A_s) [m^2].
+
+    0 for rigid members, and for those of at least `SLENDER` depths.
+    """
+    if segments_of(structure, member) == 0:
+        return 0.0
+    from crumple.section.wall_section import walls_of  # noqa: PLC0415  (rigid members need no walls)
+
+    section, material = structure.section_of(member), structure.material_of(member)
+    depth = float(np.ptp(section.outer_outline() @ _across(axis)))
+    if structure.frame_of(member).length >= SLENDER * depth:
+        return 0.0
+    stiffness = material.shear_modulus * walls_of(section).shear_area(axis, material)
+    return structure.flexural_rigidity(member, axis) / stiffness
+
+
+def _across(axis: Axis) -> Floats:
+    """Direction across a section's axis, (2,)."""
+    return np.array([0.0, 1.0] if axis == "y" else [1.0, 0.0])
+
+
+def yielding_record(structure: StructureParts, member: str, axis: Axis, length: float) -> HingeRecord:
+    """Record of a joint that stands for a length [m] of a member in bending about an axis."""
+    section, material = structure.section_of(member), structure.material_of(member)
+    return _record(section, material, axis, structure.flexural_rigidity(member, axis), length)
+
+
+@remembered(KEPT)
+def _record(section: Section, material: Material, axis: Axis, rigidity: float, length: float) -> HingeRecord:
+    rotation, moment = _yielding(section, material, axis, rigidity)
+    law = build_law(
+        "table",
+        section,
+        material,
+        axis,
+        rotation=tuple((length * rotation).tolist()),
+        moment=tuple(moment.tolist()),
+    )
+    stiffness = rigidity / length
+    return record_of(
+        law, form=Form.ELASTIC_PLASTIC, elastic_stiffness=stiffness, viscous_damping=DAMPING * stiffness
+    )
+
+
+def _yielding(section: Section, material: Material, axis: Axis, rigidity: float) -> tuple[Floats, Floats]:
+    """Plastic curvature from 0 [1/m] and moment [N m] of a section with plane walls, up to its fold."""
+    from crumple.section import bending_moment  # noqa: PLC0415  (rigid members need no walls)
+
+    curve = material.hardening
+    stress = material.flow_stress if curve is None else curve.yield_stress
+    curvature = CURVATURES * stress * section.elastic_section_modulus(axis) / rigidity
+    moment = bending_moment(section, material, axis, curvature)
+    fold = build_law(formula_or_estimate(section, material, axis), section, material, axis)
+    moment = np.minimum(moment, float(fold.moment_capacity(0.0)))
+    plastic = np.maximum.accumulate(curvature - moment / rigidity)
+    kept = np.concatenate([[True], np.diff(plastic) > 1e-9 * plastic[-1]])
+    return plastic[kept] - plastic[0], moment[kept]

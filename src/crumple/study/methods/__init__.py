@@ -1,0 +1,1 @@
+"""How a study chooses its points."""

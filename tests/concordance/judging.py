@@ -1,0 +1,103 @@
+"""Errors of the multibody models against the shells, and whether they are within the targets."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from tests.concordance.models import MODELS
+from tests.concordance.stored import ShellResults, read
+from tests.concordance.suite import Case
+
+from crumple.analysis import solve
+from crumple.comparison import with_frames
+from crumple.comparison.measure.decisive import Figure, figures_of
+from crumple.comparison.measure.measures import Measures, measure
+from crumple.errors import InputError
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """One structure and model.
+
+    Attributes
+    ----------
+    case, model
+        Which.
+    measures
+        Of the model; None where the input was refused.
+    shells
+        Stored results.
+    figures
+        By kind of figure; every kind that the shells have is there.
+    order
+        Share of pairs of joints that open in the same order [-]; NaN without pairs.
+    reason
+        Why there is no result.
+    """
+
+    case: Case
+    model: str
+    measures: Measures | None
+    shells: ShellResults
+    figures: dict[str, list[Figure]] = field(default_factory=dict)
+    order: float = math.nan
+    reason: str = ""
+
+    def worst(self, kind: str) -> float:
+        """Largest error of a kind; NaN without one."""
+        return max((figure.error for figure in self.figures.get(kind, [])), default=math.nan)
+
+    def right(self, kind: str) -> bool:
+        """Whether all figures of a kind are within what is allowed."""
+        return all(figure.right for figure in self.figures.get(kind, []))
+
+
+def judged(cases: Sequence[Case], models: Sequence[str], say: Callable[[str], object]) -> list[Verdict]:
+    """Solve and judge; a structure without shell results, or whose shells failed, is left out by name."""
+    found = []
+    for case in cases:
+        shells = read(case)
+        if shells is None or not shells.nominal.complete:
+            say(
+                f"{case.name}: no shell results for this input; "
+                f"run: python -m tests.concordance shells {case.name}"
+            )
+            continue
+        for model in models:
+            verdict = _judged(case, model, shells)
+            found.append(verdict)
+            errors = ", ".join(
+                f"{kind} {100 * verdict.worst(kind):.0f} %{'' if verdict.right(kind) else ' !'}"
+                for kind in verdict.figures
+            )
+            say(f"{case.name}, {model}: {errors} {verdict.reason}")
+    return found
+
+
+def _judged(case: Case, model: str, shells: ShellResults) -> Verdict:
+    begin = time.process_time()
+    try:
+        analysis = MODELS[model](case.analysis())
+        result = solve(analysis)
+        seconds = time.process_time() - begin
+        measures = measure(solve(with_frames(analysis)), analysis.structure, seconds)
+        reason = "" if measures.complete else f"{result.status.value}: {result.reason}"
+    except InputError as error:
+        measures, reason = Measures(status="refused"), error.problems[0].what
+    # the shells' names: a model with other joints or hinges is measured at the same places
+    figures = figures_of(measures, shells.nominal, (shells.coarse, shells.imperfect))
+    return Verdict(case, model, measures, shells, figures, _order(measures, shells.nominal), reason)
+
+
+def _order(model: Measures, shell: Measures) -> float:
+    both = [name for name in shell.opened if name in model.opened]
+    pairs = [
+        (shell.opened[a] - shell.opened[b]) * (model.opened[a] - model.opened[b]) > 0.0
+        for i, a in enumerate(both)
+        for b in both[:i]
+        if shell.opened[a] != shell.opened[b] and model.opened[a] != model.opened[b]
+    ]
+    return sum(pairs) / len(pairs) if pairs else math.nan

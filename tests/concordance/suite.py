@@ -1,0 +1,94 @@
+"""The structures of the suite: families, the half that they belong to, and their shell models.
+
+The halves were fixed before anything was tuned. Whoever changes a model of Crumple may look at the
+structures of the tuned-on half; those of the judged-by half are only counted.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from tests.concordance.layouts import LAYOUTS, layout_text
+
+from crumple.analysis import Analysis, loads
+
+FOLDER = Path(__file__).parent / "structures"
+Half = Literal["tuned-on", "judged-by"]
+FAMILIES: dict[str, tuple[Half, tuple[str, ...]]] = {
+    "chain": ("tuned-on", ("chain_tip", "chain_beam")),
+    "portal": ("tuned-on", ("portal_sway", "portal_oblique")),
+    "two storeys": ("tuned-on", ("storeys_roof", "storeys_both")),
+    "L": ("tuned-on", ("l_closing", "l_opening", "l_across", "l_oblique")),
+    "box frame": ("tuned-on", ("box_frame",)),
+    "crash box": ("tuned-on", ("crash_box",)),
+    "T": ("judged-by", ("t_in_plane", "t_across")),
+    "S-rail": ("judged-by", ("s_rail_20", "s_rail_30", "s_rail_45")),
+    "hat pillar": ("judged-by", ("hat_pillar",)),
+    "ROPS": ("judged-by", ("rops_load", "rops_impact")),
+    "buggy": ("judged-by", ("buggy",)),
+    "bus ring": ("judged-by", ("bus_ring",)),
+    "front rails": ("judged-by", ("front_rails",)),
+    "cab": ("judged-by", ("cab",)),
+}
+"""Half and structures of each family; the layouts for ranking belong to the judged-by half."""
+COARSER = 1.5
+"""Element size of the second shell mesh, over that of the first."""
+IMPERFECTION = 0.05
+"""Largest shift of wall nodes of the third shell run, on the second mesh, over the least wall thickness."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """One structure of the suite.
+
+    Attributes
+    ----------
+    name
+        Of its file, or of the layout.
+    family, half
+        See `FAMILIES`.
+    """
+
+    name: str
+    family: str
+    half: Half
+
+    @property
+    def text(self) -> str:
+        """Its input, as a user would write it."""
+        if self.name in LAYOUTS:
+            return layout_text(self.name)
+        return (FOLDER / f"{self.name}.yaml").read_text("utf-8")
+
+    def analysis(self) -> Analysis:
+        """Its input, read."""
+        return loads(self.text, file=self.name, directory=FOLDER)
+
+    def shell_runs(self) -> dict[str, Analysis]:
+        """The three shell models: nominal mesh, coarser mesh, and that with an imperfection."""
+        nominal = self.analysis()
+        thickness = min(
+            float(nominal.structure.section_of(member).thickness) for member in nominal.structure.members
+        )
+        coarse = {
+            key: COARSER * size
+            for key in ("element_size", "fine_size")
+            if (size := getattr(nominal.shell, key)) is not None
+        }
+        imperfect = coarse | {"imperfection": nominal.shell.imperfection + IMPERFECTION * thickness}
+        return {
+            "nominal": nominal,
+            "coarse": _with_shell(nominal, coarse),
+            "imperfect": _with_shell(nominal, imperfect),
+        }
+
+
+def _with_shell(analysis: Analysis, changes: dict[str, float]) -> Analysis:
+    return analysis.model_copy(update={"shell": analysis.shell.model_copy(update=changes)})
+
+
+STRUCTURES = tuple(Case(name, family, half) for family, (half, names) in FAMILIES.items() for name in names)
+RANKED = tuple(Case(name, "layouts", "judged-by") for name in LAYOUTS)
+CASES = {case.name: case for case in (*STRUCTURES, *RANKED)}

@@ -1,0 +1,136 @@
+"""The suite that judges the fast answer: what it measures, what it allows, how it ranks."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.concordance.layouts import LAYOUTS
+from tests.concordance.page import page
+from tests.concordance.ranking import ranking
+from tests.concordance.stored import FOLDER, missing, to_json
+from tests.concordance.suite import CASES, FAMILIES, STRUCTURES
+
+from crumple.analysis import Analysis, loads, solve
+from crumple.comparison import with_frames
+from crumple.comparison.measure.decisive import figures_of
+from crumple.comparison.measure.measures import Measures, measure
+
+L_FRAME = """crumple: 1
+materials:
+  steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}
+sections:
+  tube: {type: square_tube, side: 50 mm, thickness: 2 mm}
+nodes:
+  foot: [0 m, 0 m, 0 m]
+  corner: [0 m, 0 m, 0.5 m]
+  tip: [0.5 m, 0 m, 0.5 m]
+members:
+  post: {nodes: [foot, corner], section: tube, material: steel, hinges: [{name: low, at: foot}]}
+  arm: {nodes: [corner, tip], section: tube, material: steel, hinges: [{name: bend, at: 40 mm}]}
+supports:
+  clamp: {node: foot, fix: all}
+masses:
+  payload: {node: tip, mass: 20 kg}
+initial_velocity:
+  - {nodes: [tip], translation: [0 m/s, 0 m/s, -5 m/s]}
+analysis:
+  duration: 40 ms
+outputs:
+  nodes: [tip]
+"""
+
+
+@pytest.fixture(scope="module")
+def analysis() -> Analysis:
+    return loads(L_FRAME)
+
+
+@pytest.fixture(scope="module")
+def own(analysis: Analysis) -> Measures:
+    return measure(solve(with_frames(analysis)), analysis.structure, 0.1)
+
+
+def test_rotations_at_joints_are_those_of_the_hinges(analysis: Analysis, own: Measures) -> None:
+    result = solve(with_frames(analysis))
+    bend = result["hinge.bend.rotation"][-1]
+    assert np.linalg.norm(own.rotations["corner, arm to post"]) == pytest.approx(abs(bend), rel=1e-6)
+    low = result["hinge.low.rotation"][-1]
+    assert np.linalg.norm(own.rotations["foot, post"]) == pytest.approx(abs(low), abs=1e-9)
+    assert np.linalg.norm(own.rotations["span of arm"]) < 1e-9
+
+
+def test_energies_by_zone_add_up_and_lie_where_the_hinges_are(analysis: Analysis, own: Measures) -> None:
+    result = solve(analysis)
+    assert own.zones["corner"] == pytest.approx(result["hinge.bend.energy"][-1])
+    assert own.zones["foot"] == pytest.approx(result["hinge.low.energy"][-1])
+    assert sum(own.zones.values()) == pytest.approx(result["energy.dissipated"][-1], rel=1e-6)
+
+
+def test_the_shells_agree_with_themselves(own: Measures) -> None:
+    figures = figures_of(own, own, (own, own))
+    assert figures["displacement"]
+    assert all(figure.error == 0.0 and figure.right for kind in figures.values() for figure in kind)
+
+
+def test_a_figure_is_wrong_beyond_the_target_and_right_within_the_spread(own: Measures) -> None:
+    tip = own.extents["tip"]
+    far = replace(own, extents={"tip": 1.12 * tip})
+    assert not figures_of(far, own, (own, own))["displacement"][0].right
+    uncertain = replace(own, extents={"tip": 1.07 * tip})
+    figure = figures_of(far, own, (uncertain, own))["displacement"][0]
+    assert figure.right
+    assert figure.allowed == pytest.approx(0.14)
+
+
+def test_a_run_that_failed_is_wrong_in_every_figure(own: Measures) -> None:
+    figures = figures_of(Measures(status="refused"), own, (own, own))
+    assert set(figures) >= {"displacement", "rotations", "energy by zone", "time of rest"}
+    assert not any(figure.right for kind in figures.values() for figure in kind)
+
+
+def test_a_zone_that_only_the_model_folds_is_wrong(own: Measures) -> None:
+    more = replace(own, zones={**own.zones, "span of arm": 0.2 * max(own.zones.values())})
+    wrong = [f for f in figures_of(more, own, (own, own))["energy by zone"] if not f.right]
+    assert [figure.name for figure in wrong] == ["span of arm"]
+
+
+def test_ranking_counts_the_pairs_that_shells_tell_apart() -> None:
+    shells = np.array([1.0, 2.0, 3.0, 4.0, 4.05])
+    spreads = np.full(5, 0.1)
+    # the last two are not told apart: their order does not matter
+    assert ranking(shells, spreads, np.array([10.0, 20.0, 30.0, 50.0, 40.0])).tau == 1.0
+    reverse = ranking(shells, spreads, -shells)
+    assert (reverse.tau, reverse.pairs) == (-1.0, 9)
+    # a failed model is worse than all others: it disagrees with three of nine
+    failed = ranking(shells, spreads, np.array([1.0, 2.0, 3.0, 4.0, 4.0]) + np.array([np.inf, 0, 0, 0, 0]))
+    assert failed.tau == pytest.approx((5 - 4) / 9)
+
+
+def test_the_suite_is_complete_and_its_inputs_are_sound() -> None:
+    assert len(STRUCTURES) == 24
+    assert len(LAYOUTS) == 24
+    assert {half for half, _ in FAMILIES.values()} == {"tuned-on", "judged-by"}
+    for case in CASES.values():
+        analysis = case.analysis()
+        assert analysis.structure.members
+        runs = case.shell_runs()
+        assert runs["coarse"].shell.element_size > runs["nominal"].shell.element_size
+        assert runs["imperfect"].shell.imperfection > 0.0
+
+
+def test_stored_shell_results_are_of_the_present_inputs() -> None:
+    stored = {path.stem for path in FOLDER.glob("*.json")}
+    assert stored
+    stale = {name: runs for name in stored if (runs := missing(CASES[name]))}
+    assert not stale
+
+
+def test_measures_are_stored_with_six_digits(own: Measures) -> None:
+    short = to_json(replace(own, extents={"tip": 1.23456789}))
+    assert short["extents"]["tip"] == 1.23457
+
+
+def test_the_page_names_what_is_not_judged() -> None:
+    assert "not judged: chain_tip" in page([])

@@ -1,0 +1,52 @@
+"""What the page says first: three sentences from the result's numbers, and cautions without repetition."""
+
+from dataclasses import replace
+
+from tests.support.result.synthetic_tube import tube_result
+
+from crumple.report.wording.answer import grouped, three_sentences
+from crumple.report.wording.wording import verdict
+from crumple.result.crush import CrushSummary
+
+
+def sentences(result):
+    return three_sentences(result, verdict(result, 1e-3, 1e-3))
+
+
+def test_three_sentences_of_a_hinge_that_bends():
+    said = sentences(tube_result())
+    assert len(said) == 3
+    assert said[0] == "The structure absorbed 783.7 J."
+    assert said[1].startswith("root turned farthest, by 29.94°, at up to 1.5 kN m, at rest after 69.67 ms")
+    assert "within its bound" in said[2]
+
+
+def test_a_crush_zone_is_told_by_its_forces():
+    zone = CrushSummary(0.15, 0.15, 60e3, 20e3, 3e3, 0.1, 0.4, bottomed_out=True)
+    hinge = replace(tube_result().hinges["root"], crush=zone)
+    said = sentences(tube_result(hinges={"front": hinge}))
+    assert said[1] == (
+        "front was crushed by 150 mm, until its folds were closed, "
+        "at a mean force of 20 kN and a peak of 60 kN."
+    )
+
+
+def test_without_hinges_and_energies_only_the_trust_is_stated():
+    said = sentences(tube_result(hinges={}, channels={}, output_names=(), states=None))
+    assert len(said) == 1
+
+
+def test_alike_cautions_are_one_line():
+    warnings = [
+        "Hinge a turned 40° (0.7 rad), beyond the range of validity of its law, 30°.",
+        "Hinge ab turned 45° (0.8 rad), beyond the range of validity of its law, 30°.",
+        "The bars are rigid.",
+        "Hinge c-d turned 5° (0.1 rad), beyond the range of validity of its law, 3°.",
+    ]
+    assert grouped(warnings, ["a", "ab", "c-d"]) == [f"{warnings[0]} The same of ab, c-d.", warnings[2]]
+
+
+def test_cautions_that_differ_stay():
+    warnings = ["Hinge a turned 4°.", "Hinge a turned 5°.", "Step 1 failed.", "Step 2 failed."]
+    assert grouped(warnings, ["a"]) == warnings
+    assert grouped(warnings, []) == warnings

@@ -1,0 +1,3 @@
+// What every page has besides the viewer.
+import "./figures";
+import "./copy";
