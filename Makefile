@@ -5,8 +5,9 @@
 #                 code is reached by them or listed in tests/fuzz/unreached.txt
 #   make fuzz     attack it with N random inputs (N=2000); findings in out/fuzz
 #   make check    format, lint, types, import contract, sizes, circles of imports
-#   make verify   slow verification too, pages with slow frames, native code under sanitizers, lowest and newest
-#                 versions of what users install, and docs/verification.md written again
+#   make verify   slow verification too, pages with slow frames, another processor's rounding, native code under
+#                 sanitizers, lowest and newest versions of what users install, and docs/verification.md written
+#                 again
 #   make concordance   how far multibody models agree with stored shell results: docs/concordance.md
 #   make web      the scripts of all pages from web/ (needs Node with npm)
 #   make bench    speed, as ratios within one run
@@ -68,6 +69,7 @@ verify: $(VENV)/installed-test $(SANITIZED)/address/installed $(SANITIZED)/threa
 	mkdir -p out
 	$(BIN)/python -m pytest $(PARALLEL) --durations=40 --figures=out/figures.json
 	SLOW_FRAMES=1 $(BIN)/python -m pytest $(PARALLEL) tests/unit/app tests/unit/report tests/unit/cli/test_view.py
+	tools/another_processor.sh $(BIN)/python -m pytest -m "not slow" $(PARALLEL)
 	$(BIN)/python tools/verification_table.py out/figures.json docs
 	tools/sanitized.sh address $(SANITIZED)/address/bin/python -m pytest $(PARALLEL) --durations=40 tests/verification $(KERNEL_TESTS) -m "not slow" --capture=sys
 	tools/sanitized.sh thread $(SANITIZED)/thread/bin/python -m pytest $(KERNEL_TESTS) -k "threads or team" --capture=sys

@@ -12,6 +12,7 @@ import typer
 from crumple.cli.console.beside import Moded, Uncertain, with_its_modes, with_scatter
 from crumple.cli.console.fidelity import Fidelity
 from crumple.cli.console.laws import Freeze, Laws, law_lines, range_lines, with_store
+from crumple.numeric.ranking import largest_first
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -272,7 +273,8 @@ def _most_absorbing(hinges: Mapping[str, HingeSummary]) -> list[tuple[str, Hinge
     """Hinges in their order; of many, those with the largest absorbed energy."""
     if len(hinges) <= MOST_HINGES:
         return list(hinges.items())
-    return sorted(hinges.items(), key=lambda item: -item[1].energy)[:MOST_HINGES]
+    ranked = largest_first({name: hinge.energy for name, hinge in hinges.items()})
+    return [(name, hinges[name]) for name in ranked[:MOST_HINGES]]
 
 
 def _hinge_table(summaries: Mapping[str, HingeSummary]) -> Table:

@@ -10,6 +10,7 @@ import numpy as np
 
 from crumple.numeric.arrays import Floats, Integers
 from crumple.numeric.binomial import clopper_pearson
+from crumple.numeric.ranking import largest_first
 from crumple.study.answer import Answer, columns_of, judged_rows
 from crumple.study.space import Axis
 from crumple.study.study_file import LoadedStudy, Study
@@ -148,7 +149,8 @@ def _effects(
             ends = _ends([table.points[i][k] for i in known.tolist()], values, units[axis.name])
             if ends is not None:
                 bars.append({"variable": axis.name, **ends})
-        bars.sort(key=lambda bar: -abs(float(bar["high"]) - float(bar["low"])))
+        widths = {i: abs(float(bar["high"]) - float(bar["low"])) for i, bar in enumerate(bars)}
+        bars = [bars[i] for i in largest_first(widths)]
         if bars:
             mean = float(f"{values.mean():.{DIGITS}g}")
             found.append({"response": name, "unit": units[name][0], "mean": mean, "bars": bars})

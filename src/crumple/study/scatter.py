@@ -21,6 +21,7 @@ from crumple.analysis.uncertainty import Uncertainty
 from crumple.errors import Status
 from crumple.numeric.arrays import Floats
 from crumple.numeric.binomial import clopper_pearson
+from crumple.numeric.ranking import largest_first
 from crumple.result import Result
 from crumple.result.scatter import Chance, Scatter, Swing
 
@@ -167,7 +168,7 @@ def _swings(result: Result, analysis: Analysis, solved: _Solved, given: Uncertai
     """One variable at a time at its ends, the others at their medians."""
     wanted = [one for one, _, _ in limits_of(analysis.criteria, result)]
     if not wanted:
-        ranked = sorted(result.hinges, key=lambda name: -result.hinges[name].energy)[:SPOKEN]
+        ranked = largest_first({name: hinge.energy for name, hinge in result.hinges.items()})[:SPOKEN]
         channels = [f"hinge.{name}.rotation" for name in ranked]
         wanted = [Measured(channel, channel, "max") for channel in channels if channel in result.channels]
     found = []
@@ -182,5 +183,6 @@ def _swings(result: Result, analysis: Analysis, solved: _Solved, given: Uncertai
             for k, name in enumerate(given.variables)
             if math.isfinite(ends[2 * k]) and math.isfinite(ends[2 * k + 1]) and math.isfinite(middle)
         ]
-        found += sorted(swings, key=lambda swing: -abs(swing.high - swing.low))
+        order = largest_first({i: abs(swing.high - swing.low) for i, swing in enumerate(swings)})
+        found += [swings[i] for i in order]
     return tuple(found)

@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from crumple.comparison.comparison import Comparison
 from crumple.comparison.measure.metrics import HingeComparison, signed
 from crumple.comparison.variant import ELASTIC_MEMBERS, SHELL_LAWS
+from crumple.numeric.ranking import largest_first
 
 CLOSE = 0.05
 """Relative error of rotation and plastic energy up to which laws and bars explain the difference."""
@@ -37,7 +38,8 @@ def shortfall(comparison: Comparison) -> Iterator[tuple[str, bool]]:
 def _main(hinges: tuple[HingeComparison, ...]) -> HingeComparison | None:
     """Hinge that absorbed the most energy in the reference, among those that both results contain."""
     both = [h for h in hinges if h.first is not None and h.second is not None and h.fold_station is not None]
-    return max(both, key=lambda h: h.second.plastic_energy if h.second else 0.0, default=None)
+    energies = {i: h.second.plastic_energy for i, h in enumerate(both) if h.second is not None}
+    return both[largest_first(energies)[0]] if energies else None
 
 
 def _vibration(comparison: Comparison, hinge: HingeComparison) -> Iterator[tuple[str, bool]]:

@@ -10,6 +10,7 @@ from crumple.comparison.cautions.run_cautions import outside_folds
 from crumple.comparison.comparison import Comparison
 from crumple.comparison.measure.decisive import TARGETS, Figure
 from crumple.comparison.measure.metrics import HingeComparison, deg, percent, signed
+from crumple.numeric.ranking import largest_first
 from crumple.units import format_quantity
 
 AGREES = 0.12
@@ -74,7 +75,8 @@ def _by_figures(comparison: Comparison, elsewhere: str, doubtful: bool) -> tuple
     first, second = comparison.candidate.name, comparison.reference.name
     judged = _decisive(comparison)
     excess = {id(f): f.error / f.allowed for _, f in judged}
-    wrong = sorted((one for one in judged if not one[1].right), key=lambda one: -excess[id(one[1])])
+    order = largest_first({i: excess[id(f)] for i, (_, f) in enumerate(judged) if not f.right})
+    wrong = [judged[i] for i in order]
     named = "; ".join(_figure_text(kind, f, comparison) for kind, f in wrong[:MOST_NAMED])
     further = f"; {len(wrong) - MOST_NAMED} further figures" if len(wrong) > MOST_NAMED else ""
     if wrong and excess[id(wrong[0][1])] > FAR:

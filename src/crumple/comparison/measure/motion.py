@@ -28,6 +28,7 @@ from crumple.comparison.measure.folds import Fold, find_folds
 from crumple.comparison.measure.sections import Sections, sections_of
 from crumple.hinge import Freedom
 from crumple.numeric.arrays import Floats
+from crumple.numeric.ranking import largest_first
 from crumple.result import Result
 from crumple.structure import PlacedHinge, Structure
 
@@ -266,7 +267,7 @@ def _stand_in(structure: Structure, own: Sections, fold: Fold) -> _Where:
     turns = {
         axis: float(np.abs(own.relative_rotation(frame.axis(axis), first, last)).max()) for axis in ("y", "z")
     }
-    axis = max(turns, key=lambda name: turns[name])
+    axis = largest_first(turns)[0]
     name = f"{fold.member} at {fold.station * 1e3:.0f} mm"
     return _Where(name, fold.member, fold.station, axis, frame.axis(axis))
 

@@ -17,6 +17,7 @@ from crumple.multibody.variants.contact_points import contact_points
 from crumple.multibody.variants.law_range import WIDEST
 from crumple.multibody.variants.variants import solve_variants
 from crumple.numeric.arrays import Floats
+from crumple.numeric.ranking import largest_first
 from crumple.result.nearby import Mode, Modes
 from crumple.result.result import Result
 from crumple.structure import Structure, any_automatic, plastic_hinges, value_at
@@ -108,7 +109,7 @@ def grouped(names: list[str], ended: Mapping[str, Floats]) -> tuple[Mode, ...]:
             groups.append((values, [name]))
     found = []
     for first, runs in groups:
-        order = [int(k) for k in np.argsort(-first, kind="stable") if first[k] > part]
+        order = largest_first({k: float(value) for k, value in enumerate(first) if value > part})
         hinges = tuple(names[k] for k in order)
         found.append(Mode(hinges, tuple(float(first[k]) for k in order), tuple(runs)))
     return tuple(found)

@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from crumple.numeric.arrays import Floats
+from crumple.numeric.ranking import largest_first
 from crumple.report.drawing.scales import display_unit, largest, output_groups, spread, time_unit
 from crumple.report.drawing.style import (
     HALF,
@@ -70,7 +71,7 @@ def sense(result: Result, hinge: str) -> float:
 
 def ranked_hinges(result: Result) -> list[str]:
     """Hinges, those that absorbed most energy first; equal ones in the order of the input."""
-    return sorted(result.hinges, key=lambda name: -result.hinges[name].energy)
+    return largest_first({name: hinge.energy for name, hinge in result.hinges.items()})
 
 
 def panel(

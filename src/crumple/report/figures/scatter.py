@@ -19,7 +19,7 @@ from crumple.report.drawing.style import (
     short,
     to_svg,
 )
-from crumple.report.figures.curves import over_time
+from crumple.report.figures.curves import over_time, ranked_hinges
 from crumple.report.wording.scatter import scatter_sentences
 from crumple.result import Result
 from crumple.result.scatter import Scatter, Swing
@@ -52,8 +52,7 @@ def scatter_plots(result: Result) -> Plots:
 
 def _channels(result: Result, scatter: Scatter) -> list[str]:
     asked = [criterion.channel for criterion in result.criteria]
-    ranked = sorted(result.hinges, key=lambda name: -result.hinges[name].energy)
-    asked += [f"hinge.{name}.rotation" for name in ranked[:2]]
+    asked += [f"hinge.{name}.rotation" for name in ranked_hinges(result)[:2]]
     return [name for name in dict.fromkeys(asked) if name in scatter.bands][:MOST_BANDS]
 
 

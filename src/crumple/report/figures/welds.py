@@ -7,6 +7,7 @@ import re
 import numpy as np
 
 from crumple.numeric.arrays import Floats
+from crumple.numeric.ranking import largest_first
 from crumple.report.drawing.scales import display_unit, largest, time_unit
 from crumple.report.drawing.style import WARNING, WIDTH, Line, add_axes, label_room, new_figure, to_svg
 from crumple.report.figures.curves import over_time
@@ -53,7 +54,7 @@ _RATIO = "Load over strength so far"
 def _ratios(result: Result, entries: list[str]) -> tuple[str, list[Line]] | None:
     """Load over strength of the entries that can fail, the most loaded first."""
     found = {n: c.values for n in entries if (c := result.channels.get(f"weld.{n}.use")) is not None}
-    ranked = sorted(found, key=lambda name: -float(found[name].max(initial=0.0)))[:MOST_RATIOS]
+    ranked = largest_first({name: float(found[name].max(initial=0.0)) for name in found})[:MOST_RATIOS]
     lines = [Line(name, _times(result), np.sqrt(found[name]), i) for i, name in enumerate(ranked)]
     return (_RATIO, lines) if lines else None
 
@@ -61,7 +62,7 @@ def _ratios(result: Result, entries: list[str]) -> tuple[str, list[Line]] | None
 def _forces(result: Result, entries: list[str]) -> tuple[str, list[Line]]:
     """Largest forces across and along the sheets in an intact spot, of the most loaded entries."""
     found = {name: [result[f"weld.{name}.{key}_force"] for key in ("normal", "shear")] for name in entries}
-    ranked = sorted(found, key=lambda name: -_most(found[name]))[:MOST_FORCES]
+    ranked = largest_first({name: _most(found[name]) for name in found})[:MOST_FORCES]
     unit, factor = display_unit("N", largest([force for name in ranked for force in found[name]]))
     lines = [
         Line(f"{name}, {way}", _times(result), force / factor, 2 * i + k)

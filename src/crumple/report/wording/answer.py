@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from crumple.numeric.ranking import largest_first
 from crumple.report.wording.wording import Verdict, degrees, percent
 from crumple.result import Result
 from crumple.units import format_quantity
@@ -31,7 +32,8 @@ def _absorbed(result: Result) -> str:
     total = format_quantity(float(channel.values[-1]), "J")
     if not result.hinges:
         return f"The structure absorbed {total}."
-    name, most = max(result.hinges.items(), key=lambda item: item[1].energy)
+    name = largest_first({name: hinge.energy for name, hinge in result.hinges.items()})[0]
+    most = result.hinges[name]
     if len(result.hinges) == 1 or not most.energy > 0.0:
         return f"The structure absorbed {total}."
     share = percent(most.energy / sum(hinge.energy for hinge in result.hinges.values()))
@@ -40,9 +42,9 @@ def _absorbed(result: Result) -> str:
 
 def _reached(result: Result) -> str:
     zones = {name: hinge.crush for name, hinge in result.hinges.items() if hinge.crush is not None}
-    crushed = max(zones.items(), key=lambda item: item[1].length, default=None)
-    if crushed is not None and crushed[1].length > 0.0:
-        name, zone = crushed
+    crushed = largest_first({name: zone.length for name, zone in zones.items() if zone.length > 0.0})
+    if crushed:
+        name, zone = crushed[0], zones[crushed[0]]
         length, mean, peak = (
             format_quantity(value, unit)
             for value, unit in ((zone.length, "m"), (zone.mean_force, "N"), (zone.peak_force, "N"))
@@ -52,7 +54,8 @@ def _reached(result: Result) -> str:
     bending = {name: hinge for name, hinge in result.hinges.items() if hinge.bends}
     if not bending:
         return ""
-    name, most = max(bending.items(), key=lambda item: item[1].rotation_max)
+    name = largest_first({name: hinge.rotation_max for name, hinge in bending.items()})[0]
+    most = bending[name]
     rest = "still turning at the end"
     if most.time_of_rest is not None:
         rest = f"at rest after {format_quantity(most.time_of_rest, 's')}"

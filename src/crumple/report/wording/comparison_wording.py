@@ -13,6 +13,7 @@ from crumple.comparison import (
     HingeMetrics,
     Pair,
 )
+from crumple.numeric.ranking import largest_first
 from crumple.report.drawing.scales import display_unit
 from crumple.report.wording.wording import Table, degrees, number
 from crumple.units import format_quantity
@@ -42,7 +43,8 @@ def ranked(comparison: Comparison) -> list[HingeComparison]:
     def absorbed(hinge: HingeComparison) -> float:
         return max((m.plastic_energy for m in (hinge.second, hinge.first) if m is not None), default=0.0)
 
-    return sorted(comparison.hinges, key=absorbed, reverse=True)
+    order = largest_first({i: absorbed(hinge) for i, hinge in enumerate(comparison.hinges)})
+    return [comparison.hinges[i] for i in order]
 
 
 def pair_of(comparison: Comparison, channel: str, candidate: str, reference: str) -> Pair | None:

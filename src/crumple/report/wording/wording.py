@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from crumple.hinge.law_use import INPUT
+from crumple.numeric.ranking import largest_first
 from crumple.report.drawing.scales import display_unit, output_groups
 from crumple.result import HingeSummary, Result
 from crumple.units import format_quantity
@@ -105,12 +106,15 @@ def _balance(result: Result, bound: float | None) -> str:
 
 
 def _error(result: Result) -> str:
-    errors = [
-        (h.rotation_error, h) for h in result.hinges.values() if h.rotation_error is not None and h.bends
-    ]
+    errors = {
+        name: h.rotation_error
+        for name, h in result.hinges.items()
+        if h.rotation_error is not None and h.bends
+    }
     if not errors:
         return ""
-    error, hinge = max(errors, key=lambda pair: pair[0])
+    name = largest_first(errors)[0]
+    error, hinge = errors[name], result.hinges[name]
     share = f" ({percent(error / hinge.rotation_max)})" if hinge.rotation_max > 0 else ""
     return f" Estimated error of the largest rotation: {degrees(error, 2)}°{share}."
 
@@ -122,7 +126,8 @@ def key_figures(result: Result) -> list[tuple[str, str, str]]:
     bending = {name: hinge for name, hinge in result.hinges.items() if hinge.bends}
     figures += _crush_figures(result)
     if bending:
-        name, most = max(bending.items(), key=lambda item: item[1].rotation_max)
+        name = largest_first({name: hinge.rotation_max for name, hinge in bending.items()})[0]
+        most = bending[name]
         figures.append(
             (
                 "Largest rotation",
@@ -133,7 +138,8 @@ def key_figures(result: Result) -> list[tuple[str, str, str]]:
         figures.append(_rest(result, several))
         total = sum(hinge.energy for hinge in result.hinges.values())
         figures.append(("Energy absorbed", format_quantity(total, "J"), "all hinges" if several else ""))
-        name, most = max(bending.items(), key=lambda item: item[1].moment_max)
+        name = largest_first({name: hinge.moment_max for name, hinge in bending.items()})[0]
+        most = bending[name]
         figures.append(("Peak moment", format_quantity(most.moment_max, "N*m"), _note("", name, several)))
     figures.append(("Energy residual", percent(result.energy_residual), "of the energy input"))
     figures.append(("Solve time", format_quantity(result.solve_seconds, "s", 2), ""))
@@ -145,7 +151,8 @@ def _crush_figures(result: Result) -> list[tuple[str, str, str]]:
     zones = {name: hinge.crush for name, hinge in result.hinges.items() if hinge.crush is not None}
     if not zones:
         return []
-    name, most = max(zones.items(), key=lambda item: item[1].length)
+    name = largest_first({name: zone.length for name, zone in zones.items()})[0]
+    most = zones[name]
     note = name if len(result.hinges) > 1 else ""
     efficiency = f"{percent(most.efficiency)} of the member" + (", bottomed out" if most.bottomed_out else "")
     return [
@@ -169,8 +176,9 @@ def _rest(result: Result, several: bool) -> tuple[str, str, str]:
             "—",
             f"{len(moving)} of {len(times)} still rotating" if several else "still rotating",
         )
-    name, time = max(((n, t) for n, t in times.items() if t is not None), key=lambda item: item[1])
-    return ("At rest after", format_quantity(time, "s"), name if several else "")
+    known = {name: time for name, time in times.items() if time is not None}
+    name = largest_first(known)[0]
+    return ("At rest after", format_quantity(known[name], "s"), name if several else "")
 
 
 def hinge_table(result: Result) -> Table:

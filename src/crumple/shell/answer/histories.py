@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from crumple.numeric.arrays import Floats
+from crumple.numeric.ranking import largest_first
 from crumple.numeric.rotation import continuous, relative_rotation, rotation_vector
 from crumple.result import Channel, HingeSummary
 from crumple.result.channels import channel, channels_along
@@ -136,7 +137,9 @@ def section_channels(
         axes = {zone.place.axis for zone in sampler.case.zones if zone.place.member == asked.member}
         turned = {axis: relative_rotation(first, last, tube.frame.axis(axis)) for axis in ("y", "z")}
         axis = (
-            axes.pop() if len(axes) == 1 else max(turned, key=lambda axis: float(np.abs(turned[axis]).max()))
+            axes.pop()
+            if len(axes) == 1
+            else largest_first({axis: float(np.abs(turned[axis]).max()) for axis in turned})[0]
         )
         yield Channel(name, "rad", turned[axis])
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from crumple.numeric.arrays import Floats
+from crumple.numeric.ranking import largest_first
 from crumple.report.drawing.scales import display_unit, largest, time_unit
 from crumple.report.drawing.style import Line, short
 from crumple.report.drawing.window import happening
@@ -100,15 +101,15 @@ def _drives(result: Result, structure: Structure) -> Iterator[tuple[str, str, st
             # the channel is what the structure does to the support
             unit = "N*m" if stem == "moment" else "N"
             found.append((f"{name}, {freedom[-1]}", kind, unit, side * path, -side * channel.values))
-    found.sort(key=lambda entry: -float(np.abs(entry[4]).max()))
-    yield from found[:MOST]
+    for i in largest_first({i: largest([entry[4]]) for i, entry in enumerate(found)})[:MOST]:
+        yield found[i]
 
 
 def _obstacles(result: Result, structure: Structure) -> list[str]:
     """Obstacles with a contact force, the largest first."""
     forces = {name: vector(result, f"obstacle.{name}.force") for name in structure.obstacles}
     peaks = {name: float(np.abs(force).max()) for name, force in forces.items() if force is not None}
-    return sorted((name for name, peak in peaks.items() if peak > 0.0), key=lambda name: -peaks[name])[:MOST]
+    return largest_first({name: peak for name, peak in peaks.items() if peak > 0.0})[:MOST]
 
 
 def _of_obstacle(result: Result, structure: Structure, name: str, i: int) -> list[Panel]:

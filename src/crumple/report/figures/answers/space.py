@@ -6,6 +6,7 @@ import numpy as np
 
 from crumple.errors import InputError
 from crumple.numeric.arrays import Floats
+from crumple.numeric.ranking import largest_first
 from crumple.report.drawing.scales import display_unit, largest, time_unit
 from crumple.report.drawing.style import (
     HALF,
@@ -38,9 +39,8 @@ def crush_panels(result: Result) -> list[Panel]:
     """Axial force over shortening of the zones that absorbed most."""
     zones = {name: hinge.crush for name, hinge in result.hinges.items() if hinge.crush is not None}
     longest = max((zone.length for zone in zones.values()), default=0.0)
-    ranked = sorted(
-        (name for name, zone in zones.items() if zone.length > 1e-3 * longest > 0.0),
-        key=lambda name: -zones[name].energy,
+    ranked = largest_first(
+        {name: zone.energy for name, zone in zones.items() if zone.length > 1e-3 * longest > 0.0}
     )
     found: list[Panel] = []
     for i, name in enumerate(ranked[:MOST_ZONES], 1):
@@ -103,7 +103,7 @@ def _filtered(result: Result, structure: Structure) -> dict[str, Floats]:
                 # sampled too coarsely, or not equally
                 return {}
             filtered[axis] = channel.values
-        axis = max(filtered, key=lambda key: largest([filtered[key]]))
+        axis = largest_first({key: largest([filtered[key]]) for key in filtered})[0]
         if largest([filtered[axis]]) > 0.0:
             found[f"{node} {axis}"] = filtered[axis]
     return found
@@ -127,8 +127,8 @@ def zone_panels(result: Result) -> list[Panel]:
 
 def _bars(energies: dict[str, float], what: str) -> str:
     """Horizontal bars, the longest above."""
-    ranked = sorted(energies.items(), key=lambda item: -item[1])
-    kept = [item for item in ranked[:MOST_BARS] if item[1] > 1e-3 * ranked[0][1]]
+    ranked = largest_first(energies)[:MOST_BARS]
+    kept = [(name, energies[name]) for name in ranked if energies[name] > 1e-3 * energies[ranked[0]]]
     unit, factor = display_unit("J", kept[0][1])
     values = [energy / factor for _, energy in kept]
     figure = new_figure(HALF, 2.35)
@@ -137,7 +137,7 @@ def _bars(energies: dict[str, float], what: str) -> str:
     rows = np.arange(len(kept))
     axes.barh(rows, values, height=0.62, color=SERIES[0], linewidth=0)
     axes.set_ylim(max(len(kept), 4) - 0.5, -0.5)
-    axes.set_xlim(0.0, values[0])
+    axes.set_xlim(0.0, max(values))
     axes.set_yticks(rows, [short(name, 20) for name, _ in kept])
     axes.grid(visible=False, axis="y")
     axes.grid(visible=True, axis="x")
