@@ -2,13 +2,16 @@
 
 from crumple.hinge.law import Source, Trust, Validity
 from crumple.hinge.measured.law_file import write_law
-from crumple.hinge.measured.place_hash import CORNER, PLACE
+from crumple.hinge.measured.place_hash import CORNER, JOINT, PLACE
 from crumple.hinge.measured.stored import StoredCurve, StoredLaw
 
 
-def law_text(place, positive=400.0, negative=300.0, *, corner=None, stiffness=None, error=None, reach=0.5):
-    """Text of a law file; `place`: hash, `corner`: angle as text."""
+def law_text(
+    place, positive=400.0, negative=300.0, *, corner=None, joint=None, stiffness=None, error=None, reach=0.5
+):
+    """Text of a law file; `place`: hash, `corner`: angle, `joint`: kind, as text."""
     origin = {"method": "shell", PLACE: place} | ({} if corner is None else {CORNER: corner})
+    origin |= {} if joint is None else {JOINT: joint}
     at = (0.0, reach)
     return write_law(
         StoredLaw(

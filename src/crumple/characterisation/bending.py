@@ -22,7 +22,7 @@ from crumple.structure import Structure
 STUB = 1.75
 """Length of each piece outside the gauge over the largest side of the section: room for end effects."""
 KINK = math.radians(0.2)
-"""Angle by which the two halves of a straight member meet, so that its fold is in the middle [rad]."""
+"""Usual kink of a straight member [rad]."""
 OUTPUTS = 400
 """Points in time at which a sub-model is measured."""
 OVERSHOOT, ELASTIC_TURN = 1.15, math.radians(5.0)
@@ -47,6 +47,8 @@ class Bending:
         Angle between the axes of the pieces [rad], pi/2 for a right-angled corner; None: a straight member.
     largest
         Plastic rotation at which the law ends [rad].
+    kink
+        Angle between the two halves of a straight member, so that its fold is in the middle [rad].
     length_factor
         Length of the pieces outside the gauge over the usual one; others give the same law.
     resolution
@@ -63,6 +65,7 @@ class Bending:
     sense: int = 1
     angle: float | None = None
     largest: float = math.radians(30.0)
+    kink: float = KINK
     length_factor: float = 1.0
     resolution: Resolution = NOMINAL
 
@@ -100,7 +103,7 @@ class Bending:
         """Entries of the law file on the place."""
         own = {"section": self.section.title, "axis": self.axis}
         if self.angle is None:
-            kink = f"kink of {math.degrees(KINK):.2g} deg in the middle"
+            kink = f"kink of {math.degrees(self.kink):.2g} deg in the middle"
             return {**own, "gauge": f"{1e3 * self.gauge:.4g} mm", "imperfection": kink}
         angle = f"{math.degrees(self.angle):.6g} deg"
         return {**own, "corner": angle, "gauge": f"{1e3 * self.gauge:.4g} mm", "imperfection": "none"}
@@ -163,7 +166,7 @@ class Bending:
 
     def _structure(self, duration: float) -> Structure:
         """One end held, the other turned about the axis and free to move: one moment everywhere."""
-        kink = self.sense * KINK if self.angle is None else self.angle
+        kink = self.sense * self.kink if self.angle is None else self.angle
         along, across = second_piece(kink, self.axis)
         held = [f"r{axis}" for axis in "xyz" if axis != self.axis]
         turning = {"x0": 0.0, "h0": 0.0, "x1": duration, "h1": self.sense * self.turn}

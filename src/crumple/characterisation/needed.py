@@ -1,4 +1,4 @@
-"""Sub-models that a structure needs: each distinct section, material and load, and each distinct corner."""
+"""Sub-models that a structure needs: each distinct section, material and load, and each joint."""
 
 from __future__ import annotations
 
@@ -12,14 +12,16 @@ from crumple.characterisation.out_of_plane import OutOfPlane
 from crumple.characterisation.rate import FASTER, rate_pair
 from crumple.characterisation.solving import FINER
 from crumple.characterisation.sub_model import SubModel, is_mirrored
+from crumple.characterisation.t_joint import TJoint
 from crumple.characterisation.torsion import Torsion
-from crumple.section import Axis
+from crumple.section import AXES, Axis
 from crumple.structure import Structure, hinge_places, planar
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges.automatic import twists
 from crumple.structure.hinges.corners import corners, untreated
 from crumple.structure.hinges.places import member_hinge_places
 from crumple.structure.hinges.stored_loads import stored_loads
+from crumple.structure.hinges.t_joints import t_places
 
 PER_ELEMENT_STEP = 1.2e-7
 """Processor time of one element in one step [s]: 74 s for both senses of a corner of 4600 elements."""
@@ -36,7 +38,7 @@ class Needed:
     place
         Hash of the place.
     where
-        Members, or nodes of corners, that have it.
+        Members, or nodes of corners and T-joints, that have it.
     """
 
     model: SubModel
@@ -59,7 +61,7 @@ class Needed:
 
 
 def needed(structure: Structure, largest: float) -> tuple[Needed, ...]:
-    """Sub-models of a structure's members and corners, each once.
+    """Sub-models of a structure's members, corners and T-joints, each once.
 
     Parameters
     ----------
@@ -93,9 +95,14 @@ def needed(structure: Structure, largest: float) -> tuple[Needed, ...]:
         out_of_plane = None if planar(structure) else corner.place_out_of_plane(structure)
         if out_of_plane is not None and is_mirrored(section, "z" if corner.axis == "y" else "y"):
             add(OutOfPlane(section, material, corner.axis, corner.angle, largest), node)
+    for node, joint in t_places(structure).items():
+        axes = (bending_axis(structure, joint.branch),) if planar(structure) else AXES
+        for plane in (joint.plane(axis) for axis in axes):
+            add(TJoint(joint.section, joint.chord, structure.material_of(joint.branch), plane, largest), node)
     return tuple(found.values())
 
 
 def left_out(structure: Structure) -> Mapping[str, str]:
     """Nodes at which members meet at an angle that have no sub-model, and why."""
-    return untreated(structure)
+    welded = t_places(structure)
+    return {node: reason for node, reason in untreated(structure).items() if node not in welded}

@@ -10,13 +10,15 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from crumple.analysis import Analysis
 from crumple.characterisation.bending import elastic_flexibility
 from crumple.characterisation.curve import LawCurve, law_curve
 from crumple.characterisation.resolution import NOMINAL, Resolution
 from crumple.characterisation.sub_model import largest_side
 from crumple.errors import InputError, Problem
-from crumple.hinge.measured.place_hash import Load, content_hash, place_hash
+from crumple.hinge.measured.place_hash import JOINT, Load, t_joint_hash
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.result import Result
@@ -30,6 +32,8 @@ OUTPUTS = 400
 """Points in time at which it is measured."""
 OVERSHOOT, ELASTIC_TURN = 1.05, math.radians(4.0)
 """End rotation over the plastic rotation of the law, and what is added to it."""
+EARLY = math.radians(2.0)
+"""Rotation of the joint up to which its elastic stiffness is sought [rad]."""
 STRONG = 0.97
 """Moment over the branch's plastic moment from which the branch may yield too."""
 
@@ -100,8 +104,7 @@ class TJoint:
     @property
     def place(self) -> str:
         """Hash of the place."""
-        both = (place_hash(section, self.material) for section in (self.section, self.chord))
-        return content_hash("|".join(("welded T-joint", self.plane, *both)))
+        return t_joint_hash(self.section, self.chord, self.material, across=self.plane == "across")
 
     @property
     def origin(self) -> dict[str, str]:
@@ -110,7 +113,7 @@ class TJoint:
             "section": self.section.title,
             "axis": self.axis,
             "chord": self.chord.title,
-            "joint": f"welded T, turned {'in' if self.plane == 'in' else 'across'} the plane",
+            JOINT: f"welded T, turned {'in' if self.plane == 'in' else 'across'} the plane",
             "gauge": f"{1e3 * self.branch:.4g} mm of the branch, {2e3 * self.half:.4g} mm of the chord",
             "imperfection": "none",
         }
@@ -220,7 +223,9 @@ class TJoint:
             came, allowed = f"{largest:.4g} N m", f"below {STRONG * self.strength:.4g} N m"
             todo = "the law of the member holds there"
             raise InputError(Problem(what, came, allowed, todo, where=self.title))
-        flexibility = max(elastic_flexibility(own, moment), 0.0)
+        # membrane forces of the face raise the moment later, far above the one at which it yields
+        early = slice(0, max(int(np.searchsorted(own, EARLY)), 2))
+        flexibility = max(elastic_flexibility(own[early], moment[early]), 0.0)
         curve = law_curve(own - flexibility * moment, moment, self.largest)
         return curve if flexibility == 0.0 else curve.with_stiffness(1.0 / flexibility)
 

@@ -1,4 +1,4 @@
-"""`crumple characterise SECTION --material ...`: the law of a member or a corner from a shell sub-model."""
+"""`crumple characterise SECTION --material ...`: the law of a member or a joint from a shell sub-model."""
 
 from __future__ import annotations
 
@@ -11,8 +11,10 @@ from crumple.cli.console.characterise_file import characterise_file
 from crumple.cli.console.named import MATERIAL_HELP, SECTION_HELP
 
 if TYPE_CHECKING:
-    from crumple.characterisation import Characterised, LawCurve
+    from crumple.characterisation import Characterised, LawCurve, TJoint
     from crumple.characterisation.sub_model import SubModel
+    from crumple.material import Material
+    from crumple.section import Section
 
 ROTATIONS = (0, 1, 2, 5, 10, 15, 20, 25, 30, 40, 50, 60)
 """Rotations of the table [deg]."""
@@ -27,7 +29,7 @@ def characterise(
     section: Annotated[
         str,
         typer.Argument(
-            help=f"An input file: all its members and corners. Or one section. {SECTION_HELP}",
+            help=f"An input file: all its members, corners and T-joints. Or one section. {SECTION_HELP}",
             show_default=False,
         ),
     ],
@@ -38,7 +40,8 @@ def characterise(
     load: Annotated[
         str,
         typer.Option(
-            help="What folds it: bending; torsion or crush of a straight member; out-of-plane of a corner."
+            help="What folds it: bending; torsion or crush of a straight member; out-of-plane of a corner or "
+            "T-joint."
         ),
     ] = "bending",
     axis: Annotated[
@@ -50,6 +53,15 @@ def characterise(
         typer.Option(
             help="A mitred corner in place of a straight member: angle between the axes of its two members, "
             "'90 deg' for a right-angled one. The axis is then normal to its plane.",
+            show_default=False,
+        ),
+    ] = None,
+    chord: Annotated[
+        str | None,
+        typer.Option(
+            help="A welded T-joint in place of a straight member: section of the chord, on whose face across "
+            "its z axis the member ends at a right angle, its width along the chord. Load bending turns it "
+            "in the plane of both, out-of-plane about the chord.",
             show_default=False,
         ),
     ] = None,
@@ -100,11 +112,11 @@ def characterise(
     if only_list:
         what, todo = "a section has nothing to list", "omit --list, or give an input file without --material"
         raise InputError(Problem(what, section, "an input file", todo, "--list"))
-    model = _model(section, material, _Place(load, axis, sense, angle, to))
+    model = _model(section, material, _Place(load, axis, sense, angle, to, chord))
     laws = LawStore(store)
     law = laws.law(model)
     lacking = converge and law is not None and law.validity.uncertainty is None
-    if interaction and (model.load != "bending" or angle is not None):
+    if interaction and (model.load != "bending" or angle is not None or chord is not None):
         what, todo = "--interaction is for straight members in bending", "leave it out"
         raise InputError(Problem(what, model.title, "", todo, "--interaction"))
     lacking = lacking or (interaction and law is not None and "axial_tension" not in dict(law.origin))
@@ -127,6 +139,7 @@ class _Place(NamedTuple):
     sense: str
     angle: str | None
     to: str
+    chord: str | None = None
 
 
 def _model(section: str, material: str, given: _Place) -> SubModel:
@@ -142,6 +155,8 @@ def _model(section: str, material: str, given: _Place) -> SubModel:
         raise InputError(Problem("the load is unknown", given.load, ", ".join(LOADS), "choose one", "--load"))
     sense, largest, corner = senses[given.sense], _largest(given.to), _corner(given.angle)
     shape, (metal, _) = section_of(section), material_of(material)
+    if given.chord is not None:
+        return _t_joint(shape, section_of(given.chord), metal, given)
     if given.load == "bending":
         return Bending(shape, metal, checked_axis(given.axis), sense, corner, largest)
     if given.load == "out-of-plane" and corner is not None:
@@ -153,6 +168,24 @@ def _model(section: str, material: str, given: _Place) -> SubModel:
         )
         raise InputError(Problem(what, given.load, "", todo, "--load"))
     return Crush(shape, metal) if given.load == "crush" else Torsion(shape, metal, sense, largest)
+
+
+def _t_joint(branch: Section, chord: Section, metal: Material, given: _Place) -> TJoint:
+    """Welded T-joint."""
+    from crumple.characterisation import TJoint
+    from crumple.errors import InputError, Problem
+    from crumple.section.shapes.rectangular_tube import RectangularTube
+
+    if not (isinstance(branch, RectangularTube) and isinstance(chord, RectangularTube)):
+        what, todo = "welded T-joints are characterised for rectangular tubes", "give two of them"
+        came = f"{branch.title} on {chord.title}"
+        raise InputError(Problem(what, came, "rectangular_tube", todo, "--chord"))
+    if given.angle is not None or given.load not in {"bending", "out-of-plane"}:
+        came = given.load if given.angle is None else f"--angle {given.angle}"
+        what, todo = "a T-joint is at a right angle, and bends", "leave out --angle, and --load or give one"
+        raise InputError(Problem(what, came, "--load bending or out-of-plane", todo, "--chord"))
+    largest = _largest(given.to)
+    return TJoint(branch, chord, metal, "in" if given.load == "bending" else "across", largest)
 
 
 def _corner(angle: str | None) -> float | None:

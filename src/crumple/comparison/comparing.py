@@ -16,6 +16,7 @@ from crumple.comparison.measure.measures import measurable, measure
 from crumple.comparison.measure.metrics import HingeComparison, compared, metrics_of
 from crumple.comparison.measure.motion import Measured, channel_motions, measured, member_sections
 from crumple.comparison.measure.sections import at_times
+from crumple.comparison.measure.t_joint_motion import with_t_joints
 from crumple.comparison.rating.curve_file import CurveFile
 from crumple.comparison.rating.pairing import RELEVANT, pairs_of
 from crumple.comparison.rating.signal import member_signals, signals_of
@@ -142,6 +143,7 @@ def _source(name: str, result: Result, structure: Structure, hinges: Sequence[Pl
         seen = Measured(sections, (), tuple(channel_motions(result, hinges, sections)), ())
     else:
         seen = with_corners(measured(result, structure, hinges), structure, hinges)
+        seen = with_t_joints(seen, result, structure, hinges)
     members = member_signals(structure, seen.sections)
     signals = signals_of(result, seen.hinges, members)
     return Source(name, result, seen.hinges, seen.extra, signals)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +13,8 @@ from crumple.structure import HingePlace, Member, Structure
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges.automatic import hinges_of
 from crumple.structure.hinges.places import hinge_places, law_spec
+from crumple.structure.hinges.shares import about_axis
+from crumple.structure.keys.hinge_axes import AxisLaws
 from crumple.structure.keys.law import LawKeys, LawReference, Regularisation
 from crumple.structure.keys.member import Bars, Hinge
 
@@ -132,7 +135,7 @@ def with_measured_laws(structure: Structure, motions: Sequence[HingeMotion]) -> 
         name: member.model_copy(
             update={
                 "hinges": tuple(
-                    h.model_copy(update={"law": laws[h.name]}) if h.name in laws else h
+                    h.model_copy(update={"law": laws[h.name], "laws": None}) if h.name in laws else h
                     for h in hinges_of(base, name)
                 )
             }
@@ -173,7 +176,7 @@ def _numbers(values: np.ndarray) -> tuple[float, ...]:
 
 def _elastic(structure: Structure, name: str, member: Member, places: dict[str, HingePlace]) -> Member:
     hinges = tuple(
-        hinge.model_copy(update={"law": _law(structure, places[hinge.name])})
+        hinge.model_copy(update=_laws(structure, hinge, places[hinge.name]))
         for hinge in hinges_of(structure, name)
     )
     bars = member.bars
@@ -183,6 +186,14 @@ def _elastic(structure: Structure, name: str, member: Member, places: dict[str, 
     if between is not None:
         bars = bars.model_copy(update={"law": _law(structure, between)})
     return member.model_copy(update={"hinges": hinges, "bars": bars})
+
+
+def _laws(structure: Structure, hinge: Hinge, place: HingePlace) -> dict[str, Any]:
+    """Keys of a hinge with elastic-plastic laws, one for each axis where they differ."""
+    if hinge.laws is None:
+        return {"law": _law(structure, place)}
+    laws = {axis: _law(structure, about_axis(place, axis)) for axis in hinge.bending}
+    return {"law": None, "laws": AxisLaws(**laws)}
 
 
 def _law(structure: Structure, place: HingePlace) -> LawReference:

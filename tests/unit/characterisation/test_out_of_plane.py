@@ -10,7 +10,7 @@ from crumple.characterisation import Bending, LawStore, OutOfPlane, characterise
 from crumple.characterisation.needed import needed
 from crumple.characterisation.resolution import Resolution
 from crumple.errors import InputError
-from crumple.hinge.measured.library import by_place, is_of_corner, read_store
+from crumple.hinge.measured.library import by_place, is_of_joint, read_store
 from crumple.material import Material
 from crumple.section import RectangularTube, plastic_interaction
 from crumple.section.shapes.hat import Hat
@@ -83,7 +83,7 @@ def test_a_coarse_law_is_found_by_its_place_and_has_the_spring_of_the_corner(tmp
     done = characterise(model)
     assert done.kinetic < 0.02
     assert done.law.symmetric
-    assert is_of_corner(done.law)
+    assert is_of_joint(done.law)
     assert done.law.elastic_stiffness is not None
     # the walls of the mitre give way before the post yields in torsion
     assert 0.5 < done.curve.moment.max() / model.strength < 0.9

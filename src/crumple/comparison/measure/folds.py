@@ -67,7 +67,7 @@ def find_folds(states: States, sections: dict[str, Sections], depths: dict[str, 
     depths
         Largest side of each member's section [m].
     """
-    amounts = {name: _amount(states, own) for name, own in sections.items()}
+    amounts = {name: plastic_amount(states, own) for name, own in sections.items()}
     totals = sum((amount.sum(axis=1) for amount in amounts.values()), np.zeros(len(states.times)))
     density = {name: amounts[name][-1] / np.diff(own.stations) for name, own in sections.items()}
     largest = max((float(d.max()) for d in density.values() if d.size), default=0.0)
@@ -83,7 +83,7 @@ def find_folds(states: States, sections: dict[str, Sections], depths: dict[str, 
     return found
 
 
-def _amount(states: States, own: Sections) -> Floats:
+def plastic_amount(states: States, own: Sections) -> Floats:
     """Plastic work, or its substitute, between neighbouring sections, (n_states, n_rings - 1)."""
     bins = len(own.stations) - 1
     field = next((name for name in (WORK, STRAIN) if name in states.cell_data), None)

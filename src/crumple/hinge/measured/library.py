@@ -14,7 +14,7 @@ from pathlib import Path
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.measured.law_file import read_law
-from crumple.hinge.measured.place_hash import CORNER, PLACE, REVISION, content_hash
+from crumple.hinge.measured.place_hash import CORNER, JOINT, PLACE, REVISION, content_hash
 from crumple.hinge.measured.stored import StoredCurve, StoredLaw
 
 ENDING = ".law.yaml"
@@ -86,9 +86,9 @@ def place_of(law: StoredLaw) -> str | None:
     return dict(law.origin).get(PLACE)
 
 
-def is_of_corner(law: object) -> bool:
-    """Whether a law is of a corner; its elastic stiffness adds to that of the members."""
-    return isinstance(law, StoredLaw) and CORNER in dict(law.origin)
+def is_of_joint(law: object) -> bool:
+    """Whether a law is of a corner or a joint; its elastic stiffness adds to that of the members."""
+    return isinstance(law, StoredLaw) and not {CORNER, JOINT}.isdisjoint(dict(law.origin))
 
 
 def hash_of_law(text: str) -> str:

@@ -28,7 +28,9 @@ LENGTH = 16
 PLACE = "place"
 """Key of the hash in the origin of a law file."""
 CORNER = "corner"
-"""Key of the corner's angle in the origin of a law file; a law without it is that of a straight member."""
+"""Key of the corner's angle in the origin of a law file."""
+JOINT = "joint"
+"""Key of the kind of joint; a law without it and without a corner is that of a straight member."""
 REVISION = "revision"
 """Key of the number of the method that made a law of a corner; laws from before it was written have none."""
 
@@ -68,6 +70,20 @@ def place_hash(
     content |= {} if load == "bending" else {"load": load}
     text = json.dumps(content, sort_keys=True, separators=(",", ":"), allow_nan=False)
     return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]
+
+
+def t_joint_hash(branch: RectangularTube, chord: RectangularTube, material: Material, *, across: bool) -> str:
+    """Hash of a welded T-joint at a right angle, 16 hexadecimal digits.
+
+    Parameters
+    ----------
+    branch, chord, material
+        The branch's width lies along the chord; it stands on a face across the chord's z axis.
+    across
+        Whether the branch is turned about the chord's axis, in place of the normal of the joint's plane.
+    """
+    both = (place_hash(section, material) for section in (branch, chord))
+    return content_hash("|".join(("welded T-joint", "across" if across else "in", *both)))
 
 
 def content_hash(text: str) -> str:

@@ -8,7 +8,8 @@ candidates there.  A candidate that is never loaded to its capacity stays rigid,
 Members of a straight run between supports (held_runs) also lengthen at their hinges, unless the input says
 otherwise.
 
-A corner whose law is stored has one hinge at its node in place of the candidates in its zone.
+A corner whose law is stored has one hinge at its node in place of the candidates in its zone, and the
+branch of a T-joint one in the face on which it ends.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import automatic_of
 from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
 from crumple.structure.hinges.held_runs import held_runs
+from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
 from crumple.structure.keys.hinge_axes import AxialSlip, HingeAxes
 from crumple.structure.keys.member import Hinge
 from crumple.structure.parts import StructureParts
@@ -45,11 +47,11 @@ def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
     axes = (keys["axis"],) if keys["axis"] else tuple(axis for axis in keys["axes"] if axis != "x")
     stations = automatic_stations(structure, member, axes, asked.spacing)
     parts = structure.members[member].rigid_parts(structure.frame_of(member).length)
-    parts = (*parts, *corner_zones(structure, member))
+    parts = (*parts, *corner_zones(structure, member), *t_joint_zones(structure, member))
     stations = {name: at for name, at in stations.items() if not any(a <= at <= b for a, b in parts)}
     # names of members and nodes were checked; two of them together may be longer than a name that is given
     found = [Hinge.model_construct(name=name, at=station, **keys) for name, station in stations.items()]
-    found += corner_hinges(structure, member, keys)
+    found += [*corner_hinges(structure, member, keys), *t_joint_hinges(structure, member, keys)]
     return tuple(sorted(found, key=lambda hinge: float(hinge.at)))
 
 

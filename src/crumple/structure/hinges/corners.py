@@ -114,20 +114,20 @@ def _corner(structure: StructureParts, node: str, members: list[str]) -> Corner 
     if len(members) > 2:
         return f"{len(members)} members meet"
     first, second = sorted(members, key=list(structure.members).index)
-    arriving, leaving = -_leaving(structure, first, node), _leaving(structure, second, node)
-    angle = math.acos(float(np.clip(arriving @ leaving, -1.0, 1.0)))
+    arriving, onward = -leaving(structure, first, node), leaving(structure, second, node)
+    angle = math.acos(float(np.clip(arriving @ onward, -1.0, 1.0)))
     if angle < LEAST:
         return ""
     reason = next(_reasons(structure, node, (first, second), angle), None)
     if reason is not None:
         return reason
-    normal = np.cross(arriving, leaving)
+    normal = np.cross(arriving, onward)
     normal /= np.linalg.norm(normal)
     axis = _axis_along(structure, first, normal)
     if axis is None:
         return "no axis of the section is normal to the corner's plane (out of plane)"
     reference = _modelled(structure, first, axis)
-    directions = ((first, arriving), (second, leaving))
+    directions = ((first, arriving), (second, onward))
     if not all(_same_points(_outline(structure, *one, normal), reference) for one in directions):
         return "the section does not lie in the same way to the corner's plane in both members"
     ends_here = structure.members[first].nodes[1] == node
@@ -154,7 +154,7 @@ def _reasons(structure: StructureParts, node: str, members: tuple[str, str], ang
         yield "a member is rigid there"
 
 
-def _leaving(structure: StructureParts, member: str, node: str) -> Floats:
+def leaving(structure: StructureParts, member: str, node: str) -> Floats:
     """Unit vector of a member away from one of its nodes."""
     along = structure.frame_of(member).x
     return along if structure.members[member].nodes[0] == node else -along

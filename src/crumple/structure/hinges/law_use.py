@@ -14,6 +14,7 @@ from crumple.hinge.law_use import INPUT, LawUse, Origin
 from crumple.hinge.measured.library import place_of
 from crumple.hinge.measured.place_hash import LENGTH, content_hash
 from crumple.hinge.measured.stored import StoredLaw
+from crumple.section.shapes.rectangular_tube import RectangularTube
 from crumple.structure.hinges.corner_laws import corner_laws, corner_name
 from crumple.structure.hinges.corners import corners
 from crumple.structure.hinges.hinges import plastic_hinges
@@ -21,6 +22,7 @@ from crumple.structure.hinges.law_choice import automatic_law, stored_texts
 from crumple.structure.hinges.places import HingePlace, hinge_places, law_of
 from crumple.structure.hinges.shares import about_axis, axes_of
 from crumple.structure.hinges.stored_loads import texts_of_loads
+from crumple.structure.hinges.t_joints import TPlace, t_joint_name, t_laws, t_places
 from crumple.structure.parts import StructureParts
 
 Parts = TypeVar("Parts", bound=StructureParts)
@@ -100,15 +102,19 @@ def stored_text_of(structure: StructureParts, place: HingePlace, law: HingeLaw) 
 
 
 def is_named_law(structure: StructureParts, place: HingePlace) -> bool:
-    """Whether the input names the law of a hinge; that of a corner from the store stands in no input."""
+    """Whether the input names the law of a hinge; that from the store of a corner or joint is not named."""
     if automatic_law(structure, place.law) is not None:
         return False
-    return place.name not in {corner_name(node) for node in corner_laws(structure)}
+    corner = place.name in {corner_name(node) for node in corner_laws(structure)}
+    return not corner and place.name not in {t_joint_name(node) for node in t_laws(structure)}
 
 
 def _command(structure: StructureParts, place: HingePlace) -> str:
     """Command that characterises the place."""
     spec = structure.members[place.member]
+    joint = _joint_near(structure, place)
+    if joint is not None:
+        return _joint_command(structure, joint, place)
     words = ["crumple", "characterise", f"{INPUT}:{spec.section}", "--material", f"{INPUT}:{spec.material}"]
     if place.axis != "y":
         words += ["--axis", place.axis]
@@ -116,6 +122,39 @@ def _command(structure: StructureParts, place: HingePlace) -> str:
     if corner is not None:
         words += ["--angle", f"'{math.degrees(corner):.6g} deg'"]
     return " ".join(words)
+
+
+def _joint_command(structure: StructureParts, joint: TPlace, place: HingePlace) -> str:
+    """Command that characterises a T-joint; names sections where they lie as in the sub-model."""
+    spec, chord = structure.members[joint.branch], structure.members[joint.before]
+    names = [
+        f"{INPUT}:{name}" if turned == structure.section_of(member) else f"'{_plain_name(turned)}'"
+        for member, name, turned in (
+            (joint.branch, spec.section, joint.section),
+            (joint.before, chord.section, joint.chord),
+        )
+    ]
+    words = ["crumple", "characterise", names[0], "--chord", names[1]]
+    words += ["--material", f"{INPUT}:{spec.material}"]
+    return " ".join(words if joint.plane(place.axis) == "in" else [*words, "--load", "out-of-plane"])
+
+
+def _plain_name(tube: RectangularTube) -> str:
+    """A tube as the command line takes it."""
+    sides = "x".join(f"{1e3 * side:.6g}" for side in (tube.width, tube.depth, tube.thickness))
+    rounded = f"x{1e3 * tube.corner_radius:.6g}" if tube.corner_radius else ""
+    return f"rectangular_tube {sides}{rounded}"
+
+
+def _joint_near(structure: StructureParts, place: HingePlace) -> TPlace | None:
+    """T-joint in whose zone a hinge of its branch lies."""
+    length = structure.frame_of(place.member).length
+    for joint in t_places(structure).values():
+        if joint.branch == place.member:
+            starts = structure.members[place.member].nodes[0] == joint.node
+            if (place.station if starts else length - place.station) <= joint.zone + AT_END * length:
+                return joint
+    return None
 
 
 def _corner_near(structure: StructureParts, place: HingePlace) -> float | None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Literal, get_args
 
 from crumple.errors import InputError
-from crumple.hinge.measured.library import is_of_corner
+from crumple.hinge.measured.library import is_of_joint
 from crumple.section import Axis
 from crumple.structure.hinges.corner_laws import MITRED
 from crumple.structure.hinges.elastic_members import joint_stations, shear_stretch
@@ -154,7 +154,7 @@ def _of_corner(structure: StructureParts, place: HingePlace, axis: Axis) -> bool
     about = about_axis(place, axis)
     try:
         spec = law_spec(structure, about)
-        return spec.type == MITRED or (spec.type == "file" and is_of_corner(law_of(structure, about)))
+        return spec.type == MITRED or (spec.type == "file" and is_of_joint(law_of(structure, about)))
     except InputError:
         # reported when the hinge is built
         return False

@@ -7,7 +7,7 @@ from tests.support.stored_laws import law_text, store_of
 
 from crumple.errors import InputError
 from crumple.hinge.measured.law_file import read_law, stored_law, write_law
-from crumple.hinge.measured.library import by_place, frozen, is_of_corner, mirrored, read_store
+from crumple.hinge.measured.library import by_place, frozen, is_of_joint, mirrored, read_store
 from crumple.hinge.measured.place_hash import place_hash
 from crumple.hinge.registry import build_law
 from crumple.material import Material
@@ -57,8 +57,8 @@ def test_a_law_seen_from_the_other_side_has_its_senses_exchanged():
     other = mirrored(law)
     assert [float(other.moment_capacity(0.1, sense)) for sense in (1, -1)] == [300.0, 400.0]
     assert mirrored(other) == law
-    assert is_of_corner(law)
-    assert not is_of_corner(read_law(law_text("p")))
+    assert is_of_joint(law)
+    assert not is_of_joint(read_law(law_text("p")))
 
 
 def test_stores_that_cannot_be_read_are_refused_with_their_file(tmp_path):
