@@ -23,6 +23,7 @@ from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import automatic_of
 from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
 from crumple.structure.hinges.held_runs import held_runs
+from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
 from crumple.structure.keys.hinge_axes import AxialSlip, HingeAxes
 from crumple.structure.keys.member import Hinge
@@ -91,10 +92,11 @@ def automatic_stations(
     half = max(half_fold_length(section, axis) for axis in axes)
     nodes = structure.members[member].nodes
     loaded = [carries_moment(structure, member, node) for node in nodes]
+    start, end = joint_reach(structure, member, nodes[0]), length - joint_reach(structure, member, nodes[1])
     # a member that is shorter than two folds has room for one
-    if 4.0 * half >= length:
-        return {f"{member}-1": length / 2.0} if any(loaded) else {}
-    first, last = half, length - half
+    if 4.0 * half >= end - start:
+        return {f"{member}-1": (start + end) / 2.0} if any(loaded) else {}
+    first, last = start + half, end - half
     number = 1 if spacing is None else max(1, math.ceil((last - first) / spacing * (1.0 - 1e-9)))
     between = np.linspace(first, last, number + 1)[1:-1]
     found = {f"{member}-{nodes[0]}": first} if loaded[0] else {}

@@ -88,7 +88,7 @@ def untreated(structure: StructureParts) -> Mapping[str, str]:
 def _corners(structure: StructureParts) -> tuple[dict[str, Corner], dict[str, str]]:
     found, reasons = {}, {}
     for node, members in structure.members_at.items():
-        if len(members) < 2 or not all(_whole(structure, name) for name in members):
+        if len(members) < 2 or not all(is_whole(structure, name) for name in members):
             continue
         answer = _corner(structure, node, members)
         if isinstance(answer, Corner):
@@ -98,7 +98,7 @@ def _corners(structure: StructureParts) -> tuple[dict[str, Corner], dict[str, st
     return found, reasons
 
 
-def _whole(structure: StructureParts, name: str) -> bool:
+def is_whole(structure: StructureParts, name: str) -> bool:
     """Whether a member's line, section and metals are there; always so in a sound structure."""
     member = structure.members[name]
     section = structure.sections.get(member.section)

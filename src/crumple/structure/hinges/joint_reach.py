@@ -1,0 +1,60 @@
+"""How far a rigid joint reaches along a member: to where the walls of the other members end.
+
+Members whose ends meet at a node and share no mitre are joined by what lies between them: a weld to the faces
+of the others, a gusset, a cast node.  Their folds form outside of it.  With unit vectors x and y from the node
+into two members at an angle a, and half depths d and e in their common plane, the inner edges meet at
+(e + d cos a) / sin a along the first.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from crumple.numeric.arrays import Floats
+from crumple.structure.hinges.corners import corners, is_whole, leaving
+from crumple.structure.parts import StructureParts
+
+NARROWEST = math.radians(10.0)
+"""Angle between two members, or to a line, below which they lie along each other."""
+LARGEST_SHARE = 0.35
+"""Share of a member that a joint takes at most."""
+
+
+def joint_reach(structure: StructureParts, member: str, node: str) -> float:
+    """Distance from a node up to which a member is part of a rigid joint [m].
+
+    Parameters
+    ----------
+    structure, member, node
+        The member ends at the node.
+
+    Returns
+    -------
+    float
+        0 at nodes without other members, at mitred corners, and where a joint lets members turn.
+    """
+    others = [name for name in structure.members_at.get(node, ()) if name != member]
+    if node in corners(structure) or structure.joints_at.get(node):
+        return 0.0
+    reach = 0.0
+    own = leaving(structure, member, node)
+    for other in others:
+        if not is_whole(structure, other):
+            continue
+        along = leaving(structure, other, node)
+        cosine, sine = float(own @ along), float(np.linalg.norm(np.cross(own, along)))
+        if sine < math.sin(NARROWEST):
+            continue
+        mine = _half_depth(structure, member, (along - cosine * own) / sine)
+        theirs = _half_depth(structure, other, (own - cosine * along) / sine)
+        reach = max(reach, (theirs + cosine * mine) / sine)
+    return min(reach, LARGEST_SHARE * structure.frame_of(member).length)
+
+
+def _half_depth(structure: StructureParts, member: str, direction: Floats) -> float:
+    """Largest distance of a section's outline from its axis in a direction [m]."""
+    frame = structure.frame_of(member)
+    points = structure.section_of(member).outer_outline()
+    return float(np.abs(points @ np.stack([frame.y @ direction, frame.z @ direction])).max())
