@@ -10,6 +10,7 @@ from crumple._core.shell.simulation import Element, ShellState
 from crumple.result import StageSummary
 from crumple.shell.answer.record import ENERGIES, Record
 from crumple.shell.answer.weld_histories import weld_assumptions, weld_warnings
+from crumple.shell.checks.folds import coarse_folds
 from crumple.shell.mesh.joints import Kind
 from crumple.shell.mesh.quality import wall_metals
 from crumple.shell.model.bodies import Body, Lump
@@ -109,7 +110,8 @@ def _held(settings: ShellSettings) -> str:
 def warnings(structure: Structure, case: ShellCase, record: Record, state: ShellState) -> tuple[str, ...]:
     """Warnings about the result."""
     energy = {name: record["energy"][:, i] for i, name in enumerate(ENERGIES)}
-    found = [*_mesh_warnings(structure, case), *_flat_members(structure, case)]
+    found = [*_mesh_warnings(structure, case), *coarse_folds(structure, case.mesh)]
+    found += _flat_members(structure, case)
     internal = float((energy["elastic"] + energy["plastic"]).max())
     hourglass = float(energy["hourglass"].max())
     artificial = case.model.settings.element is Element.BELYTSCHKO_TSAY

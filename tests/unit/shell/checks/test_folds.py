@@ -1,0 +1,32 @@
+"""Meshes whose elements are too long for the folds are named."""
+
+from __future__ import annotations
+
+import pytest
+
+from crumple.analysis import loads
+from crumple.section import half_fold_length
+from crumple.shell.checks.folds import LEAST_ELEMENTS, coarse_folds
+from crumple.shell.mesh.mesh import mesh_of
+
+TUBE = """crumple: 1
+materials: {{steel: {{youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}}}}
+sections: {{tube: {{type: square_tube, side: 50 mm, thickness: 2 mm}}}}
+nodes: {{root: [0 m, 0 m, 0 m], tip: [0.5 m, 0 m, 0 m]}}
+members: {{tube: {{nodes: [root, tip], section: tube, material: steel, hinges: [{{name: a, at: {at}}}]}}}}
+supports: {{clamp: {{node: root, fix: all}}}}
+analysis: {{duration: 1 ms, shell: {{element_size: 12 mm, fine_size: {size} mm}}}}
+"""
+
+
+@pytest.mark.parametrize(("size", "warned"), [(8.0, True), (4.0, False)])
+@pytest.mark.parametrize("at", ["root", "0.25 m"])
+def test_elements_longer_than_a_quarter_of_half_a_fold_are_warned_of(size, warned, at):
+    analysis = loads(TUBE.format(size=size, at=at))
+    structure = analysis.structure
+    found = list(coarse_folds(structure, mesh_of(structure, analysis.shell)))
+    assert bool(found) == warned
+    if warned:
+        quarter = 1e3 * half_fold_length(structure.section_of("tube")) / LEAST_ELEMENTS
+        assert f"fine_size {quarter:.2g} mm" in found[0]
+        assert "members tube" in found[0]
