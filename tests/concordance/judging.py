@@ -60,7 +60,7 @@ def judged(cases: Sequence[Case], models: Sequence[str], say: Callable[[str], ob
     found = []
     for case in cases:
         shells = read(case)
-        if shells is None or not shells.nominal.complete:
+        if shells is None or not shells.reference.complete:
             say(
                 f"{case.name}: no shell results for this input; "
                 f"run: python -m tests.concordance shells {case.name}"
@@ -88,8 +88,8 @@ def _judged(case: Case, model: str, shells: ShellResults) -> Verdict:
     except InputError as error:
         measures, reason = Measures(status="refused"), error.problems[0].what
     # the shells' names: a model with other joints or hinges is measured at the same places
-    figures = figures_of(measures, shells.nominal, (shells.coarse, shells.imperfect))
-    return Verdict(case, model, measures, shells, figures, _order(measures, shells.nominal), reason)
+    figures = figures_of(measures, shells.reference, shells.pairs)
+    return Verdict(case, model, measures, shells, figures, _order(measures, shells.reference), reason)
 
 
 def _order(model: Measures, shell: Measures) -> float:

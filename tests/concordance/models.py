@@ -14,11 +14,15 @@ LAWS = Path(__file__).parent / "laws"
 
 
 def _rigid(analysis: Analysis) -> Analysis:
-    return analysis
+    return _with_members(analysis, "rigid")
 
 
 def _elastic(analysis: Analysis) -> Analysis:
-    settings = analysis.multibody.model_copy(update={"members": "elastic"})
+    return _with_members(analysis, "elastic")
+
+
+def _with_members(analysis: Analysis, members: str) -> Analysis:
+    settings = analysis.multibody.model_copy(update={"members": members})
     return analysis.model_copy(update={"multibody": settings})
 
 
@@ -38,5 +42,5 @@ MODELS: dict[str, Callable[[Analysis], Analysis]] = {
     "elastic members": _elastic,
 }
 if LAWS.is_dir():
-    MODELS["rigid members, laws from shells"] = _stored_laws
+    MODELS["rigid members, laws from shells"] = lambda analysis: _rigid(_stored_laws(analysis))
     MODELS["elastic members, laws from shells"] = lambda analysis: _elastic(_stored_laws(analysis))

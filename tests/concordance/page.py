@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from tests.concordance.judging import Verdict
 from tests.concordance.ranking import ranking
-from tests.concordance.suite import CASES, COARSER, IMPERFECTION, RANKED
+from tests.concordance.suite import CASES, COARSER, FINER, IMPERFECTION, NOT_FINER, RANKED
 
 from crumple.comparison.measure.decisive import SPREADS, TARGETS
 from crumple.portable import write_text
@@ -18,13 +18,16 @@ HEAD = f"""# Concordance of multibody models and shells
 
 Written by `make concordance`; what is measured and how it is judged: [theory](theory/concordance.md).
 
-Every structure was solved by shells on two meshes (the second with elements {COARSER:g} times as long)
-and with an imperfection of {100 * IMPERFECTION:g} % of the wall; these results are stored in
-`tests/concordance/shells` with their provenance. The multibody models are solved again whenever this page
-is written. A figure is *right* if its error is within the target or within {SPREADS:g} times the spread
-of the three shell runs. Errors are relative to the shells' value, or to 5 % of the largest value of the
-structure if that is more. A run that is refused or does not complete is wrong in every figure. The
-*judged-by* half was fixed before any model was changed because of this suite.
+Every structure was solved by shells on three meshes: that of its input, one with elements in the folds
+{FINER:g} times as long (not the layouts, nor {", ".join(NOT_FINER)}), and one with
+elements {COARSER:g} times as long, which was also solved with an imperfection of
+{100 * IMPERFECTION:g} % of the wall. These results are stored in `tests/concordance/shells` with their
+provenance; the finest mesh is the reference. The multibody models are solved again whenever this page is
+written. A figure is *right* if its error is within the target or within {SPREADS:g} times the spread of the
+shells: the larger of the difference of the two finest meshes and that of the imperfection. Errors are
+relative to the shells' value, or to 5 % of the largest value of the structure if that is more. A run that is
+refused or does not complete is wrong in every figure. The *judged-by* half was fixed before any model was
+changed because of this suite.
 """
 
 
@@ -79,7 +82,7 @@ def _summary(verdicts: Sequence[Verdict]) -> str:
             )
         orders = [v.order for v in own if not math.isnan(v.order)]
         times = [v.measures.seconds for v in own if v.measures is not None]
-        shells = sum(v.shells.nominal.seconds for v in own)
+        shells = sum(v.shells.reference.seconds for v in own)
         lines.append(
             f"| {model} | order of opening |  |  |  | {_percent(float(np.median(orders)))} alike | |"
             if orders
@@ -124,7 +127,7 @@ def _ranking(verdicts: Sequence[Verdict]) -> str:
     ]
     models = _models(verdicts)
     first = next(iter(models.values()))
-    shells = np.array([_intrusion(v.shells.nominal.extents) for v in first])
+    shells = np.array([_intrusion(v.shells.reference.extents) for v in first])
     spreads = np.array([_spread(v) for v in first])
     mass = np.array([-v.case.analysis().structure.mass_of_members for v in first])
     rows = {"mass alone": mass}
@@ -149,8 +152,11 @@ def _intrusion(extents: dict[str, float]) -> float:
 
 
 def _spread(verdict: Verdict) -> float:
-    own, others = verdict.shells.nominal, (verdict.shells.coarse, verdict.shells.imperfect)
-    return max(abs(_intrusion(o.extents) - _intrusion(own.extents)) for o in others if o.complete)
+    return max(
+        abs(_intrusion(one.extents) - _intrusion(other.extents))
+        for one, other in verdict.shells.pairs
+        if one.complete and other.complete
+    )
 
 
 def _left_out(judged: set[str]) -> str:

@@ -21,11 +21,23 @@ FOLDER = Path(__file__).parent / "shells"
 
 @dataclass(frozen=True)
 class ShellResults:
-    """Figures of the three shell runs of a structure, by the name of the run."""
+    """Figures of the shell runs of a structure, by the name of the run; layouts have no `fine` one."""
 
     nominal: Measures
     coarse: Measures
     imperfect: Measures
+    fine: Measures | None = None
+
+    @property
+    def reference(self) -> Measures:
+        """Run with the finest mesh."""
+        return self.nominal if self.fine is None else self.fine
+
+    @property
+    def pairs(self) -> tuple[tuple[Measures, Measures], ...]:
+        """Runs that differ in the mesh, the two finest ones, and in the imperfection."""
+        meshes = (self.nominal, self.coarse) if self.fine is None else (self.fine, self.nominal)
+        return (meshes, (self.imperfect, self.coarse))
 
 
 def missing(case: Case) -> list[str]:

@@ -69,7 +69,7 @@ def test_energies_by_zone_add_up_and_lie_where_the_hinges_are(analysis: Analysis
 
 
 def test_the_shells_agree_with_themselves(own: Measures) -> None:
-    figures = figures_of(own, own, (own, own))
+    figures = figures_of(own, own, ((own, own),))
     assert figures["displacement"]
     assert all(figure.error == 0.0 and figure.right for kind in figures.values() for figure in kind)
 
@@ -77,22 +77,22 @@ def test_the_shells_agree_with_themselves(own: Measures) -> None:
 def test_a_figure_is_wrong_beyond_the_target_and_right_within_the_spread(own: Measures) -> None:
     tip = own.extents["tip"]
     far = replace(own, extents={"tip": 1.12 * tip})
-    assert not figures_of(far, own, (own, own))["displacement"][0].right
+    assert not figures_of(far, own, ((own, own),))["displacement"][0].right
     uncertain = replace(own, extents={"tip": 1.07 * tip})
-    figure = figures_of(far, own, (uncertain, own))["displacement"][0]
+    figure = figures_of(far, own, ((uncertain, own), (own, own)))["displacement"][0]
     assert figure.right
     assert figure.allowed == pytest.approx(0.14)
 
 
 def test_a_run_that_failed_is_wrong_in_every_figure(own: Measures) -> None:
-    figures = figures_of(Measures(status="refused"), own, (own, own))
+    figures = figures_of(Measures(status="refused"), own, ((own, own),))
     assert set(figures) >= {"displacement", "rotations", "energy by zone", "time of rest"}
     assert not any(figure.right for kind in figures.values() for figure in kind)
 
 
 def test_a_zone_that_only_the_model_folds_is_wrong(own: Measures) -> None:
     more = replace(own, zones={**own.zones, "span of arm": 0.2 * max(own.zones.values())})
-    wrong = [f for f in figures_of(more, own, (own, own))["energy by zone"] if not f.right]
+    wrong = [f for f in figures_of(more, own, ((own, own),))["energy by zone"] if not f.right]
     assert [figure.name for figure in wrong] == ["span of arm"]
 
 

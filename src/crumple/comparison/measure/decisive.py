@@ -28,7 +28,7 @@ TARGETS = {
     "mean force": 0.15,
     "time of rest": 0.15,
 }
-"""Relative errors; allowed is the larger of target and `SPREADS` times the spread of further references."""
+"""Relative errors; allowed is the larger of target and `SPREADS` times the spread of the reference."""
 SPREADS = 2.0
 
 
@@ -59,7 +59,7 @@ class Figure:
 
 
 def figures_of(
-    model: Measures, reference: Measures, others: Sequence[Measures] = ()
+    model: Measures, reference: Measures, pairs: Sequence[tuple[Measures, Measures]] = ()
 ) -> dict[str, list[Figure]]:
     """Figures by kind; those of a run that failed have infinite errors.
 
@@ -67,10 +67,11 @@ def figures_of(
     ----------
     model, reference
         What is judged, and by what.
-    others
-        Further runs of the reference, whose spread widens what is allowed.
+    pairs
+        Runs of the reference that differ in one thing (mesh, imperfection).  Their largest difference is its
+        spread, which widens what is allowed.
     """
-    whole = [one for one in others if one.complete]
+    whole = [pair for pair in pairs if pair[0].complete and pair[1].complete]
     kinds = {
         "displacement": _scalars(model, reference, whole, "extents", "displacement"),
         "rotations": _rotations(model, reference, whole),
@@ -81,7 +82,7 @@ def figures_of(
             _figure(
                 "",
                 (reference.rest, model.rest if model.complete else math.inf),
-                (_spread(reference, whole, lambda one: one.rest), reference.rest),
+                (_spread(whole, lambda one: one.rest), reference.rest),
                 TARGETS["time of rest"],
             )
         ]
@@ -92,7 +93,7 @@ def figures_of(
 
 
 def _scalars(
-    model: Measures, reference: Measures, others: Sequence[Measures], values: str, kind: str
+    model: Measures, reference: Measures, pairs: Sequence[tuple[Measures, Measures]], values: str, kind: str
 ) -> list[Figure]:
     own, wanted = getattr(model, values), getattr(reference, values)
     largest = max((abs(value) for value in wanted.values()), default=0.0)
@@ -103,21 +104,23 @@ def _scalars(
         came = own.get(name, 0.0) if model.complete else math.inf
         if max(shell, came) < FLOOR * largest or max(abs(shell), FLOOR * largest) == 0.0:
             continue
-        spread = _spread(reference, others, lambda one, name=name: getattr(one, values).get(name, 0.0))  # type: ignore[misc]
+        spread = _spread(pairs, lambda one, name=name: getattr(one, values).get(name, 0.0))  # type: ignore[misc]
         scale = (spread, max(abs(shell), FLOOR * largest))
         figures.append(_figure(name, (shell, came), scale, TARGETS[kind]))
     return figures
 
 
 def _figure(name: str, pair: tuple[float, float], scale: tuple[float, float], target: float) -> Figure:
-    """`pair`: reference and model; `scale`: spread of the references, and what errors are relative to."""
+    """`pair`: reference and model; `scale`: spread of the reference, and what errors are relative to."""
     shell, model = pair
     spread, relative_to = scale
     error = abs(model - shell) / relative_to
     return Figure(name, shell, model, error, max(target, SPREADS * spread / relative_to))
 
 
-def _rotations(model: Measures, reference: Measures, others: Sequence[Measures]) -> list[Figure]:
+def _rotations(
+    model: Measures, reference: Measures, pairs: Sequence[tuple[Measures, Measures]]
+) -> list[Figure]:
     figures = []
     for name, wanted in reference.rotations.items():
         shell = np.array(wanted)
@@ -125,7 +128,10 @@ def _rotations(model: Measures, reference: Measures, others: Sequence[Measures])
         size, came = float(np.linalg.norm(shell)), float(np.linalg.norm(own))
         if max(size, came) < SMALL_ROTATION:
             continue
-        apart = (float(np.linalg.norm(np.array(one.rotations[name]) - shell)) for one in others)
+        apart = (
+            float(np.linalg.norm(np.subtract(one.rotations[name], other.rotations[name])))
+            for one, other in pairs
+        )
         allowed = max(TARGETS["rotations"] * size, ROTATION_ROOM, SPREADS * max(apart, default=0.0))
         relative_to = max(size, SMALL_ROTATION)
         error = float(np.linalg.norm(own - shell)) / relative_to
@@ -133,6 +139,6 @@ def _rotations(model: Measures, reference: Measures, others: Sequence[Measures])
     return figures
 
 
-def _spread(reference: Measures, others: Sequence[Measures], value: Callable[[Measures], float]) -> float:
-    """Largest difference between the reference and its further runs."""
-    return max((abs(value(other) - value(reference)) for other in others), default=0.0)
+def _spread(pairs: Sequence[tuple[Measures, Measures]], value: Callable[[Measures], float]) -> float:
+    """Largest difference within the pairs."""
+    return max((abs(value(one) - value(other)) for one, other in pairs), default=0.0)
