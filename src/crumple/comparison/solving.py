@@ -15,18 +15,10 @@ from crumple.comparison.comparing import compare
 from crumple.comparison.comparison import Comparison, Timing
 from crumple.comparison.measure.sections import at_times
 from crumple.comparison.rating.curve_file import CurveFile
-from crumple.comparison.variant import (
-    ELASTIC_HINGES,
-    ELASTIC_MEMBERS,
-    SHELL_LAWS,
-    with_elastic_hinges,
-    with_elastic_members,
-    with_measured_laws,
-)
+from crumple.comparison.variant import variants_of
 from crumple.errors import CancelledError, InputError, Problem, Status
 from crumple.multibody import Run, least_seconds, stepping_seconds
 from crumple.result import Result
-from crumple.structure import Structure
 from crumple.structure.remembered import forget
 
 if TYPE_CHECKING:
@@ -66,8 +58,7 @@ def solve_and_compare(
     curves
         Curves from files, to be compared as well.
     variants
-        Whether to solve further multibody models: elastic hinges, elastic members, laws of the shell run; and
-        the modes of an impact.
+        Whether to solve further multibody models (see `variants_of`), and the modes of an impact.
     second_mesh
         Factor on the size of all elements of a further shell run, which shows how accurate the reference
         is; None: no such run.
@@ -102,14 +93,14 @@ def solve_and_compare(
     reference = _hashed(shell, analysis)
     if keep is not None:
         keep(reference)
-    models = {candidate.fidelity: (analysis.structure, candidate)}
+    models = {candidate.fidelity: (dense, candidate)}
     if variants and reference.time.size:
         models |= _variants(dense, candidate, reference, cancel)
     results = {name: result for name, (_, result) in models.items() if result is not candidate}
     if other is not None and reference.status.ok and not _stopped(cancel):
         results[mesh_name(other)] = solve(other, "shell", threads, progress, cancel)
     timings = {
-        name: _timing(dense.model_copy(update={"structure": model}))
+        name: _timing(model)
         for name, (model, result) in models.items()
         if result.solve_seconds < TIMED_BELOW and not _stopped(cancel)
     }
@@ -177,21 +168,13 @@ def _stopped(cancel: Cancel | None) -> bool:
 
 def _variants(
     dense: Analysis, candidate: Result, reference: Result, cancel: Cancel | None
-) -> dict[str, tuple[Structure, Result]]:
+) -> dict[str, tuple[Analysis, Result]]:
     """Further models and their results, by name; a model that is not solved is left out."""
-    structure = dense.structure
-    shell = compare(candidate, reference, structure).reference
-    wanted = {
-        ELASTIC_HINGES: with_elastic_hinges(structure),
-        ELASTIC_MEMBERS: with_elastic_members(structure),
-        SHELL_LAWS: with_measured_laws(structure, shell.hinges),
-    }
+    shell = compare(candidate, reference, dense.structure).reference
     found = {}
-    for name, model in wanted.items():
-        if model is None:
-            continue
+    for name, model in variants_of(dense, shell.hinges).items():
         try:
-            result = solve(dense.model_copy(update={"structure": model}), cancel=cancel)
+            result = solve(model, cancel=cancel)
         except InputError:
             continue
         if result.status is not Status.CANCELLED:

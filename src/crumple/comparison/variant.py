@@ -3,36 +3,60 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
+from crumple.analysis import Analysis
 from crumple.comparison.measure.motion import HingeMotion
-from crumple.section import bending_moment
-from crumple.structure import HingePlace, Member, Structure
-from crumple.structure.bending import bending_axis
+from crumple.structure import HingePlace, Member, Structure, with_elastic_members
 from crumple.structure.hinges.automatic import hinges_of
 from crumple.structure.hinges.places import hinge_places, law_spec
 from crumple.structure.hinges.shares import about_axis
 from crumple.structure.keys.hinge_axes import AxisLaws
 from crumple.structure.keys.law import LawKeys, LawReference, Regularisation
-from crumple.structure.keys.member import Bars, Hinge
+from crumple.structure.keys.member import Hinge
 
 ELASTIC = "elastic-plastic"
-ELASTIC_HINGES, ELASTIC_MEMBERS, SHELL_LAWS = "elastic hinges", "elastic members", "laws of the shells"
-MODEL_NAMES = ("multibody", "shell", ELASTIC_HINGES, ELASTIC_MEMBERS, SHELL_LAWS)
-"""Names of the own results of a comparison."""
+ELASTIC_HINGES, SHELL_LAWS = "elastic hinges", "laws of the shells"
+ELASTIC_MEMBERS, RIGID_MEMBERS = "elastic members", "rigid members"
 """Names of the further models in a comparison."""
+MODEL_NAMES = ("multibody", "shell", ELASTIC_HINGES, ELASTIC_MEMBERS, RIGID_MEMBERS, SHELL_LAWS)
+"""Names of the own results of a comparison."""
 LEAST_TURN = np.radians(2.0)
 """Least plastic rotation [rad] from which a law can be determined."""
 INTERVALS = 24
 """Intervals of that law: wide enough to average out vibration."""
-CURVATURES = np.array([1.0, 1.03, 1.07, 1.12, 1.2, 1.3, 1.5, 2.0, 3.0, 5.0, 10.0, 30.0, 100.0])
-"""Where the moment over curvature of an elastic member is sampled, over the curvature of first yield."""
-BARS = (8, 7, 9, 6, 10, 11)
-"""Numbers of rigid bars to represent an elastic member; the first whose cuts avoid its hinges is used."""
-CLEAR = 0.15
-"""Least distance of a cut from a hinge, over the length of a bar: the part between is a separate body."""
+
+
+def variants_of(analysis: Analysis, motions: Sequence[HingeMotion]) -> dict[str, Analysis]:
+    """Further models of an analysis, by name: each differs in one assumption.
+
+    Parameters
+    ----------
+    analysis
+        Of the candidate.  If its members bend, they are rigid in one of the models, otherwise elastic.
+    motions
+        Hinges measured in the reference, see `with_measured_laws`.
+    """
+    structure = analysis.structure
+    elastic = _with_members(analysis, structure, "elastic")
+    found = {}
+    if analysis.multibody.members == "elastic":
+        found[RIGID_MEMBERS] = _with_members(analysis, structure, "rigid")
+    else:
+        if (hinges := with_elastic_hinges(structure)) is not None:
+            found[ELASTIC_HINGES] = analysis.model_copy(update={"structure": hinges})
+        if with_elastic_members(structure, elastic.multibody) is not structure:
+            found[ELASTIC_MEMBERS] = elastic
+    if (measured := with_measured_laws(structure, motions)) is not None:
+        found[SHELL_LAWS] = _with_members(analysis, measured, "elastic")
+    return found
+
+
+def _with_members(analysis: Analysis, structure: Structure, members: Literal["rigid", "elastic"]) -> Analysis:
+    settings = analysis.multibody.model_copy(update={"members": members})
+    return analysis.model_copy(update={"structure": structure, "multibody": settings})
 
 
 def with_elastic_hinges(structure: Structure) -> Structure | None:
@@ -45,74 +69,8 @@ def with_elastic_hinges(structure: Structure) -> Structure | None:
     return structure.model_copy(update={"members": members})
 
 
-def with_elastic_members(structure: Structure) -> Structure | None:
-    """The structure with every hinge elastic-plastic and every member divided into several bars.
-
-    The bars are connected by elastic-plastic hinges that yield as the section does in bending, see
-    `yielding_law`.  They represent elastic bending of the member, its vibration, and yielding that spreads
-    along it.  None if no member consists of one bar.
-    """
-    elastic = with_elastic_hinges(structure) or structure
-    members = {
-        name: _cut(structure, name, member) if member.bars.number == 1 else member
-        for name, member in elastic.members.items()
-    }
-    if members == dict(elastic.members):
-        return None
-    return elastic.model_copy(update={"members": members})
-
-
-def _cut(structure: Structure, name: str, member: Member) -> Member:
-    """A member of one bar divided into several, outside its rigid parts."""
-    number, length = _bars(structure, name), structure.frame_of(name).length
-    parts = member.rigid_parts(length)
-    if parts == ((0.0, length),):
-        return member
-    law = yielding_law(structure, name, length / number)
-    if not parts:
-        return member.model_copy(update={"bars": Bars(number=number, law=law)})
-    cuts = {i: i * length / number for i in range(1, number)}
-    between = tuple(
-        Hinge(name=f"{name}-{i}", at=cut, law=law)
-        for i, cut in cuts.items()
-        if not any(start <= cut <= end for start, end in parts)
-    )
-    given = member.given_hinges or hinges_of(structure, name)
-    return member.model_copy(update={"hinges": (*given, *between)})
-
-
-def yielding_law(structure: Structure, member: str, length: float) -> LawKeys:
-    """Law of a hinge that represents a length [m] of a member in uniform bending with plane walls.
-
-    Capacity over plastic rotation, length x (curvature - M/EI): it rises from the moment of first yield to
-    the plastic moment.
-    """
-    section, material = structure.section_of(member), structure.material_of(member)
-    axis = bending_axis(structure, member)
-    rigidity = structure.flexural_rigidity(member, axis)
-    curve = material.hardening
-    stress = material.flow_stress if curve is None else curve.yield_stress
-    curvature = CURVATURES * stress * section.elastic_section_modulus(axis) / rigidity
-    moment = bending_moment(section, material, axis, curvature)
-    plastic = length * (curvature - moment / rigidity)
-    rotation, kept = np.unique(np.maximum.accumulate(plastic - plastic[0]), return_index=True)
-    table = {"rotation": _numbers(rotation), "moment": _numbers(moment[kept])}
-    return LawKeys(type="table", form=ELASTIC, rate="off", **table)
-
-
-def _bars(structure: Structure, member: str) -> int:
-    """Number of equal bars of a member whose cuts avoid its hinges, as far as possible."""
-    length = structure.frame_of(member).length
-    stations = [place.station / length for place in hinge_places(structure) if place.member == member]
-
-    def clearance(number: int) -> float:
-        return min((abs(s * number - round(s * number)) for s in stations if s * number > 0.5), default=1.0)
-
-    return next((number for number in BARS if clearance(number) > CLEAR), max(BARS, key=clearance))
-
-
 def with_measured_laws(structure: Structure, motions: Sequence[HingeMotion]) -> Structure | None:
-    """The structure with elastic members, and hinges that carry the moments measured in another result.
+    """The structure with hinges that carry the moments measured in another result.
 
     Parameters
     ----------
@@ -130,19 +88,18 @@ def with_measured_laws(structure: Structure, motions: Sequence[HingeMotion]) -> 
     laws = {m.name: law for m in motions if m.fold and (law := measured_law(m)) is not None}
     if not laws:
         return None
-    base = with_elastic_members(structure) or structure
     members = {
         name: member.model_copy(
             update={
                 "hinges": tuple(
                     h.model_copy(update={"law": laws[h.name], "laws": None}) if h.name in laws else h
-                    for h in hinges_of(base, name)
+                    for h in hinges_of(structure, name)
                 )
             }
         )
-        for name, member in base.members.items()
+        for name, member in structure.members.items()
     }
-    return base.model_copy(update={"members": members})
+    return structure.model_copy(update={"members": members})
 
 
 def measured_law(motion: HingeMotion) -> LawKeys | None:

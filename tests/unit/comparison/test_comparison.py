@@ -7,7 +7,6 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from tests.support.result.folded_tube import EXAMPLE, analysis, angle_over_time, folded_result
-from tests.support.structures import STEEL, TUBE
 
 from crumple.analysis import load, solve
 from crumple.comparison import CurveFile, Signal, Timing, compare, with_frames, with_pictures
@@ -16,19 +15,18 @@ from crumple.comparison.measure.motion import HingeMotion
 from crumple.comparison.rating.pairing import pairs_of
 from crumple.comparison.solving import mesh_name, with_mesh
 from crumple.comparison.variant import (
+    ELASTIC_MEMBERS,
+    RIGID_MEMBERS,
     SHELL_LAWS,
     measured_law,
+    variants_of,
     with_elastic_hinges,
-    with_elastic_members,
     with_measured_laws,
-    yielding_law,
 )
 from crumple.errors import InputError, Status
 from crumple.report.wording.comparison_wording import busy_note, key_figures, speed_table
 from crumple.result import Provenance
-from crumple.section import bending_moment
-from crumple.structure import Structure
-from crumple.structure.hinges.hinges import placed_hinges, plastic_hinges
+from crumple.structure.hinges.hinges import placed_hinges
 from crumple.structure.hinges.places import hinge_places, law_spec
 
 TIMES = np.linspace(0.0, 0.1, 101)
@@ -308,18 +306,6 @@ def test_a_reference_without_shapes_is_compared_by_its_channels(case, multibody)
     assert [pair.channel for pair in found.pairs] == ["energy.kinetic", "energy.dissipated"]
 
 
-def test_bars_of_an_elastic_member_yield_as_their_section_bends(case):
-    structure, length = case.structure, 0.125
-    law = yielding_law(structure, "tube", length)
-    section, metal = structure.section_of("tube"), structure.material_of("tube")
-    assert law.moment[0] == pytest.approx(metal.flow_stress * section.elastic_section_modulus("y"), rel=1e-3)
-    assert law.moment[-1] == pytest.approx(metal.flow_stress * section.plastic_section_modulus("y"), rel=1e-3)
-    # elastic and plastic rotation together are length times curvature
-    rigidity = structure.flexural_rigidity("tube", "y")
-    curvature = (np.array(law.rotation) + length * np.array(law.moment) / rigidity) / length
-    assert bending_moment(section, metal, "y", curvature) == pytest.approx(law.moment, rel=2e-3)
-
-
 def test_the_ramp_of_a_regularised_hinge_is_left_behind(case):
     law = {"type": "kecman", "form": "regularised", "regularisation": {"rate": 0.2}}
     tube = case.structure.members["tube"]
@@ -330,16 +316,23 @@ def test_the_ramp_of_a_regularised_hinge_is_left_behind(case):
     assert law_spec(elastic, place).form == "elastic-plastic"
 
 
-def test_variants_change_forms_and_bars_alone(case):
+def test_variants_change_forms_and_members_alone(case):
     elastic = with_elastic_hinges(case.structure)
     assert law_spec(elastic, hinge_places(elastic)[0]).form == "elastic-plastic"
     assert law_spec(case.structure, hinge_places(case.structure)[0]).form == "set-valued"
     assert with_elastic_hinges(elastic) is None
-    members = with_elastic_members(case.structure)
-    assert members.members["tube"].bars.number > 1
-    assert with_elastic_members(members) is None
-    stations = [hinge.station for hinge in placed_hinges(members)]
-    assert min(np.diff(stations)) > 0.01
+    variant = variants_of(case, ())[ELASTIC_MEMBERS]
+    assert (variant.structure, variant.multibody.members) == (case.structure, "elastic")
+
+
+def test_members_that_bend_are_rigid_in_a_variant(case):
+    bending = case.model_copy(update={"multibody": case.multibody.model_copy(update={"members": "elastic"})})
+    (variant,) = variants_of(bending, ()).items()
+    assert variant[0] == RIGID_MEMBERS
+    assert variant[1].multibody.members == "rigid"
+    tube = case.structure.members["tube"].model_copy(update={"elastic": 0})
+    own = case.structure.model_copy(update={"members": {"tube": tube}})
+    assert ELASTIC_MEMBERS not in variants_of(case.model_copy(update={"structure": own}), ())
 
 
 def test_a_law_read_off_a_fold_gives_its_moment_back(found, case):
@@ -355,26 +348,3 @@ def test_a_law_read_off_a_fold_gives_its_moment_back(found, case):
 def test_stored_pictures_are_those_asked_for(multibody):
     kept = with_pictures(multibody, (0.0, 0.05, 0.1))
     assert kept.states.times == pytest.approx([0.0, 0.05, 0.1])
-
-
-def test_elastic_members_leave_rigid_ones_and_parts_alone():
-    parts = {"section": "tube", "material": "steel"}
-    stub = ({"from": 0.3, "to": 0.45}, {"from": 0.45, "to": 0.6})
-    structure = Structure(
-        materials={"steel": STEEL},
-        sections={"tube": TUBE},
-        nodes={"root": (0, 0, 0), "mid": (0.6, 0, 0), "tip": (1, 0, 0)},
-        members={
-            "near": {**parts, "nodes": ("root", "mid"), "rigid": stub, "hinges": "auto"},
-            "far": {**parts, "nodes": ("mid", "tip"), "rigid": True},
-        },
-        supports={"clamp": {"node": "root", "fix": "all"}},
-    )
-    cut = with_elastic_members(structure)
-    assert cut.members["far"] == structure.members["far"]
-    stations = {hinge.name: hinge.station for hinge in plastic_hinges(cut)}
-    own = {hinge.name for hinge in plastic_hinges(structure)}
-    assert own
-    assert own <= set(stations)
-    cuts = {name: at for name, at in stations.items() if name not in own}
-    assert cuts == pytest.approx({"near-1": 0.075, "near-2": 0.15, "near-3": 0.225})

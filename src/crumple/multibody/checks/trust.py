@@ -150,7 +150,7 @@ def warnings(
         found.append(
             f"The bars are rigid, but the members could store up to {stored:.3g} J elastically "
             f"({_share(stored / total)}): rotations lack the elastic part and the plastic ones are "
-            "too large; use form elastic-plastic."
+            "too large; use analysis.multibody.members: elastic."
         )
     found += _slowed(solved)
     if solved.forced:

@@ -12,9 +12,9 @@ from crumple.structure import Structure, hinge_places
 from crumple.text.names import listed
 
 LEAST_ELEMENTS = 4.0
-"""Elements along half a fold below which there is a warning.  A cantilever of square tube 50x2 mm that is struck
-at its tip stops at 210, 228, 249 and 255 mm with 2.6, 3.5, 5.3 and 7.1 of them: coarse folds take too much
-energy, and where the moment falls, a tenth of the energy is a fifth of the way."""
+"""Elements along half a fold below which there is a warning.  A cantilever of square tube 50x2 mm that is
+struck at its tip stops at 210, 228, 249 and 255 mm with 2.6, 3.5, 5.3 and 7.1 of them: coarse folds take too
+much energy, and where the moment falls, a tenth of the energy is a fifth of the way."""
 
 
 def coarse_folds(structure: Structure, mesh: Mesh) -> Iterator[str]:
@@ -35,6 +35,6 @@ def coarse_folds(structure: Structure, mesh: Mesh) -> Iterator[str]:
         )
         yield (
             f"The mesh has as few as {min(found.values()):.1f} elements along half a fold of members "
-            f"{listed(found)}. Below {LEAST_ELEMENTS:.0f} folds of thin walls take too much energy, and rotations are "
-            f"too small: use fine_size {1e3 * size / LEAST_ELEMENTS:.2g} mm."
+            f"{listed(found)}. Below {LEAST_ELEMENTS:.0f} folds of thin walls take too much energy, and "
+            f"rotations are too small: use fine_size {1e3 * size / LEAST_ELEMENTS:.2g} mm."
         )

@@ -1,9 +1,9 @@
 """How far a rigid joint reaches along a member: to where the walls of the other members end.
 
-Members whose ends meet at a node and share no mitre are joined by what lies between them: a weld to the faces
-of the others, a gusset, a cast node.  Their folds form outside of it.  With unit vectors x and y from the node
-into two members at an angle a, and half depths d and e in their common plane, the inner edges meet at
-(e + d cos a) / sin a along the first.
+Members whose ends meet at a node and share no mitre are joined by what lies between them: a weld to the
+faces of the others, a gusset, a cast node.  Their folds form outside of it.  With unit vectors x and y from
+the node into two members at an angle a, and half depths d and e in their common plane, the inner edges meet
+at (e + d cos a) / sin a along the first.
 """
 
 from __future__ import annotations

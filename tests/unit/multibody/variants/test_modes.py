@@ -74,7 +74,7 @@ def test_modes_are_kept_in_all_files(tmp_path):
     assert second["runs"] == list(result.modes.modes[1].runs)
 
 
-@pytest.mark.parametrize(("option", "said"), [([], "fold alike"), (["--no-modes"], "")])
+@pytest.mark.parametrize(("option", "said"), [(["--modes"], "fold alike"), (["--no-modes"], "")])
 def test_the_command_says_that_there_is_one(tmp_path, option, said):
     out = CliRunner().invoke(app, ["run", "examples/08_s_rail.yaml", "--out", str(tmp_path), *option])
     assert out.exit_code == 0

@@ -10,7 +10,8 @@ from crumple.shell.checks.folds import LEAST_ELEMENTS, coarse_folds
 from crumple.shell.mesh.mesh import mesh_of
 
 TUBE = """crumple: 1
-materials: {{steel: {{youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}}}}
+materials:
+  steel: {{youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}}
 sections: {{tube: {{type: square_tube, side: 50 mm, thickness: 2 mm}}}}
 nodes: {{root: [0 m, 0 m, 0 m], tip: [0.5 m, 0 m, 0 m]}}
 members: {{tube: {{nodes: [root, tip], section: tube, material: steel, hinges: [{{name: a, at: {at}}}]}}}}

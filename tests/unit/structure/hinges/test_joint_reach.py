@@ -12,7 +12,8 @@ from crumple.structure import hinge_places
 from crumple.structure.hinges.joint_reach import LARGEST_SHARE, joint_reach
 
 T_FRAME = """crumple: 1
-materials: {{steel: {{youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}}}}
+materials:
+  steel: {{youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}}
 sections:
   chord: {{type: rectangular_tube, width: 40 mm, depth: 60 mm, thickness: 2 mm}}
   stem: {{type: rectangular_tube, width: 30 mm, depth: 20 mm, thickness: 2 mm}}
