@@ -14,6 +14,7 @@ from crumple.characterisation.solving import FINER
 from crumple.characterisation.sub_model import SubModel, is_mirrored
 from crumple.characterisation.t_joint import TJoint
 from crumple.characterisation.torsion import Torsion
+from crumple.hinge.measured.place_hash import DIRECTIONS
 from crumple.section import AXES, Axis
 from crumple.structure import Structure, hinge_places, planar
 from crumple.structure.bending import bending_axis
@@ -92,9 +93,9 @@ def needed(structure: Structure, largest: float) -> tuple[Needed, ...]:
     for node, corner in corners(structure).items():
         section, material = structure.section_of(corner.first), structure.material_of(corner.first)
         add(Bending(section, material, corner.axis, angle=corner.angle, largest=largest), node)
-        out_of_plane = None if planar(structure) else corner.place_out_of_plane(structure)
-        if out_of_plane is not None and is_mirrored(section, "z" if corner.axis == "y" else "y"):
-            add(OutOfPlane(section, material, corner.axis, corner.angle, largest), node)
+        if not planar(structure) and is_mirrored(section, corner.across):
+            for about in DIRECTIONS:
+                add(OutOfPlane(section, material, corner.axis, corner.angle, about, largest), node)
     for node, joint in t_places(structure).items():
         axes = (bending_axis(structure, joint.branch),) if planar(structure) else AXES
         for plane in (joint.plane(axis) for axis in axes):

@@ -1,18 +1,16 @@
-"""Sub-model of a mitred corner that is loaded out of its plane.
+"""Sub-models of a mitred corner that is loaded out of its plane, about one of its two principal directions.
 
-Two pieces of one section meet at an angle.  One end is held, the other turned about the direction e in the
-corner's plane that is perpendicular to the second piece, and free otherwise: the moment is along e
-everywhere.  At a right angle it twists the first piece and bends the second one out of the plane; a moment
-along the second piece does the same with the pieces exchanged, so both have one law.
+Two pieces of one section meet at an angle.  One end is held, the other turned about a direction in the
+corner's plane, and free otherwise: the moment is along this direction everywhere.  The corner is its own
+mirror image about the plane of the mitre, and so is its law: the *bisector*, the line in which this plane
+cuts that of the corner, and the *tangent* across it are its principal directions.  In line (0 degrees) the
+moment along the bisector bends the member and the one along the tangent twists it.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
-
-import numpy as np
 
 from crumple.analysis import Analysis
 from crumple.characterisation.bending import elastic_flexibility, second_piece
@@ -20,7 +18,7 @@ from crumple.characterisation.curve import LawCurve, law_curve
 from crumple.characterisation.resolution import NOMINAL, Resolution
 from crumple.characterisation.sub_model import corner_piece, is_mirrored, largest_side
 from crumple.errors import InputError, Problem
-from crumple.hinge.measured.place_hash import CORNER, Load, place_hash
+from crumple.hinge.measured.place_hash import ABOUT, CORNER, Direction, Load, place_hash
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.result import Result
@@ -49,6 +47,8 @@ class OutOfPlane:
         Axis of the section that is normal to the corner's plane.
     angle
         Angle between the axes of the pieces [rad].
+    about
+        Direction of the moment: the corner's bisector or its tangent.
     largest
         Plastic rotation at which the law ends [rad].
     length_factor
@@ -65,6 +65,7 @@ class OutOfPlane:
     material: Material
     axis: Axis = "y"
     angle: float = math.pi / 2.0
+    about: Direction = "bisector"
     largest: float = math.radians(30.0)
     length_factor: float = 1.0
     resolution: Resolution = NOMINAL
@@ -93,12 +94,14 @@ class OutOfPlane:
     def title(self) -> str:
         """One line for people."""
         angle = f"{math.degrees(self.angle):.4g} deg"
-        return f"{self.section.title}, corner of {angle} with normal {self.axis}, out of its plane"
+        where = f"{self.section.title}, corner of {angle} with normal {self.axis}"
+        return f"{where}, out of its plane about its {self.about}"
 
     @property
     def place(self) -> str:
         """Hash of the place."""
-        return place_hash(self.section, self.material, self.axis, self.angle, load=self.load)
+        place = self.section, self.material, self.axis, self.angle
+        return place_hash(*place, load=self.load, about=self.about)
 
     @property
     def origin(self) -> dict[str, str]:
@@ -109,6 +112,7 @@ class OutOfPlane:
             "axis": self.axis,
             "load": self.load,
             CORNER: angle,
+            ABOUT: self.about,
             "gauge": f"{1e3 * self.length:.4g} mm, both pieces",
             "imperfection": "none",
         }
@@ -146,63 +150,57 @@ class OutOfPlane:
 
     @property
     def strength(self) -> float:
-        """Moment along e at which a straight piece yields [N m]."""
+        """Moment along the direction at which a straight piece yields [N m]; both pieces do so alike."""
         walls = plastic_interaction(self.section, self.material)
         bending = float(walls.scales[1 if self._across == "y" else 2])
         twist, bend = self._parts
-        return min(bending, 1.0 / math.hypot(twist / float(walls.plastic_torque), bend / bending))
+        return 1.0 / math.hypot(twist / float(walls.plastic_torque), bend / bending)
 
     @property
     def _across(self) -> Axis:
         """Axis of the section in the corner's plane: bending about it is out of the plane."""
         return "z" if self.axis == "y" else "y"
 
-    @cached_property
-    def _direction(self) -> Floats:
-        """Unit vector e."""
-        along = second_piece(self.angle, self.axis)[0]
-        first = np.array([1.0, 0.0, 0.0])
-        across = first - (first @ along) * along
-        return np.asarray((across / np.linalg.norm(across)).round(12))
+    @property
+    def _driven(self) -> str:
+        """Global axis along the direction: x is the tangent."""
+        return "x" if self.about == "tangent" else self._across
 
     @property
     def _parts(self) -> tuple[float, float]:
-        """Parts of the moment that twist and bend the first piece."""
-        return math.sin(self.angle), abs(math.cos(self.angle))
+        """Parts of the moment that twist and bend a piece."""
+        along, aside = math.cos(0.5 * self.angle), math.sin(0.5 * self.angle)
+        return (along, aside) if self.about == "tangent" else (aside, along)
 
     @property
     def _flexibility(self) -> float:
-        """Elastic rotation of both straight pieces about e over the moment [rad/(N m)]."""
+        """Elastic rotation of both straight pieces about the direction over the moment [rad/(N m)]."""
         torsion = self.material.shear_modulus * self.section.torsion_constant
         bending = self.material.youngs_modulus * self.section.second_moment(self._across)
         twist, bend = self._parts
-        return float(self.piece * (twist**2 / torsion + bend**2 / bending + 1.0 / bending))
+        return float(self.length * (twist**2 / torsion + bend**2 / bending))
 
     def analysis(self) -> Analysis:
         """Input of the shell solver."""
-        along, up = second_piece(self.angle, self.axis)
+        (before, up), (after, up_after) = (second_piece(0.5 * s * self.angle, self.axis) for s in (-1, 1))
         duration = self.duration
-        motion = {
-            f"r{axis}": {"havsin": {"x0": 0.0, "h0": 0.0, "x1": duration, "h1": part * self.turn}}
-            for axis, part in zip("xyz", self._direction.tolist(), strict=True)
-            if part
-        }
+        turning = {"x0": 0.0, "h0": 0.0, "x1": duration, "h1": self.turn}
         piece = {"section": "section", "material": "metal"}
         structure = Structure(
             materials={"metal": self.material},
             sections={"section": self.section},
             nodes={
-                "held": (-self.piece, 0.0, 0.0),
+                "held": tuple(-self.piece * before),
                 "middle": (0.0, 0.0, 0.0),
-                "turned": tuple(self.piece * along),
+                "turned": tuple(self.piece * after),
             },
             members={
-                "first": {"nodes": ("held", "middle"), "up": (0.0, 0.0, 1.0), **piece},
-                "second": {"nodes": ("middle", "turned"), "up": tuple(up), **piece},
+                "first": {"nodes": ("held", "middle"), "up": tuple(up), **piece},
+                "second": {"nodes": ("middle", "turned"), "up": tuple(up_after), **piece},
             },
             supports={
                 "held": {"node": "held", "fix": "all"},
-                "turned": {"node": "turned", "motion": motion},
+                "turned": {"node": "turned", "motion": {f"r{self._driven}": {"havsin": turning}}},
             },
         )
         return Analysis(
@@ -219,21 +217,25 @@ class OutOfPlane:
         Raises
         ------
         InputError
-            If the pieces yielded as well: the corner is as strong as its members.
+            If the pieces yielded as well about the bisector: the corner is as strong as its members.
+
+        Notes
+        -----
+        About its tangent a mitre is nearly as strong as its members, and yields with them.
         """
         rotation, moment = self._histories(result)
         largest = float(moment.max())
-        if largest > STRONG * self.strength:
+        if self.about == "bisector" and largest > STRONG * self.strength:
             what = "the corner is as strong as its members out of its plane: these yield too"
             came, allowed = f"{largest:.4g} N m", f"below {STRONG * self.strength:.4g} N m"
-            todo = "the laws of the member in torsion and bending hold there"
+            todo = "the law of the member in bending holds there"
             raise InputError(Problem(what, came, allowed, todo, where=self.title))
         flexibility = max(elastic_flexibility(rotation, moment), 0.0)
         curve = law_curve(rotation - flexibility * moment, moment, self.largest)
         return curve if flexibility == 0.0 else curve.with_stiffness(1.0 / flexibility)
 
     def histories(self, result: Result) -> tuple[Floats, Floats]:
-        """Plastic rotation about e [rad] and moment [N m] at the times of the result."""
+        """Plastic rotation about the direction [rad] and moment [N m] at the times of the result."""
         rotation, moment = self._histories(result)
         return rotation - max(elastic_flexibility(rotation, moment), 0.0) * moment, moment
 
@@ -242,11 +244,8 @@ class OutOfPlane:
         return {"members": f"yield at {self.strength:.4g} N m"}
 
     def _histories(self, result: Result) -> tuple[Floats, Floats]:
-        """Rotation about e less that of straight elastic pieces, and the mean moment of both ends."""
-        moment, rotation = np.zeros(len(result.time)), np.zeros(len(result.time))
-        for axis, part in zip("xyz", self._direction.tolist(), strict=True):
-            if part:
-                held, turned = (result[f"support.{name}.moment.{axis}"] for name in ("held", "turned"))
-                moment += 0.5 * part * (held - turned)
-                rotation += part * result[f"node.turned.rotation.{axis}"]
+        """Rotation about the direction less that of straight elastic pieces, and mean moment of both ends."""
+        held, turned = (result[f"support.{name}.moment.{self._driven}"] for name in ("held", "turned"))
+        moment = 0.5 * (held - turned)
+        rotation = result[f"node.turned.rotation.{self._driven}"]
         return rotation - self._flexibility * moment, moment

@@ -13,6 +13,7 @@ from crumple.cli.console.named import MATERIAL_HELP, SECTION_HELP
 if TYPE_CHECKING:
     from crumple.characterisation import Characterised, LawCurve, TJoint
     from crumple.characterisation.sub_model import SubModel
+    from crumple.hinge.measured.place_hash import Direction
     from crumple.material import Material
     from crumple.section import Section
 
@@ -65,6 +66,13 @@ def characterise(
             show_default=False,
         ),
     ] = None,
+    about: Annotated[
+        str,
+        typer.Option(
+            help="Direction of the moment of load out-of-plane at a corner: its bisector, or the tangent "
+            "across it."
+        ),
+    ] = "bisector",
     to: Annotated[str, typer.Option(help="Plastic rotation at which the law ends.")] = "30 deg",
     converge: Annotated[
         bool, typer.Option(help="Solve two finer meshes too and state the error; some six times the work.")
@@ -112,7 +120,7 @@ def characterise(
     if only_list:
         what, todo = "a section has nothing to list", "omit --list, or give an input file without --material"
         raise InputError(Problem(what, section, "an input file", todo, "--list"))
-    model = _model(section, material, _Place(load, axis, sense, angle, to, chord))
+    model = _model(section, material, _Place(load, axis, sense, angle, to, chord, about))
     laws = LawStore(store)
     law = laws.law(model)
     lacking = converge and law is not None and law.validity.uncertainty is None
@@ -140,6 +148,7 @@ class _Place(NamedTuple):
     angle: str | None
     to: str
     chord: str | None = None
+    about: str = "bisector"
 
 
 def _model(section: str, material: str, given: _Place) -> SubModel:
@@ -160,7 +169,7 @@ def _model(section: str, material: str, given: _Place) -> SubModel:
     if given.load == "bending":
         return Bending(shape, metal, checked_axis(given.axis), sense, corner, largest)
     if given.load == "out-of-plane" and corner is not None:
-        return OutOfPlane(shape, metal, checked_axis(given.axis), corner, largest)
+        return OutOfPlane(shape, metal, checked_axis(given.axis), corner, _direction(given), largest)
     if (given.load == "out-of-plane") != (corner is not None):
         what, todo = (
             "the load does not fit the place",
@@ -186,6 +195,18 @@ def _t_joint(branch: Section, chord: Section, metal: Material, given: _Place) ->
         raise InputError(Problem(what, came, "--load bending or out-of-plane", todo, "--chord"))
     largest = _largest(given.to)
     return TJoint(branch, chord, metal, "in" if given.load == "bending" else "across", largest)
+
+
+def _direction(given: _Place) -> Direction:
+    """Direction of the moment out of a corner's plane."""
+    from crumple.errors import InputError, Problem
+    from crumple.hinge.measured.place_hash import DIRECTIONS
+
+    for one in DIRECTIONS:
+        if given.about == one:
+            return one
+    allowed = " or ".join(DIRECTIONS)
+    raise InputError(Problem("the direction is unknown", given.about, allowed, "choose one", "--about"))
 
 
 def _corner(angle: str | None) -> float | None:

@@ -1,21 +1,28 @@
-"""Right-angled mitred corner of two rectangular tubes, loaded out of its plane: an estimate fitted to shells.
+"""Mitred corner of two rectangular tubes, loaded out of its plane: an estimate with constants fitted to shells.
 
-The moment lies along the axis of one member, twists this one and bends the other. At the mitre the side walls
-pass forces on along the axes of the members, and so half of Bredt's torque; the other half needs shear in
-the flanges, which the other member does not have, so the section is distorted there and its walls bend. With
-the distances b and h of the mid-lines, the wall t and x = t/sqrt(b h),
+By mirror symmetry about the plane of the mitre the principal directions of a corner are its bisector and the
+tangent across it. With the angle alpha between the members, s = sin(alpha/2) and c = cos(alpha/2), a moment M
+along the bisector bends each member by c M and twists it by s M, one along the tangent by s M and c M. The
+members carry this up to a quadratic interaction of their torque T(theta) and bending moment B(theta). At the
+mitre a torque about the bisector cannot be carried by the flanges, whose shear there is zero by symmetry. So
+half of it distorts the section: frames of the walls bend (sigma_y t^2 a length and angle of distortion), and
+over the length that this takes the walls bend in their planes (sigma_y t a^2/4 each). The length that makes
+the work smallest gives a torque of 2 sigma_y (a t)^(3/2), with the mean a = sqrt(b h) of the mid-lines; shells
+say k in place of 2:
 
-    M(theta) = T_p x/(p + q x) exp(-theta/theta_c) <= M_p    T_p = 2 b h t sigma_y/sqrt(3) (Bredt)
-    theta_c = theta_0 (1 + r x^2)    elastic stiffness of the corner's own: K = 1.58 E t^2 sqrt(b h)
+    bisector   1/M^2 = (s/D)^2 + (s/T)^2 + (c/B)^2,    D = k sigma_y (a t)^(3/2)
+    tangent    1/M^2 = (c/T)^2 + (s/B)^2
+    T = T_p min(1, theta_1/theta)^m,  T_p = 2 b h t sigma_y/sqrt(3),  theta_1 = r (t/max(b, h))^2
 
-p, q, theta_0, r were fitted to four corners solved by shells. Limits: thin walls carry nothing, x/p of T_p;
-of thick ones the torque is nearly that of the straight member.
+B is the straight tube's moment (Kecman). Elastic stiffness of the corner's own about the bisector: K = q E t^2
+a cot^2(alpha/2). Limits: alpha -> 0 gives the member in bending and in torsion; thin walls give s M = D.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from enum import Enum
 from typing import ClassVar
 
 import numpy as np
@@ -23,44 +30,59 @@ from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.bending.kecman import KecmanLaw
-from crumple.hinge.corner.mitred_corner import REACH
+from crumple.hinge.corner.mitred_corner import LARGEST, SMALLEST
 from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
+from crumple.hinge.options import choice
 from crumple.hinge.rate import HingeRate, rate_factor
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
+from crumple.registry.quantity import PositiveAngle
 from crumple.section import Axis, RectangularTube, Section
 
 SOURCE = Source(
-    "corner out of its plane: part of Bredt's torque, by the distortion of the section at the mitre",
+    "corner out of its plane: torsion and bending of its members, distortion of the section at the mitre",
     Trust.FITTED,
-    "derived here, with four constants fitted to four corners solved by shells; a law from shells "
+    "derived here, with four constants fitted to corners solved by shells; a law from shells "
     "(crumple characterise --load out-of-plane) replaces it",
 )
-THIN, THICK = 0.0356, 0.942
-"""p and q of the share of Bredt's torque [-]."""
-DECAY, DECAY_RISE = 0.797, 296.0
-"""theta_0 [rad] and r [-]."""
-STIFFNESS = 1.58
-"""Factor of the elastic stiffness, K = 1.58 E t^2 sqrt(b h) [-]."""
+DISTORTION = 1.92
+"""k of the torque that distorts the section at the mitre [-]."""
+FALL, TURN = 0.85, 75.0
+"""m [-] and r [rad] of the fall of the torque."""
+STIFFNESS = 0.70
+"""q of the elastic stiffness [-]."""
+REACH = math.radians(30.0)
+"""Rotation up to which the corners were solved by shells."""
 UNCERTAINTY = 0.15
 """Half-width of the band [-]; see the table in the theory page."""
 
 
+class About(Enum):
+    """Direction of the moment in the corner's plane."""
+
+    BISECTOR = "bisector"
+    TANGENT = "tangent"
+
+
 @dataclass(frozen=True)
 class MitredCornerAcrossLaw:
-    """Right-angled corner of two rectangular tubes out of its plane: an estimate fitted to shells.
+    """Corner of two rectangular tubes out of its plane, about a principal direction: an estimate from shells.
 
     Attributes
     ----------
-    start
-        Moment at which it begins to fold [N m].
-    decay
-        Rotation in which the moment falls to 1/e of that [rad].
+    about
+        Direction of the moment.
+    slope
+        s, sine of half the angle between the members [-].
+    torque, falling
+        Plastic torque of the members [N m], and the rotation from which it falls [rad].
+    distortion
+        D, torque that distorts the section at the mitre [N m].
+    tube
+        Law of the straight member in bending about its axis in the corner's plane.
     elastic_stiffness
-        Of the corner's own walls [N m/rad].
-    rate
-        That of the straight member.
+        Of the corner's own walls [N m/rad]; None about the tangent, where they are stiff.
 
     References
     ----------
@@ -74,14 +96,25 @@ class MitredCornerAcrossLaw:
     jamming_angle: ClassVar[float | None] = None
     symmetric: ClassVar[bool] = True
 
-    start: float
-    decay: float
+    about: About
+    slope: float
+    torque: float
+    falling: float
+    distortion: float
+    tube: KecmanLaw
     elastic_stiffness: float | None
-    rate: HingeRate | None
     validity: Validity
 
     @classmethod
-    def of(cls, section: Section, material: Material, axis: Axis = "y") -> MitredCornerAcrossLaw:
+    def of(
+        cls,
+        section: Section,
+        material: Material,
+        axis: Axis = "y",
+        *,
+        angle: PositiveAngle,
+        about: About | str = About.BISECTOR,
+    ) -> MitredCornerAcrossLaw:
         """Law of a corner.
 
         Parameters
@@ -91,43 +124,69 @@ class MitredCornerAcrossLaw:
         material
             Yield stress and elastic modulus.
         axis
-            Bending axis of the section in the corner's plane; its plastic moment is the largest.
+            Axis of the section in the corner's plane, in which the bisector lies at a small angle.
+        angle
+            Angle between the members' axes, 0 in line [rad].
+        about
+            Direction of the moment: the corner's bisector, or the tangent across it in its plane.
 
         Raises
         ------
         InputError
-            If the section is not a rectangular tube.
+            If the section is not a rectangular tube, or the angle is outside 5 to 100 degrees.
         """
         if not isinstance(section, RectangularTube):
             what, allowed = "no estimate of a corner out of its plane", "a rectangular tube"
             todo = "use the law of the member, or one from shells"
             raise InputError(Problem(what, section.title, allowed, todo, "section"))
-        wall = section.thickness
+        if not SMALLEST * (1.0 - 1e-9) <= angle <= LARGEST * (1.0 + 1e-9):
+            what, came = "no estimate of a corner of this angle out of its plane", math.degrees(angle)
+            todo = "use the law of the member, or one from shells"
+            raise InputError(Problem(what, f"{came:.4g} deg", "5 to 100 deg", todo, "angle"))
+        wall, direction = section.thickness, choice("about", about, About)
         width, depth = section.width - wall, section.depth - wall
         mean = math.sqrt(width * depth)
-        slenderness = wall / mean
-        torque = 2.0 * width * depth * wall * material.yield_stress / math.sqrt(3.0)
-        plastic = material.yield_stress * section.plastic_section_modulus(axis)
+        bends = direction is About.BISECTOR
         return cls(
-            min(torque * slenderness / (THIN + THICK * slenderness), plastic),
-            DECAY * (1.0 + DECAY_RISE * slenderness**2),
-            STIFFNESS * material.youngs_modulus * wall**2 * mean,
-            KecmanLaw.of(section, material, axis, after_jamming="hold").rate,
+            direction,
+            math.sin(angle / 2.0),
+            2.0 * width * depth * wall * material.yield_stress / math.sqrt(3.0),
+            TURN * (wall / max(width, depth)) ** 2,
+            DISTORTION * material.yield_stress * (mean * wall) ** 1.5,
+            KecmanLaw.of(section, material, axis, after_jamming="hold"),
+            STIFFNESS * material.youngs_modulus * wall**2 * mean / math.tan(angle / 2.0) ** 2
+            if bends
+            else None,
             Validity(REACH, "corners of other proportions were solved by shells that far", (), UNCERTAINTY),
         )
 
     @property
     def title(self) -> str:
         """One line for people."""
-        return f"right-angled mitred corner out of its plane, {self.start / 1e3:.4g} kN m at the start"
+        angle, start = math.degrees(2.0 * math.asin(self.slope)), float(self.moment_capacity(0.0))
+        where = f"mitred corner of {angle:.4g} deg out of its plane about its {self.about.value}"
+        return f"{where}, {start / 1e3:.4g} kN m at the start"
+
+    @property
+    def rate(self) -> HingeRate | None:
+        """That of the straight member."""
+        return self.tube.rate
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
-        """It has none."""
-        return ()
+        """Rotations where the slope jumps [rad]."""
+        return tuple(sorted({*self.tube.kinks(sense), self.falling}))
 
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
-        return np.asarray(self.start * np.exp(-np.asarray(rotation, float) / self.decay), np.float64)
+        turned, s = np.asarray(rotation, float), self.slope
+        along = math.sqrt(1.0 - s**2)
+        torque = self.torque * np.minimum(1.0, self.falling / np.maximum(turned, 1e-300)) ** FALL
+        bending = self.tube.moment_capacity(turned, 1)
+        if self.about is About.TANGENT:
+            uses = (along / torque) ** 2 + (s / bending) ** 2
+        else:
+            uses = (s / self.distortion) ** 2 + (s / torque) ** 2 + (along / bending) ** 2
+        return np.asarray(uses**-0.5, np.float64)
 
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
         """Factor on the capacity at a rotation rate [rad/s]."""

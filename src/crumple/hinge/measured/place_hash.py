@@ -21,12 +21,18 @@ from crumple.section import Axis, RectangularTube, Section
 
 Load = Literal["bending", "torsion", "crush", "out-of-plane"]
 """What a place is loaded by."""
+Direction = Literal["bisector", "tangent"]
+"""Direction in a corner's plane of a moment that acts out of this plane: the line that halves the corner, or
+the one across it, in which the corner runs on the whole."""
+DIRECTIONS: tuple[Direction, ...] = ("bisector", "tangent")
 DIGITS = 10
 """Significant digits by which places differ: a length given in inches and the same in mm are one place."""
 LENGTH = 16
 """Hexadecimal digits of the hash."""
 PLACE = "place"
 """Key of the hash in the origin of a law file."""
+ABOUT = "about"
+"""Key of the direction of the moment out of a corner's plane; laws from before there were two have none."""
 CORNER = "corner"
 """Key of the corner's angle in the origin of a law file."""
 JOINT = "joint"
@@ -42,6 +48,7 @@ def place_hash(
     angle: float | None = None,
     *,
     load: Load = "bending",
+    about: Direction | None = None,
 ) -> str:
     """Hash of a straight member's fold, or of a mitred corner, 16 hexadecimal digits.
 
@@ -55,6 +62,9 @@ def place_hash(
         Angle between the members' axes [rad]; None: a straight member.
     load
         Load that folds it; without an axis for torsion and crushing.
+    about
+        Direction of the moment out of a corner's plane. Without it the place is that of laws of former
+        versions, whose moment was perpendicular to the second piece; structures do not use them.
 
     Notes
     -----
@@ -68,6 +78,7 @@ def place_hash(
     }
     # the hash of bending was defined before there were other loads
     content |= {} if load == "bending" else {"load": load}
+    content |= {} if about is None else {"about": about}
     text = json.dumps(content, sort_keys=True, separators=(",", ":"), allow_nan=False)
     return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]
 

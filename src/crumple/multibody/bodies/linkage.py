@@ -178,7 +178,9 @@ def with_laws(linkage: Linkage, hinges: tuple[PlacedHinge, ...]) -> Linkage:
 
 
 def hinge_axes(structure: Structure, hinge: PlacedHinge) -> Floats:
-    """Axes of a hinge as rows, (3, 3): along the member, and its two bending axes."""
+    """Axes of a hinge as rows, (3, 3): along the member, and its two bending axes; or those of a corner."""
+    if hinge.axes is not None:
+        return hinge.axes
     x = structure.frame_of(hinge.member).x
     if hinge.axis == "y":
         return np.array([x, hinge.direction, cross(x, hinge.direction)])

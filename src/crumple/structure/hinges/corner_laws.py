@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from crumple.errors import InputError
-from crumple.hinge import HingeLaw, build_law
+from crumple.hinge import build_law
 from crumple.hinge.measured.law_file import read_law, write_law
 from crumple.hinge.measured.library import mirrored
 from crumple.structure.bending import planar
 from crumple.structure.hinges.asked import automatic_of
+from crumple.structure.hinges.corner_across import bisector_law, is_turned
 from crumple.structure.hinges.corners import Corner, corners
 from crumple.structure.hinges.law_choice import automatic_law, stored_text, with_type
 from crumple.structure.keys.hinge_axes import AxisLaws
@@ -18,7 +19,7 @@ from crumple.structure.keys.law import LawKeys, LawReference
 from crumple.structure.keys.member import Hinge
 from crumple.structure.parts import StructureParts
 
-ELASTIC, MITRED, ACROSS = "elastic-plastic", "mitred_corner", "mitred_corner_across"
+ELASTIC, MITRED = "elastic-plastic", "mitred_corner"
 
 
 def corner_laws(structure: StructureParts) -> Mapping[str, tuple[Corner, LawKeys]]:
@@ -114,11 +115,13 @@ def corner_hinges(structure: StructureParts, member: str, keys: Mapping[str, Any
         if keys["axes"] is None:
             own = {**keys, "axis": corner.axis, "law": law}
         else:
-            aside = _out_of_plane(structure, corner, keys["law"])
+            turned = is_turned(structure, corner, keys["axes"])
+            aside = _out_of_plane(structure, corner, keys["law"]) if turned else keys["law"]
             rest = {axis: aside for axis in keys["axes"] if axis in ("y", "z")}
             # the first bending axis is the one that is reported
             axes = (corner.axis, *(axis for axis in keys["axes"] if axis != corner.axis))
             own = {**keys, "axes": axes, "law": None, "laws": AxisLaws(**{**rest, corner.axis: law})}
+            own |= {"coupling": keys["coupling"] or "ellipsoid"} if turned else {}
         station = 0.0 if nodes[0] == node else length
         found.append(Hinge.model_construct(name=corner_name(node), at=station, **own))
     return found
@@ -127,28 +130,25 @@ def corner_hinges(structure: StructureParts, member: str, keys: Mapping[str, Any
 def _out_of_plane(
     structure: StructureParts, corner: Corner, asked: LawReference | None
 ) -> LawReference | None:
-    """Law about the other bending axis of a corner's hinge: stored, else the estimate, else its member's."""
-    law, text = automatic_law(structure, asked), out_of_plane_text(structure, corner)
-    if law is None:
-        return asked
-    if text is not None:
-        return with_type(law, "file", text=text)
-    return asked if across_law(structure, corner) is None else with_type(law, ACROSS)
+    """Law about the bisector of a corner: stored, else the estimate, else its member's."""
+    law = automatic_law(structure, asked)
+    return asked if law is None else bisector_law(structure, corner, law) or asked
 
 
-def across_law(structure: StructureParts, corner: Corner) -> HingeLaw | None:
-    """Estimate of a corner out of its plane; None where there is none for its section or angle."""
-    if corner.place_out_of_plane(structure) is None:
-        return None
-    try:
-        return build_law(
-            ACROSS, structure.section_of(corner.first), structure.material_of(corner.first), corner.axis
-        )
-    except InputError:
-        return None
+def corner_of(structure: StructureParts, hinge: str) -> Corner | None:
+    """Corner whose hinge has a name."""
+    return {corner_name(node): one for node, (one, _) in corner_laws(structure).items()}.get(hinge)
 
 
-def out_of_plane_text(structure: StructureParts, corner: Corner) -> str | None:
-    """Text of the stored law of a corner out of its plane."""
-    place = corner.place_out_of_plane(structure)
-    return None if place is None else stored_text(structure, place)
+def turned_corner(structure: StructureParts, hinge: str, axes: Iterable[str] | None) -> Corner | None:
+    """Corner whose hinge has a name, if the hinge has the axes of the corner in place of its member's.
+
+    Parameters
+    ----------
+    structure, hinge
+        The hinge.
+    axes
+        Section axes that it turns about.
+    """
+    corner = corner_of(structure, hinge)
+    return corner if corner is not None and is_turned(structure, corner, axes) else None

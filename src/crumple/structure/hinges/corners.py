@@ -13,15 +13,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from crumple.hinge.measured.place_hash import place_hash
+from crumple.hinge.measured.place_hash import Direction, place_hash
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, half_fold_length
 from crumple.structure.parts import StructureParts
 
 LEAST, STEEPEST = math.radians(5.0), math.radians(135.0)
 """Angles of corners that have a sub-model."""
-NEARLY_RIGHT = math.radians(15.0)
-"""Difference from a right angle up to which a law out of the plane is used."""
 ALONG = 1e-4
 """Component of a unit vector below which it does not point along another."""
 ALIKE = 1e-6
@@ -44,6 +42,9 @@ class Corner:
         Angle between their axes, 0 in line [rad].
     sense
         +1 if a positive rotation of a hinge in the first member about that axis closes the corner, else -1.
+    normal
+        Unit vector across its plane: a positive rotation about it turns the first member's way on to that of
+        the second, (3,).
     """
 
     node: str
@@ -52,21 +53,36 @@ class Corner:
     axis: Axis
     angle: float
     sense: int
+    normal: tuple[float, float, float]
 
     def place(self, structure: StructureParts) -> str:
         """Hash of the place, by which a store knows its law."""
         section, material = structure.section_of(self.first), structure.material_of(self.first)
         return place_hash(section, material, self.axis, self.angle)
 
-    def place_out_of_plane(self, structure: StructureParts) -> str | None:
-        """Hash of the place out of the corner's plane; None where no law acts about its axes.
-
-        Both axes of a member in the corner's plane have the law of the sub-model at a right angle alone.
-        """
-        if abs(self.angle - math.pi / 2.0) > NEARLY_RIGHT:
-            return None
+    def place_out_of_plane(self, structure: StructureParts, about: Direction) -> str:
+        """Hash of the place out of the corner's plane, about its bisector or its tangent."""
         section, material = structure.section_of(self.first), structure.material_of(self.first)
-        return place_hash(section, material, self.axis, self.angle, load="out-of-plane")
+        return place_hash(section, material, self.axis, self.angle, load="out-of-plane", about=about)
+
+    @property
+    def across(self) -> Axis:
+        """Axis of the section in the corner's plane."""
+        return "z" if self.axis == "y" else "y"
+
+    def axes(self, structure: StructureParts) -> Floats:
+        """Principal axes of its hinge in the first member as rows, (3, 3): tangent, y and z.
+
+        The first member's axes, turned about the normal of the corner's plane by half the angle: y or z then
+        lies along the bisector.
+        """
+        along, normal = structure.frame_of(self.first).x, np.array(self.normal)
+        tangent = math.cos(0.5 * self.angle) * along + math.sin(0.5 * self.angle) * np.cross(normal, along)
+        ends_here = structure.members[self.first].nodes[1] == self.node
+        own = normal if (self.sense > 0) == ends_here else -normal
+        if self.axis == "y":
+            return np.array([tangent, own, np.cross(tangent, own)])
+        return np.array([tangent, np.cross(own, tangent), own])
 
     def zone(self, structure: StructureParts) -> float:
         """Distance from the node within which its law stands for all folds [m]: one side and half a fold."""
@@ -132,7 +148,8 @@ def _corner(structure: StructureParts, node: str, members: list[str]) -> Corner 
         return "the section does not lie in the same way to the corner's plane in both members"
     ends_here = structure.members[first].nodes[1] == node
     along_normal = float(structure.frame_of(first).axis(axis) @ normal) > 0.0
-    return Corner(node, first, second, axis, angle, 1 if along_normal == ends_here else -1)
+    sense = 1 if along_normal == ends_here else -1
+    return Corner(node, first, second, axis, angle, sense, tuple(normal.tolist()))
 
 
 def _reasons(structure: StructureParts, node: str, members: tuple[str, str], angle: float) -> Iterator[str]:

@@ -24,6 +24,8 @@ from crumple.hinge import (
 )
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis
+from crumple.structure.hinges.corner_laws import turned_corner
+from crumple.structure.hinges.corner_springs import with_corner_springs
 from crumple.structure.hinges.elastic_members import yielding_record
 from crumple.structure.hinges.places import (
     MADE,
@@ -50,6 +52,10 @@ ANY = HingeShares({"y": 1.0, "z": 1.0})
 """Shares for results that do not depend on the length of a member."""
 NEARER = np.sqrt(0.5)
 """Cosine of 45 degrees: of two axes across a member the nearer one is within it."""
+AXIS_ROW: dict[Axis, int] = {"y": 1, "z": 2}
+"""Row of an axis among the axes of a hinge."""
+STIFF = 0.1
+"""Length of member over the section's side that a corner bends like which states no flexibility of its own."""
 FIRM = 100.0
 """Capacity of an elastic joint over the largest capacity of its member's hinges: no impact reaches it, and
 tolerances relative to the largest capacity stay small."""
@@ -80,6 +86,9 @@ class PlacedHinge:
     spatial
         Of a hinge with several components, or one that breaks: all of them as the spatial stepper takes them;
         `axis`, `law` and `record` are then those of its first bending axis.  None for all others.
+    axes
+        Its x, y and z at the start as rows, (3, 3), of a hinge that has the axes of a corner; None: those of
+        its member.
     plastic
         False of an elastic joint: a point of a member that bends elastically alone.
     """
@@ -94,6 +103,7 @@ class PlacedHinge:
     law: HingeLaw
     record: HingeRecord
     spatial: SpatialHingeRecord | None = None
+    axes: Floats | None = None
     plastic: bool = True
 
 
@@ -215,7 +225,8 @@ def _bending(
     # hinges of a chain differ only in length, which only the elastic form uses
     by_length = spec.elastic_stiffness == "auto" and law.elastic_stiffness is None
     if record.form is Form.ELASTIC_PLASTIC and by_length:
-        stiffness = hinge.tributary_stiffness(rigidity, share.bending[place.axis])
+        length = share.bending.get(place.axis, STIFF * _side(structure, place.member))
+        stiffness = hinge.tributary_stiffness(rigidity, length)
         record = replace(record, elastic_stiffness=stiffness)
     return law, record
 
@@ -244,31 +255,44 @@ def spatial_record_of(
         return _bending(structure, about_axis(place, axis), shares)[1]
 
     metal = structure.section_of(place.member), structure.material_of(place.member)
-    return spatial_hinge_record(
+    torsion = twist_law(structure, place)
+    record = spatial_hinge_record(
         place.keys,
         record_about,
         place.axis,
         metal,
         shares,
-        torsion=twist_law(structure, place),
+        torsion=torsion,
         crush=laws_of_loads(structure, place).get("crush"),
     )
+    corner = turned_corner(structure, place.name, place.keys.axes)
+    if corner is None:
+        return record
+    return with_corner_springs(record, corner, metal, shares.twist, torsion)
+
+
+def _side(structure: StructureParts, member: str) -> float:
+    """Largest side of a member's section [m]."""
+    return float(np.ptp(structure.section_of(member).outer_outline(), axis=0).max())
 
 
 def _placed(structure: StructureParts, place: HingePlace, shares: HingeShares) -> PlacedHinge:
     law, record = _bending(structure, place, shares)
     frame = structure.frame_of(place.member)
+    corner = turned_corner(structure, place.name, place.keys.axes)
+    axes = None if corner is None else corner.axes(structure)
     return PlacedHinge(
         name=place.name,
         member=place.member,
         station=place.station,
         axis=place.axis,
         position=frame.position(place.station),
-        direction=_direction(structure, place),
+        direction=_direction(structure, place) if axes is None else axes[AXIS_ROW[place.axis]],
         tributary_length=shares.bending.get(place.axis, 0.0),
         law=law,
         record=record,
         spatial=spatial_record_of(structure, place, shares),
+        axes=axes,
     )
 
 

@@ -10,6 +10,7 @@ from typing import Literal, get_args
 from crumple.errors import InputError
 from crumple.hinge.measured.library import is_of_joint
 from crumple.section import Axis
+from crumple.structure.hinges.corner_across import ACROSS
 from crumple.structure.hinges.corner_laws import MITRED
 from crumple.structure.hinges.elastic_members import joint_stations, shear_stretch
 from crumple.structure.hinges.flexibility import flexibility, tributary_lengths
@@ -154,7 +155,9 @@ def _of_corner(structure: StructureParts, place: HingePlace, axis: Axis) -> bool
     about = about_axis(place, axis)
     try:
         spec = law_spec(structure, about)
-        return spec.type == MITRED or (spec.type == "file" and is_of_joint(law_of(structure, about)))
+        if spec.type in (MITRED, ACROSS):
+            return True
+        return spec.type == "file" and is_of_joint(law_of(structure, about))
     except InputError:
         # reported when the hinge is built
         return False

@@ -8,8 +8,8 @@ from crumple.hinge import HingeLaw
 from crumple.hinge.measured.law_file import read_law
 from crumple.hinge.measured.place_hash import Load
 from crumple.hinge.measured.stored import StoredLaw
-from crumple.structure.hinges.corner_laws import across_law, corner_laws, corner_name, out_of_plane_text
-from crumple.structure.hinges.corners import Corner
+from crumple.structure.hinges.corner_across import estimate_across, text_across
+from crumple.structure.hinges.corner_laws import turned_corner
 from crumple.structure.hinges.law_choice import component_text
 from crumple.structure.hinges.places import HingePlace
 from crumple.structure.parts import StructureParts
@@ -26,15 +26,15 @@ def stored_loads(place: HingePlace) -> tuple[Load, ...]:
 def texts_of_loads(structure: StructureParts, place: HingePlace) -> Mapping[Load, str]:
     """Text of the stored law for each of these loads that has one.
 
-    At a corner the law out of its plane, stored or estimated, is also that of the twist of its first member.
+    The twist of a corner's hinge is about the corner's tangent, if it has the axes of the corner.
     """
     if structure.laws is None:
         return {}
     texts = {load: component_text(structure, place.member, load) for load in stored_loads(place)}
-    corner = _corner_of(structure, place)
+    corner = turned_corner(structure, place.name, place.keys.axes)
     if corner is not None and "torsion" in texts:
-        member = None if across_law(structure, corner) is not None else texts["torsion"]
-        texts["torsion"] = out_of_plane_text(structure, corner) or member
+        member = None if estimate_across(structure, corner, "tangent") is not None else texts["torsion"]
+        texts["torsion"] = text_across(structure, corner, "tangent") or member
     return {load: text for load, text in texts.items() if text is not None}
 
 
@@ -48,12 +48,8 @@ def laws_of_loads(structure: StructureParts, place: HingePlace) -> Mapping[Load,
 
 def twist_law(structure: StructureParts, place: HingePlace) -> HingeLaw | None:
     """Law of a hinge's twist where the input names none: stored, else at a corner the estimate; else None."""
-    stored, corner = laws_of_loads(structure, place).get("torsion"), _corner_of(structure, place)
-    if stored is not None or corner is None or "torsion" not in stored_loads(place):
+    stored = laws_of_loads(structure, place).get("torsion")
+    if stored is not None or "torsion" not in stored_loads(place):
         return stored
-    return across_law(structure, corner)
-
-
-def _corner_of(structure: StructureParts, place: HingePlace) -> Corner | None:
-    """Corner whose hinge it is."""
-    return {corner_name(node): one for node, (one, _) in corner_laws(structure).items()}.get(place.name)
+    corner = turned_corner(structure, place.name, place.keys.axes)
+    return None if corner is None else estimate_across(structure, corner, "tangent")
