@@ -68,6 +68,7 @@ OPTIONS = {
         {"angle": 1.2, "after_jamming": "stop", "rolling_weight": 0.0},
     ],
     "mitred_corner": [{"angle": math.pi / 2}, {"angle": 0.5, "closing": "negative"}],
+    "mitred_corner_across": [{"angle": math.pi / 2}, {"angle": 0.5, "about": "tangent"}],
     "measured": [
         {
             "rotations": [(0.0, 0.004, 0.006, 0.01, 0.02, 0.1, 0.4)],

@@ -110,39 +110,88 @@ def test_a_corner_without_an_estimate_has_candidates_in_its_members():
     assert {"post-corner", "arm-corner"} <= names
 
 
-def test_out_of_its_plane_a_corner_carries_part_of_the_torque_of_bredt():
-    law = build_law("mitred_corner_across", TUBE, STEEL, "y")
-    torque, slenderness = 2.0 * 0.048**2 * 0.002 * 350e6 / math.sqrt(3.0), 0.002 / 0.048
-    start = torque * slenderness / (0.0356 + 0.942 * slenderness)
-    assert float(law.moment_capacity(0.0)) == pytest.approx(start)
-    decay = 0.797 * (1.0 + 296.0 * slenderness**2)
-    np.testing.assert_allclose(law.moment_capacity([decay, 2.0 * decay], -1), start * np.exp([-1.0, -2.0]))
-    assert law.source.trust is Trust.FITTED
+def across(degrees, about="bisector", tube=TUBE):
+    return build_law("mitred_corner_across", tube, STEEL, "z", angle=math.radians(degrees), about=about)
 
 
-def test_thin_corners_carry_nothing_out_of_their_plane_and_thick_ones_no_more_than_their_members():
-    thin = build_law("mitred_corner_across", RectangularTube(0.050, 0.050, 0.0001), STEEL, "y")
-    bredt = 2.0 * 0.0499**2 * 0.0001 * 350e6 / math.sqrt(3.0)
-    assert thin.start < 0.06 * bredt
-    flat = RectangularTube(0.200, 0.012, 0.0055)
-    law = build_law("mitred_corner_across", flat, STEEL, "y")
-    assert law.start <= 350e6 * flat.plastic_section_modulus("y")
+def test_nearly_in_line_a_corner_bends_about_its_bisector_and_twists_about_its_tangent():
+    at = np.radians([0.0, 5.0, 20.0])
+    bent = build_law("kecman", TUBE, STEEL, "z", after_jamming="hold")
+    np.testing.assert_allclose(across(5.0).moment_capacity(at), bent.moment_capacity(at), rtol=0.02)
+    torque = 2.0 * 0.048**2 * 0.002 * 350e6 / math.sqrt(3.0)
+    falling = 47.0 * (0.002 / 0.048) ** 2
+    twisted = across(5.0, "tangent").moment_capacity([0.0, 4.0 * falling])
+    np.testing.assert_allclose(twisted, [torque, torque / 2.0], rtol=0.01)
 
 
-def test_only_rectangular_tubes_have_an_estimate_out_of_the_plane():
+def test_at_a_right_angle_bending_and_torsion_take_equal_parts_and_the_mitre_is_distorted():
+    torque = 2.0 * 0.048**2 * 0.002 * 350e6 / math.sqrt(3.0)
+    bending = float(build_law("kecman", TUBE, STEEL, "z").moment_capacity(0.0))
+    member = math.sqrt(2.0 / (1.0 / torque**2 + 1.0 / bending**2))
+    assert float(across(90.0, "tangent").moment_capacity(0.0)) == pytest.approx(member)
+    distortion = 1.75 * 350e6 * (0.048 * 0.002) ** 1.5
+    start = 1.0 / math.sqrt(0.5 / distortion**2 + 1.0 / member**2)
+    assert float(across(90.0).moment_capacity(0.0, -1)) == pytest.approx(start)
+    assert across(90.0).elastic_stiffness == pytest.approx(0.67 * 210e9 * 0.002**2 * 0.048)
+    assert across(90.0, "tangent").elastic_stiffness is None
+    assert across(90.0).source.trust is Trust.FITTED
+
+
+def test_thin_corners_carry_little_about_their_bisector_and_none_more_than_its_members():
+    thin = RectangularTube(0.050, 0.050, 0.0001)
+    whole = across(90.0, "tangent", thin).moment_capacity(0.0)
+    assert float(across(90.0, tube=thin).moment_capacity(0.0)) < 0.15 * float(whole)
+    for degrees in (10.0, 45.0, 100.0):
+        thick = RectangularTube(0.050, 0.040, 0.010)
+        start = float(across(degrees, tube=thick).moment_capacity(0.0))
+        assert start <= float(build_law("kecman", thick, STEEL, "z").moment_capacity(0.0))
+
+
+def test_other_sections_angles_and_directions_have_no_estimate_out_of_the_plane():
     with pytest.raises(InputError, match="no estimate of a corner out of its plane"):
-        build_law("mitred_corner_across", CircularTube(0.050, 0.002), STEEL, "y")
+        build_law("mitred_corner_across", CircularTube(0.050, 0.002), STEEL, "y", angle=RIGHT)
+    with pytest.raises(InputError, match="no estimate of a corner of this angle"):
+        across(110.0)
+    with pytest.raises(InputError, match="unknown choice"):
+        across(90.0, "edge")
+    with pytest.raises(InputError, match="angle"):
+        build_law("mitred_corner_across", TUBE, STEEL)
 
 
-@pytest.mark.parametrize(
-    ("tip", "estimated"), [("[0.5 m, 0 m, 0.5 m]", True), ("[0.5 m, 0 m, 0.8 m]", False)]
-)
-def test_in_space_a_right_angled_corner_has_the_estimate_about_both_axes_of_its_plane(tip, estimated):
-    text = (
-        frame().replace("[0.5 m, 0 m, 0.5 m]", tip).replace("[0 m/s, 0 m/s, -5 m/s]", "[0 m/s, 5 m/s, 0 m/s]")
-    )
-    hinge = next(h for h in plastic_hinges(loads(text).structure) if h.name == "corner-corner")
+@pytest.mark.parametrize("arm", ["[corner, tip]", "[tip, corner]"])
+@pytest.mark.parametrize(("tip", "degrees"), [("[0.5 m, 0 m, 0.5 m]", 90.0), ("[0.3 m, 0 m, 0.9 m]", 36.87)])
+def test_in_space_the_hinge_of_a_corner_has_the_axes_of_the_corner(arm, tip, degrees):
+    text = frame(arm=arm).replace("[0.5 m, 0 m, 0.5 m]", tip)
+    structure = loads(text.replace("[0 m/s, 0 m/s, -5 m/s]", "[0 m/s, 5 m/s, 0 m/s]")).structure
+    hinge = next(h for h in plastic_hinges(structure) if h.name == "corner-corner")
     found = {c.freedom.name: float(c.record.positive.moment[0]) for c in hinge.spatial.components}
-    start = build_law("mitred_corner_across", TUBE, STEEL, "y").start
-    assert (found["X"] == pytest.approx(start)) is estimated
-    assert (found["Z"] == pytest.approx(start)) is estimated
+    assert found["X"] == pytest.approx(float(across(degrees, "tangent").moment_capacity(0.0)), rel=1e-4)
+    across_plane = next(name for name in "YZ" if abs(hinge.axes[" YZ".index(name)] @ [0.0, 1.0, 0.0]) < 0.5)
+    assert found[across_plane] == pytest.approx(float(across(degrees).moment_capacity(0.0)), rel=1e-4)
+    assert hinge.spatial.surface.coupling.value == "ellipsoid"
+    np.testing.assert_allclose(hinge.axes @ hinge.axes.T, np.eye(3), atol=1e-12)
+    assert np.linalg.det(hinge.axes) == pytest.approx(1.0)
+    # the tangent is half the angle away from either member
+    onward = np.subtract(structure.nodes["tip"], structure.nodes["corner"])
+    onward /= np.linalg.norm(onward)
+    half = math.cos(math.radians(degrees) / 2.0)
+    assert hinge.axes[0] @ onward == pytest.approx(half, rel=1e-4)
+    assert hinge.axes[0] @ [0.0, 0.0, 1.0] == pytest.approx(half, rel=1e-4)
+    np.testing.assert_allclose(np.abs(hinge.direction), [0.0, 1.0, 0.0], atol=1e-12)
+
+
+def test_elastic_corners_share_the_twist_of_their_first_member():
+    text = frame().replace("hinges: auto", "hinges: {law: {type: auto, form: elastic-plastic}}")
+    structure = loads(text.replace("[0 m/s, 0 m/s, -5 m/s]", "[0 m/s, 5 m/s, 0 m/s]")).structure
+    hinge = next(h for h in plastic_hinges(structure) if h.name == "corner-corner")
+    spring = {c.freedom.name: c.record.elastic_stiffness for c in hinge.spatial.components}
+    # at a right angle half of the twist is about either direction
+    own = across(90.0).elastic_stiffness
+    bisector = next(spring[name] for name in "YZ" if name != hinge.axis.upper())
+    assert 1.0 / bisector == pytest.approx(1.0 / own + 1.0 / spring["X"])
+
+
+def test_a_hinge_that_does_not_twist_keeps_the_axes_of_its_member():
+    text = frame().replace("hinges: auto", "hinges: {axes: [y, z]}")
+    structure = loads(text.replace("[0 m/s, 0 m/s, -5 m/s]", "[0 m/s, 5 m/s, 0 m/s]")).structure
+    assert next(h for h in plastic_hinges(structure) if h.name == "corner-corner").axes is None
