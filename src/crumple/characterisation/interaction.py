@@ -16,14 +16,12 @@ import numpy as np
 from crumple.characterisation.bending import Bending
 from crumple.characterisation.combined import Combined
 from crumple.characterisation.curve import LawCurve
+from crumple.characterisation.errors_of_work import errors_of_work
 from crumple.numeric.arrays import Floats
 from crumple.section import plastic_interaction
 
 SHARE = 0.2
 """Axial force over the squash force."""
-COMPARED = (math.radians(10.0), math.radians(30.0))
-"""Plastic rotations up to which the work is compared [rad]."""
-POINTS = 400
 
 
 def interaction_errors(model: Bending, solved: Callable[[Combined], LawCurve]) -> dict[str, str]:
@@ -52,31 +50,16 @@ def interaction_errors(model: Bending, solved: Callable[[Combined], LawCurve]) -
     for name, share in (("compression", -SHARE), ("tension", SHARE)):
         combined = replace(base, share=share)
         shells = solved(combined)
-        walls = _errors(shells, partial(_with_walls, combined, alone))
-        flange = _errors(shells, partial(_about_flange, combined, model, alone))
+        walls = errors_of_work(shells, partial(_with_walls, combined, alone))
+        flange = errors_of_work(shells, partial(_about_flange, combined, model, alone))
         found[f"axial_{name}"] = f"{SHARE:g} of squash: coupling section {walls}; tension-flange {flange}"
     if model.section.kind != "circular_tube":
         other = solved(replace(base, angle=math.pi / 2.0 - angle))
         about = (alone, other) if model.axis == "y" else (other, alone)
         oblique = replace(base, angle=math.pi / 4.0)
-        errors = _errors(solved(oblique), partial(_oblique, oblique, about))
+        errors = errors_of_work(solved(oblique), partial(_oblique, oblique, about))
         found["oblique_45_deg"] = f"coupling section {errors}"
     return found
-
-
-def _errors(shells: LawCurve, hinge: Callable[[Floats], Floats]) -> str:
-    """Error of the work of a hinge's moments, up to each rotation that the shells reached."""
-    words = []
-    for end in COMPARED:
-        if end > shells.rotation[-1] * (1.0 + 1e-6):
-            continue
-        at = np.linspace(0.0, end, POINTS)
-        moment = hinge(at)
-        work = float((0.5 * (moment[1:] + moment[:-1]) * np.diff(at)).sum())
-        # adding zero turns -0 into 0
-        error = round(work / shells.energy_at(end) - 1.0, 2) + 0.0
-        words.append(f"{error:+.0%} to {math.degrees(end):.0f} deg")
-    return "work " + ", ".join(words)
 
 
 def _capacity(alone: LawCurve, at: Floats) -> Floats:

@@ -12,6 +12,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from crumple.analysis import Analysis
 from crumple.characterisation.bending import elastic_flexibility, second_piece
 from crumple.characterisation.curve import LawCurve, law_curve
@@ -182,7 +184,18 @@ class OutOfPlane:
 
     def analysis(self) -> Analysis:
         """Input of the shell solver."""
-        (before, up), (after, up_after) = (second_piece(0.5 * s * self.angle, self.axis) for s in (-1, 1))
+        return self.seen_in(np.eye(3))
+
+    def seen_in(self, axes: Floats) -> Analysis:
+        """The same with other global axes, of which the moment is along the one that is driven.
+
+        Parameters
+        ----------
+        axes
+            As rows, (3, 3), in those in which x is the tangent.
+        """
+        half = 0.5 * self.angle
+        (before, up), (after, up_after) = (second_piece(s * half, self.axis) for s in (-1.0, 1.0))
         duration = self.duration
         turning = {"x0": 0.0, "h0": 0.0, "x1": duration, "h1": self.turn}
         piece = {"section": "section", "material": "metal"}
@@ -190,13 +203,13 @@ class OutOfPlane:
             materials={"metal": self.material},
             sections={"section": self.section},
             nodes={
-                "held": tuple(-self.piece * before),
+                "held": tuple(axes @ before * -self.piece),
                 "middle": (0.0, 0.0, 0.0),
-                "turned": tuple(self.piece * after),
+                "turned": tuple(axes @ after * self.piece),
             },
             members={
-                "first": {"nodes": ("held", "middle"), "up": tuple(up), **piece},
-                "second": {"nodes": ("middle", "turned"), "up": tuple(up_after), **piece},
+                "first": {"nodes": ("held", "middle"), "up": tuple(axes @ up), **piece},
+                "second": {"nodes": ("middle", "turned"), "up": tuple(axes @ up_after), **piece},
             },
             supports={
                 "held": {"node": "held", "fix": "all"},
@@ -230,6 +243,10 @@ class OutOfPlane:
             came, allowed = f"{largest:.4g} N m", f"below {STRONG * self.strength:.4g} N m"
             todo = "the law of the member in bending holds there"
             raise InputError(Problem(what, came, allowed, todo, where=self.title))
+        return self.curve_of(rotation, moment)
+
+    def curve_of(self, rotation: Floats, moment: Floats) -> LawCurve:
+        """Law from histories of rotation less that of straight elastic pieces [rad] and moment [N m]."""
         flexibility = max(elastic_flexibility(rotation, moment), 0.0)
         curve = law_curve(rotation - flexibility * moment, moment, self.largest)
         return curve if flexibility == 0.0 else curve.with_stiffness(1.0 / flexibility)

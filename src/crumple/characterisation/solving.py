@@ -13,6 +13,8 @@ from crumple.characterisation.crush import Crush
 from crumple.characterisation.curve import LawCurve
 from crumple.characterisation.interaction import interaction_errors
 from crumple.characterisation.law import law_of
+from crumple.characterisation.oblique_corner import coupling_errors
+from crumple.characterisation.out_of_plane import OutOfPlane
 from crumple.characterisation.rate import Turned, at_rest, faster, rate_law, rate_pair
 from crumple.characterisation.sub_model import Model, Solvable, StrongCornerError, SubModel
 from crumple.errors import InputError, Problem, Status
@@ -73,8 +75,9 @@ def characterise(
     converge
         Solve two finer meshes too, and state the error of the energy.
     interaction
-        Of a straight member in bending: solve it with axial force and about an oblique axis too, and state
-        the error of the ways in which hinges combine these; without effect for other models.
+        Of a straight member in bending: solve it with axial force and about an oblique axis too; of a corner
+        about its bisector: solve it with bending in its plane too. The errors of the ways in which hinges
+        combine these are stated. Without effect for other models.
     threads
         Threads of the shell solver.
     progress
@@ -123,6 +126,8 @@ def characterise(
     }
     if interaction and isinstance(slow, Bending) and slow.angle is None:
         facts |= interaction_errors(slow, lambda one: solver.run(one, one.title)[1])
+    if interaction and isinstance(slow, OutOfPlane) and slow.about == "bisector":
+        facts |= coupling_errors(slow, curve, lambda one: solver.run(one, one.title)[1])
     moving = replace(slow, material=model.material)
     law = replace(law_of(moving, curve, opposite, facts, error), title=model.title)
     if pair is not None and isinstance(moving, Turned):

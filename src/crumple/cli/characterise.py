@@ -80,8 +80,9 @@ def characterise(
     interaction: Annotated[
         bool,
         typer.Option(
-            help="Bend a straight member with axial force (0.2 of squash) and about 45 deg too, and state "
-            "the error of the couplings of hinges; some five times the work."
+            help="Bend a straight member with axial force (0.2 of squash) and about 45 deg too, or a corner "
+            "in and out of its plane at once, and state the error of the couplings of hinges; some five "
+            "times the work."
         ),
     ] = False,
     store: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder of the law files.")] = Path("laws"),
@@ -105,6 +106,7 @@ def characterise(
 ) -> None:
     """Solve a shell sub-model of a section, and keep the hinge law that it gives as a law file."""
     from crumple.characterisation import LawStore
+    from crumple.characterisation.oblique_corner import COUPLED
     from crumple.errors import InputError, Problem
     from crumple.portable import available_cores
 
@@ -124,10 +126,15 @@ def characterise(
     laws = LawStore(store)
     law = laws.law(model)
     lacking = converge and law is not None and law.validity.uncertainty is None
-    if interaction and (model.load != "bending" or angle is not None or chord is not None):
-        what, todo = "--interaction is for straight members in bending", "leave it out"
+    member = model.load == "bending" and angle is None and chord is None
+    corner = model.load == "out-of-plane" and about == "bisector" and chord is None
+    if interaction and not (member or corner):
+        what = "--interaction is for straight members in bending, and for corners about their bisector"
+        todo = "leave it out"
         raise InputError(Problem(what, model.title, "", todo, "--interaction"))
-    lacking = lacking or (interaction and law is not None and "axial_tension" not in dict(law.origin))
+    lacking = lacking or (
+        interaction and law is not None and not {"axial_tension", *COUPLED}.intersection(dict(law.origin))
+    )
     if law is None or lacking:
         done = _solved(model, threads, converge=converge, interaction=interaction)
         law = done.law

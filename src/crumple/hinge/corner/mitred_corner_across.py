@@ -1,21 +1,21 @@
-"""Mitred corner of two rectangular tubes, loaded out of its plane: an estimate with constants fitted to shells.
+"""Mitred corner of two rectangular tubes out of its plane: an estimate with constants fitted to shells.
 
 By mirror symmetry about the plane of the mitre the principal directions of a corner are its bisector and the
 tangent across it. With the angle alpha between the members, s = sin(alpha/2) and c = cos(alpha/2), a moment M
 along the bisector bends each member by c M and twists it by s M, one along the tangent by s M and c M. The
 members carry this up to a quadratic interaction of their torque T(theta) and bending moment B(theta). At the
-mitre a torque about the bisector cannot be carried by the flanges, whose shear there is zero by symmetry. So
-half of it distorts the section: frames of the walls bend (sigma_y t^2 a length and angle of distortion), and
-over the length that this takes the walls bend in their planes (sigma_y t a^2/4 each). The length that makes
-the work smallest gives a torque of 2 sigma_y (a t)^(3/2), with the mean a = sqrt(b h) of the mid-lines; shells
-say k in place of 2:
+mitre a torque about the bisector cannot be carried by the flanges, whose shear there is zero by symmetry.
+So half of it distorts the section: frames of the walls bend (sigma_y t^2 a length and angle of distortion),
+and over the length that this takes the walls bend in their planes (sigma_y t a^2/4 each). The length that
+makes the work smallest gives a torque of 2 sigma_y (a t)^(3/2), with the mean a = sqrt(b h) of the mid-lines;
+shells say k in place of 2:
 
     bisector   1/M^2 = (s/D)^2 + (s/T)^2 + (c/B)^2,    D = k sigma_y (a t)^(3/2)
     tangent    1/M^2 = (c/T)^2 + (s/B)^2
     T = T_p min(1, theta_1/theta)^m,  T_p = 2 b h t sigma_y/sqrt(3),  theta_1 = r (t/max(b, h))^2
 
-B is the straight tube's moment (Kecman). Elastic stiffness of the corner's own about the bisector: K = q E t^2
-a cot^2(alpha/2). Limits: alpha -> 0 gives the member in bending and in torsion; thin walls give s M = D.
+B is the straight tube's moment (Kecman). Elastic stiffness of the corner's own about the bisector: K = q E
+t^2 a cot^2(alpha/2). Limits: alpha -> 0 gives the member in bending and in torsion; thin walls give s M = D.
 """
 
 from __future__ import annotations

@@ -55,7 +55,7 @@ NEARER = np.sqrt(0.5)
 AXIS_ROW: dict[Axis, int] = {"y": 1, "z": 2}
 """Row of an axis among the axes of a hinge."""
 STIFF = 0.1
-"""Length of member over the section's side that a corner bends like which states no flexibility of its own."""
+"""Length of member over the side of its section that bends as a corner that states no flexibility."""
 FIRM = 100.0
 """Capacity of an elastic joint over the largest capacity of its member's hinges: no impact reaches it, and
 tolerances relative to the largest capacity stay small."""
