@@ -1,13 +1,15 @@
-"""A corner out of its plane: its law does not depend on the sub-model, and a frame of it follows its shells.
+"""A corner out of its plane: its laws do not depend on the sub-model, and frames of it follow their shells.
 
 Mitred corner of 90 degrees of two tubes 50x25x2.65 mm (488 MPa), coarse mesh (4 elements along half a
-fold): the plastic work at 5 to 30 degrees is that of pieces 1.4 times as long within 3 %. The L-frame of
-test_l_frame_out_of_plane, whose tip is pushed by 200 mm out of the plane, with the laws of its members in
-bending and torsion and of its corner in and out of its plane (elastic-plastic): work, and rotation of the
-arm about the post, against the shell model of the same input (5 mm elements, energy residual 6e-8), solved
-once by this program. Tolerances: 5 % of the work, 8 % of the rotation at the end. The shells' arm also
-rolls, by 15 degrees about its own axis, since the fold's axis is oblique; the hinge's axes do not couple,
-and it does not.
+fold): the plastic work about its bisector and about its tangent at 5 to 30 degrees is that of pieces 1.4
+times as long within 3 %. L-frames of 90, 60 and 30 degrees between their members, as in
+test_l_frame_out_of_plane, whose tip is pushed by 200 mm out of the plane, with the laws of their members in
+bending and torsion and of their corner in its plane and about both of its directions out of it
+(elastic-plastic): work, and rotation of the arm, against the shell model of the same input (5 mm elements,
+energy residual 2e-7 or less), solved once by this program. Tolerances: 5 % of the work, 3 degrees of the
+rotations about the axes in the plane. About the normal of the plane the shells' arm turns by 6 degrees at
+90 and by 10 at 60 degrees, as a corner also closes while it folds out of its plane, and the hinges' by -4
+and -1: no law says this, so it is not compared.
 
 Kind: invariant; independent calculation.  Source: derived here; run here.
 """
@@ -27,17 +29,22 @@ from crumple.section import RectangularTube
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 488e6)
 TUBE = RectangularTube(width=0.050, depth=0.025, thickness=0.00265)
 COARSE = Resolution(4.0, 7.0)
-SHELL_WORK = {60: 324.3, 80: 476.5, 100: 534.3}
-"""External work at times in ms [J]."""
-SHELL_ROTATION = {60: 19.2, 80: 27.7, 100: 31.2}
-"""Rotation of the tip about the post [deg]."""
+TIMES = (60, 80, 100)
+"""Times [ms] of the figures."""
+# angle [deg]: external work [J], rotation of the tip about x and about z [deg], at TIMES
+SHELLS = {
+    90: ((324.4, 476.6, 534.4), (-9.8, -13.8, -15.1), (19.2, 27.7, 31.2)),
+    60: ((343.9, 488.9, 540.5), (-11.7, -16.9, -18.9), (14.8, 21.1, 23.8)),
+    30: ((400.3, 561.2, 617.7), (-9.1, -12.2, -13.3), (8.1, 11.0, 12.2)),
+}
 ELASTIC = "hinges: {law: {type: auto, form: elastic-plastic}}"
 
 
 @pytest.mark.slow
-def test_work_is_that_of_longer_pieces(record_figure):
+@pytest.mark.parametrize("about", ["bisector", "tangent"])
+def test_work_is_that_of_longer_pieces(about, record_figure):
     one, other = (
-        characterise(OutOfPlane(TUBE, STEEL, length_factor=factor, resolution=COARSE)).curve
+        characterise(OutOfPlane(TUBE, STEEL, about=about, length_factor=factor, resolution=COARSE)).curve
         for factor in (1.0, 1.4)
     )
     for degrees in (5, 10, 20, 30):
@@ -48,25 +55,29 @@ def test_work_is_that_of_longer_pieces(record_figure):
 
 
 @pytest.mark.slow
-def test_frame_out_of_its_plane_follows_its_shells(tmp_path, record_figure):
+@pytest.mark.parametrize("degrees", SHELLS)
+def test_frame_out_of_its_plane_follows_its_shells(degrees, tmp_path, record_figure):
+    angle = math.radians(degrees)
+    tip = f"[{0.4 * math.sin(angle):.9f} m, 0 m, {0.4 + 0.4 * math.cos(angle):.9f} m]"
     path = tmp_path / "frame.yaml"
-    path.write_text(FRAME.replace("hinges: auto", ELASTIC))
+    path.write_text(FRAME.replace("hinges: auto", ELASTIC).replace("[0.4 m, 0 m, 0.4 m]", tip))
     source = load_input(path)
     structure = source.analysis.structure
     metal = structure.section_of("post"), structure.material_of("post")
     models = (
         Torsion(*metal, resolution=COARSE),
         Bending(*metal, resolution=COARSE),
-        Bending(*metal, angle=math.pi / 2.0, resolution=COARSE),
-        OutOfPlane(*metal, resolution=COARSE),
+        Bending(*metal, angle=angle, resolution=COARSE),
+        OutOfPlane(*metal, angle=angle, about="bisector", resolution=COARSE),
+        OutOfPlane(*metal, angle=angle, about="tangent", resolution=COARSE),
     )
     store = LawStore(tmp_path / "laws")
     for model in models:
         store.keep(model, characterise(model).law)
     found = crumple.solve(source.with_laws(tmp_path / "laws").analysis)
-    for i, (time, work) in enumerate(SHELL_WORK.items(), start=3):
+    for i, (time, work, about_x, about_z) in enumerate(zip(TIMES, *SHELLS[degrees], strict=True), start=3):
         value = float(found["energy.external_work"][i])
         record_figure(f"work at {time} ms", value, work, 0.05, "J", relative=True)
-        turned = math.degrees(float(found["node.tip.rotation.z"][i]))
-        name = f"rotation of the arm at {time} ms"
-        record_figure(name, turned, SHELL_ROTATION[time], 0.08, "deg", relative=True)
+        for axis, expected in (("x", about_x), ("z", about_z)):
+            turned = math.degrees(float(found[f"node.tip.rotation.{axis}"][i]))
+            record_figure(f"rotation of the arm about {axis} at {time} ms", turned, expected, 3.0, "deg")
