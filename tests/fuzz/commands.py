@@ -68,6 +68,8 @@ OPTIONS: dict[str, tuple[list[str], dict[str, list[str | None]]]] = {
             "--axis": [*AXES],
             "--sense": ["+", "-", "no"],
             "--angle": ["90 deg", "0 deg", "200 deg", "x"],
+            "--load": ["out-of-plane", "no"],
+            "--about": ["tangent", "no"],
             "--to": ["30 deg", "0 deg", "900 deg"],
             "--json": [None],
             "--threads": ["1", "0"],

@@ -110,5 +110,6 @@ def test_both_laws_combine_on_an_ellipsoid(corner, record_figure):
     moment = on_ellipsoid(math.radians(45.0), *laws, at)
     for degrees, energy in zip(DEGREES, ALONG_A_MEMBER[corner], strict=True):
         upto = at <= math.radians(degrees) * (1.0 + 1e-9)
-        found = float(np.trapezoid(moment[upto], at[upto]))
+        mean = 0.5 * (moment[upto][1:] + moment[upto][:-1])
+        found = float((mean * np.diff(at[upto])).sum())
         record_figure(f"energy to {degrees:g} deg", found, energy, 0.15, "J", relative=True)
