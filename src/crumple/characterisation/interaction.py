@@ -15,8 +15,8 @@ import numpy as np
 
 from crumple.characterisation.bending import Bending
 from crumple.characterisation.combined import Combined
+from crumple.characterisation.coupling.errors_of_work import errors_of_work
 from crumple.characterisation.curve import LawCurve
-from crumple.characterisation.errors_of_work import errors_of_work
 from crumple.numeric.arrays import Floats
 from crumple.section import plastic_interaction
 

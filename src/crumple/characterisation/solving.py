@@ -9,11 +9,11 @@ import numpy as np
 
 from crumple.analysis import solve
 from crumple.characterisation.bending import Bending
+from crumple.characterisation.coupling.oblique_corner import coupling_errors
 from crumple.characterisation.crush import Crush
 from crumple.characterisation.curve import LawCurve
 from crumple.characterisation.interaction import interaction_errors
 from crumple.characterisation.law import law_of
-from crumple.characterisation.oblique_corner import coupling_errors
 from crumple.characterisation.out_of_plane import OutOfPlane
 from crumple.characterisation.rate import Turned, at_rest, faster, rate_law, rate_pair
 from crumple.characterisation.sub_model import Model, Solvable, StrongCornerError, SubModel

@@ -106,7 +106,7 @@ def characterise(
 ) -> None:
     """Solve a shell sub-model of a section, and keep the hinge law that it gives as a law file."""
     from crumple.characterisation import LawStore
-    from crumple.characterisation.oblique_corner import COUPLED
+    from crumple.characterisation.coupling.oblique_corner import COUPLED
     from crumple.errors import InputError, Problem
     from crumple.portable import available_cores
 

@@ -7,7 +7,12 @@ import pytest
 from typer.testing import CliRunner
 
 from crumple.characterisation import Bending, LawCurve, OutOfPlane, characterise
-from crumple.characterisation.oblique_corner import COUPLED, ObliqueCorner, coupling_errors, on_ellipsoid
+from crumple.characterisation.coupling.oblique_corner import (
+    COUPLED,
+    ObliqueCorner,
+    coupling_errors,
+    on_ellipsoid,
+)
 from crumple.characterisation.resolution import Resolution
 from crumple.characterisation.sub_model import StrongCornerError
 from crumple.cli.main import app

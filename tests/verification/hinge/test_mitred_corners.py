@@ -21,7 +21,7 @@ import numpy as np
 import pytest
 
 from crumple.characterisation import LawCurve
-from crumple.characterisation.oblique_corner import on_ellipsoid
+from crumple.characterisation.coupling.oblique_corner import on_ellipsoid
 from crumple.hinge import absorbed_energy, build_law
 from crumple.material import Material
 from crumple.section import RectangularTube

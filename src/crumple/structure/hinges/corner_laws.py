@@ -11,7 +11,7 @@ from crumple.hinge.measured.law_file import read_law, write_law
 from crumple.hinge.measured.library import mirrored
 from crumple.structure.bending import planar
 from crumple.structure.hinges.asked import automatic_of
-from crumple.structure.hinges.corner_across import bisector_law, is_turned
+from crumple.structure.hinges.corner.across import bisector_law, is_turned
 from crumple.structure.hinges.corners import Corner, corners
 from crumple.structure.hinges.law_choice import automatic_law, stored_text, with_type
 from crumple.structure.keys.hinge_axes import AxisLaws

@@ -24,8 +24,8 @@ from crumple.hinge import (
 )
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis
+from crumple.structure.hinges.corner.springs import with_corner_springs
 from crumple.structure.hinges.corner_laws import turned_corner
-from crumple.structure.hinges.corner_springs import with_corner_springs
 from crumple.structure.hinges.elastic_members import yielding_record
 from crumple.structure.hinges.places import (
     MADE,

@@ -10,7 +10,7 @@ from typing import Literal, get_args
 from crumple.errors import InputError
 from crumple.hinge.measured.library import is_of_joint
 from crumple.section import Axis
-from crumple.structure.hinges.corner_across import ACROSS
+from crumple.structure.hinges.corner.across import ACROSS
 from crumple.structure.hinges.corner_laws import MITRED
 from crumple.structure.hinges.elastic_members import joint_stations, shear_stretch
 from crumple.structure.hinges.flexibility import flexibility, tributary_lengths

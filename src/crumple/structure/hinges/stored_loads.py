@@ -8,7 +8,7 @@ from crumple.hinge import HingeLaw
 from crumple.hinge.measured.law_file import read_law
 from crumple.hinge.measured.place_hash import Load
 from crumple.hinge.measured.stored import StoredLaw
-from crumple.structure.hinges.corner_across import estimate_across, text_across
+from crumple.structure.hinges.corner.across import estimate_across, text_across
 from crumple.structure.hinges.corner_laws import turned_corner
 from crumple.structure.hinges.law_choice import component_text
 from crumple.structure.hinges.places import HingePlace

@@ -19,8 +19,8 @@ import numpy as np
 
 from crumple.analysis import Analysis
 from crumple.characterisation.bending import Bending
+from crumple.characterisation.coupling.errors_of_work import errors_of_work
 from crumple.characterisation.curve import LawCurve
-from crumple.characterisation.errors_of_work import errors_of_work
 from crumple.characterisation.out_of_plane import OutOfPlane
 from crumple.characterisation.sub_model import Solvable, StrongCornerError
 from crumple.numeric.arrays import Floats

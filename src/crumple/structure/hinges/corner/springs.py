@@ -15,7 +15,6 @@ from crumple.hinge.record.spatial_record import Freedom, HingeComponent
 from crumple.material import Material
 from crumple.section import Section
 from crumple.structure.hinges.corners import Corner
-from crumple.structure.hinges.spatial_hinges import BENDING
 
 
 def with_corner_springs(
@@ -48,7 +47,7 @@ def with_corner_springs(
     def sprung(component: HingeComponent) -> HingeComponent:
         if component.freedom is Freedom.X:
             flexibility = along * twist + (0.0 if own is None else 1.0 / own)
-        elif component.freedom is BENDING[corner.across]:
+        elif component.freedom.label == corner.across:
             flexibility = aside * twist + 1.0 / component.record.elastic_stiffness
         else:
             return component

@@ -1,0 +1,1 @@
+"""Errors of the ways in which hinges combine loads."""
