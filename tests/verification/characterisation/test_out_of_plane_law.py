@@ -4,12 +4,13 @@ Mitred corner of 90 degrees of two tubes 50x25x2.65 mm (488 MPa), coarse mesh (4
 fold): the plastic work about its bisector and about its tangent at 5 to 30 degrees is that of pieces 1.4
 times as long within 3 %. L-frames of 90, 60 and 30 degrees between their members, as in
 test_l_frame_out_of_plane, whose tip is pushed by 200 mm out of the plane, with the laws of their members in
-bending and torsion and of their corner in its plane and about both of its directions out of it
-(elastic-plastic): work, and rotation of the arm, against the shell model of the same input (5 mm elements,
-energy residual 2e-7 or less), solved once by this program. Tolerances: 5 % of the work, 3 degrees of the
-rotations about the axes in the plane. About the normal of the plane the shells' arm turns by 6 degrees at
-90 and by 10 at 60 degrees, as a corner also closes while it folds out of its plane, and the hinges' by -4
-and -1: no law says this, so it is not compared.
+bending and torsion and of their corner in its plane and about both of its directions out of it, and
+elastic members: work, and rotation of the arm, against the shell model of the same input (5 mm elements,
+energy residual 2e-7 or less), solved once by this program. Tolerances: 5 % of the work, and of the rotations
+about the axes in the plane 3 degrees, since they were found to differ by up to 2.9 (with rigid bars by 3.3):
+this is what the laws reach, not a target that was set. About the normal of the plane the shells' arm turns
+by 6 degrees at 90 and by 10 at 60 degrees, as a corner also closes while it folds out of its plane, and the
+hinges' by -4 and -1: no law says this, so it is not compared.
 
 Kind: invariant; independent calculation.  Source: derived here; run here.
 """
@@ -37,7 +38,6 @@ SHELLS = {
     60: ((343.9, 488.9, 540.5), (-11.7, -16.9, -18.9), (14.8, 21.1, 23.8)),
     30: ((400.3, 561.2, 617.7), (-9.1, -12.2, -13.3), (8.1, 11.0, 12.2)),
 }
-ELASTIC = "hinges: {law: {type: auto, form: elastic-plastic}}"
 
 
 @pytest.mark.slow
@@ -60,7 +60,7 @@ def test_frame_out_of_its_plane_follows_its_shells(degrees, tmp_path, record_fig
     angle = math.radians(degrees)
     tip = f"[{0.4 * math.sin(angle):.9f} m, 0 m, {0.4 + 0.4 * math.cos(angle):.9f} m]"
     path = tmp_path / "frame.yaml"
-    path.write_text(FRAME.replace("hinges: auto", ELASTIC).replace("[0.4 m, 0 m, 0.4 m]", tip))
+    path.write_text(FRAME.replace("members: rigid", "members: elastic").replace("[0.4 m, 0 m, 0.4 m]", tip))
     source = load_input(path)
     structure = source.analysis.structure
     metal = structure.section_of("post"), structure.material_of("post")
