@@ -172,6 +172,24 @@ def _crush_lines(found: Comparison) -> Iterator[str]:
         yield f"Member {escape(crush.member)} is crushed by {figures[0]} and {figures[1]}"
 
 
+def _contact_lines(found: Comparison) -> Iterator[str]:
+    """Impulse and dissipation at the contacts of obstacles in both results, and what contact took."""
+    from rich.markup import escape
+
+    from crumple.comparison.measure.decisive import CONTACT_TARGETS
+    from crumple.units import format_quantity
+
+    names = found.candidate.name, found.reference.name
+    for kind, unit in zip(CONTACT_TARGETS, ("N*s", "J"), strict=True):
+        for figure in found.figures.get(kind, ()):
+            values = (
+                f"{format_quantity(value, unit, 4)} ({name})"
+                for name, value in zip(names, (figure.model, figure.shell), strict=True)
+            )
+            mark = "" if figure.right else ", beyond its target"
+            yield f"Obstacle {escape(figure.name)}, {kind}: {', '.join(values)}{mark}"
+
+
 def _show(found: Comparison, folder: Path, source: LoadedInput | None = None) -> None:
     """Print the verdict, a table of hinges, cautions, times, and where the files are."""
     import math
@@ -207,7 +225,7 @@ def _show(found: Comparison, folder: Path, source: LoadedInput | None = None) ->
             "-" if rated is None else f"{rated.overall:.2f}",
         )
     console.print(table)
-    for line in _crush_lines(found):
+    for line in (*_contact_lines(found), *_crush_lines(found)):
         console.print(line)
     if len(found.hinges) > MOST_HINGES:
         console.print(f"{MOST_HINGES} of {len(found.hinges)} hinges, those with the largest absorbed energy")

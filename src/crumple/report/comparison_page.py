@@ -171,6 +171,7 @@ def _render(
         curve_figures=[figure for name, figure in figures.items() if name.startswith("curve_")],
         hinge_figures=hinges,
         hinge_tables=wording.hinge_tables(comparison),
+        contact_table=wording.contact_table(comparison),
         crush_table=wording.crush_table(comparison),
         omitted=max(len(comparison.hinges) - wording.MOST_HINGES, 0),
         rating_table=wording.rating_table(comparison),

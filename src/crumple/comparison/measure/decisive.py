@@ -29,6 +29,10 @@ TARGETS = {
     "time of rest": 0.15,
 }
 """Relative errors; allowed is the larger of target and `SPREADS` times the spread of the reference."""
+CONTACT_TARGETS = {"impulse": 0.05, "dissipation at contact": 0.20}
+"""The same of the contacts of obstacles."""
+LITTLE = 0.03
+"""Share of the energy put in by which a dissipation at a contact may always differ."""
 SPREADS = 2.0
 
 
@@ -89,7 +93,36 @@ def figures_of(
         if reference.rest > 0.0
         else [],
     }
+    kinds |= _contacts(model, reference, whole)
     return {kind: figures for kind, figures in kinds.items() if figures}
+
+
+def _contacts(
+    model: Measures, reference: Measures, pairs: Sequence[tuple[Measures, Measures]]
+) -> dict[str, list[Figure]]:
+    """Impulses and dissipations of the reference's contacts, where it has both; see contacts.py."""
+    dissipation = "dissipation at contact"
+    target = CONTACT_TARGETS[dissipation]
+    # with this floor the target is the larger of 20 % and `LITTLE` of the energy put in
+    floor = LITTLE / target * reference.energy.get("put_in", 0.0)
+    most = max(reference.impulse.values(), default=0.0)
+    kinds: dict[str, list[Figure]] = {}
+    for kind, values, least in (("impulse", "impulse", FLOOR * most), (dissipation, "at_contact", floor)):
+        wanted, own = getattr(reference, values), getattr(model, values)
+        kinds[kind] = [
+            _figure(
+                name,
+                (shell, own.get(name, 0.0) if model.complete else math.inf),
+                (
+                    _spread(pairs, lambda one, n=name, v=values: getattr(one, v).get(n, 0.0)),  # type: ignore[misc]
+                    max(shell, least),
+                ),
+                CONTACT_TARGETS[kind],
+            )
+            for name, shell in wanted.items()
+            if max(shell, least) > 0.0
+        ]
+    return kinds
 
 
 def _scalars(

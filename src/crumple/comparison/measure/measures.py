@@ -11,6 +11,7 @@ its *span*.
   twist is seen too.
 - Energy by zone: plastic work of the wall elements in it, or the energy of the hinges in it.
 - Force of each obstacle: largest magnitude through CFC 60, and impulse over the time until rest.
+- Impulse of each obstacle, and energy dissipated at its contacts: see contacts.py.
 - Time of rest: when 95 % of the energy that is dissipated in the end has been dissipated.
 """
 
@@ -20,6 +21,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from crumple.comparison.measure.contacts import dissipated_at, hinge_work, impulse
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import rotation_vector
 from crumple.result import Result, States
@@ -54,6 +56,9 @@ class Measures:
         Energy dissipated by zone [J].
     peak_force, mean_force
         By obstacle [N].
+    impulse, at_contact
+        By obstacle: of its force over the run [N s], and energy dissipated at its contacts [J]; empty in
+        stored figures from before these were measured.
     rest
         Time of rest [s].
     opened
@@ -72,6 +77,8 @@ class Measures:
     zones: dict[str, float] = field(default_factory=dict)
     peak_force: dict[str, float] = field(default_factory=dict)
     mean_force: dict[str, float] = field(default_factory=dict)
+    impulse: dict[str, float] = field(default_factory=dict)
+    at_contact: dict[str, float] = field(default_factory=dict)
     rest: float = 0.0
     opened: dict[str, float] = field(default_factory=dict)
     energy: dict[str, float] = field(default_factory=dict)
@@ -113,14 +120,18 @@ def measure(result: Result, structure: Structure, seconds: float = 0.0) -> Measu
     extents = _extents(result)
     turned = _rotations(result.states, structure)
     opened = {name: float(t) for name, vectors in turned.items() if (t := _opening(result.states, vectors))}
-    forces = {name: _force(result, name) for name in structure.obstacles}
+    forces = {n: force for n in structure.obstacles if (force := _force(result, n)) is not None}
+    impulses = {name: impulse(result.time, force) for name, force in forces.items()}
+    work = _elements(result) if result.fidelity == "shell" else hinge_work(result, structure)
     return Measures(
         status="complete",
         extents={name: float(np.abs(values).max()) for name, values in extents.items()},
         rotations={name: _rounded(vectors[-1]) for name, vectors in turned.items()},
         zones=_zones(result, structure),
-        peak_force={n: float(np.abs(_filtered(result, f)).max()) for n, f in forces.items() if f is not None},
-        mean_force={n: _mean(result.time, f, rest) for n, f in forces.items() if f is not None},
+        peak_force={n: float(np.abs(_filtered(result, f)).max()) for n, f in forces.items()},
+        mean_force={n: _mean(result.time, f, rest) for n, f in forces.items()},
+        impulse=impulses,
+        at_contact=dissipated_at(result, structure, impulses, work),
         rest=rest,
         opened=dict(sorted(opened.items(), key=lambda item: item[1])),
         energy=_energy(result),

@@ -155,6 +155,34 @@ def crush_table(comparison: Comparison) -> Table:
     return Table(caption, ("", first.capitalize(), second.capitalize(), "Difference"), rows)
 
 
+CONTACT_UNITS = {"impulse": "N*s", "peak force": "N", "dissipation at contact": "J"}
+
+
+def contact_table(comparison: Comparison) -> Table:
+    """Contacts of obstacles: impulse, peak force, dissipation at the contact; and what contact took."""
+    rows = []
+    for kind, unit in CONTACT_UNITS.items():
+        for figure in comparison.figures.get(kind, ()):
+            values = [_value(value, unit) for value in (figure.model, figure.shell)]
+            judged = "" if figure.right else ", beyond its target"
+            off = signed_percent((figure.model - figure.shell) / figure.shell if figure.shell else None)
+            allowed = f"{100 * figure.allowed:.0f} %"
+            rows.append((f"{figure.name}: {kind}", *values, f"{off}{judged}", allowed))
+    if rows:
+        results = (comparison.candidate.result, comparison.reference.result)
+        for name, key in (("Taken by contact", "energy.contact"), ("Taken by friction", "energy.friction")):
+            taken = [float(r[key][-1]) if key in r.channels else None for r in results]
+            rows.append((name, *(_value(energy, "J") for energy in taken), "—", "—"))
+    first, second = comparison.candidate.name, comparison.reference.name
+    caption = (
+        "Contacts of obstacles. Dissipation: plastic work within one side of the section of where a member "
+        "touches the obstacle, with what contact and friction take if only one obstacle presses; its target "
+        "is at least 3 % of the energy put in. Taken by contact: in a multibody run, what impacts between "
+        "rigid bodies take; in shells, what contact springs store and damp, and friction."
+    )
+    return Table(caption, ("", first.capitalize(), second.capitalize(), "Difference", "Target"), rows)
+
+
 def _times(name: str, a: HingeMetrics | None, b: HingeMetrics | None, key: str) -> tuple[str, str, str, str]:
     """A row of two times; the difference is a time too."""
     values = [None if m is None else getattr(m, key) for m in (a, b)]

@@ -1,0 +1,95 @@
+"""What obstacles do to a structure: impulse, and the energy that is dissipated at their contacts.
+
+- Impulse: the integral of the force over the run, as a vector's length.
+- Places of contact: stations of members at which a wall point comes within `TOUCHES` of the section's largest
+  side of the obstacle in any stored shape.
+- Dissipation at the contact: plastic work of wall elements, or energy of hinges, whose place on the member's
+  axis at the start lies within one side of a place of contact; and the energies of contact and friction.
+
+Energies of contact and friction are those of the whole model: where several obstacles press, or members touch
+members, they cannot be divided, and are left out.  The place of an obstacle that turns is not followed.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from crumple.numeric.arrays import Floats
+from crumple.result import Result, States
+from crumple.structure import Structure, gap, plastic_hinges
+
+TOUCHES = 0.1
+"""Distance from an obstacle over the largest side of the section up to which a wall point touches it: shells
+keep half a wall away, and capsules round the corners of a section off."""
+TAKEN = ("energy.contact", "energy.friction")
+
+
+def impulse(time: Floats, force: Floats) -> float:
+    """Length of the integral of a force (n_times, 3) [N] over time [s], [N s]."""
+    return float(np.linalg.norm(np.diff(time) @ (force[1:] + force[:-1]) / 2.0))
+
+
+def dissipated_at(
+    result: Result, structure: Structure, impulses: dict[str, float], work: list[tuple[str, float, float]]
+) -> dict[str, float]:
+    """Energy dissipated at the contacts of every obstacle that pressed and does not turn [J].
+
+    Parameters
+    ----------
+    result, structure
+        With shapes.
+    impulses
+        Of every obstacle [N s].
+    work
+        Member, station [m] and energy [J] of all that dissipates: wall elements or hinges.
+    """
+    assert result.states is not None
+    pressing = [name for name, size in impulses.items() if size > 0.0]
+    alone = len(pressing) == 1 and structure.member_contact is None
+    taken = sum(float(result[name][-1]) for name in TAKEN if name in result.channels) if alone else 0.0
+    frames = {member: structure.frame_of(member) for member in structure.members}
+    places = np.array([frames[member].position(station) for member, station, _ in work]).reshape(-1, 3)
+    energies = np.array([energy for *_, energy in work])
+    found = {}
+    for name in pressing:
+        if structure.obstacles[name].turning is not None:
+            continue
+        near = np.zeros(len(work), dtype=bool)
+        for place, side in _contacts(result, structure, name):
+            near |= np.linalg.norm(places - place, axis=1) <= side
+        found[name] = float(energies[near].sum()) + taken
+    return found
+
+
+def _contacts(result: Result, structure: Structure, obstacle: str) -> list[tuple[Floats, float]]:
+    """Places on the axes of members, at the start, that touch an obstacle; side of their section [m]."""
+    states = result.states
+    assert states is not None
+    found: list[tuple[Floats, float]] = []
+    solid = structure.obstacles[obstacle]
+    only, shapes = solid.members, zip(states.displacement, _travel(result, states, obstacle), strict=True)
+    least = np.min([gap(solid, states.points + moved - by) for moved, by in shapes], axis=0)
+    for m, member in enumerate(states.member_names):
+        if only is not None and member not in only:
+            continue
+        side = float(np.ptp(structure.section_of(member).outline(), axis=0).max())
+        touching = (states.member == m) & (least <= TOUCHES * side)
+        frame = structure.frame_of(member)
+        found += [(frame.position(float(s)), side) for s in np.unique(states.station[touching].round(9))]
+    return found
+
+
+def _travel(result: Result, states: States, obstacle: str) -> Floats:
+    """Displacement of an obstacle in every state [m], (n_states, 3)."""
+    names = [f"obstacle.{obstacle}.displacement.{axis}" for axis in "xyz"]
+    if any(name not in result.channels for name in names):
+        return np.zeros((len(states.times), 3))
+    return np.stack([np.interp(states.times, result.time, result[name]) for name in names], axis=1)
+
+
+def hinge_work(result: Result, structure: Structure) -> list[tuple[str, float, float]]:
+    """Member, station [m] and energy [J] of every hinge of a multibody run."""
+    return [
+        (hinge.member, hinge.station, float(result[f"hinge.{hinge.name}.energy"][-1]))
+        for hinge in plastic_hinges(structure)
+    ]

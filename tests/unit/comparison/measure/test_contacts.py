@@ -1,0 +1,161 @@
+"""Contacts of obstacles in a comparison: impulse, where they touch, what is dissipated there, and targets."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from rich.markup import render
+from tests.support.structures import STEEL
+
+from crumple.cli.compare import _contact_lines
+from crumple.comparison.measure.contacts import dissipated_at, hinge_work, impulse
+from crumple.comparison.measure.decisive import figures_of
+from crumple.comparison.measure.measures import Measures, measure
+from crumple.multibody import Run, solve_multibody
+from crumple.report.wording.comparison_wording import contact_table
+from crumple.structure import Outputs, Structure
+
+LAW = {"type": "constant", "moment": 1000.0}
+POLE = {
+    "type": "cylinder", "point": (0.5, 0.0, 0.06), "axis": (0.0, 1.0, 0.0), "radius": 0.03, "mass": 20.0,
+    "velocity": (0.0, 0.0, -3.0),
+}  # fmt: skip
+
+
+def beam(**obstacles):
+    """A beam clamped at both ends, hinges at the ends and on both sides of its middle, under a pole."""
+    tube = {"type": "circular_tube", "diameter": 0.05, "thickness": 1.5e-3}
+    return Structure(
+        materials={"steel": STEEL},
+        sections={"tube": tube},
+        nodes={"a": (0.0, 0.0, 0.0), "b": (1.0, 0.0, 0.0)},
+        members={
+            "bar": {
+                "nodes": ("a", "b"),
+                "section": "tube",
+                "material": "steel",
+                "hinges": [{"name": f"h{i}", "at": at, "law": LAW} for i, at in enumerate((0.02, 0.5, 0.98))],
+            }
+        },
+        supports={"a": {"node": "a", "fix": "all"}, "b": {"node": "b", "fix": ("y", "z", "rx", "ry", "rz")}},
+        obstacles={"pole": POLE, **obstacles},
+    )
+
+
+def solved(structure):
+    """A run of 20 ms with shapes at every output."""
+    times = tuple(np.linspace(0.0, 0.02, 41))
+    return solve_multibody(structure, Run(0.02, 5e-4, outputs=Outputs(pictures=times)))
+
+
+@pytest.fixture(scope="module", name="one")
+def _one():
+    structure = beam()
+    return structure, solved(structure)
+
+
+def at_contact(result, structure, impulses):
+    return dissipated_at(result, structure, impulses, hinge_work(result, structure))
+
+
+def test_the_impulse_is_the_length_of_the_integral():
+    force = np.tile([3.0, 0.0, -4.0], (5, 1))
+    assert impulse(np.linspace(0.0, 2.0, 5), force) == pytest.approx(10.0)
+    # what is pushed back counts against it
+    assert impulse(np.array([0.0, 1.0, 2.0]), np.array([[1.0, 0, 0], [0, 0, 0], [-1.0, 0, 0]])) == 0.0
+
+
+def test_the_hinge_under_the_pole_and_what_contact_takes_are_dissipated_there(one):
+    structure, result = one
+    measures = measure(result, structure)
+    taken = result["energy.contact"][-1] + result["energy.friction"][-1]
+    assert taken > 0
+    assert measures.at_contact == {"pole": pytest.approx(result["hinge.h1.energy"][-1] + taken)}
+    # the pole stops: its momentum
+    speed = 3.0 + result["obstacle.pole.velocity.z"][-1]
+    assert measures.impulse["pole"] == pytest.approx(20.0 * speed, rel=0.02)
+
+
+def test_an_obstacle_that_does_not_press_has_no_figure_and_takes_no_share(one):
+    _, result = one
+    structure = beam(floor={"type": "plane", "point": (0.0, 0.0, -0.5), "normal": (0.0, 0.0, 1.0)})
+    found = at_contact(result, structure, {"pole": 60.0, "floor": 0.0})
+    assert set(found) == {"pole"}
+
+
+def test_of_two_that_press_neither_is_given_what_contact_takes(one):
+    structure, result = one
+    two = beam(other=POLE | {"point": (0.02, 0.0, 0.06)})
+    found = at_contact(result, two, {"pole": 60.0, "other": 1.0})
+    assert found["pole"] == pytest.approx(result["hinge.h1.energy"][-1])
+    # it never comes near in these shapes: nothing is dissipated there
+    assert found["other"] == 0.0
+    alone = at_contact(result, structure, {"pole": 60.0})
+    assert alone["pole"] > found["pole"]
+
+
+def test_only_members_that_may_touch_count_and_turning_obstacles_do_not(one):
+    structure, result = one
+    elsewhere = structure.obstacles["pole"].model_copy(update={"members": ("other",)})
+    apart = SimpleNamespace(
+        obstacles={"pole": elsewhere}, member_contact=None, members=structure.members,
+        frame_of=structure.frame_of, section_of=structure.section_of,
+    )  # fmt: skip
+    found = dissipated_at(result, apart, {"pole": 60.0}, hinge_work(result, structure))
+    taken = result["energy.contact"][-1] + result["energy.friction"][-1]
+    assert found["pole"] == pytest.approx(taken)
+    angle = {"table": {"time": (0.0, 1.0), "value": (0.0, 1.0)}}
+    still = {key: POLE[key] for key in ("type", "point", "axis", "radius")}
+    turning = beam(pole=still | {"turning": {"about": (0, 0, 0), "axis": (0, 1, 0), "angle": angle}})
+    assert at_contact(result, turning, {"pole": 60.0}) == {}
+
+
+OWN = Measures(
+    status="complete", impulse={"pole": 100.0}, at_contact={"pole": 200.0}, energy={"put_in": 2000.0}
+)
+
+
+@pytest.mark.parametrize(
+    ("impulses", "dissipated", "right"),
+    [(104.0, 255.0, (True, True)), (94.0, 265.0, (False, False)), (100.0, 145.0, (True, True))],
+)
+def test_targets_are_5_percent_and_20_or_3_percent_of_the_energy(impulses, dissipated, right):
+    """3 % of 2000 J are 60 J, more than 20 % of 200 J."""
+    model = replace(OWN, impulse={"pole": impulses}, at_contact={"pole": dissipated})
+    figures = figures_of(model, OWN)
+    assert tuple(figures[kind][0].right for kind in ("impulse", "dissipation at contact")) == right
+    # the share of a large one counts
+    large = replace(OWN, at_contact={"pole": 1000.0})
+    assert figures_of(replace(OWN, at_contact={"pole": 1190.0}), large)["dissipation at contact"][0].right
+    assert not figures_of(replace(OWN, at_contact={"pole": 790.0}), large)["dissipation at contact"][0].right
+
+
+def test_references_without_them_judge_no_contacts_and_failed_runs_are_wrong():
+    assert not {"impulse", "dissipation at contact"} & set(figures_of(OWN, Measures(status="complete")))
+    failed = figures_of(Measures(status="refused"), OWN)
+    assert not failed["impulse"][0].right
+    assert not failed["dissipation at contact"][0].right
+
+
+def compared(model):
+    """What the table and the lines use of a comparison."""
+    source = SimpleNamespace(name="multibody", result=SimpleNamespace(channels={}))
+    return SimpleNamespace(
+        candidate=source, reference=SimpleNamespace(name="shell", result=source.result),
+        figures=figures_of(model, OWN),
+    )  # fmt: skip
+
+
+def test_the_page_and_the_command_show_both_values_and_what_is_beyond_its_target():
+    shown = compared(replace(OWN, impulse={"pole": 90.0}))
+    table = contact_table(shown)
+    assert ("pole: impulse", "90 N s", "100 N s", "−10.0 %, beyond its target", "5 %") in table.rows
+    assert ("pole: dissipation at contact", "200 J", "200 J", "+0.0 %", "20 %") in table.rows
+    assert ("Taken by contact", "—", "—", "—", "—") in table.rows
+    lines = [render(line).plain for line in _contact_lines(shown)]
+    assert lines == [
+        "Obstacle pole, impulse: 90 N s (multibody), 100 N s (shell), beyond its target",
+        "Obstacle pole, dissipation at contact: 200 J (multibody), 200 J (shell)",
+    ]
+    assert not contact_table(SimpleNamespace(**(vars(shown) | {"figures": {}}))).rows
