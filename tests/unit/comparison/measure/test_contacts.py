@@ -111,6 +111,21 @@ def test_only_members_that_may_touch_count_and_turning_obstacles_do_not(one):
     assert at_contact(result, turning, {"pole": 60.0}) == {}
 
 
+@pytest.mark.parametrize(("outside", "known"), [(0.029, True), (0.031, False)])
+def test_what_yields_along_a_member_has_no_place(one, outside, known):
+    structure, result = one
+    hinges = sum(energy for *_, energy in hinge_work(result, structure))
+    put_in = result["energy.kinetic"][0] + np.abs(result["energy.external_work"]).max()
+    values = np.full(len(result.time), hinges + outside * put_in)
+    total = replace(result.channels["energy.dissipated"], name="member.bar.energy", values=values)
+    spread = replace(result, channels={**result.channels, total.name: total})
+    assert (at_contact(spread, structure, {"pole": 60.0}) != {}) is known
+    # what is not known is not judged
+    model = replace(OWN, at_contact={})
+    assert "dissipation at contact" not in figures_of(model, OWN)
+    assert "impulse" in figures_of(model, OWN)
+
+
 OWN = Measures(
     status="complete", impulse={"pole": 100.0}, at_contact={"pole": 200.0}, energy={"put_in": 2000.0}
 )
