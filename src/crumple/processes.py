@@ -200,8 +200,14 @@ class Worker:
         context = multiprocessing.get_context("spawn")
         here, there = context.Pipe()
         process = context.Process(target=_serve, args=(there, self._work, self._memory), daemon=True)
-        process.start()
-        there.close()
+        try:
+            process.start()
+        except OSError as error:
+            # no memory, or no more processes, for the moment
+            here.close()
+            raise WorkerError(f"the process that solves could not be started: {error.strerror}") from None
+        finally:
+            there.close()
         self._process, self._pipe = process, here
         try:
             # its start is not part of the time of a job

@@ -110,3 +110,14 @@ def test_a_job_is_told_to_stop_and_the_next_one_is_not(worker):
     assert worker.ask("wait", 60.0, lambda: bool(shares), shares.append) == "told"
     assert shares == [0.25]
     assert worker.ask("count", 60.0) == 2
+
+
+def test_a_process_that_cannot_be_started_is_an_error_of_the_worker(worker, monkeypatch):
+    def refused(process):
+        raise BlockingIOError(11, "Resource temporarily unavailable")
+
+    with monkeypatch.context() as patch:
+        patch.setattr("multiprocessing.context.SpawnProcess.start", refused)
+        with pytest.raises(WorkerError, match="could not be started: Resource temporarily unavailable"):
+            worker.ask("count", 60.0)
+    assert worker.ask("count", 60.0) == 1

@@ -139,8 +139,8 @@ class Client:
 
         try:
             return dict(await asyncio.to_thread(self._solver.ask, job, self._limits.seconds, overtaken))
-        except WorkerError as error:
-            return {"failed": str(error)}
+        except Exception as error:
+            return _failure(error)
 
     async def _solve(self, message: dict[str, Any]) -> None:
         number = int(message["number"])
@@ -213,8 +213,8 @@ class Client:
         limit = self._limits.shell_seconds
         try:
             answer = await asyncio.to_thread(self._checker.ask, job, limit, cancelled, progress)
-        except WorkerError as error:
-            answer = {"failed": str(error)}
+        except Exception as error:
+            answer = _failure(error)
         await self._send({"kind": "shell", **answer})
 
     def end(self) -> None:
@@ -222,6 +222,13 @@ class Client:
         self._cancelled = True
         self._solver.end()
         self._checker.end()
+
+
+def _failure(error: Exception) -> dict[str, Any]:
+    """Answer of a solve that failed; what nobody expected must not end the window either."""
+    if isinstance(error, WorkerError):
+        return {"failed": str(error)}
+    return {"failed": f"a defect of Crumple: {type(error).__name__}: {str(error)[:300]}"}
 
 
 HANDLERS: dict[str, Callable[[Client, dict[str, Any]], Awaitable[None]]] = {

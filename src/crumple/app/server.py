@@ -71,6 +71,9 @@ def application(
 
     async def window(connection: WebSocket) -> None:
         await connection.accept()
+        # what has shown no token is no window: it must not keep others out
+        if not await _shows_token(connection, access):
+            return
         if len(clients) >= MOST_CLIENTS:
             await connection.close(TOO_MANY, f"at most {MOST_CLIENTS} windows")
             return
@@ -83,7 +86,7 @@ def application(
         client = Client(folder, access, send, limits or Limits())
         clients.add(client)
         try:
-            await _converse(connection, client, access, first)
+            await _converse(connection, client, first)
         finally:
             clients.discard(client)
             client.end()
@@ -98,17 +101,22 @@ def application(
     return Guard(Starlette(routes=routes), port)
 
 
-async def _converse(connection: WebSocket, client: Client, access: Access, first: str) -> None:
-    """Messages of one window, the first of which must have the token."""
+async def _shows_token(connection: WebSocket, access: Access) -> bool:
+    """Whether the first message has the token; else the socket is closed."""
     try:
         opening = await asyncio.wait_for(connection.receive_json(), FIRST_MESSAGE)
         if not isinstance(opening, dict) or not access.knows(opening.get("token")):
             raise ValueError
     except (TimeoutError, ValueError, KeyError, RecursionError):
         await connection.close(NOT_ALLOWED, "no token of this server")
-        return
+        return False
     except WebSocketDisconnect:
-        return
+        return False
+    return True
+
+
+async def _converse(connection: WebSocket, client: Client, first: str) -> None:
+    """Messages of one window."""
     await client.welcome(first)
     solving = asyncio.create_task(client.solving())
     try:

@@ -5,6 +5,7 @@ import json
 import re
 import socket
 import urllib.parse
+from contextlib import ExitStack
 
 import pytest
 
@@ -14,6 +15,7 @@ pytest.importorskip("websockets")
 
 from tests.support.app import Window, base_of, request, started, token_of
 from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import connect
 
 from crumple.app.access import Access
 from crumple.app.client import Client, Limits
@@ -148,6 +150,16 @@ def test_a_window_is_welcomed_and_another_one_gets_a_code(app, window):
     other = Window(address, token_of(f"{base}/#{window.receive('code')['code']}"))
     other.receive("welcome")
     other.close()
+
+
+def test_sockets_without_the_token_keep_no_window_out(app):
+    with ExitStack() as sockets:
+        where = f"{base_of(app[0]).replace('http', 'ws')}/window"
+        for _ in range(5):
+            sockets.enter_context(connect(where, origin=base_of(app[0]), open_timeout=30))
+        window = Window(*app)
+        assert window.receive("welcome")
+        window.close()
 
 
 def test_four_windows_are_enough(app):
@@ -324,7 +336,7 @@ class Stubborn:
         return {"problems": [], "text": text}
 
 
-async def conversation(folder, limits, work):
+async def conversation(folder, limits, work, solver=None):
     """Run a conversation with a client whose process is stubborn; gives what it sent."""
     sent = []
 
@@ -332,7 +344,7 @@ async def conversation(folder, limits, work):
         sent.append(message)
 
     client = Client(Folder(folder), Access(), send, limits)
-    client._solver = Worker(Stubborn(), limits.memory)
+    client._solver = solver or Worker(Stubborn(), limits.memory)
     solving = asyncio.create_task(client.solving())
     try:
 
@@ -360,6 +372,30 @@ def test_a_process_that_hangs_or_dies_is_replaced(tmp_path):
     hung, died, well = asyncio.run(conversation(tmp_path, Limits(seconds=1.0), work))
     assert "longer than 1 s" in hung["failed"]
     assert "unexpectedly" in died["failed"]
+    assert well["text"] == "well"
+
+
+class Surprised(Worker):
+    """Its first job raises what nobody expects."""
+
+    surprises = 1
+
+    def ask(self, *job, **more):
+        if self.surprises:
+            self.surprises = 0
+            raise RuntimeError("why")
+        return super().ask(*job, **more)
+
+
+def test_an_exception_that_nobody_expects_is_told_and_the_next_text_is_solved(tmp_path):
+    async def work(tell, until):
+        for number in (1, 2):
+            await tell(number, "well")
+            await until(number)
+
+    solver = Surprised(Stubborn(), Limits().memory)
+    surprised, well = asyncio.run(conversation(tmp_path, Limits(), work, solver))
+    assert surprised["failed"] == "a defect of Crumple: RuntimeError: why"
     assert well["text"] == "well"
 
 
