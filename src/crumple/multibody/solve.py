@@ -35,8 +35,8 @@ from crumple.result import Provenance, Result, missing_pictures, sentences
 from crumple.structure import Structure, any_automatic, law_uses, placed_hinges, with_elastic_members
 
 FINER = (0.1, 0.01)
-"""Shares of the accuracy at which a planar run is repeated whose energy residual exceeds its bound; a hundredth
-takes some ten times the steps."""
+"""Shares of the accuracy at which a planar run is repeated whose energy residual exceeds its bound; a
+hundredth takes some ten times the steps."""
 
 
 def solve_multibody(
@@ -106,8 +106,8 @@ def solve_multibody(
 def _balanced(solver: Solver, solved: Solved, run: Run, poll: Poll) -> tuple[Solved, float]:
     """A run of the tree kernel that keeps its energy balance, and the accuracy that it needed.
 
-    The accuracy bounds errors of rotations.  Elastic hinges of stiff members vibrate, and the vibration loses energy
-    of the order of the accuracy without turning a hinge much.
+    The accuracy bounds errors of rotations.  Elastic hinges of stiff members vibrate, and the vibration loses
+    energy of the order of the accuracy without turning a hinge much.
     """
     accuracy, bound = run.settings.accuracy, run.settings.energy_residual_bound
     for share in FINER:
