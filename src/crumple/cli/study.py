@@ -44,7 +44,7 @@ def study(
     parquet: Annotated[bool, typer.Option("--parquet", help="Write study.parquet (needs pyarrow).")] = False,
 ) -> None:
     """Solve many variants of one input: sampling, probabilities, Sobol' indices, optimisation."""
-    from crumple.cli.console.folder import results_folder
+    from crumple.cli.console.folder import results_errors, results_folder
     from crumple.cli.console.progress import progress_bar
     from crumple.study import LoadedStudy, is_target, run_study
 
@@ -62,17 +62,18 @@ def study(
     with results_folder(out, file) as folder, _executor(scheduler, limit, workers) as (executor, count):
         if not resume:
             _forget(folder)
-        with progress_bar("solving") as progress:
+        with progress_bar("solving") as progress, results_errors(folder):
             table, answer = run_study(
                 loaded, folder, count, executor=executor, progress=progress, merge=merge
             )
         _show(answer)
         typer.echo(f"Results: {folder}  (study.sqlite, study.csv, study.json)")
-        if parquet:
-            table.to_parquet(folder / "study.parquet")
-        (folder / "study.html").unlink(missing_ok=True)
-        if page:
-            typer.echo(_page(loaded, table, answer, folder, shapes))
+        with results_errors(folder):
+            if parquet:
+                table.to_parquet(folder / "study.parquet")
+            (folder / "study.html").unlink(missing_ok=True)
+            if page:
+                typer.echo(_page(loaded, table, answer, folder, shapes))
     if answer.complete == 0:
         raise typer.Exit(1)
 
@@ -97,7 +98,7 @@ def _part(
     file: Path, out: str | None, part: str, workers: int, executor: Executor | None, *, resume: bool
 ) -> None:
     """One part of a study; parts may be solved at the same time, each in a folder of its own."""
-    from crumple.cli.console.folder import results_folder
+    from crumple.cli.console.folder import results_errors, results_folder
     from crumple.cli.console.progress import progress_bar
     from crumple.study import LoadedStudy, run_part
     from crumple.study.parts import part_file, read_part
@@ -108,7 +109,7 @@ def _part(
     with results_folder(place.parent, file) as folder:
         if not resume:
             _forget(folder, (place.name,))
-        with progress_bar("solving") as progress:
+        with progress_bar("solving") as progress, results_errors(place.parent):
             rows, solved = run_part(loaded, whole, wanted, workers, executor=executor, progress=progress)
     typer.echo(f"Part {part}: {rows} rows, {solved} solved now")
     typer.echo(f"Results: {place}  (join all parts with --merge)")
@@ -139,7 +140,7 @@ def _forget(folder: Path, names: tuple[str, ...] = ()) -> None:
 
 def _target(file: Path, out: str | None, workers: int, executor: Executor | None, *, resume: bool) -> None:
     """Lightest walls of each base, ranked."""
-    from crumple.cli.console.folder import results_folder
+    from crumple.cli.console.folder import results_errors, results_folder
     from crumple.cli.console.progress import progress_bar
     from crumple.study import LoadedTarget, run_target
     from crumple.units import format_quantity
@@ -148,7 +149,7 @@ def _target(file: Path, out: str | None, workers: int, executor: Executor | None
     with results_folder(out, file) as folder:
         for name in loaded.studies if not resume else ():
             _forget(folder / name)
-        with progress_bar("solving") as progress:
+        with progress_bar("solving") as progress, results_errors(folder):
             found = run_target(loaded, folder, workers, progress, executor=executor)
         for i, one in enumerate(found, 1):
             rows = f"{one.answer.rows} variants solved"

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import errno
 import math
+import os
 import sqlite3
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -113,9 +116,17 @@ class Table:
             self._stored.add(number)
 
     def close(self) -> None:
-        """Commit what is known, and close the file."""
-        self._commit(now=True)
-        self._file.close()
+        """Commit what is known, and close the file.
+
+        Raises
+        ------
+        OSError
+            If the disk is full, for example; rows that were committed before are kept.
+        """
+        try:
+            self._commit(now=True)
+        finally:
+            self._file.close()
 
     def solve(self, points: Sequence[Point]) -> list[Row]:
         """Rows of further points; equal points are solved once."""
@@ -161,18 +172,23 @@ class Table:
             rows = [one for one in rows if first + one[0] not in have] if have else rows
             if [row[1] for _, row in rows].count(COMPLETE) == len(rows):
                 cells = [(first + i, *points[first + i], *row[0]) for i, row in rows]
-                self._file.executemany(self._insert_complete, cells)
+                self._write(self._insert_complete, cells)
                 self._commit()
                 return
             cells = [(first + i, *points[first + i], *row[0], *row[1:]) for i, row in rows]
-        self._file.executemany(self._insert, cells)
+        self._write(self._insert, cells)
         self._commit()
+
+    def _write(self, statement: str, cells: Sequence[tuple[Any, ...]]) -> None:
+        with _as_system_errors():
+            self._file.executemany(statement, cells)
 
     def _commit(self, *, now: bool = False) -> None:
         """Commit if the last time is long enough ago that commits take little time, see `COMMITTING`."""
         begun = time.perf_counter()
         if now or begun - self._committed >= min(self._cost / COMMITTING, LATEST):
-            self._file.commit()
+            with _as_system_errors():
+                self._file.commit()
             self._committed = time.perf_counter()
             self._cost = self._committed - begun
 
@@ -236,6 +252,17 @@ class Table:
         except ImportError:
             todo = "install it: python -m pip install pyarrow; or read study.csv"
             raise InputError(Problem("pyarrow is not installed", todo=todo)) from None
+
+
+@contextmanager
+def _as_system_errors() -> Iterator[None]:
+    """What keeps SQLite from writing, as an `OSError`."""
+    try:
+        yield
+    except sqlite3.OperationalError as error:
+        full = error.sqlite_errorcode == sqlite3.SQLITE_FULL
+        number = errno.ENOSPC if full else errno.EIO
+        raise OSError(number, os.strerror(number), str(error)) from error
 
 
 def write_csv(table: Table, derived: dict[str, Floats], path: Path) -> None:

@@ -305,6 +305,21 @@ def test_the_command(run_command, tmp_path):  # noqa: F811
     assert '"sobol_indices"' in out
 
 
+def test_a_full_disk_is_no_defect(run_command, tmp_path, monkeypatch):  # noqa: F811
+    def small(path):
+        file = connect(path)
+        # of one table each, and of all names: the rows do not fit
+        file.execute("PRAGMA max_page_count = 3")
+        return file
+
+    connect = sqlite3.connect
+    monkeypatch.setattr("crumple.study.table.sqlite3.connect", small)
+    file = written(tmp_path, "{type: sobol, rows: 256}")
+    code, _, err = run_command("study", file, "--out", tmp_path / "out", "--workers", 1)
+    assert code == 2
+    assert f"the results cannot be written to {tmp_path / 'out'}: No space left on device" in err
+
+
 @pytest.mark.parametrize(
     ("changes", "line", "said"),
     [
