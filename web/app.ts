@@ -26,7 +26,7 @@ const curves = new Curves(find("curves"), find("band")), figures = new Figures(f
 
 let seen = "", saved = "", first = "", asked = 0, answered = 0, waiting = false, wantsNumbers = true;
 let shown: Scene | null = null, before: Scene | undefined, curvesBefore: Curve[] = [], changed = -Infinity;
-let typing = 0, keeping = 0, keptDraft: string | null = null, besideNames: string[] = [];
+let typing = 0, keeping = 0, keptDraft: string | null = null, drafted = false, besideNames: string[] = [];
 const told: number[] = [];  // milliseconds from question to drawn answer, for scripts
 
 const nonce = document.querySelector<HTMLMetaElement>("meta[name=style-nonce]")?.content ?? "";
@@ -79,8 +79,12 @@ function ask(numbers: boolean): void {
   if (sent) { answered = asked; wantsNumbers = false; }
 }
 
+/** writes a draft of what is not saved, and removes this window's draft when undo has led back to what is */
 function keep(): void {
-  if (editor.text !== saved) connection.send({ kind: "draft", name: name.value, text: editor.text });
+  const dirty = editor.text !== saved;
+  if (dirty) connection.send({ kind: "draft", name: name.value, text: editor.text });
+  else if (drafted) connection.send({ kind: "discard", name: name.value });
+  drafted = dirty;
 }
 
 function store(): void {
@@ -150,6 +154,7 @@ function receive(message: Received): void {
       besideNames = [];
       keptDraft = message.draft !== null && message.draft !== message.text ? message.draft : null;
       draft.hidden = keptDraft === null;
+      drafted = false;
       editor.replace(message.text);
       state();
       break;

@@ -229,6 +229,27 @@ def test_saving_keeps_the_file_of_another_program(page, place):
     assert (place / "tube.yaml").read_text() == "changed: 1\n"
 
 
+def soon(true):
+    """Whether it becomes true."""
+    for _ in range(200):
+        if true():
+            return True
+        time.sleep(0.05)
+    return False
+
+
+def test_a_text_that_is_as_saved_again_has_no_draft(browser, place):
+    kept = place / ".tube.yaml.draft"
+    with started(place / "tube.yaml") as address:
+        browser.open(address, 1400, 1000)
+        until(browser, f"window.crumpleApp && {ABSORBED} > 0")
+        put(browser, "2.65 mm", "3 mm")
+        assert soon(kept.exists)
+        put(browser, "3 mm", "2.65 mm")
+        assert soon(lambda: not kept.exists())
+        browser.open("about:blank", 800, 600)
+
+
 def test_a_draft_is_offered_again(browser, place):
     for again in (False, True):
         with started(place / "tube.yaml") as address:
@@ -237,10 +258,7 @@ def test_a_draft_is_offered_again(browser, place):
             if not again:
                 put(browser, "2.65 mm", "3 mm")
                 until(browser, f"crumpleApp.idle && {ABSORBED} !== 783.7")
-                for _ in range(200):
-                    if (place / ".tube.yaml.draft").exists():
-                        break
-                    time.sleep(0.05)
+                assert soon((place / ".tube.yaml.draft").exists)
                 assert (place / "tube.yaml").read_text() == TUBE
             else:
                 assert not browser.evaluate("document.getElementById('draft').hidden")

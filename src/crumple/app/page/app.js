@@ -615,6 +615,7 @@
   var typing = 0;
   var keeping = 0;
   var keptDraft = null;
+  var drafted = false;
   var besideNames = [];
   var told = [];
   var nonce = document.querySelector("meta[name=style-nonce]")?.content ?? "";
@@ -681,7 +682,10 @@
     }
   }
   function keep() {
-    if (editor.text !== saved) connection.send({ kind: "draft", name: name.value, text: editor.text });
+    const dirty = editor.text !== saved;
+    if (dirty) connection.send({ kind: "draft", name: name.value, text: editor.text });
+    else if (drafted) connection.send({ kind: "discard", name: name.value });
+    drafted = dirty;
   }
   function store() {
     refusal.hidden = true;
@@ -751,6 +755,7 @@
         besideNames = [];
         keptDraft = message.draft !== null && message.draft !== message.text ? message.draft : null;
         draft.hidden = keptDraft === null;
+        drafted = false;
         editor.replace(message.text);
         state();
         break;
