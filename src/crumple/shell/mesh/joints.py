@@ -234,10 +234,13 @@ def _mitre(
         points.append(arms + slant[:, None] * direction)
     if len(points[0]) != len(points[1]):
         return None
-    distance = np.linalg.norm(points[1][:, None] - points[0][None], axis=2)
-    match = np.argmin(distance, axis=1)
+    # contours of huge sections have tens of thousands of points: a table of all distances fills the memory
+    from scipy.spatial import cKDTree  # noqa: PLC0415  (takes a tenth of a second)
+
+    found = cKDTree(points[0]).query(points[1])
+    distance, match = np.asarray(found[0]), np.asarray(found[1], np.int64)
     size = float(np.ptp(contours[ends[0].member].points, axis=0).max())
-    if distance.min(axis=1).max() > SAME_POINT * size or len(set(match)) < len(match):
+    if distance.max() > SAME_POINT * size or len(set(match)) < len(match):
         return None
     return Joint(node, Kind.MITRED, ends, (0.0, 0.0), tuple(slants), match, rigid_ring=loaded)
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from tests.support.shell.structures import STEEL, TUBE, cantilever, knee, structure, tee, thrown
 
+from crumple.analysis.input_file import check
 from crumple.errors import InputError
 from crumple.shell.mesh.joints import Kind
 from crumple.shell.mesh.mesh import mesh_of
@@ -179,3 +180,18 @@ def test_thicker_steel_is_heavier():
     given = cantilever().model_copy(update={"sections": {"tube": {**TUBE, "thickness": 5.3e-3}}})
     thin, thick = (report_of(s, mesh_of(s, COARSE)).mass for s in (cantilever(), given))
     assert thick / thin == pytest.approx(2 * (44.7 + 19.7) / (47.35 + 22.35))
+
+
+def test_a_mitre_of_a_huge_section_does_not_compare_all_points_with_all(tmp_path):
+    file = tmp_path / "huge.yaml"
+    file.write_text(
+        "crumple: 1\nmaterials: {metal: {grade: S235}}\n"
+        "sections: {s: {type: square_tube, side: 40 m, thickness: 2 mm}}\n"
+        "nodes: {a: [0 m, 0 m, 0 m], b: [0.3 m, 0 m, 0.3 m], c: [0.6 m, 0 m, 0.6 m]}\n"
+        "members:\n  m: {nodes: [a, b], section: s, material: metal}\n"
+        "  n: {nodes: [b, c], section: s, material: metal}\n"
+        "supports: {a: {node: a, fix: all}}\nmasses: {m: {node: c, mass: 2 kg}}\n"
+        "hinges: {law: constant}\nanalysis: {duration: 2 ms}\n"
+    )
+    # the table of all distances took 23 GB
+    assert "too many elements" in check(file, "shell")[0].what
