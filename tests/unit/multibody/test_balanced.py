@@ -14,7 +14,7 @@ def portal(**settings):
     return crumple.Analysis(
         title="portal",
         duration=0.013,
-        multibody={"mechanism_check": "off", **settings},
+        multibody={"mechanism_check": "off", "members": "rigid", **settings},
         structure=crumple.Structure(
             materials={
                 "steel": {
