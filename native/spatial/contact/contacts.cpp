@@ -24,10 +24,6 @@ constexpr double slides = 0.999;
 // Upper bound of the rate without a contact's impulse relative to the rates with it.  The rate without impulse is estimated with the
 // mobility of both bodies alone; locked bodies yield much less to an impulse, and then the closing time follows from their rates.
 constexpr double implausible = 1e3;
-// Passes before the change of the friction limit from pass to pass is extrapolated: these predict different middles of the step.
-constexpr int first_passes = 2;
-// Least fall of the limit's error per change of the limit for which it is extrapolated.
-constexpr double least_fall = 0.2;
 // Relative gain of energy that is attributed to rounding.
 constexpr double rounding = 1e-9;
 
@@ -148,7 +144,6 @@ double Contacts::look_ahead(const std::vector<Pose>& pose, const std::vector<Twi
 bool Contacts::gather(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double h, double gain,
                       const ContactState& state) {
     restitution_share_ = 1;
-    passes_ = 0;
     before_.swap(active_);
     active_.clear();
     const double reach = look_ahead(pose, velocity, h, gain);
@@ -160,6 +155,11 @@ bool Contacts::gather(const std::vector<Pose>& pose, const std::vector<Twist>& v
         while (held != state.held.end() && held->key < c.key) ++held;
         if (held != state.held.end() && held->key == c.key) c.normal_impulse = h * held->force;
     }
+    rubbing_.clear();
+    for (const Active& c : active_) {
+        if (law(c).friction > 0) rubbing_.push_back(c.key);
+    }
+    limits_.begin(rubbing_, state.slopes);
     if (active_.size() != before_.size()) return true;
     for (size_t i = 0; i < active_.size(); i++) {
         if (active_[i].key != before_[i].key) return true;
@@ -300,21 +300,24 @@ void Contacts::widen(size_t i, double width) {
     if (crushes(i)) c.frozen.compliance = std::max(c.frozen.compliance, width / c.frozen.cap);
 }
 
-// The normal impulse that the next pass uses for the friction limit: the secant through the last two passes, which makes plain repetition
-// converge faster, and converge at all where strong friction alternates.
-void Contacts::follow_limit(Active& c, double found) {
-    const double used = c.normal_impulse, error = found - used;
-    const double fall = (c.error_before - error) / (used - c.used_before);
-    const bool extrapolated = passes_ > first_passes && used != c.used_before && fall > least_fall;
-    c.normal_impulse = extrapolated ? std::max(used + error / fall, 0.0) : found;
-    c.used_before = used;
-    c.error_before = error;
+// sets the normal impulses that the next pass uses for the friction limits
+void Contacts::follow_limits(const double* impulse) {
+    normal_.clear();
+    found_.clear();
+    for (size_t i = 0; i < active_.size(); i++) {
+        if (law(active_[i]).friction == 0) continue;
+        normal_.push_back(active_[i].normal_impulse);
+        found_.push_back(-impulse[rows() * i]);
+    }
+    limits_.follow(normal_, found_);
+    auto next = normal_.begin();
+    for (size_t i = 0; i < active_.size(); i++) active_[i].normal_impulse = law(active_[i]).friction == 0 ? -impulse[rows() * i] : *next++;
 }
 
 bool Contacts::settle(const double* impulse, const double* rate0, const double* rate) {
     double largest = 0, change = 0, work = 0, scale = 0;
     for (size_t i = 0; i < active_.size(); i++) {
-        Active& c = active_[i];
+        const Active& c = active_[i];
         for (size_t k = rows() * i; k < rows() * (i + 1); k++) {
             work += impulse[k] * (rate0[k] + rate[k]) / 2;
             scale += std::fabs(impulse[k]) * (std::fabs(rate0[k]) + std::fabs(rate[k]));
@@ -324,9 +327,8 @@ bool Contacts::settle(const double* impulse, const double* rate0, const double* 
         // a point that sticks within both friction limits does not depend on them
         const double mu = law(c).friction, held = mu > 0 ? std::hypot(impulse[rows() * i + 1], impulse[rows() * i + 2]) : 0;
         if (mu > 0 && held >= slides * mu * std::min(found, c.normal_impulse)) change = std::max(change, std::fabs(found - c.normal_impulse));
-        follow_limit(c, found);
     }
-    passes_++;
+    follow_limits(impulse);
     if (work < -rounding * scale && restitution_share_ > 0) {
         restitution_share_ = restitution_share_ < least_bounce ? 0 : less_bounce * restitution_share_;
         return false;
@@ -337,6 +339,7 @@ bool Contacts::settle(const double* impulse, const double* rate0, const double* 
 void Contacts::commit(double h, bool from_rest, const Row* at_middle, const double* impulse, const double* rate0,
                       const double* rate, ContactState& state) const {
     state.held.clear();
+    state.slopes = limits_.slopes();
     state.force.assign(model_.obstacles.size(), Vec3{});
     state.impulse.resize(model_.obstacles.size());
     state.closing = 0;

@@ -6,10 +6,12 @@
 // as it is: its gap is measured from there, and it may not come closer.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "spatial/contact/contact.hpp"
+#include "spatial/contact/friction_limits.hpp"
 #include "spatial/model/joint.hpp"
 
 namespace crumple::spatial {
@@ -50,11 +52,26 @@ struct ContactState {
         double force;  // normal force, mean over the last step [N]
     };
     std::vector<Held> held;               // contacts that carry a force, in the order of their keys
+    LimitSlopes slopes;                   // of their friction limits
     double dissipated = 0, friction = 0;  // [J]
     std::vector<Vec3> impulse, force;     // on every obstacle: since the start [N s]; mean over the last step [N]
     bool impact = false;                  // bodies approach at a closed contact: the next step is an impact, of the smallest length
     std::vector<double> crushed;          // depth to which walls are crushed, per pair [m]; empty while none is
     double closing = 0;                   // after a step: time from its start at which its first open contact closed; 0 if none did
+
+    // The forces to start from in the halves of a step, from the state after the whole: in the first half the same, ...
+    void expect_first_half(const ContactState& whole) {
+        held = whole.held;
+        slopes = whole.slopes;
+    }
+    // ... and in the second as much beyond them as they are beyond those of the first half.
+    void expect_second_half(const ContactState& whole) {
+        auto mean = whole.held.begin();
+        for (Held& one : held) {
+            while (mean != whole.held.end() && mean->key < one.key) ++mean;
+            if (mean != whole.held.end() && mean->key == one.key) one.force = std::max(2 * mean->force - one.force, 0.0);
+        }
+    }
 };
 
 class Contacts {
@@ -130,7 +147,6 @@ private:
         size_t pair;
         int body[2];
         double gap, inverse_mass, normal_impulse, offset;
-        double used_before, error_before;  // friction: normal impulse used in the pass before, and what was found above it
         Vec3 normal, tangent, point;  // at the start of the step
         FrozenContact frozen;
     };
@@ -143,7 +159,7 @@ private:
         const int obstacle = pairs_[c.pair].obstacle;
         return obstacle < 0 ? model_.between : model_.obstacles[static_cast<size_t>(obstacle)].law;
     }
-    void follow_limit(Active& c, double found);
+    void follow_limits(const double* impulse);
     double rest_rate(const Active& c) const;
     double crush_force(const Pair& pair) const;
     // gap of the undeformed surfaces at which a pair is in contact
@@ -167,7 +183,9 @@ private:
     double closed_gap_ = 1e-6, negligible_energy_ = 0, restitution_share_ = 1, settled_change_ = 1e-6;
     bool bounces_ = true;
     size_t rows_ = 3;
-    int passes_ = 0;                       // over the present step so far
+    FrictionLimits limits_;
+    std::vector<int64_t> rubbing_;         // keys of the active contacts with friction
+    std::vector<double> normal_, found_;   // their normal impulses
 };
 
 }  // namespace crumple::spatial

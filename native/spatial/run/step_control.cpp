@@ -91,12 +91,14 @@ bool Simulation::solve(double h) {
     const bool from_rest = stepper_.stage().quasi_static;
     for (size_t i = 0; i < end.size(); i++) guess_[i] = from_rest ? end[i] : 0.5 * (state_.velocity[i] + end[i]);
     fine_ = state_;
+    fine_.contact.expect_first_half(coarse_.contact);
     const std::vector<Twist> last = end;
     if (!stepper_.step(fine_, h / 2, &guess_)) return false;
     ahead_.see_half(state_.velocity, fine_.velocity, h / 2, stepper_.end_rates());
     closing_ = fine_.contact.closing;
     if (closing_ > 0) return true;
     if (passed) half_ = fine_;
+    fine_.contact.expect_second_half(coarse_.contact);
     if (!stepper_.step(fine_, h / 2, &last)) return false;
     if (fine_.contact.closing > 0) closing_ = h / 2 + fine_.contact.closing;
     return true;
