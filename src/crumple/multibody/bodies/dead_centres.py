@@ -27,7 +27,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from crumple.multibody.bodies.linkage import GROUND, Linkage
-from crumple.multibody.bodies.mobility import NOTHING, Tree, loop_system, null_space, scale_of, tree_of
+from crumple.multibody.bodies.mobility import NOTHING, Tree, loop_system, null_spaces, scale_of, tree_of
 from crumple.numeric.arrays import Floats
 
 Freedom = tuple[int, int]
@@ -131,8 +131,7 @@ def _problem(linkage: Linkage) -> tuple[Tree, Floats, Floats] | None:
     system = loop_system(linkage, tree)
     if not len(system):
         return None
-    motions, _ = null_space(system)
-    stresses, _ = null_space(system.T)
+    motions, stresses = null_spaces(system)
     if not len(motions) or not len(stresses):
         return None
     forms = _forms(linkage, tree, motions, stresses)

@@ -331,10 +331,15 @@ def null_space(system: Floats) -> tuple[Floats, int]:
     """Orthonormal basis of a system's null space, and the number of its redundant rows."""
     if not len(system):
         return np.zeros((0, system.shape[1])), 0
-    _, sizes, vectors = np.linalg.svd(system)
+    null, left = null_spaces(system)
+    return null, len(left)
+
+
+def null_spaces(system: Floats) -> tuple[Floats, Floats]:
+    """Orthonormal bases of the null spaces of a system and of its transpose, as rows."""
+    left, sizes, right = np.linalg.svd(system)
     rank = int(np.sum(sizes > NOTHING * max(float(sizes.max(initial=0.0)), 1.0)))
-    null: Floats = vectors[rank:]
-    return null, len(system) - rank
+    return right[rank:], left[:, rank:].T
 
 
 def named_members(names: tuple[str, ...]) -> str:
