@@ -58,7 +58,8 @@ def compare(
     variants: Annotated[
         bool,
         typer.Option(
-            help="Solve also multibody models with elastic hinges and members, and the modes of an impact."
+            help="Solve also multibody models with elastic hinges and members, the range from the bands of "
+            "the hinge laws, and the modes of an impact."
         ),
     ] = True,
     restart: Annotated[
@@ -201,6 +202,7 @@ def _show(found: Comparison, folder: Path, source: LoadedInput | None = None) ->
 
     from crumple.report import curve_notes
     from crumple.report.wording.comparison_wording import busy_note, ranked, times_faster
+    from crumple.report.wording.law_range import shell_range_sentence
     from crumple.units import format_quantity
 
     console = Console(highlight=False)
@@ -229,6 +231,8 @@ def _show(found: Comparison, folder: Path, source: LoadedInput | None = None) ->
         console.print(line)
     if len(found.hinges) > MOST_HINGES:
         console.print(f"{MOST_HINGES} of {len(found.hinges)} hinges, those with the largest absorbed energy")
+    if told := shell_range_sentence(found):
+        console.print(f"Range from the hinge laws: {told[:1].lower()}{told[1:]}", markup=False)
     for line in () if source is None else law_lines(found.candidate.result, source):
         console.print(Text(line), soft_wrap=True)
     times = [

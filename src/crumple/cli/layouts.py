@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from crumple.cli.console.laws import Freeze, Laws, law_lines, with_store, write_frozen
+from crumple.cli.console.laws import Freeze, Laws, law_lines, with_range, with_store, write_frozen
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -25,6 +25,13 @@ def layouts(
     title: Annotated[str, typer.Option(help="Title of the page.")] = "Layouts",
     laws: Laws = None,
     freeze_laws: Freeze = None,
+    law_range: Annotated[
+        bool,
+        typer.Option(
+            help="Solve also with the laws at the edges of their bands, and state whether the order of the "
+            "layouts changes."
+        ),
+    ] = True,
 ) -> None:
     """Solve several layouts as multibody models and compare them. A layout that fails has a row."""
     from crumple.cli.console.folder import results_folder
@@ -40,7 +47,8 @@ def layouts(
         with stop_on_interrupt() as cancel:
             with progress_bar("solving") as progress:
                 for i, (name, file) in enumerate(zip(names, files, strict=True)):
-                    found.append(_solved(name, file, folder / name, cancel, (laws, sources)))
+                    used = (laws, sources, law_range)
+                    found.append(_solved(name, file, folder / name, cancel, used))
                     progress((i + 1) / len(files))
                     if cancel():
                         break
@@ -67,15 +75,16 @@ def _solved(
     file: Path,
     folder: Path,
     cancel: Callable[[], bool],
-    used: tuple[Path | None, dict[str, LoadedInput]],
+    used: tuple[Path | None, dict[str, LoadedInput], bool],
 ) -> Layout:
     """One layout: read, solved and written to its folder; if it is refused, the reason is kept.
 
-    `used`: store of laws, and the inputs that were read, to which this one is added.
+    `used`: store of laws; the inputs that were read, to which this one is added; whether a range is wanted.
     """
     from crumple.analysis import load_input, solve_with_frames
     from crumple.cli.console.storing import store
     from crumple.errors import InputError
+    from crumple.portable import available_cores
     from crumple.report import Layout
 
     try:
@@ -88,6 +97,8 @@ def _solved(
         return Layout(name, reason=f"{first.what}{place}" + (f", and {more} more problems" if more else ""))
     if not result.time.size:
         return Layout(name, reason=result.reason)
+    if used[2] and result.status.ok:
+        result = with_range(result, source, available_cores(), cancel)
     store(result, source, folder, frames)
     analysis = source.analysis
     return Layout(
@@ -119,7 +130,7 @@ def _show(found: list[Layout], folder: Path) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    from crumple.report import layout_table
+    from crumple.report import layout_table, order_notes
 
     console = Console(highlight=False)
     content = layout_table(found)
@@ -129,6 +140,8 @@ def _show(found: list[Layout], folder: Path) -> None:
     for row in content.rows:
         table.add_row(*(escape(cell) for cell in row))
     console.print(table)
+    for line in order_notes(found):
+        console.print(Text(line), soft_wrap=True)
     for layout in found:
         if layout.result is None:
             console.print(Text(f"{layout.name}: {layout.reason}", style="bold red"))

@@ -11,11 +11,11 @@ import typer
 
 from crumple.cli.console.beside import Moded, Uncertain, with_its_modes, with_scatter
 from crumple.cli.console.fidelity import Fidelity
-from crumple.cli.console.laws import Freeze, Laws, law_lines, range_lines, with_store
+from crumple.cli.console.laws import Freeze, Laws, law_lines, range_lines, with_range, with_store
 from crumple.numeric.ranking import largest_first
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
     from rich.table import Table
 
@@ -168,7 +168,7 @@ def _solve(
             raise CancelledError(result.reason)
         quick, sound = result.solve_seconds < QUICK, not is_shell and result.status.ok
         if sound and (quick if also[0] is None else also[0]):
-            result = _with_range(result, source, threads or available_cores(), cancel)
+            result = with_range(result, source, threads or available_cores(), cancel)
         if sound and (quick if also[1] is None else also[1]):
             result = with_its_modes(result, source, threads or available_cores(), cancel)
         if also[2] and sound:
@@ -191,18 +191,6 @@ def _discarding() -> Iterator[None]:
         yield
     except KeyboardInterrupt:
         raise CancelledError("ended by a second Ctrl-C: no results of this run were kept") from None
-
-
-def _with_range(result: Result, source: LoadedInput, threads: int, cancel: Callable[[], bool]) -> Result:
-    """The result with its range from the laws; what is solved is kept if the range cannot be computed."""
-    from crumple.analysis import with_law_range
-    from crumple.errors import InputError
-
-    try:
-        return with_law_range(result, source.analysis, threads, cancel)
-    except InputError as error:
-        typer.echo(f"The range from the laws is not known: {error.problems[0].what}", err=True)
-        return result
 
 
 def _summary(result: Result) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from crumple.comparison.comparison import Comparison, Opening, Source
 from crumple.comparison.measure.corner_motion import with_corners
 from crumple.comparison.measure.crush import CrushComparison, crush_figures, crushable
 from crumple.comparison.measure.decisive import Figure, figures_of
+from crumple.comparison.measure.in_ranges import values_in_ranges
 from crumple.comparison.measure.measures import measurable, measure
 from crumple.comparison.measure.metrics import HingeComparison, compared, metrics_of
 from crumple.comparison.measure.motion import Measured, channel_motions, measured, member_sections
@@ -98,17 +99,24 @@ def compare(
         until=until,
         crushes=_crushes(candidate, reference, structure, hinges, until),
         figures=_figures(candidate, reference, structure),
+        in_ranges=values_in_ranges(candidate, reference, tables[first.name])
+        if _alike(candidate, reference)
+        else {},
     )
     return replace(found, trust=trust_of(found, structure))
 
 
 def _figures(candidate: Result, reference: Result, structure: Structure) -> Mapping[str, Sequence[Figure]]:
     """What engineers decide on, if both runs are whole and long alike and their shapes are known."""
-    ends = [float(result.time[-1]) for result in (candidate, reference)]
-    alike = abs(ends[0] - ends[1]) <= SAME_TIME * max(ends)
-    if not alike or not all(measurable(result) for result in (candidate, reference)):
+    if not _alike(candidate, reference) or not all(measurable(result) for result in (candidate, reference)):
         return {}
     return figures_of(measure(candidate, structure), measure(reference, structure))
+
+
+def _alike(candidate: Result, reference: Result) -> bool:
+    """Whether both results have the same end."""
+    ends = [float(result.time[-1]) for result in (candidate, reference)]
+    return abs(ends[0] - ends[1]) <= SAME_TIME * max(ends)
 
 
 def _crushes(

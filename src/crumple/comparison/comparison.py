@@ -141,6 +141,8 @@ class Comparison:
     """Members that can shorten, candidate against reference."""
     figures: Mapping[str, Sequence[Figure]] = field(default_factory=dict)
     """What engineers decide on, by kind, candidate against reference; empty where a run did not complete."""
+    in_ranges: Mapping[str, float] = field(default_factory=dict)
+    """Values of the reference [SI] for quantities with a range from the bands of the candidate's laws."""
 
     @property
     def speed_ratio(self) -> float | None:

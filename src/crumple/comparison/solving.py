@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crumple.analysis import Analysis, input_hash, solve, with_modes
+from crumple.analysis import Analysis, input_hash, solve, with_law_range, with_modes
 from crumple.comparison.comparing import compare
 from crumple.comparison.comparison import Comparison, Timing
 from crumple.comparison.measure.sections import at_times
@@ -58,7 +59,8 @@ def solve_and_compare(
     curves
         Curves from files, to be compared as well.
     variants
-        Whether to solve further multibody models (see `variants_of`), and the modes of an impact.
+        Whether to solve further multibody models (see `variants_of`), and the range from the bands of the
+        laws and the modes of an impact.
     second_mesh
         Factor on the size of all elements of a further shell run, which shows how accurate the reference
         is; None: no such run.
@@ -84,7 +86,7 @@ def solve_and_compare(
     if not candidate.time.size:
         raise CancelledError(candidate.reason)
     if variants and candidate.status.ok and candidate.solve_seconds < TIMED_BELOW:
-        candidate = with_modes(candidate, analysis, threads, cancel=cancel)
+        candidate = _with_neighbours(candidate, analysis, threads, cancel)
     if keep is not None:
         keep(candidate)
     begin, worked = time.perf_counter(), time.process_time()
@@ -112,6 +114,14 @@ def solve_and_compare(
         curves=curves,
     )
     return replace(found, timings=timings, busy_share=busy)
+
+
+def _with_neighbours(result: Result, analysis: Analysis, threads: int, cancel: Cancel | None) -> Result:
+    """A multibody result with its range from the bands of the laws, and the modes of an impact."""
+    # some structures have no variants; what is solved can be compared without a range
+    with suppress(InputError):
+        result = with_law_range(result, analysis, threads, cancel)
+    return with_modes(result, analysis, threads, cancel=cancel)
 
 
 def with_frames(analysis: Analysis, number: int = FRAMES) -> Analysis:

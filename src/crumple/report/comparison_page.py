@@ -143,6 +143,7 @@ def _render(
 
     from crumple.report.scene.page import page_parts  # noqa: PLC0415
     from crumple.report.wording import comparison_wording as wording  # noqa: PLC0415
+    from crumple.report.wording.law_range import shell_range_table  # noqa: PLC0415
 
     here = Path(__file__).parent / "templates"
     figures = {name: _Figure(i + 1, Markup(svg), caption) for i, (name, svg, caption) in enumerate(drawn)}
@@ -173,6 +174,7 @@ def _render(
         hinge_tables=wording.hinge_tables(comparison),
         contact_table=wording.contact_table(comparison),
         crush_table=wording.crush_table(comparison),
+        range_table=shell_range_table(comparison),
         omitted=max(len(comparison.hinges) - wording.MOST_HINGES, 0),
         rating_table=wording.rating_table(comparison),
         opening_table=wording.opening_table(comparison),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -66,6 +66,11 @@ class Layout:
     def status(self) -> str:
         """Status of the layout, in words."""
         return self.result.status.value if self.result is not None else "refused"
+
+    def range_of(self, quantity: str) -> tuple[float, float] | None:
+        """Range of a quantity from the bands of its hinge laws [SI]; None if it has none."""
+        known = self.result is not None and self.result.law_range is not None
+        return self.result.law_range.of(quantity) if known else None  # type: ignore[union-attr]
 
 
 def write_layouts(layouts: Sequence[Layout], title: str, directory: Path | str) -> Path:
@@ -157,6 +162,30 @@ def _output_table(layouts: Sequence[Layout], outputs: Sequence[str]) -> Table:
     return Table("Largest magnitude of each requested output.", heads, rows)
 
 
+def _tables(layouts: Sequence[Layout], outputs: Sequence[str]) -> Iterator[Table]:
+    """Those of the page; one may have no rows."""
+    from crumple.report.wording.layout_order import order_table  # noqa: PLC0415
+
+    yield layout_table(layouts)
+    yield _output_table(layouts, outputs)
+    yield order_table(_complete(layouts), _ordered_by(outputs))
+
+
+def order_notes(layouts: Sequence[Layout]) -> list[str]:
+    """Whether the order of the layouts changes within the bands of their hinge laws, by quantity."""
+    from crumple.report.wording.layout_order import order_sentences  # noqa: PLC0415
+
+    return order_sentences(_complete(layouts), _ordered_by(common_outputs(layouts)))
+
+
+def _complete(layouts: Sequence[Layout]) -> dict[str, Result]:
+    return {x.name: x.result for x in layouts if x.result is not None and x.result.status.ok}
+
+
+def _ordered_by(outputs: Sequence[str]) -> list[str]:
+    return [*outputs, "energy.dissipated"]
+
+
 def _open_hinges(layout: Layout) -> str:
     if layout.result is None:
         return "—"
@@ -171,7 +200,10 @@ def _csv(layouts: Sequence[Layout], outputs: Sequence[str]) -> str:
     units = {name: x.result.channels[name].unit for x in layouts if x.result for name in outputs}
     heads = ["layout", "title", "status", "reason", "mass [kg]", "energy absorbed [J]", "energy residual"]
     heads += ["solve time [s]"]
+    ranged = ["energy.dissipated", *(n for n in outputs if any(x.range_of(n) for x in layouts))]
+    units["energy.dissipated"] = "J"
     heads += [f"{name} {kind} [{units[name]}]" for name in outputs for kind in ("final", "max")]
+    heads += [f"{name} final {kind} [{units[name]}]" for name in ranged for kind in ("least", "largest")]
     writer.writerow(heads)
     for layout in layouts:
         row: list[Any] = [layout.name, layout.title, layout.status, layout.reason, layout.mass]
@@ -179,6 +211,7 @@ def _csv(layouts: Sequence[Layout], outputs: Sequence[str]) -> str:
             row += [layout.absorbed, layout.result.energy_residual, layout.result.solve_seconds]
             summaries = (layout.result.outputs[name] for name in outputs)
             row += [value for output in summaries for value in (output.final, output.max)]
+            row += [value for name in ranged for value in layout.range_of(name) or (None, None)]
         row += [None] * (len(heads) - len(row))
         writer.writerow(["" if value is None else value for value in row])
     return text.getvalue()
@@ -256,7 +289,8 @@ def _render(
     return environment.get_template("layouts.html.jinja").render(
         **page_parts(scene),
         title=title,
-        tables=[table for table in (layout_table(layouts), _output_table(layouts, outputs)) if table.rows],
+        tables=[table for table in _tables(layouts, outputs) if table.rows],
+        order=order_notes(layouts),
         number=len(layouts),
         figures=figures,
         warned=_warned(layouts),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 MOST_HINGES = 3
@@ -21,19 +21,27 @@ class LawRange:
     ----------
     ranges
         Least and largest value by quantity, in SI: ``hinge.NAME.rotation_max``, ``hinge.NAME.energy``,
-        ``node.NAME.displacement.x`` at the end, ``energy.dissipated``.
+        ``node.NAME.displacement.x``, distances and clearances at the end, ``energy.dissipated``.
     bands
         Relative half-width of the band by hinge [-].
     without
         Hinges whose law has no known band; they keep their law in all runs.
     failed
         Runs that did not reach the end, in words; they are not in the ranges.
+    cases
+        Values by quantity, for each run that reached the end by its name.  They are not stored.
     """
 
     ranges: Mapping[str, tuple[float, float]]
     bands: Mapping[str, float]
     without: tuple[str, ...] = ()
     failed: tuple[str, ...] = ()
+    cases: Mapping[str, Mapping[str, float]] = field(default_factory=dict, compare=False, repr=False)
+
+    @property
+    def stored(self) -> dict[str, Any]:
+        """What is written with a result."""
+        return {key: getattr(self, key) for key in ("ranges", "bands", "without", "failed")}
 
     def of(self, quantity: str) -> tuple[float, float] | None:
         """Range of a quantity; None if it has none."""

@@ -57,7 +57,7 @@ def summary(result: Result) -> dict[str, Any]:
             {"code": c.code, "value": c.value, "limit": c.limit, "unit": c.unit, "place": c.place}
             for c in result.cautions
         ],
-        "law_range": None if result.law_range is None else asdict(result.law_range),
+        "law_range": None if result.law_range is None else result.law_range.stored,
         "modes": None if result.modes is None else asdict(result.modes),
         "criteria": [asdict(criterion) for criterion in result.criteria],
         "scatter": _of_scatter(result.scatter),

@@ -174,7 +174,7 @@ def _write_rest(group: h5py.Group, result: Result, field_names: FieldNames) -> N
         "hinges": hinges,
         "cautions": [asdict(caution) for caution in result.cautions],
         "stages": [asdict(stage) for stage in result.stages],
-        "law_range": None if result.law_range is None else asdict(result.law_range),
+        "law_range": None if result.law_range is None else result.law_range.stored,
         "modes": None if result.modes is None else asdict(result.modes),
         "criteria": [asdict(criterion) for criterion in result.criteria],
         "scatter": None if result.scatter is None else asdict(result.scatter),

@@ -40,6 +40,7 @@ def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
     assert "times faster" in run.stdout
     assert "Solved again, multibody took" in run.stdout
     assert "Caution" in run.stdout
+    assert "Range from the hinge laws: the shell value is inside for " in run.stdout
     message = " ".join(run.stdout.split())
     assert "Curve bench (test.csv): member.tube.chord_rotation rated 0." in message
     assert "hinge.root.moment is in m, but in N*m in the results" in message
@@ -62,6 +63,7 @@ def test_compare_writes_both_results_and_one_page(tmp_path: Path) -> None:
         'id="player"',
         "shell, 30 mm",
         "Repeated solve",
+        "Range from the hinge laws",
     ):
         assert expected in page
     assert (tmp_path / "out" / "figures" / "shapes.svg").is_file()

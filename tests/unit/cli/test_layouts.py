@@ -1,5 +1,6 @@
 """`crumple layouts`: a folder and a row for each file, a refusal is a row too."""
 
+import csv
 from pathlib import Path
 
 import pytest
@@ -30,6 +31,27 @@ def test_layouts_are_solved_and_tabled(run_command, files, tmp_path):  # noqa: F
         assert (tmp_path / "out" / name / "summary.json").exists()
     rows = (tmp_path / "out" / "layouts.csv").read_text(encoding="utf-8").splitlines()
     assert float(rows[1].split("complete,,")[1].split(",")[0]) == pytest.approx(2.24, rel=5e-3)
+
+
+def test_the_order_within_the_bands_is_stated_unless_it_is_switched_off(run_command, tmp_path):  # noqa: F811
+    text = Path("examples/12_l_frame.yaml").read_text(encoding="utf-8")
+    files = [tmp_path / "given.yaml", tmp_path / "again.yaml"]
+    for file in files:
+        file.write_text(text, encoding="utf-8")
+    out = tmp_path / "out"
+    code, told, _ = run_command("layouts", *files, "--out", out)
+    assert code == 0
+    assert "energy.dissipated: ranges overlap, so the order is open, for given and again." in told
+    assert "the same with all laws low and with all laws high" in told
+    assert "Order of the layouts by size" in (out / "report.html").read_text(encoding="utf-8")
+    head, row, _ = (out / "layouts.csv").read_text(encoding="utf-8").splitlines()
+    cells = dict(zip(head.split(","), next(csv.reader([row])), strict=True))
+    low, high = (float(cells[f"energy.dissipated final {word} [J]"]) for word in ("least", "largest"))
+    assert low < float(cells["energy absorbed [J]"]) < high
+    code, told, _ = run_command("layouts", *files, "--out", out, "--no-law-range")
+    assert code == 0
+    assert "energy.dissipated: " not in told
+    assert "Order of the layouts" not in (out / "report.html").read_text(encoding="utf-8")
 
 
 def test_a_refused_layout_is_a_row(run_command, files, tmp_path):  # noqa: F811

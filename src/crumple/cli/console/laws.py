@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -95,6 +95,18 @@ def range_lines(result: Result) -> Iterator[str]:
         )
     for name in found.failed:
         yield f"Not in the range, the run did not reach its end: {name}"
+
+
+def with_range(result: Result, source: LoadedInput, threads: int, cancel: Callable[[], bool]) -> Result:
+    """The result with its range from the laws; what is solved is kept if the range cannot be computed."""
+    from crumple.analysis import with_law_range
+    from crumple.errors import InputError
+
+    try:
+        return with_law_range(result, source.analysis, threads, cancel)
+    except InputError as error:
+        typer.echo(f"The range from the laws is not known: {error.problems[0].what}", err=True)
+        return result
 
 
 def grouped(hinges: Mapping[str, HingeSummary], file: str) -> dict[str, list[str]]:

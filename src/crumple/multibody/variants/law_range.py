@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 
 from crumple.multibody.run import Cancel, Run
-from crumple.multibody.variants.variants import VariantTable, solve_variants
+from crumple.multibody.variants.variants import solve_variants
 from crumple.numeric.arrays import Floats
 from crumple.result.nearby import LawRange
 from crumple.result.result import Result
@@ -58,7 +58,15 @@ def law_range(
     table = solve_variants(structure, run, factors, threads, cancel=cancel)
     good = np.array([status.ok for status in table.status])
     failed = tuple(name for name, ok in zip(CASES, good.tolist(), strict=True) if not ok)
-    return LawRange(_ranges(table, good, nominal), bands, without, failed)
+    known = _known(run, nominal)
+    values = {name: table.quantities[name] for name in known if name in table.quantities}
+    cases = {
+        case: {name: float(column[i]) for name, column in values.items()}
+        for i, case in enumerate(CASES)
+        if good[i]
+    }
+    ranges = {name: _range([known[name], *(case[name] for case in cases.values())]) for name in values}
+    return LawRange(ranges, bands, without, failed, cases)
 
 
 def law_factors(structure: Structure) -> tuple[dict[str, float], tuple[str, ...], dict[str, Floats]]:
@@ -75,21 +83,20 @@ def law_factors(structure: Structure) -> tuple[dict[str, float], tuple[str, ...]
     return bands, tuple(name for name in widths if name not in bands), factors
 
 
-def _ranges(table: VariantTable, good: Floats, nominal: Result) -> dict[str, tuple[float, float]]:
-    """Least and largest value of each reported quantity over the runs that reached their end."""
+def _known(run: Run, nominal: Result) -> dict[str, float]:
+    """Quantities that have a range, with their values for the nominal laws."""
     known = {
         f"hinge.{name}.{key}": float(getattr(hinge, key))
         for name, hinge in nominal.hinges.items()
         for key in ("rotation_max", "energy")
     }
-    known |= {
+    measured = {*run.outputs.distances, *run.outputs.clearances, "energy.dissipated"}
+    return known | {
         name: float(channel.values[-1])
         for name, channel in nominal.channels.items()
-        if name == "energy.dissipated" or (name.startswith("node.") and ".displacement." in name)
+        if name in measured or (name.startswith("node.") and ".displacement." in name)
     }
-    found = {}
-    for name, value in known.items():
-        if name in table.quantities:
-            values = np.append(table.quantities[name][good], value)
-            found[name] = (float(values.min()), float(values.max()))
-    return found
+
+
+def _range(values: list[float]) -> tuple[float, float]:
+    return min(values), max(values)
