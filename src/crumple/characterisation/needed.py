@@ -103,6 +103,11 @@ def needed(structure: Structure, largest: float) -> tuple[Needed, ...]:
     return tuple(found.values())
 
 
+def is_joint(model: SubModel) -> bool:
+    """Whether a sub-model is a corner or a T-joint, not a straight member."""
+    return isinstance(model, (OutOfPlane, TJoint)) or (isinstance(model, Bending) and model.angle is not None)
+
+
 def left_out(structure: Structure) -> Mapping[str, str]:
     """Nodes at which members meet at an angle that have no sub-model, and why."""
     welded = t_places(structure)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
-from crumple.cli.console.characterise_file import characterise_file
+from crumple.cli.console.characterise_file import JOINT_HELP, characterise_file, joint_of
 from crumple.cli.console.named import MATERIAL_HELP, SECTION_HELP
 
 if TYPE_CHECKING:
@@ -28,12 +28,12 @@ STEEPEST = 2.3563
 
 def characterise(
     section: Annotated[
-        str,
+        str | None,
         typer.Argument(
             help=f"An input file: all its members, corners and T-joints. Or one section. {SECTION_HELP}",
             show_default=False,
         ),
-    ],
+    ] = None,
     *,
     material: Annotated[
         str | None, typer.Option(help=f"Of a section. {MATERIAL_HELP}", show_default=False)
@@ -73,6 +73,9 @@ def characterise(
             "across it."
         ),
     ] = "bisector",
+    joint: Annotated[
+        str | None, typer.Option(metavar="FILE[:NODE]", help=JOINT_HELP, show_default=False)
+    ] = None,
     to: Annotated[str, typer.Option(help="Plastic rotation at which the law ends.")] = "30 deg",
     converge: Annotated[
         bool, typer.Option(help="Solve two finer meshes too and state the error; some six times the work.")
@@ -110,12 +113,22 @@ def characterise(
     from crumple.errors import InputError, Problem
     from crumple.portable import available_cores
 
-    if material is None and Path(section).suffix.lower() in {".yaml", ".yml"}:
+    asked = None
+    if joint is not None:
+        loads = {"--load": load != "bending", "--axis": axis != "y", "--sense": sense != "+"}
+        others = {"--angle": angle, "--chord": chord, "--interaction": interaction, "--json": as_json}
+        asked = joint_of(joint, section, material, {**others, **loads})
+    elif section is None:
+        todo = "give a section with --material, an input file such as frame.yaml, or --joint"
+        raise InputError(Problem("there is nothing to characterise", todo=todo, where="SECTION"))
+    file = asked.file if asked is not None else Path(section or "")
+    if asked is not None or (material is None and file.suffix.lower() in {".yaml", ".yml"}):
         largest, count = _largest(to), workers or available_cores()
         characterise_file(
-            Path(section), store, largest, workers=count, converge=converge, only_list=only_list
+            file, store, largest, workers=count, converge=converge, only_list=only_list, joint=asked
         )
         return
+    section = str(section)
     if material is None:
         todo = "add --material, or give an input file such as frame.yaml"
         raise InputError(Problem("a section needs its material", section, "", todo, "--material"))
