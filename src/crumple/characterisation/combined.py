@@ -2,6 +2,15 @@
 
 Both ends turn against each other about a fixed axis, and one of them carries the force; the force acts along
 the line between the ends, so the moment of the fold in the middle includes its arm to that line.
+
+A fold that softens cannot carry a given force at every rotation.  `FixedRatio` prescribes the shortening u of
+the fold in place of the force: u = 2 r sin(theta/2), r the ratio.  Two straight halves of the length l that meet
+in the fold then have the distance 2 l cos(theta/2) - u between their far ends, so these are moved by
+
+    D = 2 l (cos(theta/2) - 1) - u,   to the second order in theta   -r theta - l theta^2/4.
+
+With r half the depth between the flanges (b/2) this is a rotation about the tension flange.  Moment and force
+are not given apart, the work of both is: dW = M d(theta) + N dD, less the elastic energy of the piece.
 """
 
 from __future__ import annotations
@@ -12,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from crumple.analysis import Analysis
-from crumple.characterisation.curve import LawCurve, law_curve
+from crumple.characterisation.curve import INTERVAL, LawCurve, law_curve
 from crumple.characterisation.resolution import NOMINAL, Resolution
 from crumple.characterisation.sub_model import largest_side
 from crumple.material import Material
@@ -102,7 +111,7 @@ class Combined:
         duration = loading + time
         rotation = {
             end: {
-                f"r{a}": _havsin(loading, duration, sign * c * self._turn / 2.0)
+                f"r{a}": havsin(loading, duration, sign * c * self._turn / 2.0)
                 for a, c in self._about.items()
                 if c
             }
@@ -135,7 +144,7 @@ class Combined:
                     "turned": {
                         "node": "turned",
                         "fix": sorted(held - {"x"} - set(rotation["turned"])),
-                        "motion": rotation["turned"],
+                        "motion": rotation["turned"] | self._along(loading, duration),
                     },
                 },
                 loads=[{"node": "turned", "force": {"x": step}}] if self.share else [],
@@ -145,24 +154,36 @@ class Combined:
             outputs={"every": duration / OUTPUTS, "nodes": ["held", "middle", "turned"]},
         )
 
+    def _along(self, loading: float, duration: float) -> dict[str, object]:
+        """Prescribed motion of the turned end along the line between the ends; none, it is free."""
+        return {}
+
     def curve(self, result: Result) -> LawCurve:
         """Moment about the axis of rotation in the middle, against plastic rotation of the whole length."""
         moments = self._moments(result)
-        rotation = sum(
-            c * (result[f"node.turned.rotation.{a}"] - result[f"node.held.rotation.{a}"])
-            for a, c in self._about.items()
-        )
-        modulus, length = self.material.youngs_modulus, 2.0 * self.half
         elastic = sum(
-            c * moments[a] * length / (modulus * self.section.second_moment(a))
+            c * moments[a] * 2.0 * self.half / (self.material.youngs_modulus * self.section.second_moment(a))
             for a, c in self._about.items()
         )
         moment = sum(c * moments[a] for a, c in self._about.items())
-        return law_curve(np.asarray(rotation - elastic), np.asarray(moment), self.largest)
+        return law_curve(np.asarray(self._rotation(result) - elastic), np.asarray(moment), self.largest)
+
+    def _rotation(self, result: Result) -> Floats:
+        """Rotation of the ends against each other [rad]."""
+        return np.asarray(
+            sum(
+                c * (result[f"node.turned.rotation.{a}"] - result[f"node.held.rotation.{a}"])
+                for a, c in self._about.items()
+            )
+        )
+
+    def _axial(self, result: Result) -> Floats | float:
+        """Axial force [N], positive in tension."""
+        return 0.5 * (result["support.held.force.x"] + self.force) if self.share else 0.0
 
     def _moments(self, result: Result) -> dict[Axis, Floats]:
         """Moments in the middle [N m]: mean of both ends, and the axial force times its arm."""
-        force = 0.5 * (result["support.held.force.x"] + self.force) if self.share else 0.0
+        force = self._axial(result)
         aside = self.half * math.tan(0.5 * KINK)
         arm = {
             "y": self._about["y"] * aside + result["node.middle.displacement.z"],
@@ -177,5 +198,65 @@ class Combined:
         }
 
 
-def _havsin(start: float, end: float, height: float) -> dict[str, dict[str, float]]:
+@dataclass(frozen=True)
+class FixedRatio(Combined):
+    """Two halves of a member, turned against each other about one axis and pushed together.
+
+    Attributes
+    ----------
+    ratio
+        Shortening of the fold over its rotation [m/rad], positive.
+
+    References
+    ----------
+    docs/theory/characterisation.md.
+    """
+
+    ratio: float = 0.0
+
+    @property
+    def title(self) -> str:
+        """One line for people."""
+        return f"{super().title}, shortened by {1e3 * self.ratio:.3g} mm a radian"
+
+    def _along(self, loading: float, duration: float) -> dict[str, object]:
+        """Motion of the turned end: theta = H h with the half wave h, h^2 = h - g/4 with g up and down."""
+        turn, middle = self._turn, 0.5 * (loading + duration)
+        square = self.half * turn**2 / 4.0
+        up, down = havsin(loading, middle, square / 4.0), havsin(middle, duration, -square / 4.0)
+        return {"x": {"sum": [havsin(loading, duration, -self.ratio * turn - square), up, down]}}
+
+    def curve(self, result: Result) -> LawCurve:
+        """Plastic work of moment and force, and this work over the rotation, against plastic rotation."""
+        moments, force, turned = (
+            self._moments(result),
+            np.asarray(self._axial(result)),
+            self._rotation(result),
+        )
+        length, modulus = 2.0 * self.half, self.material.youngs_modulus
+        axis = max(self._about, key=lambda a: self._about[a])
+        moment, stiffness = moments[axis], modulus * self.section.second_moment(axis)
+        ends = 0.5 * (result[f"support.held.moment.{axis}"] - result[f"support.turned.moment.{axis}"])
+        apart = result["node.turned.displacement.x"] - result["node.held.displacement.x"]
+        elastic = moment**2 * length / stiffness + force**2 * length / (modulus * self.section.area)
+        work = _integral(ends, turned) + _integral(force, apart) - 0.5 * elastic
+        plastic = np.maximum.accumulate(np.maximum(turned - moment * length / stiffness, 0.0))
+        new = np.concatenate([[True], np.diff(plastic) > 0.0])
+        end = min(float(plastic[-1]), self.largest)
+        rotation = np.linspace(0.0, end, max(math.ceil(end / INTERVAL), 4) + 1)
+        energy = np.interp(rotation, plastic[new], work[new]) - work[0]
+        return LawCurve(rotation, np.gradient(energy, rotation), energy)
+
+    def _axial(self, result: Result) -> Floats | float:
+        """Axial force [N], positive in tension: mean of what both supports feel."""
+        return np.asarray(0.5 * (result["support.held.force.x"] - result["support.turned.force.x"]))
+
+
+def havsin(start: float, end: float, height: float) -> dict[str, dict[str, float]]:
+    """Half a sine wave from 0 at the start to a height at the end."""
     return {"havsin": {"x0": start, "h0": 0.0, "x1": end, "h1": height}}
+
+
+def _integral(values: Floats, over: Floats) -> Floats:
+    """Integral up to each point."""
+    return np.concatenate([[0.0], np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(over))])

@@ -14,7 +14,7 @@ from functools import partial
 import numpy as np
 
 from crumple.characterisation.bending import Bending
-from crumple.characterisation.combined import Combined
+from crumple.characterisation.combined import Combined, FixedRatio
 from crumple.characterisation.coupling.errors_of_work import errors_of_work
 from crumple.characterisation.curve import LawCurve
 from crumple.numeric.arrays import Floats
@@ -22,6 +22,8 @@ from crumple.section import plastic_interaction
 
 SHARE = 0.2
 """Axial force over the squash force."""
+PARTS = {1.0: "b/2", 0.5: "b/4"}
+"""Ratios of shortening to rotation over b/2, half the depth between the flanges, in words."""
 
 
 def interaction_errors(model: Bending, solved: Callable[[Combined], LawCurve]) -> dict[str, str]:
@@ -37,7 +39,8 @@ def interaction_errors(model: Bending, solved: Callable[[Combined], LawCurve]) -
     Returns
     -------
     dict
-        Sentences by key: ``axial_compression``, ``axial_tension``, and ``oblique_45_deg`` if it is not round.
+        Sentences by key: ``axial_compression``, ``axial_tension``, ``axial_fixed_ratio``, and
+        ``oblique_45_deg`` if it is not round.
 
     References
     ----------
@@ -53,6 +56,14 @@ def interaction_errors(model: Bending, solved: Callable[[Combined], LawCurve]) -
         walls = errors_of_work(shells, partial(_with_walls, combined, alone))
         flange = errors_of_work(shells, partial(_about_flange, combined, model, alone))
         found[f"axial_{name}"] = f"{SHARE:g} of squash: coupling section {walls}; tension-flange {flange}"
+    arm, words = _arm(model), []
+    for part, name in PARTS.items():
+        fixed = FixedRatio(
+            base.section, base.material, angle, 0.0, base.largest, base.resolution, ratio=part * arm
+        )
+        errors = errors_of_work(solved(fixed), partial(_fixed_ratio, part, alone))
+        words.append(f"shortening of {name} a radian: coupling tension-flange {errors}")
+    found["axial_fixed_ratio"] = "; ".join(words)
     if model.section.kind != "circular_tube":
         other = solved(replace(base, angle=math.pi / 2.0 - angle))
         about = (alone, other) if model.axis == "y" else (other, alone)
@@ -77,9 +88,23 @@ def _with_walls(model: Combined, alone: LawCurve, at: Floats) -> Floats:
 
 def _about_flange(model: Combined, bending: Bending, alone: LawCurve, at: Floats) -> Floats:
     """|M| + N_c b/2 <= C(theta), |M| <= C(0): docs/theory/spatial_hinge.md."""
-    arm = (bending.section.bending_depth(bending.axis) - bending.section.thickness) / 2.0
     capacity = _capacity(alone, at)
-    return np.asarray(np.clip(capacity + model.force * arm, 0.0, capacity[0]))
+    return np.asarray(np.clip(capacity + model.force * _arm(bending), 0.0, capacity[0]))
+
+
+def _arm(bending: Bending) -> float:
+    """Distance of the flanges from the middle of the section, b/2 [m]."""
+    return (bending.section.bending_depth(bending.axis) - bending.section.thickness) / 2.0
+
+
+def _fixed_ratio(part: float, alone: LawCurve, at: Floats) -> Floats:
+    """Work of the same set a radian, if the hinge shortens by a part of b/2 a radian, 0 to 1.
+
+    The normals at the corner |M| = C(0), N_c b/2 = C(theta) - C(0) are between those of the two sides, (0, 1)
+    and (b/2, 1).
+    """
+    capacity = _capacity(alone, at)
+    return np.asarray((1.0 - part) * capacity[0] + part * capacity)
 
 
 def _oblique(model: Combined, about: tuple[LawCurve, LawCurve], at: Floats) -> Floats:

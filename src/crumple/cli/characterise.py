@@ -83,9 +83,9 @@ def characterise(
     interaction: Annotated[
         bool,
         typer.Option(
-            help="Bend a straight member with axial force (0.2 of squash) and about 45 deg too, or a corner "
-            "in and out of its plane at once, and state the error of the couplings of hinges; some five "
-            "times the work."
+            help="Bend a straight member with axial force (0.2 of squash), shortened in a fixed ratio, and "
+            "about 45 deg too, or a corner in and out of its plane at once, and state the error of the "
+            "couplings of hinges; some seven times the work.",
         ),
     ] = False,
     store: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder of the law files.")] = Path("laws"),

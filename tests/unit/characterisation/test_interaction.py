@@ -1,13 +1,14 @@
 """Errors of the couplings of hinges: of a fold that combines its loads as a coupling says, they are zero."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from crumple.characterisation import Bending, LawCurve, characterise
-from crumple.characterisation.combined import Combined
+from crumple.characterisation.combined import Combined, FixedRatio
 from crumple.characterisation.interaction import interaction_errors
 from crumple.characterisation.resolution import Resolution
 from crumple.cli.main import app
@@ -35,6 +36,10 @@ def test_a_fold_about_its_tension_flange_has_no_error_of_that_coupling():
     found = interaction_errors(Bending(TUBE, STEEL), solved)
     for key in ("axial_compression", "axial_tension"):
         assert found[key].endswith("tension-flange work +0% to 10 deg, +0% to 30 deg")
+    words = "a radian: coupling tension-flange work +"
+    half, quarter = found["axial_fixed_ratio"].split("; ")
+    assert half == f"shortening of b/2 {words}0% to 10 deg, +0% to 30 deg"
+    assert quarter.startswith(f"shortening of b/4 {words}")
     assert "coupling section work +" in found["axial_compression"]
     assert "coupling section work -" in found["axial_tension"]
 
@@ -55,7 +60,7 @@ def test_a_fold_that_interacts_like_its_walls_has_no_error_of_that_coupling():
 
 def test_round_sections_have_no_oblique_axis():
     found = interaction_errors(Bending(CircularTube(0.05, 0.0015), STEEL), lambda model: softening())
-    assert set(found) == {"axial_compression", "axial_tension"}
+    assert set(found) == {"axial_compression", "axial_tension", "axial_fixed_ratio"}
 
 
 def test_the_force_acts_before_the_turn_and_the_moment_includes_its_arm():
@@ -77,6 +82,51 @@ def test_the_force_acts_before_the_turn_and_the_moment_includes_its_arm():
     history |= {"node.middle.displacement.y": zero - 0.01, "node.middle.displacement.z": zero + 0.01}
     arm = math.hypot(0.01, 0.01) + model.half * math.tan(math.radians(0.1))
     assert model.curve(history).moment[5] == pytest.approx(-model.force * arm, rel=1e-6)
+
+
+def test_a_fold_pushed_in_a_fixed_ratio_rotates_about_its_flange():
+    """Prescribed motion against two rigid halves that turn about a line at a distance; sums of half waves."""
+    model = FixedRatio(TUBE, STEEL, ratio=0.024)
+    case = model.analysis()
+    turned = case.structure.supports["turned"]
+    times = np.linspace(0.0, case.duration, 41)
+    theta = 2.0 * turned.driven["ry"](times)
+    exact = 2.0 * model.half * (np.cos(theta / 2.0) - 1.0) - 2.0 * model.ratio * np.sin(theta / 2.0)
+    moved = turned.driven["x"](times)
+    assert theta[-1] == pytest.approx(model._turn)
+    # the first term that is left out is theta^2/24 of the shortening
+    assert np.abs(moved - exact).max() < theta[-1] ** 2 / 24.0 * np.abs(exact).max()
+    plain = replace(model, ratio=0.0).analysis().structure.supports["turned"]
+    assert plain.driven["x"](times) == pytest.approx(2.0 * model.half * (np.cos(theta / 2) - 1.0), abs=1e-4)
+
+
+def test_the_work_in_a_fixed_ratio_is_that_of_moment_and_force_less_the_elastic_part():
+    """Moment 900 N m and compression 40 kN, both constant after an elastic rise in a time step each."""
+    model = FixedRatio(TUBE, STEEL, ratio=0.024)
+    theta = np.linspace(0.0, 0.7, 701)
+    force, moment = np.full(701, -40e3), np.full(701, 900.0)
+    force[0] = moment[0] = 0.0
+    zero = np.zeros(701)
+    history = {
+        "node.held.rotation.y": -theta / 2.0,
+        "node.turned.rotation.y": theta / 2.0,
+        "support.held.moment.y": moment,
+        "support.turned.moment.y": -moment,
+        "support.held.moment.z": zero,
+        "support.turned.moment.z": zero,
+        "support.held.force.x": force,
+        "support.turned.force.x": -force,
+        "node.held.displacement.x": zero,
+        "node.turned.displacement.x": -0.024 * theta,
+        "node.middle.displacement.y": zero,
+        "node.middle.displacement.z": zero - model.half * math.tan(math.radians(0.1)),
+    }
+    history |= {f"node.{name}.rotation.z": zero for name in ("held", "turned")}
+    curve = model.curve(history)
+    # what was stored elastically is not plastic work, and not plastic rotation
+    expected = 900.0 + 40e3 * 0.024
+    assert curve.energy_at(0.5) - curve.energy_at(0.2) == pytest.approx(0.3 * expected, rel=1e-3)
+    assert curve.moment_at(0.35) == pytest.approx(expected, rel=1e-3)
 
 
 def test_a_coarse_law_states_the_errors_and_the_command_refuses_it_for_corners():
