@@ -4,8 +4,8 @@ Both ends turn against each other about a fixed axis, and one of them carries th
 the line between the ends, so the moment of the fold in the middle includes its arm to that line.
 
 A fold that softens cannot carry a given force at every rotation.  `FixedRatio` prescribes the shortening u of
-the fold in place of the force: u = 2 r sin(theta/2), r the ratio.  Two straight halves of the length l that meet
-in the fold then have the distance 2 l cos(theta/2) - u between their far ends, so these are moved by
+the fold in place of the force: u = 2 r sin(theta/2), r the ratio.  Two straight halves of the length l that
+meet in the fold then have the distance 2 l cos(theta/2) - u between their far ends, so these are moved by
 
     D = 2 l (cos(theta/2) - 1) - u,   to the second order in theta   -r theta - l theta^2/4.
 
