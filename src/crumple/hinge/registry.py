@@ -75,6 +75,7 @@ BENDING: Registry[LawType] = Registry(
         "mitred_corner_across": "crumple.hinge.corner.mitred_corner_across:MitredCornerAcrossLaw",
         "measured": "crumple.hinge.measured.measured_law:MeasuredLaw",
         "file": "crumple.hinge.measured.file_law:FileLaw",
+        "library": "crumple.hinge.tube_library.law:TubeLibraryLaw",
         "estimate": "crumple.hinge.bending.estimate:EstimatedLaw",
         "auto": "crumple.hinge.bending.estimate:AutoLaw",
     },

@@ -18,6 +18,7 @@ def test_laws_are_found_by_the_files_of_their_folder():
         "file",
         "folded_profile",
         "kecman",
+        "library",
         "measured",
         "mitred_corner",
         "mitred_corner_across",

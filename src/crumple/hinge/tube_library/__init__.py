@@ -1,0 +1,1 @@
+"""Bending laws of tubes that were solved with shells beforehand, and are interpolated."""

@@ -1,0 +1,102 @@
+"""Laws of the shipped library: invariance, range, order of the automatic choice, and smoothness."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from crumple.errors import InputError
+from crumple.hinge import Trust, build_law
+from crumple.hinge.record.sensitivity import capacity_sensitivity
+from crumple.hinge.tube_library.tube import hardening_ratio
+from crumple.material import CowperSymonds, Material
+from crumple.material.hardening.swift import Swift
+from crumple.section import CircularTube, RectangularTube
+from crumple.section.shapes.written import written_section
+
+STEEL = Material("steel", 210e9, 0.3, 7850.0, 350e6)
+TUBE, ROUND = RectangularTube(0.060, 0.045, 0.002), CircularTube(0.060, 0.002)
+AT = np.radians([0.0, 1.0, 5.0, 12.0, 25.0, 39.0, 60.0])
+
+
+def law(section=TUBE, material=STEEL, axis="y"):
+    return build_law("library", section, material, axis)
+
+
+@pytest.mark.parametrize("section", [TUBE, ROUND])
+def test_the_moment_grows_with_the_cube_of_the_size_and_with_the_stress(section):
+    sides = {name: 2.0 * value for name, value in vars(section).items() if name != "corner_radius"}
+    metal = replace(STEEL, youngs_modulus=70e9, yield_stress=350e6 / 3.0)
+    one, other = law(section), law(type(section)(**sides), metal)
+    np.testing.assert_allclose(other.moment_capacity(AT), 8.0 / 3.0 * one.moment_capacity(AT), rtol=1e-12)
+
+
+def test_about_the_other_axis_it_is_the_tube_with_its_sides_exchanged():
+    turned = RectangularTube(TUBE.depth, TUBE.width, TUBE.thickness)
+    np.testing.assert_allclose(law(axis="z").moment_capacity(AT), law(turned).moment_capacity(AT), rtol=1e-12)
+
+
+@pytest.mark.parametrize("section", [TUBE, ROUND])
+def test_it_starts_near_the_plastic_moment_of_a_tube_that_does_not_buckle_and_is_held_at_the_end(section):
+    found = law(section)
+    plastic = 350e6 * section.plastic_section_modulus("y")
+    assert 0.85 * plastic < float(found.moment_capacity(0.0)) < 1.05 * plastic
+    assert float(found.moment_capacity(1.0)) == float(found.moment_capacity(found.validity.rotation_max))
+    assert found.source.trust is Trust.COMPUTED
+    assert 0.0 < found.validity.uncertainty <= 0.3
+    assert np.degrees(found.validity.rotation_max) == pytest.approx(40.0)
+
+
+def test_the_flow_stress_stands_for_a_hardening_curve_that_is_not_given():
+    curve = Swift(350e6, 0.01, 0.1)
+    hardens = replace(STEEL, hardening=curve)
+    flows = replace(STEEL, given_flow_stress=float(curve.stress(0.1)))
+    assert hardening_ratio(hardens) == pytest.approx(11.0**0.1)
+    np.testing.assert_allclose(
+        law(material=flows).moment_capacity(AT), law(material=hardens).moment_capacity(AT)
+    )
+    assert np.all(law(material=hardens).moment_capacity(AT[2:]) > law().moment_capacity(AT[2:]))
+
+
+def test_the_strain_rate_acts_as_in_the_formulas():
+    fast = replace(STEEL, flow_rate=CowperSymonds(6844.0, 3.91))
+    assert law(material=fast).rate == build_law("kecman", TUBE, fast, "y").rate
+
+
+@pytest.mark.parametrize(
+    ("section", "material", "message"),
+    [
+        (written_section("channel 60x40x2 mm"), STEEL, "laws of tubes only"),
+        (replace(TUBE, corner_radius=0.004), STEEL, "sharp corners only"),
+        (replace(TUBE, thickness=0.0005), STEEL, "larger side over thickness"),
+        (replace(ROUND, thickness=0.005), STEEL, "larger side over thickness"),
+        (replace(TUBE, depth=0.020), STEEL, "flange width over depth"),
+        (TUBE, replace(STEEL, yield_stress=1200e6), "yield stress over Young's modulus"),
+        (TUBE, replace(STEEL, given_flow_stress=900e6), "stress at a plastic strain of 0.1"),
+    ],
+)
+def test_what_is_outside_the_range_is_refused(section, material, message):
+    with pytest.raises(InputError, match=message):
+        law(section, material)
+
+
+def test_every_coordinate_that_is_out_of_range_is_named():
+    metal = replace(STEEL, yield_stress=1200e6, given_flow_stress=3000e6)
+    with pytest.raises(InputError) as error:
+        law(replace(TUBE, depth=0.020), metal)
+    assert len(error.value.problems) == 3
+
+
+@pytest.mark.parametrize("section", [TUBE, ROUND])
+def test_derivatives_over_thickness_and_yield_stress_are_smooth(section):
+    """Central differences of two steps that differ by ten agree, so no kink and no rounding lies there."""
+
+    def of_thickness(value):
+        return law(replace(section, thickness=value))
+
+    def of_stress(value):
+        return law(section, replace(STEEL, yield_stress=value))
+
+    for of, value in ((of_thickness, section.thickness), (of_stress, STEEL.yield_stress)):
+        fine, coarse = (capacity_sensitivity(of, value, AT, step=step) for step in (1e-4, 1e-3))
+        np.testing.assert_allclose(fine, coarse, rtol=1e-5)
