@@ -3,7 +3,7 @@
 A stem of 36x36x3 mm on a chord of 60x60x2 mm is thrown in the plane of the frame, across it, and obliquely:
 the last is a combined load of which neither law knows. Both have coarse meshes of about the same size.
 
-Kind: shells of this program.  Source: docs/theory/t_joint.md.
+Kind: independent calculation.  Source: derived here.
 """
 
 import math

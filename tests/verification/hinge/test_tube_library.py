@@ -2,6 +2,8 @@
 
 Reference: the points in the files of the tables, solved by `python -m tools.law_library solve`.  Held-out
 points took no part in choosing or fitting the interpolation.
+
+Kind: independent calculation.  Source: derived here.
 """
 
 import numpy as np
