@@ -43,6 +43,8 @@ def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
             if flat
             else {"axes": ("y", "z", "x") if twists(structure, member) else ("y", "z")}
         )
+    elif asked.axes and "x" not in asked.axes and _twists_elastically(structure, member):
+        keys["axes"] = (*asked.axes, "x")
     if lengthens(structure, member):
         keys["axial"] = AxialSlip()
     axes = (keys["axis"],) if keys["axis"] else tuple(axis for axis in keys["axes"] if axis != "x")
@@ -72,6 +74,11 @@ def twists(structure: StructureParts, member: str) -> bool:
     from crumple.section.wall_section import walls_of  # noqa: PLC0415  (only structures in space need walls)
 
     return bool(walls_of(structure.section_of(member)).skeleton.cells)
+
+
+def _twists_elastically(structure: StructureParts, member: str) -> bool:
+    """Whether a member twists although its folds were asked for about bending axes alone."""
+    return bool(structure.members[member].elastic) and twists(structure, member)
 
 
 def automatic_stations(

@@ -94,6 +94,14 @@ def test_candidates_in_space_bend_about_both_axes_and_closed_ones_twist(section,
     assert {hinge.keys.axes for hinge in hinge_places(whole)} == {axes}
 
 
+@pytest.mark.parametrize(("elastic", "axes"), [(6, ("y", "z", "x")), (0, ("y", "z"))])
+def test_elastic_members_twist_whatever_axes_their_folds_were_asked_for(elastic, axes):
+    members = {name: parts | {"elastic": elastic} for name, parts in FRAME.items()}
+    nodes = {name: NODES[name] for name in "abc"}
+    whole = structure(nodes, members, hinges={"axes": ("y", "z"), "law": LAW}, supports=CLAMP)
+    assert {hinge.keys.axes for hinge in hinge_places(whole)} == {axes}
+
+
 def test_the_law_of_candidates_is_the_one_given():
     (first, *_) = placed_hinges(frame({"law": LAW}))
     assert first.record.positive.moment[0] == pytest.approx(LAW["moment"])
