@@ -148,6 +148,16 @@ class StructureParts(Spec):
         return _by_node((mass.node, mass) for mass in self.masses.values())
 
     @cached_property
+    def loaded_nodes(self) -> frozenset[str]:
+        """Nodes that carry a mass, are supported, or take a load or an impulse.
+
+        A section of members that ends there is held together by what acts on it: rigid, in shells and in
+        multibody models.
+        """
+        acting = (self.masses.values(), self.supports.values(), self.loads, self.impulses)
+        return frozenset(part.node for parts in acting for part in parts)
+
+    @cached_property
     def joints_at(self) -> dict[str, list[Joint]]:
         """Joints by their node."""
         return _by_node((joint.node, joint) for joint in self.joints.values())

@@ -116,7 +116,7 @@ def joints_of(
     """
     tees = welded or {}
     branches = {tee.branch.member for tee in tees.values()}
-    loaded = _loaded_nodes(structure)
+    loaded = structure.loaded_nodes
     joints, problems = {}, []
     for node, meeting in _ends(structure).items():
         if node in tees:
@@ -139,7 +139,7 @@ def welded_joints(
 
     Nodes that are held, loaded or heavy stay rigid.
     """
-    loaded = _loaded_nodes(structure)
+    loaded = structure.loaded_nodes
     ends = {node: meeting for node, meeting in _ends(structure).items() if node not in loaded}
     tees = tees_of(structure, contours, ends, size)
     return tees, with_rows(contours, tees.values(), size)
@@ -177,20 +177,6 @@ def outgoing(structure: Structure, end: End) -> Floats:
     """Unit vector from the node into the member, (3,)."""
     x = structure.frame_of(end.member).x
     return -x if end.second else x
-
-
-def _loaded_nodes(structure: Structure) -> set[str]:
-    """Nodes that carry, take or are driven by something."""
-    return {
-        part.node
-        for parts in (
-            structure.masses.values(),
-            structure.supports.values(),
-            structure.loads,
-            structure.impulses,
-        )
-        for part in parts
-    }
 
 
 def _joint(

@@ -3,6 +3,8 @@
 A corner has a law of its own (crumple characterise --angle): its walls may fold at a smaller moment than
 those of a straight member.  The section must lie in the same way to the plane of the corner in both members,
 as it does in the sub-model, where the second piece is the first one turned about the normal of the plane.
+Where something acts on the node, what passes it on holds the section of the mitre in shape.  The corner is
+then as strong as its members, and their folds form outside of it (joint_reach).
 """
 
 from __future__ import annotations
@@ -167,6 +169,8 @@ def _reasons(structure: StructureParts, node: str, members: tuple[str, str], ang
         yield f"the materials {one.material} and {other.material} differ"
     if _held(structure, node):
         yield "a support holds its rotation"
+    elif node in structure.loaded_nodes:
+        yield "its section is rigid where a mass, support, load or impulse acts"
     if any(_rigid_at(structure, name, node) for name in members):
         yield "a member is rigid there"
 
