@@ -87,7 +87,7 @@ def _t_places(structure: StructureParts) -> dict[str, TPlace]:
     for node, members in structure.members_at.items():
         if len(members) != 3 or not all(structure.has_line(name) for name in members):
             continue
-        if structure.joints_at.get(node) or node in structure.loaded_nodes:
+        if structure.joints_at.get(node) or structure.supports_at.get(node):
             continue
         place = next((p for p in (_t_place(structure, node, name) for name in members) if p), None)
         if place is not None:
