@@ -1,0 +1,161 @@
+"""Sections beside nodes that carry more than their walls can, where the model has no hinge.
+
+A rigid bar carries any load.  What loads the end of a member at a node follows from the forces of the
+connections on one side of it, where the rigid parts of the model branch like a tree:
+
+    force = sum of the connections' forces,    moment = sum of their moments about the node
+
+without the inertia of the rigid parts between, which must carry no mass of their own.  It is compared with
+the plastic interaction of the section.  An end with a hinge within one side and one fold of the node is left
+out: there the hinge stands for the fold.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from crumple.material import Material
+from crumple.multibody.answer.forces import on_second
+from crumple.multibody.answer.poses import SpatialHistory, SpatialPoses
+from crumple.multibody.answer.solved import Solved
+from crumple.multibody.bodies.linkage import Linkage
+from crumple.multibody.checks.names import named
+from crumple.numeric.rotation import turned
+from crumple.result import Caution
+from crumple.section import (
+    Axis,
+    InteractionFit,
+    Section,
+    fitted_interaction,
+    half_fold_length,
+    plastic_interaction,
+)
+from crumple.structure import Structure
+from crumple.structure.remembered import remembered
+
+USED = 1.1
+"""Use of a section's capacity above which a caution is given: the fit of the interaction is up to 6 % off."""
+ROWS = 16
+"""Linear forms of the fitted interaction, as in hinges."""
+KEPT = 64
+"""Interactions kept; a structure has few pairs of section and material."""
+AXES: tuple[Axis, ...] = ("y", "z")
+
+
+def overloaded_sections(structure: Structure, solved: Solved) -> Iterator[Caution]:
+    """One caution for all members with an end that is overloaded and has no hinge.
+
+    Parameters
+    ----------
+    structure, solved
+        The structure and the result of its run.  The planar kernel gives no forces, and so no caution.
+    """
+    poses = solved.poses
+    if not isinstance(poses, SpatialPoses) or poses.rows < 2:
+        return
+    found: dict[str, float] = {}
+    for member, spec in structure.members.items():
+        if spec.rigid is not False:
+            continue
+        for node in spec.nodes:
+            if not _has_hinge(structure, poses.linkage, member, node):
+                use = _use(structure, poses, member, node)
+                if use > USED:
+                    found[member] = max(use, found.get(member, 0.0))
+    if found:
+        one = len(found) == 1
+        text = (
+            f"{named('Member', list(found))} {'is' if one else 'are'} loaded up to "
+            f"{max(found.values()):.3g} times what the walls carry at an end without a hinge, where the "
+            f"model is rigid: {'it' if one else 'they'} would fold there. Write 'hinges: auto', or let "
+            "members bend with analysis.multibody.members: elastic."
+        )
+        for member, use in found.items():
+            yield Caution("overloaded_section", use, USED, "1", f"member {member}", text)
+
+
+def _has_hinge(structure: Structure, linkage: Linkage, member: str, node: str) -> bool:
+    """Whether a hinge stands for a fold at a member's end."""
+    section, place = structure.section_of(member), np.asarray(structure.nodes[node], float)
+    side = float(np.ptp(section.outer_outline(), axis=0).max())
+    near = side + 2.0 * max(half_fold_length(section, axis) for axis in AXES)
+    return any(float(np.linalg.norm(hinge.position - place)) <= near for hinge in linkage.hinges)
+
+
+def _use(structure: Structure, poses: SpatialHistory, member: str, node: str) -> float:
+    """Largest use of the capacity at a member's end that persists for two outputs; 0 where not known."""
+    loads = _loads(structure, poses.linkage, member, node)
+    if not loads:
+        return 0.0
+    body = poses.node_body[node]
+    section = poses.place(body, np.asarray(structure.nodes[node], float))[0]
+    wrenches = [
+        on_second(poses, number) if second else on_second(poses, number).opposite()
+        for number, second in loads
+    ]
+    force = sum((wrench.force for wrench in wrenches), np.zeros_like(section))
+    moment = sum((wrench.about(section) for wrench in wrenches), np.zeros_like(section))
+    axes = turned(poses.quaternion(body)[:, None], structure.frame_of(member).axes[None])
+    along, bent = (np.einsum("nki,ni->nk", axes, values) for values in (force, moment))
+    fit = _capacity(structure.section_of(member), structure.material_of(member))
+    use = fit.gauge(np.column_stack([along[:, 0], bent[:, 1], bent[:, 2], bent[:, 0]]))
+    return float(np.minimum(use[1:], use[:-1]).max())
+
+
+@remembered(KEPT)
+def _capacity(section: Section, material: Material) -> InteractionFit:
+    return fitted_interaction(plastic_interaction(section, material), rows=ROWS)
+
+
+def _loads(structure: Structure, linkage: Linkage, member: str, node: str) -> list[tuple[int, bool]]:
+    """Hinges on one side of a member's end, and whether that side is their second; none where not known."""
+    if not structure.supports_at.get(node) and len(structure.members_at[node]) < 2:
+        # a free end carries what touches it alone
+        return []
+    first, last = structure.members[member].nodes
+    if any(linkage.pieces[member][1:]):
+        return [_nearest(structure, linkage, member, node)]
+    other = last if node == first else first
+    sides = [_side(structure, linkage, start, member) for start in (node, other)]
+    if any(node in nodes and other in nodes for nodes, _ in sides):
+        return []
+    loads = [loads for nodes, loads in sides if not any(_is_loaded(structure, one) for one in nodes)]
+    return loads[0] if loads else []
+
+
+def _side(
+    structure: Structure, linkage: Linkage, start: str, without: str
+) -> tuple[set[str], list[tuple[int, bool]]]:
+    """Nodes that are rigid with one when a member is cut, and the hinges around them."""
+    nodes, rest, loads = {start}, [start], []
+    while rest:
+        node = rest.pop()
+        for name in structure.members_at[node]:
+            if name == without:
+                continue
+            if linkage.pieces[name][1:]:
+                loads.append(_nearest(structure, linkage, name, node))
+                continue
+            further = set(structure.members[name].nodes) - nodes
+            nodes |= further
+            rest += further
+    return nodes, loads
+
+
+def _nearest(structure: Structure, linkage: Linkage, member: str, node: str) -> tuple[int, bool]:
+    """Number of the hinge of a member that is nearest to a node of it; whether this is its second side."""
+    own = [
+        (connection.hinge.station, i)
+        for i, connection in enumerate(linkage.connections)
+        if connection.hinge is not None and connection.hinge.member == member
+    ]
+    second = structure.members[member].nodes[1] == node
+    return (max(own) if second else min(own))[1], second
+
+
+def _is_loaded(structure: Structure, node: str) -> bool:
+    """Whether anything but members acts at a node: a support, a joint, a mass, a load."""
+    others = (structure.supports_at, structure.joints_at, structure.masses_at)
+    return any(at.get(node) for at in others) or any(load.node == node for load in structure.loads)
