@@ -141,6 +141,15 @@ def test_superfolding_lies_beside_the_square_law(record_figure):
     record_figure("superfolding over square, effective crush distance", ratio, 1.0, 0.01)
 
 
+def test_half_a_fold_is_that_of_the_superfolding_law_unless_the_walls_stretch(record_figure):
+    tube = RectangularTube(0.05, 0.05, 0.0015)
+    folding = build_axial_law("superfolding", tube, STEEL)
+    for mode in ("symmetric", "asymmetric_a", "asymmetric_b"):
+        square = build_axial_law("square", tube, STEEL, mode=mode)
+        record_figure(f"half a fold, {mode}", square.half_fold_length, folding.half_fold_length, 1e-12, "m")
+    assert build_axial_law("square", tube, STEEL, mode="extensional").half_fold_length is None
+
+
 @given(st.floats(2.0, 200.0))
 def test_lowest_mode_is_the_least_and_meets_without_a_jump(slenderness):
     forces = mode_forces(slenderness)

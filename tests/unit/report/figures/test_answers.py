@@ -80,7 +80,9 @@ def test_crush_zones_have_their_mean_and_peak(rails):
     for i, name in enumerate(("left", "right"), 1):
         zone = result.hinges[name].crush
         svg = found[f"crush_{i}"]
-        assert f"mean {zone.mean_force / 1e3:.3g}" in svg
+        # by trapezia over the outputs, where the summary has the work of the steps
+        (mean,) = re.findall(r">mean ([0-9.]+)<", svg)
+        assert float(mean) == pytest.approx(zone.mean_force / 1e3, rel=0.01)
         assert f"peak {zone.peak_force / 1e3:.3g}" in svg
         assert area(svg, "crush, mm", f"Force of {name}, kN") == pytest.approx(zone.energy, rel=0.02)
 
