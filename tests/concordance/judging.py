@@ -13,9 +13,11 @@ from tests.concordance.suite import Case
 
 from crumple.analysis import solve
 from crumple.comparison import with_frames
+from crumple.comparison.measure.crushed_zones import with_joined_zones
 from crumple.comparison.measure.decisive import Figure, figures_of
 from crumple.comparison.measure.measures import Measures, measure
 from crumple.errors import InputError
+from crumple.structure import with_elastic_members
 
 
 @dataclass(frozen=True)
@@ -83,12 +85,18 @@ def _judged(case: Case, model: str, shells: ShellResults) -> Verdict:
         analysis = MODELS[model](case.analysis())
         result = solve(analysis)
         seconds = time.process_time() - begin
-        measures = measure(solve(with_frames(analysis)), analysis.structure, seconds)
+        bending = with_elastic_members(analysis.structure, analysis.multibody)
+        measures = measure(solve(with_frames(analysis)), bending, seconds)
         reason = "" if measures.complete else f"{result.status.value}: {result.reason}"
     except InputError as error:
         measures, reason = Measures(status="refused"), error.problems[0].what
     # the shells' names: a model with other joints or hinges is measured at the same places
-    figures = figures_of(measures, shells.reference, shells.pairs)
+    reference, *runs = (
+        with_joined_zones(one, case.analysis().structure)
+        for one in (shells.reference, *(one for pair in shells.pairs for one in pair))
+    )
+    joined = with_joined_zones(measures, case.analysis().structure)
+    figures = figures_of(joined, reference, tuple(zip(runs[::2], runs[1::2], strict=True)))
     return Verdict(case, model, measures, shells, figures, _order(measures, shells.reference), reason)
 
 

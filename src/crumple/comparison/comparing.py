@@ -11,6 +11,7 @@ from crumple.comparison.cautions.trust import trust_of
 from crumple.comparison.comparison import Comparison, Opening, Source
 from crumple.comparison.measure.corner_motion import with_corners
 from crumple.comparison.measure.crush import CrushComparison, crush_figures, crushable
+from crumple.comparison.measure.crushed_zones import with_joined_zones
 from crumple.comparison.measure.decisive import Figure, figures_of
 from crumple.comparison.measure.in_ranges import values_in_ranges
 from crumple.comparison.measure.measures import measurable, measure
@@ -110,7 +111,8 @@ def _figures(candidate: Result, reference: Result, structure: Structure) -> Mapp
     """What engineers decide on, if both runs are whole and long alike and their shapes are known."""
     if not _alike(candidate, reference) or not all(measurable(result) for result in (candidate, reference)):
         return {}
-    return figures_of(measure(candidate, structure), measure(reference, structure))
+    own, wanted = (with_joined_zones(measure(one, structure), structure) for one in (candidate, reference))
+    return figures_of(own, wanted)
 
 
 def _alike(candidate: Result, reference: Result) -> bool:

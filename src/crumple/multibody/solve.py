@@ -228,7 +228,17 @@ def _result(
         collapse=openings,
         collapse_threshold=threshold,
         stages=solved.stages,
+        yielded=_yielded(solved),
     )
+
+
+def _yielded(solved: Solved) -> dict[str, tuple[tuple[float, float], ...]]:
+    """Station [m] and energy [J] of what elastic members dissipated between their hinges, by member."""
+    found: dict[str, list[tuple[float, float]]] = {}
+    for (member, station), energy in solved.spread.items():
+        if energy.size:
+            found.setdefault(member, []).append((station, float(energy[-1])))
+    return {member: tuple(sorted(places)) for member, places in found.items()}
 
 
 def _settings(run: Run, solver: Solver, solved: Solved, accuracy: float) -> dict[str, float | int | str]:

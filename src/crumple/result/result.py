@@ -257,6 +257,9 @@ class Result:
     """Modes of collapse that appear beside this one, if they were looked for."""
     criteria: tuple[Judged, ...] = ()
     """Criteria of the input and the values of the run."""
+    yielded: Mapping[str, tuple[tuple[float, float], ...]] = field(default_factory=dict)
+    """Station [m] of each place at which an elastic member yielded between its hinges, and energy [J]
+    dissipated there until the end, by member."""
     scatter: Scatter | None = None
     """How the result scatters with the input, if that has a block `uncertainty`."""
 

@@ -178,6 +178,7 @@ def _write_rest(group: h5py.Group, result: Result, field_names: FieldNames) -> N
         "modes": None if result.modes is None else asdict(result.modes),
         "criteria": [asdict(criterion) for criterion in result.criteria],
         "scatter": None if result.scatter is None else asdict(result.scatter),
+        "yielded": dict(result.yielded),
         "member_names": None if result.states is None else result.states.member_names,
         "fields": field_names,
     }
@@ -267,6 +268,10 @@ def read_vtkhdf(file: h5py.File) -> Result:
         modes=modes_of(text.get("modes")),
         criteria=judged_of(text.get("criteria")),
         scatter=scatter_of(text.get("scatter")),
+        yielded={
+            member: tuple((float(station), float(energy)) for station, energy in places)
+            for member, places in text.get("yielded", {}).items()
+        },
     )
 
 

@@ -106,8 +106,9 @@ def _travel(result: Result, states: States, obstacle: str) -> Floats:
 
 
 def hinge_work(result: Result, structure: Structure) -> list[tuple[str, float, float]]:
-    """Member, station [m] and energy [J] of every hinge of a multibody run."""
-    return [
+    """Member, station [m] and energy [J] of every hinge of a multibody run, and of what yielded between."""
+    hinges = [
         (hinge.member, hinge.station, float(result[f"hinge.{hinge.name}.energy"][-1]))
         for hinge in plastic_hinges(structure)
     ]
+    return hinges + [(member, *place) for member, own in result.yielded.items() for place in own]

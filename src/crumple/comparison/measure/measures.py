@@ -225,10 +225,9 @@ def _zones(result: Result, structure: Structure) -> dict[str, float]:
         return found
     totals = {member: result.channels.get(f"member.{member}.energy") for member in structure.members}
     rest = {member: 0.0 if one is None else float(one.values[-1]) for member, one in totals.items()}
-    for hinge in plastic_hinges(structure):
-        energy = float(result[f"hinge.{hinge.name}.energy"][-1])
-        add(_zone(structure, hinge.member, hinge.station), energy)
-        rest[hinge.member] -= energy
+    for member, station, energy in hinge_work(result, structure):
+        add(_zone(structure, member, station), energy)
+        rest[member] -= energy
     for member, energy in rest.items():
         add(f"span of {member}", energy)
     return found

@@ -112,14 +112,13 @@ def hinge_histories(
         )
 
 
-def spread_energy(hinges: Sequence[RecordedHinge], rows: Rows) -> dict[str, Floats]:
-    """Energy dissipated in the joints of elastic members [J], (n,), by member."""
-    found: dict[str, Floats] = {}
-    for k, recorded in enumerate(hinges):
-        if not recorded.hinge.plastic:
-            member, own = recorded.hinge.member, rows.hinge_energy.dissipated[:, k]
-            found[member] = found[member] + own if member in found else own
-    return found
+def spread_energy(hinges: Sequence[RecordedHinge], rows: Rows) -> dict[tuple[str, float], Floats]:
+    """Energy dissipated in the joints of elastic members [J], (n,), by member and station [m]."""
+    return {
+        (recorded.hinge.member, recorded.hinge.station): rows.hinge_energy.dissipated[:, k]
+        for k, recorded in enumerate(hinges)
+        if not recorded.hinge.plastic
+    }
 
 
 def ledger(rows: Rows, *, touched: bool = False, slowed: bool = False) -> dict[str, Floats]:

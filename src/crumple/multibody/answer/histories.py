@@ -18,12 +18,16 @@ from crumple.structure import Outputs, Structure
 from crumple.structure.bending import bending_axis
 
 
-def hinge_channels(hinges: Iterable[HingeHistory], spread: Mapping[str, Floats]) -> Iterator[Channel]:
+def hinge_channels(
+    hinges: Iterable[HingeHistory], spread: Mapping[tuple[str, float], Floats]
+) -> Iterator[Channel]:
     """Rotation, rates, moment, capacity and energy of every hinge, and the energy of every member.
 
-    `spread`: what elastic members dissipated between their hinges [J], by member.
+    `spread`: what elastic members dissipated between their hinges [J], by member and station [m].
     """
-    by_member: dict[str, Floats] = dict(spread)
+    by_member: dict[str, Floats] = {}
+    for (member, _), energy in spread.items():
+        by_member[member] = by_member.get(member, 0.0) + energy
     for history in hinges:
         member = history.hinge.member
         by_member[member] = by_member.get(member, 0.0) + history.values("energy")

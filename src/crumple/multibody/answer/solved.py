@@ -92,7 +92,8 @@ class Solved:
     hinges
         One history each.
     spread
-        Energy that the walls of each elastic member dissipated between its hinges [J], (n,), by member.
+        Energy that the walls of each elastic member dissipated between its hinges [J], (n,), by member and
+        station [m].
     energy
         ``kinetic``, ``elastic``, ``dissipated``, ``external_work`` and, with obstacles, ``contact`` and
         ``friction`` [J], (n,) each.
@@ -122,7 +123,7 @@ class Solved:
     hinges: tuple[HingeHistory, ...]
     energy: Mapping[str, Floats]
     stepping_seconds: float
-    spread: Mapping[str, Floats] = field(default_factory=dict)
+    spread: Mapping[tuple[str, float], Floats] = field(default_factory=dict)
     further: tuple[Channel, ...] = ()
     stages: tuple[StageSummary, ...] = ()
     crushed: tuple[CrushedContact, ...] = ()
