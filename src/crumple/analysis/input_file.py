@@ -27,6 +27,7 @@ from crumple.structure import (
     problems_in,
     shell_problems,
     stage_problems,
+    with_elastic_members,
     with_used_laws,
 )
 from crumple.structure.parts import StructureParts
@@ -199,13 +200,16 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
         cross += samples or history_problems(structure, whole.outputs, duration / interval)
         cross += shell_problems(whole.analysis.shell, structure, defined)
         cross += stage_problems(whole.analysis.stages, structure, defined)
+    # elastic members have hinges where rigid ones have none
+    bending = with_elastic_members(structure, whole.analysis.multibody) if whole else structure
     if whole and not cross:
-        cross += filter_problems(structure, whole.outputs, duration, interval)
+        cross += filter_problems(bending, whole.outputs, duration, interval)
     scatter: Uncertainty | None = None
     criteria: dict[str, Criterion] = {}
     if whole and not cross:
-        criteria, cross = criteria_in_si(whole.criteria, structure, whole.outputs)
-        scatter, wrong = in_si(whole.uncertainty, data, Structure.of_sound_parts(whole))
+        criteria, cross = criteria_in_si(whole.criteria, bending, whole.outputs)
+        whole_structure = with_elastic_members(Structure.of_sound_parts(whole), whole.analysis.multibody)
+        scatter, wrong = in_si(whole.uncertainty, data, whole_structure)
         cross += wrong
     problems += [(path_of(problem.where), problem) for problem in cross]
     if problems or document.problems or whole is None:

@@ -20,6 +20,7 @@ from crumple.comparison.variant import variants_of
 from crumple.errors import CancelledError, InputError, Problem, Status
 from crumple.multibody import Run, least_seconds, stepping_seconds
 from crumple.result import Result
+from crumple.structure import with_elastic_members
 from crumple.structure.remembered import forget
 
 if TYPE_CHECKING:
@@ -109,7 +110,7 @@ def solve_and_compare(
     found = compare(
         candidate,
         reference,
-        analysis.structure,
+        with_elastic_members(analysis.structure, analysis.multibody),
         variants=results,
         curves=curves,
     )
@@ -180,7 +181,8 @@ def _variants(
     dense: Analysis, candidate: Result, reference: Result, cancel: Cancel | None
 ) -> dict[str, tuple[Analysis, Result]]:
     """Further models and their results, by name; a model that is not solved is left out."""
-    shell = compare(candidate, reference, dense.structure).reference
+    structure = with_elastic_members(dense.structure, dense.multibody)
+    shell = compare(candidate, reference, structure).reference
     found = {}
     for name, model in variants_of(dense, shell.hinges).items():
         try:

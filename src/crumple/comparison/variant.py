@@ -95,6 +95,8 @@ def with_measured_laws(structure: Structure, motions: Sequence[HingeMotion]) -> 
                     h.model_copy(update={"law": laws[h.name], "laws": None}) if h.name in laws else h
                     for h in hinges_of(structure, name)
                 )
+                # of a member without hinges none is asked for: if it is elastic, it folds where it yields
+                or member.hinges
             }
         )
         for name, member in structure.members.items()
@@ -142,7 +144,7 @@ def _elastic(structure: Structure, name: str, member: Member, places: dict[str, 
     )
     if between is not None:
         bars = bars.model_copy(update={"law": _law(structure, between)})
-    return member.model_copy(update={"hinges": hinges, "bars": bars})
+    return member.model_copy(update={"hinges": hinges or member.hinges, "bars": bars})
 
 
 def _laws(structure: Structure, hinge: Hinge, place: HingePlace) -> dict[str, Any]:

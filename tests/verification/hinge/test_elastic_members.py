@@ -45,7 +45,7 @@ GUIDE, SLEEVE = ["y", "rx", "ry", "rz"], ["y", "z", "rx", "ry", "rz"]
 
 
 def beam(first, second, yield_stress=STRONG, segments=6, length=LENGTH, **keys):
-    """One member along x that bends about y, without hinges of its own."""
+    """One member along x that bends about y, without hinges: it does not fold."""
     supports = {"first": {"node": "a", "fix": first}}
     if second is not None:
         supports["second"] = {"node": "b", "fix": second}
@@ -54,7 +54,15 @@ def beam(first, second, yield_stress=STRONG, segments=6, length=LENGTH, **keys):
         materials={"metal": metal},
         sections={"tube": {"type": "square_tube", "side": 0.04, "thickness": 0.002}},
         nodes={"a": (0.0, 0.0, 0.0), "b": (length, 0.0, 0.0)},
-        members={"beam": {"nodes": ("a", "b"), "section": "tube", "material": "metal", "elastic": segments}},
+        members={
+            "beam": {
+                "nodes": ("a", "b"),
+                "section": "tube",
+                "material": "metal",
+                "elastic": segments,
+                "hinges": (),
+            }
+        },
         supports=supports,
         **keys,
     )
@@ -210,6 +218,15 @@ def solve_of(text):
     from crumple.analysis import solve
 
     return solve(loads(text))
+
+
+def test_elastic_members_for_which_no_hinges_are_asked_fold_as_with_automatic_ones(record_figure):
+    asked = frame("elastic")
+    text = FRAME.replace("hinges: auto\n", "").replace("MEMBERS", "elastic").replace("SEGMENTS", "6")
+    unasked = solve_of(text)
+    assert set(unasked.hinges) == set(asked.hinges)
+    for name, hinge in asked.hinges.items():
+        record_figure(name, unasked.hinges[name].rotation_max, hinge.rotation_max, 1e-12, "rad")
 
 
 def test_folds_do_not_depend_on_the_number_of_segments(record_figure):

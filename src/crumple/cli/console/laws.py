@@ -49,13 +49,13 @@ def write_frozen(sources: list[LoadedInput], file: Path) -> None:
     from crumple.errors import InputError, Problem
     from crumple.hinge.measured.library import frozen
     from crumple.portable import replacing
-    from crumple.structure import law_uses, used_texts
+    from crumple.structure import law_uses, used_texts, with_elastic_members
     from crumple.version import __version__
 
     texts: set[str] = set()
     notes = [f"Crumple {__version__}; formulas are not written, their hashes show whether they are the same."]
     for source in sources:
-        structure = source.analysis.structure
+        structure = with_elastic_members(source.analysis.structure, source.analysis.multibody)
         texts |= set(used_texts(structure))
         for name, use in law_uses(structure).items():
             notes.append(f"{source.path.name}: hinge {name}: {use.origin} {use.content}")

@@ -15,7 +15,7 @@ from crumple.multibody.variants.variants import solve_variants
 from crumple.numeric.arrays import Floats
 from crumple.result.nearby import LawRange
 from crumple.result.result import Result
-from crumple.structure import Structure, plastic_hinges
+from crumple.structure import Structure, plastic_hinges, with_elastic_members
 
 CASES: dict[str, Callable[[int], float]] = {
     "nominal": lambda _: 0.0,
@@ -52,7 +52,7 @@ def law_range(
     ----------
     docs/theory/measured_curves.md.  Verified in tests/unit/multibody/variants/test_law_range.py.
     """
-    bands, without, factors = law_factors(structure)
+    bands, without, factors = law_factors(with_elastic_members(structure, run.settings))
     if not bands:
         return None
     table = solve_variants(structure, run, factors, threads, cancel=cancel)

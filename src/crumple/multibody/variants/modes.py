@@ -20,7 +20,7 @@ from crumple.numeric.arrays import Floats
 from crumple.numeric.ranking import largest_first
 from crumple.result.nearby import Mode, Modes
 from crumple.result.result import Result
-from crumple.structure import Structure, any_automatic, plastic_hinges, value_at
+from crumple.structure import Structure, any_automatic, plastic_hinges, value_at, with_elastic_members
 
 BAND = 0.05
 """Half-width for laws without a known band [-]."""
@@ -67,6 +67,7 @@ def modes(
     ----------
     docs/theory/modes.md.  Verified in tests/unit/multibody/variants/test_modes.py.
     """
+    structure = with_elastic_members(structure, run.settings)
     asked = run.settings.mechanism_check
     unasked = asked == "off" or (asked == "auto" and not any_automatic(structure))
     names = [hinge.name for hinge in plastic_hinges(structure)]

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from crumple.errors import Problem
-from crumple.structure.hinges.asked import automatic_of
+from crumple.structure.hinges.asked import automatic_of, folds_at_ends
 from crumple.structure.keys.outputs import Outputs
 from crumple.structure.keys.spot_welds import MOST_SPOTS
 from crumple.structure.parts import StructureParts
@@ -88,7 +88,7 @@ def _hinges_of(structure: StructureParts, name: str) -> float:
     asked = automatic_of(structure, name)
     count: float = spec.bars.number - 1 + len(spec.given_hinges)
     if asked is None:
-        return count
+        return count + 2.0 * folds_at_ends(structure, name)
     if asked.spacing is None or not structure.has_line(name):
         return count + 2
     return count + 2 + math.ceil(structure.frame_of(name).length / asked.spacing)

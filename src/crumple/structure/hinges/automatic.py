@@ -15,18 +15,19 @@ branch of a T-joint one in the face on which it ends.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
 from crumple.section import Axis, half_fold_length
 from crumple.structure.bending import bending_axis, planar
-from crumple.structure.hinges.asked import automatic_of
+from crumple.structure.hinges.asked import FOLDS, automatic_of, folds_at_ends
 from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
 from crumple.structure.hinges.held_runs import held_runs
 from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
 from crumple.structure.keys.hinge_axes import AxialSlip, HingeAxes
-from crumple.structure.keys.member import Hinge
+from crumple.structure.keys.member import AutomaticHinges, Hinge
 from crumple.structure.parts import StructureParts
 
 
@@ -34,7 +35,56 @@ def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
     """Hinges of a member besides those between its bars: given one by one, or put where folds can form."""
     asked = automatic_of(structure, member)
     if asked is None:
-        return structure.members[member].given_hinges
+        given = structure.members[member].given_hinges
+        return (*given, *_further(structure, member, given)) if folds_at_ends(structure, member) else given
+    keys, axes = _keys(structure, member, asked)
+    stations = automatic_stations(structure, member, axes, asked.spacing)
+    parts = structure.members[member].rigid_parts(structure.frame_of(member).length)
+    parts = (*parts, *corner_zones(structure, member), *t_joint_zones(structure, member))
+    stations = {name: at for name, at in stations.items() if not any(a <= at <= b for a, b in parts)}
+    # names of members and nodes were checked; two of them together may be longer than a name that is given
+    found = [Hinge.model_construct(name=name, at=station, **keys) for name, station in stations.items()]
+    found += [*corner_hinges(structure, member, keys), *t_joint_hinges(structure, member, keys)]
+    return tuple(sorted(found, key=lambda hinge: float(hinge.at)))
+
+
+def _further(structure: StructureParts, member: str, given: tuple[Hinge, ...]) -> list[Hinge]:
+    """Candidates at the ends of an elastic member besides its list of hinges, where none of these is near.
+
+    A hinge within one fold, two half lengths, of a candidate's place stands for the fold there.  A member
+    that shortens at a hinge of its list also shortens wherever else it folds: bending takes away the peak of
+    the axial force.
+    """
+    keys, axes = _keys(structure, member, FOLDS)
+    keys["axial"] = next((hinge.axial for hinge in given if hinge.axial is not None), keys["axial"])
+    length, section = structure.frame_of(member).length, structure.section_of(member)
+    fold = 2.0 * max(half_fold_length(section, axis) for axis in axes)
+    own = [_about_at(structure, member, hinge) for hinge in given]
+    taken = {hinge.name for hinge in given}
+    parts = structure.members[member].rigid_parts(length)
+    return [
+        Hinge.model_construct(name=f"{name}-fold" if name in taken else name, at=at, **keys)
+        for name, at in automatic_stations(structure, member, axes, None).items()
+        if not any(a <= at <= b for a, b in parts) and not any(abs(at - place) <= fold for place in own)
+    ]
+
+
+def _about_at(structure: StructureParts, member: str, hinge: Hinge) -> float:
+    """Distance of a given hinge from the member's first node [m], but for half a fold at a clamp."""
+    offset = hinge.offset or 0.0
+    if not isinstance(hinge.at, str):
+        return hinge.at + offset
+    return (
+        offset
+        if hinge.at == structure.members[member].nodes[0]
+        else structure.frame_of(member).length - offset
+    )
+
+
+def _keys(
+    structure: StructureParts, member: str, asked: AutomaticHinges
+) -> tuple[dict[str, Any], tuple[Axis, ...]]:
+    """Keys of a member's candidates, and their bending axes."""
     keys = {name: getattr(asked, name) for name in HingeAxes.model_fields}
     if asked.axis is None and asked.axes is None:
         flat = planar(structure)
@@ -48,14 +98,7 @@ def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
     if lengthens(structure, member):
         keys["axial"] = AxialSlip()
     axes = (keys["axis"],) if keys["axis"] else tuple(axis for axis in keys["axes"] if axis != "x")
-    stations = automatic_stations(structure, member, axes, asked.spacing)
-    parts = structure.members[member].rigid_parts(structure.frame_of(member).length)
-    parts = (*parts, *corner_zones(structure, member), *t_joint_zones(structure, member))
-    stations = {name: at for name, at in stations.items() if not any(a <= at <= b for a, b in parts)}
-    # names of members and nodes were checked; two of them together may be longer than a name that is given
-    found = [Hinge.model_construct(name=name, at=station, **keys) for name, station in stations.items()]
-    found += [*corner_hinges(structure, member, keys), *t_joint_hinges(structure, member, keys)]
-    return tuple(sorted(found, key=lambda hinge: float(hinge.at)))
+    return keys, axes
 
 
 def lengthens(structure: StructureParts, member: str) -> bool:

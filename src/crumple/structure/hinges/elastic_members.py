@@ -66,7 +66,11 @@ def segments_of(structure: StructureParts, member: str) -> int:
 
 
 def joint_stations(
-    structure: StructureParts, member: str, axis: Axis, hinges: tuple[float, ...]
+    structure: StructureParts,
+    member: str,
+    axis: Axis,
+    hinges: tuple[float, ...],
+    others: tuple[float, ...] = (),
 ) -> tuple[float, ...]:
     """Borders of a member's segments [m] that are clear of its hinges and of its rigid parts.
 
@@ -76,8 +80,8 @@ def joint_stations(
         Elastic or not; a rigid one has none.
     axis
         About which it bends; in a plane it bends about one axis alone.
-    hinges
-        Stations of its hinges about that axis [m].
+    hinges, others
+        Stations of its hinges about that axis, and of those about other axes alone [m].
     """
     if planar(structure) and axis != bending_axis(structure, member):
         return ()
@@ -92,7 +96,7 @@ def joint_stations(
     return tuple(
         at
         for at in borders
-        if all(abs(at - hinge) >= CLEAR * segment for hinge in hinges)
+        if all(abs(at - hinge) >= CLEAR * segment for hinge in (*hinges, *others))
         and not any(a <= at <= b for a, b in rigid)
     )
 

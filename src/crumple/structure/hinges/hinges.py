@@ -23,7 +23,7 @@ from crumple.hinge import (
     Stop,
 )
 from crumple.numeric.arrays import Floats
-from crumple.section import Axis
+from crumple.section import Axis, half_fold_length
 from crumple.structure.hinges.corner.springs import with_corner_springs
 from crumple.structure.hinges.corner_laws import turned_corner
 from crumple.structure.hinges.elastic_members import yielding_record
@@ -176,7 +176,8 @@ def elastic_joints(
         # no name of the input has a blank
         name = f"{member} elastic" if len(lengths) == 1 else f"{member} elastic {i}"
         records = {
-            axis: _joint_record(structure, member, axis, length, own) for axis, length in by_axis.items()
+            axis: _joint_record(structure, member, axis, (station, length), own)
+            for axis, length in by_axis.items()
         }
         first = next(iter(records))
         place = HingePlace(name, member, station, first, None, f"members.{member}")
@@ -201,10 +202,15 @@ def elastic_joints(
 
 
 def _joint_record(
-    structure: StructureParts, member: str, axis: Axis, length: float, own: list[PlacedHinge]
+    structure: StructureParts, member: str, axis: Axis, place: tuple[float, float], own: list[PlacedHinge]
 ) -> HingeRecord:
-    """Record of a joint that stands for a length [m] of its member."""
-    if structure.members[member].elastic:
+    """Record of a joint at a station that stands for a length [m] of its member.
+
+    One between an end and the fold there does not yield: the hinge stands for the fold of all that lies
+    beyond it. Walls that yielded there without folding would carry its largest moment whatever the rotation.
+    """
+    station, length = place
+    if structure.members[member].elastic and not _beyond_a_fold(structure, member, axis, station, own):
         return yielding_record(structure, member, axis, length)
     strongest = max(
         float(curve.moment.max()) for h in own for curve in (h.record.positive, h.record.negative)
@@ -308,6 +314,23 @@ def _direction(structure: StructureParts, place: HingePlace) -> Floats:
     if abs(along) <= NEARER:
         return axis
     return across if along > 0.0 else -across
+
+
+def _beyond_a_fold(
+    structure: StructureParts, member: str, axis: Axis, station: float, own: list[PlacedHinge]
+) -> bool:
+    """Whether a station lies between an end of a member and a hinge that is less than one fold away."""
+    folds = [hinge.station for hinge in own if _bends_about(hinge, axis)]
+    if not folds or min(folds) <= station <= max(folds):
+        return False
+    nearest = min(folds) if station < min(folds) else max(folds)
+    return abs(station - nearest) <= 2.0 * half_fold_length(structure.section_of(member), axis)
+
+
+def _bends_about(hinge: PlacedHinge, axis: Axis) -> bool:
+    if hinge.spatial is None:
+        return hinge.axis == axis
+    return any(component.freedom is BENDING[axis] for component in hinge.spatial.components)
 
 
 @remembered(MADE)

@@ -17,6 +17,7 @@ from crumple.hinge.measured.stored import StoredLaw
 from crumple.section.shapes.rectangular_tube import RectangularTube
 from crumple.structure.hinges.corner_laws import corner_laws, corner_name
 from crumple.structure.hinges.corners import corners
+from crumple.structure.hinges.elastic_members import with_elastic_members
 from crumple.structure.hinges.hinges import plastic_hinges
 from crumple.structure.hinges.law_choice import automatic_law, stored_texts
 from crumple.structure.hinges.places import HingePlace, hinge_places, law_of
@@ -24,6 +25,7 @@ from crumple.structure.hinges.shares import about_axis, axes_of
 from crumple.structure.hinges.stored_loads import texts_of_loads
 from crumple.structure.hinges.t_joints import TPlace, t_joint_name, t_laws, t_places
 from crumple.structure.parts import StructureParts
+from crumple.structure.settings.multibody_settings import MultibodySettings
 
 Parts = TypeVar("Parts", bound=StructureParts)
 
@@ -45,9 +47,11 @@ def _law_uses(structure: StructureParts) -> dict[str, LawUse]:
 
 
 def used_texts(structure: StructureParts) -> tuple[str, ...]:
-    """Texts of the stored laws that the hinges of a structure have, sorted."""
+    """Texts of the stored laws that the hinges of a structure have, or have with elastic members; sorted."""
     if structure.laws is None:
         return ()
+    # elastic members fold where rigid ones have no hinges
+    structure = with_elastic_members(structure, MultibodySettings(members="elastic"))
     found = set()
     for place in hinge_places(structure):
         for axis in axes_of(place):

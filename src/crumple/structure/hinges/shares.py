@@ -33,7 +33,8 @@ class HingeShares:
     axial, twist
         In elastic lengthening, and in elastic twist.
     stretch
-        Of the laws of axial folding and of twist: the part of the member that folds.
+        Of the laws of axial folding and of twist: the part of the member that folds.  Of a hinge that
+        shortens the whole member, else what is nearer to it than to the others.
     """
 
     bending: Mapping[Axis, float] = field(default_factory=dict)
@@ -96,6 +97,8 @@ def member_shares(
     axial = along(lambda place: place.keys.axial is not None)
     twist = along(lambda place: "x" in (place.keys.axes or ()))
     nearest = along(lambda place: True) if len(places) != 1 else {places[0].name: length}
+    # folds along the axis begin at the weakest hinge and go on next to each other through the whole member
+    nearest |= dict.fromkeys(axial, sum(axial.values()))
     return [
         HingeShares(
             {
@@ -131,7 +134,8 @@ def _about(
     """Shares about an axis: of elastic hinges and the member's joints, or of all where none is elastic."""
     # the spring of a corner adds to the flexibility of the members
     own = [place for place in places if axis in axes_of(place) and not _of_corner(structure, place, axis)]
-    between = joint_stations(structure, member, axis, tuple(place.station for place in own))
+    others = tuple(place.station for place in places if axis not in axes_of(place))
+    between = joint_stations(structure, member, axis, tuple(place.station for place in own), others)
     if not own and not between:
         return None
     seen: dict[int, Spring] = {}

@@ -187,8 +187,9 @@ class Member(Spec):
     """Direction whose part across the member is local z; without it global z, or x for a member along z."""
     bars: Annotated[Bars, BeforeValidator(_number_of_bars, json_schema_input_type=int | Bars)] = Bars()
     """Equal rigid bars with hinges between them; a plain number stands for `{number: ...}`."""
-    hinges: GivenOrAutomatic = ()
-    """Further hinges, one by one; or `auto`: candidates wherever a fold can form."""
+    hinges: GivenOrAutomatic | None = None
+    """Further hinges, one by one; or `auto`: candidates wherever a fold can form. Without it an elastic
+    member has candidates too, and besides a list where this leaves its ends out; `[]`: none of its own."""
     elastic: Elastic | None = None
     """Whether it bends and yields along its length in the multibody model: `true` (6 segments), `false`, or a
     number of segments; without it as `analysis.multibody.members`."""
@@ -210,7 +211,7 @@ class Member(Spec):
     @property
     def given_hinges(self) -> tuple[Hinge, ...]:
         """Hinges that are given one by one."""
-        return () if isinstance(self.hinges, AutomaticHinges) else self.hinges
+        return () if self.hinges is None or isinstance(self.hinges, AutomaticHinges) else self.hinges
 
     @field_validator("up", mode="after")
     @classmethod

@@ -134,3 +134,90 @@ def test_a_mistake_for_all_members_is_reported_once(name):
         frame(hinges=wish)
     (problem,) = refused.value.problems
     assert problem.where == "hinges.law"
+
+
+def elastic(first, second, **keys):
+    return {"nodes": (first, second), "section": "tube", "material": "steel", "elastic": True} | keys
+
+
+def test_an_elastic_member_folds_at_its_ends_unless_its_list_of_hinges_is_empty():
+    nodes = {k: NODES[k] for k in "abc"}
+
+    def found(**keys):
+        members = {"ab": elastic("a", "b", **keys), "bc": FRAME["bc"]}
+        return structure(nodes, members, supports=CLAMP)
+
+    assert stations(found()) == {"ab-a": HALF, "ab-b": 1.0 - HALF}
+    assert any_automatic(found())
+    assert stations(found(hinges=())) == {}
+    assert stations(found(elastic=False)) == {}
+
+
+def test_two_elastic_members_that_are_asked_for_nothing_have_the_hinge_of_their_corner():
+    members = {"ab": elastic("a", "b"), "bc": elastic("b", "c")}
+    whole = structure({k: NODES[k] for k in "abc"}, members, supports=CLAMP)
+    assert stations(whole) == {"ab-a": HALF, "corner-b": pytest.approx(1.0)}
+
+
+@pytest.mark.parametrize(
+    ("given", "left"),
+    [
+        ({"at": 0.5}, {"ab-a", "ab-b"}),
+        ({"at": "a"}, {"ab-b"}),
+        ({"at": "b", "offset": 0.1}, {"ab-a", "ab-b"}),
+        ({"at": 1.0 - 2.9 * HALF}, {"ab-a"}),
+        ({"at": 1.0 - 3.1 * HALF}, {"ab-a", "ab-b"}),
+    ],
+)
+def test_an_elastic_member_with_a_list_of_hinges_folds_at_the_ends_that_it_leaves_out(given, left):
+    own = {"name": "mine", "law": LAW} | given
+    members = {"ab": elastic("a", "b", hinges=[own]), "bc": FRAME["bc"]}
+    whole = structure({k: NODES[k] for k in "abc"}, members, supports=CLAMP)
+    assert set(stations(whole)) == {"mine", *left}
+    rigid = {"ab": elastic("a", "b", hinges=[own], elastic=False), "bc": FRAME["bc"]}
+    assert set(stations(structure({k: NODES[k] for k in "abc"}, rigid, supports=CLAMP))) == {"mine"}
+
+
+def test_a_name_that_a_list_has_taken_is_not_given_twice():
+    own = {"name": "ab-b", "at": 0.5, "law": LAW}
+    members = {"ab": elastic("a", "b", hinges=[own]), "bc": FRAME["bc"]}
+    whole = structure({k: NODES[k] for k in "abc"}, members, supports=CLAMP)
+    assert set(stations(whole)) == {"ab-b", "ab-a", "ab-b-fold"}
+
+
+def test_an_elastic_member_that_shortens_at_one_hinge_shortens_at_all_of_them_over_its_whole_length():
+    slip = {"peak": 9e4, "mean": 3e4, "stroke": 0.5}
+    own = {"name": "mine", "at": 0.5, "axes": ("y", "z"), "axial": slip}
+    members = {"ab": elastic("a", "b", hinges=[own]), "bc": FRAME["bc"]}
+    whole = structure({k: NODES[k] for k in "abc"}, members, supports=CLAMP)
+    assert {place.keys.axial.peak for place in hinge_places(whole)} == {9e4}
+    square = {"type": "square_tube", "side": 0.05, "thickness": 0.002}
+    own |= {"axial": {"law": "square"}}
+    members["ab"] |= {"hinges": [own]}
+    whole = structure({k: NODES[k] for k in "abc"}, members, supports=CLAMP, sections={"tube": square})
+    stops = [
+        part.record.stop_negative.rotation
+        for hinge in placed_hinges(whole)
+        if hinge.plastic
+        for part in hinge.spatial.components
+        if part.freedom.name == "AXIAL"
+    ]
+    assert stops == pytest.approx([0.73 * 1.0] * 3)
+
+
+def test_joints_between_an_end_and_the_fold_there_do_not_yield():
+    """They would carry the largest moment for ever, and the fold beside them would never soften."""
+    short = {"a": (0.0, 0.0, 0.0), "b": (0.14, 0.0, 0.0), "c": (0.14, 0.0, 1.0)}
+    members = {"ab": elastic("a", "b"), "bc": FRAME["bc"]}
+    law = {"ab": elastic("a", "b", hinges={"law": "kecman"}), "bc": FRAME["bc"]}
+    for given in (members, law):
+        whole = structure(short, given, supports=CLAMP)
+        folds = [hinge for hinge in placed_hinges(whole) if hinge.plastic and hinge.member == "ab"]
+        joints = [hinge for hinge in placed_hinges(whole) if not hinge.plastic]
+        strongest = max(float(hinge.record.positive.moment[0]) for hinge in folds)
+        ends = [joint for joint in joints if not folds[0].station < joint.station < folds[-1].station]
+        assert ends
+        assert all(float(joint.record.positive.moment[0]) > 10.0 * strongest for joint in ends)
+        inside = [joint for joint in joints if joint not in ends]
+        assert inside
+        assert all(float(joint.record.positive.moment[0]) <= strongest for joint in inside)

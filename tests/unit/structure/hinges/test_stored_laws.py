@@ -202,6 +202,13 @@ def test_only_used_laws_are_part_of_the_input(tmp_path):
     assert [h.name for h in placed_hinges(kept)] == [h.name for h in placed_hinges(whole)]
 
 
+def test_laws_of_the_folds_of_elastic_members_are_part_of_the_input(tmp_path):
+    """A comparison also solves the model with elastic members, which fold where rigid ones have no hinge."""
+    whole = frame(laws=stored(tmp_path, STRAIGHT, MITRE), hinges=None)
+    assert not placed_hinges(whole)
+    assert with_used_laws(whole).laws.texts == tuple(sorted((STRAIGHT, MITRE)))
+
+
 @pytest.mark.parametrize(
     ("change", "reason"),
     [
