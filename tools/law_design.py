@@ -8,15 +8,16 @@ A tube without corner radii, at rest, is described by dimensionless coordinates:
 with h the true stress at a plastic strain of 0.1 over the yield stress.  Bending about the other axis is the
 same with a and b exchanged.  The range is given by slenderness max(a, b)/t and ratio a/b.
 
-Training points are a Sobol sequence, pushed towards the ends of the range (there a regression extrapolates);
-held-out points are uniform random numbers from a seed of their own.  Nobody chooses anything by the latter.
+Training points are a Sobol sequence, pushed towards the ends of the range (there a regression extrapolates),
+on a coarse mesh; some of them are solved on the nominal mesh too.  Held-out points are uniform random numbers
+from a seed of their own, on the nominal mesh.  Nobody chooses anything by the latter.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -28,12 +29,16 @@ from crumple.numeric.arrays import Floats
 from crumple.section import CircularTube, RectangularTube, Section
 
 Kind = Literal["rectangular_tube", "circular_tube"]
-Role = Literal["training", "earlier", "held-out", "mesh", "check"]
+Role = Literal["training", "earlier", "former", "mesh", "held-out", "check"]
 
 SLENDERNESS = (15.0, 60.0)
 """Larger side, or diameter, over wall."""
 RATIO = (0.6, 2.5)
 """Flange width over depth."""
+THICKEST = 18.5
+"""Larger side over wall from which rectangular tubes have laws: of thicker ones some fold elsewhere."""
+DEEPEST = 0.7
+"""Flange width over depth from which they have laws, for the same reason."""
 YIELD_STRAIN = (0.0012, 0.004)
 """Yield stress over Young's modulus."""
 HARDENING = (1.0, 1.8)
@@ -45,9 +50,18 @@ PRESTRAIN = 0.01
 COARSE, NOMINAL = 4.0, 8.0
 """Elements along half a fold."""
 TRAINING = {"rectangular_tube": 20, "circular_tube": 8}
-HELD_OUT = {"rectangular_tube": 10, "circular_tube": 4}
-MESH: dict[str, tuple[int, ...]] = {"rectangular_tube": (0,), "circular_tube": ()}
-"""Numbers of the training points that are solved on the nominal mesh too."""
+FORMER = {"rectangular_tube": 10, "circular_tube": 4}
+"""Points that were held out on the coarse mesh; their errors are known, so they are training points now."""
+HELD_OUT = {"rectangular_tube": 3, "circular_tube": 1}
+MESH: dict[str, tuple[tuple[Role, int], ...]] = {
+    "rectangular_tube": (
+        *(("training", 0), ("training", 12), ("training", 5), ("training", 17), ("training", 18)),
+        *(("training", 2), ("former", 1), ("training", 10), ("training", 3), ("training", 9)),
+        *(("former", 7), ("training", 14), ("training", 11)),
+    ),
+    "circular_tube": (("training", 0), ("training", 2), ("training", 5), ("training", 4), ("training", 1)),
+}
+"""Points that are solved on the nominal mesh too, spread over the range, in the order in which they are solved."""
 EARLIER = {
     "rectangular_tube": (
         (16.542128, 1.395201, 0.002517, 1.0, 4.0),
@@ -73,8 +87,8 @@ They are those of first designs, of wider ranges, that were given up for their c
 was solved."""
 CHECK = {"rectangular_tube": ((25.0, 1.0, 350e6 / 210e9, 1.0, NOMINAL),), "circular_tube": ()}
 """Held out on the nominal mesh: the tube 50x50x2 mm with 350 MPa."""
-SEED = 20260
-"""Of the held-out points."""
+SEED, FORMER_SEED = 20261, 20260
+"""Of the held-out points, and of those that were held out before."""
 WALL = 1e-3
 """Thickness of every tube that is solved [m]; only ratios matter."""
 YOUNGS_MODULUS = 210e9
@@ -136,20 +150,21 @@ def points() -> tuple[Point, ...]:
 
 def _numbered() -> Iterator[tuple[float, Point]]:
     for kind in TRAINING:
-        training = list(_training(kind))
-        held_out = list(_held_out(kind))
+        training, former = list(_training(kind)), list(_former(kind))
         earlier = [
             Point(f"{kind}-earlier-{number:02d}", kind, "earlier", *place)
             for number, place in enumerate(EARLIER[kind])
         ]
-        mesh = [_on_nominal_mesh(training[number]) for number in MESH[kind]]
+        own = {"training": training, "former": former}
+        mesh = [_on_nominal_mesh(own[role][number], place) for place, (role, number) in enumerate(MESH[kind])]
         check = [
             Point(f"{kind}-check-{number:02d}", kind, "check", *place)
             for number, place in enumerate(CHECK[kind])
         ]
-        for group, begin in ((check, 0.7), (earlier, 0.0), (training, 0.0), (held_out, 0.15), (mesh, 0.6)):
+        coarse = ((earlier, 0.0), (training, 0.0), (former, 0.0))
+        for group, begin in (*coarse, (mesh, 1.0), (list(_held_out(kind)), 1.0), (check, 1.0)):
             for number, point in enumerate(group):
-                yield begin + (1.0 - begin) * (number + 0.5) / len(group), point
+                yield begin + (number + 0.5) / len(group), point
 
 
 def _training(kind: Kind) -> Iterator[Point]:
@@ -158,29 +173,39 @@ def _training(kind: Kind) -> Iterator[Point]:
         yield _point(kind, "training", number, 0.5 - 0.5 * np.cos(math.pi * place[:3]), place[3])
 
 
+def _former(kind: Kind) -> Iterator[Point]:
+    random = np.random.default_rng([FORMER_SEED, len(kind)])
+    for number, place in enumerate(random.uniform(size=(FORMER[kind], 4))):
+        yield _point(kind, "former", number, place[:3], place[3])
+
+
 def _held_out(kind: Kind) -> Iterator[Point]:
+    """Uniform in the range of the laws, on the nominal mesh."""
+    slenderness = (THICKEST, SLENDERNESS[1]) if kind == "rectangular_tube" else SLENDERNESS
     random = np.random.default_rng([SEED, len(kind)])
     for number, place in enumerate(random.uniform(size=(HELD_OUT[kind], 4))):
-        yield _point(kind, "held-out", number, place[:3], place[3])
+        one = _point(kind, "held-out", number, place[:3], place[3])
+        ratio = 1.0 if kind == "circular_tube" else _between((DEEPEST, RATIO[1]), place[1])
+        yield replace(one, slenderness=_between(slenderness, place[0]), ratio=ratio, elements=NOMINAL)
 
 
 def _point(kind: Kind, role: Role, number: int, place: Floats, hardening: float) -> Point:
-    def between(ends: tuple[float, float], share: float) -> float:
-        return float(np.round(ends[0] * (ends[1] / ends[0]) ** share, 6))
-
     rise = max(hardening - WITHOUT_HARDENING, 0.0) / (1.0 - WITHOUT_HARDENING)
     return Point(
         f"{kind}-{role}-{number:02d}",
         kind,
         role,
-        between(SLENDERNESS, place[0]),
-        1.0 if kind == "circular_tube" else between(RATIO, place[1]),
-        between(YIELD_STRAIN, place[2]),
+        _between(SLENDERNESS, place[0]),
+        1.0 if kind == "circular_tube" else _between(RATIO, place[1]),
+        _between(YIELD_STRAIN, place[2]),
         float(np.round(HARDENING[0] + (HARDENING[1] - HARDENING[0]) * rise, 6)),
         COARSE,
     )
 
 
-def _on_nominal_mesh(point: Point) -> Point:
-    name = point.name.replace("training", "mesh")
-    return Point(**{**vars(point), "name": name, "role": "mesh", "elements": NOMINAL})
+def _between(ends: tuple[float, float], share: float) -> float:
+    return float(np.round(ends[0] * (ends[1] / ends[0]) ** share, 6))
+
+
+def _on_nominal_mesh(point: Point, number: int) -> Point:
+    return replace(point, name=f"{point.kind}-mesh-{number:02d}", role="mesh", elements=NOMINAL)

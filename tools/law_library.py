@@ -22,10 +22,12 @@ from typing import Any
 import numpy as np
 from tools.law_design import (
     COARSE,
+    DEEPEST,
     HARDENING,
     NOMINAL,
     RATIO,
     SLENDERNESS,
+    THICKEST,
     TRAINING,
     YIELD_STRAIN,
     Point,
@@ -49,7 +51,7 @@ LARGEST = math.radians(40.0)
 """Plastic rotation at which the laws end."""
 
 PLACE = ("slenderness", "ratio", "yield_strain", "hardening")
-ROLES: tuple[Role, ...] = ("training", "earlier", "mesh")
+ROLES: tuple[Role, ...] = ("training", "earlier", "former", "mesh")
 """Points that are fitted."""
 HELD_OUT: tuple[Role, ...] = ("held-out", "check")
 """Points that are not."""
@@ -69,10 +71,6 @@ METAL = (
 )
 SIDE = (SLENDERNESS[0] * RATIO[0], SLENDERNESS[1])
 BUCKLING = tuple(side * math.sqrt(strain) for side, strain in zip(SIDE, YIELD_STRAIN, strict=True))
-THICKEST = 18.5
-"""Larger side over wall from which rectangular tubes have laws: of thicker ones some fold elsewhere."""
-DEEPEST = 0.7
-"""Flange width over depth from which they have laws, for the same reason."""
 CHOICES = {
     "rectangular_tube": (
         (Coordinate("flange", *SIDE, True), Coordinate("web", *SIDE, True), *METAL),
