@@ -17,7 +17,7 @@ Limits: thick walls never buckle elastically; thin ones: M -> Brazier ~ R t^2.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
@@ -31,6 +31,7 @@ from crumple.hinge.law import Source, Trust, Validity
 from crumple.hinge.options import choice
 from crumple.hinge.rate import hinge_rate, rate_warnings
 from crumple.hinge.stop import Stop
+from crumple.hinge.tube_library.formula_band import with_library_band
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.numeric.sign_change import sign_change
@@ -122,7 +123,7 @@ class CircularLaw(FoldingLaw):
         fold = CappedMechanism(min(plastic, limit), mechanism)
         kink = 2.0 * half_fold_length(section, axis) * ovalisation_curvature(radius, t)
         stiffness = material.youngs_modulus * section.second_moment(axis) / side
-        return cls(
+        law = cls(
             fold,
             min(FLATTENED * plastic, fold.peak),
             kink,
@@ -132,6 +133,7 @@ class CircularLaw(FoldingLaw):
             rate=hinge_rate(material.flow_rate),
             stop=Stop(fold.jamming_angle, stiffness) if after is AfterJamming.STOP else None,
         )
+        return replace(law, validity=with_library_band(law, section, material, axis))
 
     @property
     def title(self) -> str:

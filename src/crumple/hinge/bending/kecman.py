@@ -14,7 +14,7 @@ plateau later, and may jam before.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
 from typing import ClassVar
@@ -31,6 +31,7 @@ from crumple.hinge.law import Source, Trust
 from crumple.hinge.options import choice, number_between
 from crumple.hinge.rate import hinge_rate
 from crumple.hinge.stop import Stop
+from crumple.hinge.tube_library.formula_band import with_library_band
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.numeric.sign_change import sign_change
@@ -146,7 +147,7 @@ class KecmanLaw(FoldingLaw):
         if law.start is Start.PARABOLA and law.mechanism_from > mechanism.jamming_angle:
             what = "no parabola from the largest moment is tangent to the mechanism before the walls touch"
             raise InputError(Problem(what, "parabola", "cap", "use start: cap for this section", "start"))
-        return law
+        return replace(law, validity=with_library_band(law, section, material, axis))
 
     @property
     def title(self) -> str:

@@ -23,8 +23,6 @@ RANGES = {
     "yield_strain": "yield stress over Young's modulus",
     "hardening": "stress at a plastic strain of 0.1 over the yield stress",
 }
-NOMINAL_MESH = 1.0 / 8.0
-"""Element over half a fold of the mesh that laws are for; most points were solved on coarser ones."""
 TODO = "use a formula, or solve this tube (crumple characterise)"
 
 
@@ -91,11 +89,8 @@ def within(value: float, low: float, high: float) -> bool:
 
 
 def coordinate(one: Coordinate, place: dict[str, float]) -> float:
-    """Value of a coordinate; flange and web are measured over the wall.
-
-    The mesh is a coordinate too, so that points on coarse meshes tell what a law on the nominal one is.
-    """
-    return {"mesh": NOMINAL_MESH, **place, **_walls(place)}[one.key]
+    """Value of a coordinate; flange and web are measured over the wall."""
+    return {**place, **_walls(place)}[one.key]
 
 
 def _walls(place: dict[str, float]) -> dict[str, float]:

@@ -18,7 +18,7 @@ from typing import TypeVar
 import numpy as np
 
 from crumple.hinge import HingeRecord, build_law, record_of
-from crumple.hinge.bending.estimate import formula_or_estimate
+from crumple.hinge.bending.estimate import automatic_type
 from crumple.hinge.record.record import Form
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
@@ -154,8 +154,10 @@ def _yielding(section: Section, material: Material, axis: Axis, rigidity: float)
     stress = material.flow_stress if curve is None else curve.yield_stress
     curvature = CURVATURES * stress * section.elastic_section_modulus(axis) / rigidity
     moment = bending_moment(section, material, axis, curvature)
-    fold = build_law(formula_or_estimate(section, material, axis), section, material, axis)
-    moment = np.minimum(moment, float(fold.moment_capacity(0.0)))
+    fold = build_law(automatic_type(section, material, axis), section, material, axis)
+    # a law of the library may rise before it falls
+    rising = [0.0, *(kink for kink in fold.kinks() if kink <= fold.validity.rotation_max)]
+    moment = np.minimum(moment, float(fold.moment_capacity(rising).max()))
     plastic = np.maximum.accumulate(curvature - moment / rigidity)
     kept = np.concatenate([[True], np.diff(plastic) > 1e-9 * plastic[-1]])
     return plastic[kept] - plastic[0], moment[kept]

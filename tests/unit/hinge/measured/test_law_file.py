@@ -138,10 +138,11 @@ def test_stated_band_scales_the_curve_and_reaches_the_stepper():
         for bound in ("lower", "nominal", "upper")
     ]
     peaks = np.array([record.positive.moment[0] for record in records])
-    np.testing.assert_allclose(peaks / peaks[1], [0.8, 1.0, 1.2])
-    assert float(bounded(LAWS[0], "lower").moment_capacity(0.0)) == pytest.approx(0.8 * peaks[1])
+    width = LAWS[0].validity.uncertainty
+    np.testing.assert_allclose(peaks / peaks[1], [1.0 - width, 1.0, 1.0 + width])
+    assert float(bounded(LAWS[0], "lower").moment_capacity(0.0)) == pytest.approx((1.0 - width) * peaks[1])
     assert bounded(LAWS[0], "nominal") is LAWS[0]
-    assert band_of(LAWS[0]).upper.factor == pytest.approx(1.2)
+    assert band_of(LAWS[0]).upper.factor == pytest.approx(1.0 + width)
     with pytest.raises(InputError, match="scatter of this law is unknown"):
         bounded(read_law(write_law(stored_law(LAWS[-1], ORIGIN))), "upper")
 
