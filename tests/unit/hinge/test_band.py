@@ -40,7 +40,9 @@ def test_three_records_reach_the_stepper():
     band = band_of(LAW)
     records = [record_of(law) for law in (band.lower, band.nominal, band.upper)]
     peaks = [record.positive.moment[0] for record in records]
-    np.testing.assert_allclose(np.array(peaks) / peaks[1], 1.0 + LAW.validity.uncertainty * np.array([-1.0, 0.0, 1.0]))
+    np.testing.assert_allclose(
+        np.array(peaks) / peaks[1], 1.0 + LAW.validity.uncertainty * np.array([-1.0, 0.0, 1.0])
+    )
     assert all(record.rate_exponent == records[1].rate_exponent for record in records)
 
 

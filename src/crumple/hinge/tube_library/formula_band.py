@@ -1,8 +1,8 @@
 """Band of a formula from the library of tubes: how far its energy is from that of the solved tubes.
 
-With the energies E_F of the formula and E_L of the library up to a rotation, and the band b of the library, the
-energy of the tube is expected in E_L (1 -+ b).  The band of the formula is the half-width about E_F that
-contains this, the larger one of two rotations:
+With the energies E_F of the formula and E_L of the library up to a rotation, and the band b of the library,
+the energy of the tube is expected in E_L (1 -+ b).  The band of the formula is the half-width about E_F that
+contains this, the larger one of two rotations (derived here):
 
     u = max over 10 and 30 deg of max(|E_L (1 + b)/E_F - 1|, |E_L (1 - b)/E_F - 1|)
 

@@ -28,7 +28,7 @@ from crumple.section import Axis, Section
 SOURCE = Source(
     "library of shell sub-models, docs/theory/tube_library.md",
     Trust.COMPUTED,
-    "interpolated between tubes solved with shells; the band is the error at tubes held out, and of the mesh",
+    "interpolated between tubes solved with shells; the band is the largest energy error at tubes left out",
 )
 
 
