@@ -84,7 +84,8 @@ def test_law_stays_between_its_bounds_and_is_continuous_in_the_wall(diameter, sl
     assert law.residual <= moment <= law.fold.peak
     beside = CircularLaw.of(CircularTube(diameter, diameter * slenderness * (1 + 1e-9)), STEEL)
     assert float(beside.moment_capacity(rotation)) == pytest.approx(moment, rel=1e-6)
-    assert law.validity.rotation_max <= law.kink_from
+    # without a band from the library of tubes the range ends with the kink
+    assert law.validity.rotation_max <= law.kink_from or law.validity.uncertainty is not None
 
 
 def test_kinked_branch_is_that_of_the_square_tube_with_the_same_mid_line():

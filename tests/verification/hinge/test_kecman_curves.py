@@ -13,7 +13,7 @@ Kind: independent calculation; other code.  Source: derived here; quoted.
 import numpy as np
 import pytest
 
-from crumple.hinge import KecmanLaw, absorbed_energy, rotation_absorbing
+from crumple.hinge import KecmanLaw, absorbed_energy, build_law, rotation_absorbing
 from crumple.material import Material
 from crumple.section import RectangularTube
 
@@ -122,13 +122,23 @@ def test_energy_beside_finite_elements(record_figure):
         assert 0.05 < values[1] / elements - 1 < 0.115
 
 
+def test_library_of_tubes_beside_solid_elements():
+    """Shells, and so the library, are 5 to 9 % below solids at this thick tube; the band holds that."""
+    found = build_law("library", TUBE, STEEL, AXES["flat"])
+    for degrees, (elements, *_) in FINITE_ELEMENTS.items():
+        error = absorbed_energy(found, np.radians(degrees)) / elements - 1
+        assert -found.validity.uncertainty <= error < -0.04
+
+
 def test_claimed_band_holds_the_finite_element_moments():
     curve = law("flat")
     worst = max(
         abs(float(curve.moment_capacity(np.radians(degrees))) / moment - 1)
         for degrees, moment in FINITE_ELEMENT_MOMENTS.items()
     )
-    assert worst == pytest.approx(curve.validity.uncertainty, abs=0.01)
+    # solid elements to 42 deg are 20 % below; the library of tubes widens the band a little
+    assert worst == pytest.approx(0.20, abs=0.01)
+    assert worst <= curve.validity.uncertainty <= worst + 0.05
     assert curve.validity.rotation_max == pytest.approx(np.radians(42.0))
     # the other way up nothing was compared, so no band is claimed
     assert law("upright").validity.uncertainty is None

@@ -172,8 +172,8 @@ def ovalisation_curvature(radius: float, thickness: float) -> float:
 
 def _validity(rotation_max: float, plastic: float, limit: float, material: Material) -> Validity:
     warnings = [
-        "the kinked branch is the mechanism of a square tube with the same length of mid-line: validated by "
-        "nothing"
+        "the kinked branch is the mechanism of a square tube with the same length of mid-line: scaled, not "
+        "derived"
     ]
     if limit < plastic:
         warnings.append(
@@ -182,7 +182,7 @@ def _validity(rotation_max: float, plastic: float, limit: float, material: Mater
         )
     warnings += rate_warnings(material)
     basis = (
-        "up to there the section carries its largest moment; plastic ovalisation and the kink are validated "
-        "neither by tests nor by finite elements"
+        f"up to {math.degrees(rotation_max):.1f} deg the section carries its largest moment; plastic "
+        "ovalisation and the kink are validated neither by tests nor by solid elements"
     )
     return Validity(rotation_max, basis, tuple(warnings))
