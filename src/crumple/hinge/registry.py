@@ -81,7 +81,7 @@ BENDING: Registry[LawType] = Registry(
     },
 )
 AUTO = "auto"
-"""Type of a hinge without a law: its stored law, else the library, else a formula, else an estimate."""
+"""Type of a hinge without a law: its stored law, else a formula, else an estimate."""
 DEFAULT_BENDING = {
     "rectangular_tube": "kecman",
     "circular_tube": "circular",
@@ -90,8 +90,6 @@ DEFAULT_BENDING = {
     "closed_hat": "folded_profile",
 }
 """Formula of a hinge without a law, by the kind of its section."""
-IN_LIBRARY = ("rectangular_tube", "circular_tube")
-"""Kinds of sections of which the library of solved tubes has laws; they go before the formulas."""
 AXIAL: Registry[AxialLawType] = Registry(
     "axial law",
     {

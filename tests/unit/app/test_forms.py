@@ -64,8 +64,9 @@ def test_bands_of_curves_are_the_runs_with_scaled_laws():
     # a table with the law at the edge of its band, scaled by hand
     (hinge,) = plastic_hinges(loads(TUBE).structure)
     turned = np.radians(np.linspace(0.0, 90.0, 400))
-    for factor, edge in ((0.8, low), (1.2, high)):
-        assert hinge.law.validity.uncertainty == pytest.approx(0.2)
+    width = hinge.law.validity.uncertainty
+    assert 0.1 < width < 0.3
+    for factor, edge in ((1.0 - width, low), (1.0 + width, high)):
         moments = ScaledLaw(hinge.law, factor).moment_capacity(turned)
         curve = f"rotation: {turned.tolist()}, moment: {moments.tolist()}"
         law = f"{{type: table, units: {{rotation: rad, moment: N*m}}, {curve}}}"

@@ -39,7 +39,7 @@ def test_a_store_is_used_where_it_is_named_and_frozen_with_the_same_answer(tmp_p
     assert histories[0] == histories[1]
     summary = json.loads((tmp_path / "a" / "summary.json").read_text(encoding="utf-8"))
     uses = {name: hinge["law_use"]["origin"] for name, hinge in summary["hinges"].items()}
-    assert uses == {"post-foot": "library", "corner-corner": "stored"}
+    assert uses == {"post-foot": "formula", "corner-corner": "stored"}
 
 
 def test_layouts_use_and_freeze_stores_too(tmp_path):
