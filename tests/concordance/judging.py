@@ -85,7 +85,7 @@ def _judged(case: Case, model: str, shells: ShellResults) -> Verdict:
         analysis = MODELS[model](case.analysis())
         result = solve(analysis)
         seconds = time.process_time() - begin
-        bending = with_elastic_members(analysis.structure, analysis.multibody)
+        bending = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
         measures = measure(solve(with_frames(analysis)), bending, seconds)
         reason = "" if measures.complete else f"{result.status.value}: {result.reason}"
     except InputError as error:

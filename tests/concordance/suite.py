@@ -37,15 +37,8 @@ FINER = 0.5
 """Element size in the folds of the finest shell mesh, over that of the input."""
 NOT_FINER = (
     "portal_sway",
-    "portal_oblique",
     "storeys_roof",
-    "storeys_both",
-    "box_frame",
-    "hat_pillar",
-    "rops_load",
-    "rops_impact",
     "bus_ring",
-    "cab",
 )
 """Structures without the finest mesh, which takes ten to seventeen times as long as that of the input."""
 COARSER = 1.5
