@@ -88,6 +88,7 @@ SPATIAL: dict[str, Any] = {
         "pairs": [[0, 1]],
         "gravity": [0.0, 0.0, -9.81],
         "length": 1.0,
+        "resolved_frequency": 500.0,
         "breaks": [1e-3],
     },
     "simulation": [1e-3, 1e-9, 1e-3],

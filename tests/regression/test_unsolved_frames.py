@@ -15,7 +15,7 @@ from tests.support.structures import STEEL
 import crumple
 from crumple.errors import Status
 from crumple.multibody import Run, solve_multibody
-from crumple.structure import Structure
+from crumple.structure import MultibodySettings, Structure
 
 
 def solve(index):
@@ -73,7 +73,7 @@ def test_strong_friction_does_not_alternate():
             }
         },
     )
-    result = solve_multibody(structure, Run(0.02, 0.0002))
+    result = solve_multibody(structure, Run(0.02, 0.0002, MultibodySettings(members="rigid")))
     assert result.status is Status.COMPLETE, result.reason
     settings = result.provenance.settings
     assert settings["newton_steps"] < 20_000

@@ -210,6 +210,8 @@ Model make_model(const nb::dict& d) {
     model.length = entry<double>(d, "length");
     require_finite({model.gravity.x, model.gravity.y, model.gravity.z}, "gravity must be finite");
     require(model.length > 0 && std::isfinite(model.length), "the length must be positive");
+    model.resolved_frequency = entry<double>(d, "resolved_frequency");
+    require(model.resolved_frequency > 0, "the resolved frequency must be positive");
     model.breaks = entry<Doubles>(d, "breaks");
     require_breaks(model.breaks);
     return model;

@@ -10,8 +10,10 @@ double allowed_rate(double restitution, double gap, double rate, double h, doubl
     return rate < -rest ? -restitution * rate : 0;
 }
 
+double friction_limit(const ContactLaw& law, double normal_impulse) { return law.friction * std::max(normal_impulse, 0.0); }
+
 FrozenContact freeze(const ContactLaw& law, double inverse_mass, double normal_impulse, double cap) {
-    return {softness * inverse_mass, cap, law.friction * std::max(normal_impulse, 0.0), creep_rate};
+    return {softness * inverse_mass, cap, friction_limit(law, normal_impulse), creep_rate};
 }
 
 namespace {

@@ -41,6 +41,7 @@ constexpr double creep_rate = 1e-6;
 // allowed rate from gap and normal rate at the start of a step of length h; a gap up to `closed` counts as closed, an approach up to
 // `rest` is not an impact
 double allowed_rate(double restitution, double gap, double rate, double h, double closed, double rest);
+double friction_limit(const ContactLaw& law, double normal_impulse);
 FrozenContact freeze(const ContactLaw& law, double inverse_mass, double normal_impulse, double cap);
 // impulse P (n), its derivative (n x n, symmetric, positive semidefinite), and its potential; any may be null.  n rates: 3, or the normal
 // rate alone

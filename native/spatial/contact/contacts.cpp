@@ -155,11 +155,6 @@ bool Contacts::gather(const std::vector<Pose>& pose, const std::vector<Twist>& v
         while (held != state.held.end() && held->key < c.key) ++held;
         if (held != state.held.end() && held->key == c.key) c.normal_impulse = h * held->force;
     }
-    rubbing_.clear();
-    for (const Active& c : active_) {
-        if (law(c).friction > 0) rubbing_.push_back(c.key);
-    }
-    limits_.begin(rubbing_, state.slopes);
     if (active_.size() != before_.size()) return true;
     for (size_t i = 0; i < active_.size(); i++) {
         if (active_[i].key != before_[i].key) return true;
@@ -300,46 +295,42 @@ void Contacts::widen(size_t i, double width) {
     if (crushes(i)) c.frozen.compliance = std::max(c.frozen.compliance, width / c.frozen.cap);
 }
 
-// sets the normal impulses that the next pass uses for the friction limits
-void Contacts::follow_limits(const double* impulse) {
-    normal_.clear();
-    found_.clear();
+void Contacts::set_normal(size_t i, double impulse) {
+    active_[i].normal_impulse = impulse;
+    active_[i].frozen.limit = friction_limit(law(active_[i]), impulse);
+}
+
+bool Contacts::limits_hold(const double* impulse) const {
+    double largest = 0, change = 0;
     for (size_t i = 0; i < active_.size(); i++) {
-        if (law(active_[i]).friction == 0) continue;
-        normal_.push_back(active_[i].normal_impulse);
-        found_.push_back(-impulse[rows() * i]);
+        const double found = -impulse[rows() * i], mu = law(active_[i]).friction, used = active_[i].normal_impulse;
+        largest = std::max(largest, found);
+        if (mu == 0) continue;
+        // a point that sticks within both friction limits does not depend on them
+        const double held = std::hypot(impulse[rows() * i + 1], impulse[rows() * i + 2]);
+        if (held >= slides * mu * std::min(found, used)) change = std::max(change, std::fabs(found - used));
     }
-    limits_.follow(normal_, found_);
-    auto next = normal_.begin();
-    for (size_t i = 0; i < active_.size(); i++) active_[i].normal_impulse = law(active_[i]).friction == 0 ? -impulse[rows() * i] : *next++;
+    return change <= settled_change_ * largest;
 }
 
 bool Contacts::settle(const double* impulse, const double* rate0, const double* rate) {
-    double largest = 0, change = 0, work = 0, scale = 0;
-    for (size_t i = 0; i < active_.size(); i++) {
-        const Active& c = active_[i];
-        for (size_t k = rows() * i; k < rows() * (i + 1); k++) {
-            work += impulse[k] * (rate0[k] + rate[k]) / 2;
-            scale += std::fabs(impulse[k]) * (std::fabs(rate0[k]) + std::fabs(rate[k]));
-        }
-        const double found = -impulse[rows() * i];
-        largest = std::max(largest, found);
-        // a point that sticks within both friction limits does not depend on them
-        const double mu = law(c).friction, held = mu > 0 ? std::hypot(impulse[rows() * i + 1], impulse[rows() * i + 2]) : 0;
-        if (mu > 0 && held >= slides * mu * std::min(found, c.normal_impulse)) change = std::max(change, std::fabs(found - c.normal_impulse));
+    double work = 0, scale = 0;
+    for (size_t k = 0; k < rows() * active_.size(); k++) {
+        work += impulse[k] * (rate0[k] + rate[k]) / 2;
+        scale += std::fabs(impulse[k]) * (std::fabs(rate0[k]) + std::fabs(rate[k]));
     }
-    follow_limits(impulse);
+    const bool hold = limits_hold(impulse);
+    for (size_t i = 0; i < active_.size(); i++) active_[i].normal_impulse = -impulse[rows() * i];
     if (work < -rounding * scale && restitution_share_ > 0) {
         restitution_share_ = restitution_share_ < least_bounce ? 0 : less_bounce * restitution_share_;
         return false;
     }
-    return change <= settled_change_ * largest;
+    return hold;
 }
 
 void Contacts::commit(double h, bool from_rest, const Row* at_middle, const double* impulse, const double* rate0,
                       const double* rate, ContactState& state) const {
     state.held.clear();
-    state.slopes = limits_.slopes();
     state.force.assign(model_.obstacles.size(), Vec3{});
     state.impulse.resize(model_.obstacles.size());
     state.closing = 0;

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "spatial/contact/contact.hpp"
-#include "spatial/contact/friction_limits.hpp"
 #include "spatial/model/joint.hpp"
 
 namespace crumple::spatial {
@@ -52,7 +51,6 @@ struct ContactState {
         double force;  // normal force, mean over the last step [N]
     };
     std::vector<Held> held;               // contacts that carry a force, in the order of their keys
-    LimitSlopes slopes;                   // of their friction limits
     double dissipated = 0, friction = 0;  // [J]
     std::vector<Vec3> impulse, force;     // on every obstacle: since the start [N s]; mean over the last step [N]
     bool impact = false;                  // bodies approach at a closed contact: the next step is an impact, of the smallest length
@@ -60,10 +58,7 @@ struct ContactState {
     double closing = 0;                   // after a step: time from its start at which its first open contact closed; 0 if none did
 
     // The forces to start from in the halves of a step, from the state after the whole: in the first half the same, ...
-    void expect_first_half(const ContactState& whole) {
-        held = whole.held;
-        slopes = whole.slopes;
-    }
+    void expect_first_half(const ContactState& whole) { held = whole.held; }
     // ... and in the second as much beyond them as they are beyond those of the first half.
     void expect_second_half(const ContactState& whole) {
         auto mean = whole.held.begin();
@@ -97,6 +92,12 @@ public:
     // sets the half-width of its ramps [m/s]: of friction, and of the approach at which its walls crush; at least the smallest one
     void widen(size_t i, double width);
     const FrozenContact& frozen(size_t i) const { return active_[i].frozen; }
+    // Friction limits mu N use normal impulses N of their own: whether they are those that were found (impulses, `rows` each), to a
+    // share `set_settled` of the largest, wherever a point slides; and sets N.
+    bool limits_hold(const double* impulse) const;
+    void set_normal(size_t i, double impulse);
+    double normal(size_t i) const { return active_[i].normal_impulse; }
+    double friction(size_t i) const { return law(active_[i]).friction; }
     // Stores the result of a pass: impulses and rates at the start and end (`rows` each).  False if another pass is needed: the normal
     // impulses used for friction have changed, or an impact gained energy and its restitution must be reduced.
     bool settle(const double* impulse, const double* rate0, const double* rate);
@@ -126,8 +127,7 @@ public:
     // without bounces every impact has zero restitution, and contacts at rest act together with it
     void set_bounces(bool bounces) { bounces_ = bounces; }
 
-    // The friction limit uses the normal impulse of the previous pass; passes are repeated until it changes by less than this share of
-    // the largest normal impulse.
+    // share of the largest normal impulse up to which the normal impulses used for friction may differ from those found
     void set_settled(double change) { settled_change_ = change; }
     // gap below which a contact counts as closed [m], and energy of an approach below which it is not treated as an impact [J]
     void set_limits(double closed_gap, double negligible_energy) {
@@ -159,7 +159,6 @@ private:
         const int obstacle = pairs_[c.pair].obstacle;
         return obstacle < 0 ? model_.between : model_.obstacles[static_cast<size_t>(obstacle)].law;
     }
-    void follow_limits(const double* impulse);
     double rest_rate(const Active& c) const;
     double crush_force(const Pair& pair) const;
     // gap of the undeformed surfaces at which a pair is in contact
@@ -183,9 +182,6 @@ private:
     double closed_gap_ = 1e-6, negligible_energy_ = 0, restitution_share_ = 1, settled_change_ = 1e-6;
     bool bounces_ = true;
     size_t rows_ = 3;
-    FrictionLimits limits_;
-    std::vector<int64_t> rubbing_;         // keys of the active contacts with friction
-    std::vector<double> normal_, found_;   // their normal impulses
 };
 
 }  // namespace crumple::spatial

@@ -1,6 +1,7 @@
 // Constants of a spatial model, and the state of a run.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "spatial/contact/contacts.hpp"
@@ -53,6 +54,7 @@ struct Model {
     ContactModel contact;
     Vec3 gravity;
     double length = 1;  // [m] reference length that converts displacements to angles in the error measure
+    double resolved_frequency = INFINITY;  // [Hz] vibration of elastic hinges above it does not count in the error measure
     std::vector<double> breaks;  // [s] after the start of a stage, increasing: times at which steps end
 
     Pose pose(const std::vector<Pose>& poses, int body) const { return body < 0 ? Pose{} : poses[static_cast<size_t>(body)]; }

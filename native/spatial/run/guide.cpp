@@ -96,32 +96,51 @@ void Simulation::keep_for_guide(double h) {
 }
 
 // Whether the step just solved in one changes the velocities as the leader's did: then it has the leader's error, up to that share of
-// it.  Lengths make the rotations comparable, an inertia of a bar of the model's length.
-bool Simulation::like_leader() const {
+// it.  Lengths make the rotations comparable, an inertia of a bar of the model's length.  Vibration above the resolved frequency does not
+// count.
+bool Simulation::like_leader() {
     if (!leading_ || !leading_->accurate || coarse_.contact.closing > 0) return false;
-    const double spread = model_.length * model_.length / 12;
-    double missed = 0, gained = 0;
-    for (size_t i = 0; i < state_.velocity.size(); i++) {
-        const Twist theirs = leading_->after[i] - leading_->before[i], miss = stepper_.end_velocity()[i] - state_.velocity[i] - theirs;
-        const Body& body = model_.bodies[i];
-        missed += body.mass * (dot(miss.v, miss.v) + spread * dot(miss.w, miss.w));
-        gained += body.mass * (dot(theirs.v, theirs.v) + spread * dot(theirs.w, theirs.w));
+    // vibration of a changed model is soon in another phase: changes of the velocities do not compare
+    if (stepper_.elastic() && !lead_->paired) return true;
+    const size_t n = state_.velocity.size();
+    std::vector<Twist> theirs(n), miss(n);
+    for (size_t i = 0; i < n; i++) {
+        theirs[i] = leading_->after[i] - leading_->before[i];
+        miss[i] = stepper_.end_velocity()[i] - state_.velocity[i] - theirs[i];
     }
+    const bool vibrates = prepare_filter(coarse_.last_step);
+    if (vibrates) {
+        filter_change(miss);
+        filter_change(theirs);
+    }
+    const double missed = energy_norm(miss), gained = energy_norm(theirs);
     // a pair of steps of the same model is more accurate than one: the difference is the error
     const double error = (lead_->paired ? 1 : alike) * step_tolerance_ * speed_;
-    if (lead_->paired) return missed <= error * error && travels_as_leader();
+    if (lead_->paired) return missed <= error * error && travels_as_leader(vibrates);
     return missed <= error * error + alike * alike * gained;
 }
 
-// Whether the bodies move by the step just solved as far as by the leader's, within the tolerance of a step.
-bool Simulation::travels_as_leader() const {
-    double worst = 0;
-    for (size_t i = 0; i < state_.pose.size(); i++) {
-        const Pose &from = leading_->from[i], &to = leading_->to[i];
-        const Vec3 miss = (coarse_.pose[i].x - state_.pose[i].x) - (to.x - from.x);
-        const Quat own = coarse_.pose[i].q * conjugate(state_.pose[i].q), theirs = to.q * conjugate(from.q);
-        worst = std::max({worst, norm(miss) / model_.length, angle_between(own, theirs)});
+// Twice the kinetic energy, with an inertia of a bar of the model's length.
+double Simulation::energy_norm(const std::vector<Twist>& velocity) const {
+    const double spread = model_.length * model_.length / 12;
+    double sum = 0;
+    for (size_t i = 0; i < velocity.size(); i++) {
+        sum += model_.bodies[i].mass * (dot(velocity[i].v, velocity[i].v) + spread * dot(velocity[i].w, velocity[i].w));
     }
+    return sum;
+}
+
+// Whether the bodies move by the step just solved as far as by the leader's, within the tolerance of a step.
+bool Simulation::travels_as_leader(bool vibrates) {
+    std::vector<Twist> miss(state_.pose.size());
+    for (size_t i = 0; i < miss.size(); i++) {
+        const Pose &from = leading_->from[i], &to = leading_->to[i];
+        const Quat own = coarse_.pose[i].q * conjugate(state_.pose[i].q), theirs = to.q * conjugate(from.q);
+        miss[i] = {rotation_vector(own * conjugate(theirs)), (coarse_.pose[i].x - state_.pose[i].x) - (to.x - from.x)};
+    }
+    if (vibrates) filter_change(miss);
+    double worst = 0;
+    for (const Twist& d : miss) worst = std::max({worst, norm(d.v) / model_.length, norm(d.w)});
     return worst <= step_tolerance_ * scale_;
 }
 

@@ -138,10 +138,14 @@ private:
     const std::vector<Twist>* expected(double h);
     const std::vector<Twist>* expected_by_follower(double h);
     void keep_for_guide(double h);
-    bool like_leader() const;
-    bool travels_as_leader() const;
+    bool like_leader();
+    double energy_norm(const std::vector<Twist>& velocity) const;
+    bool travels_as_leader(bool vibrates);
+    bool prepare_filter(double h);
+    void filter_change(std::vector<Twist>& change);
     void add_to_guide(bool accurate);
-    double error(const State& coarse, const State& fine) const;
+    void differ(const State& coarse, const State& fine, double& place, double& speed);
+    double error(const State& coarse, const State& fine);
     double worst_place(const State& a, const State& b, bool obstacles) const;
     double quantity(const Condition& condition, const State& state) const;
     double share_of_step(const State& before, const State& after, int* which) const;
@@ -164,6 +168,8 @@ private:
     double unseen_ = 0;                        // see `Record::unseen` [kinetic norm]
     double large_speed_ = 0;                    // kinetic norm that counts as large before anything moves
     State state_, coarse_, fine_, first_;
+    State difference_;                // of the velocities of one step and two half steps
+    std::vector<Twist> moved_by_;     // and of their places
     State half_;                      // after the first half of the step just solved, if outputs lie within it
     std::vector<double> outputs_;     // output times of the present run, and the index of the next one
     size_t next_output_ = 0;

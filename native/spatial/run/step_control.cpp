@@ -24,6 +24,10 @@ constexpr std::int64_t poll_interval = 20'000;  // solves times rows between cal
 // Number of consecutive impacts that shows that something cannot give way; and the number after which restitution is switched off.
 // Restitution between parts that lock each other gives endless impacts with decreasing energy; their limit is persistent contact.
 constexpr int most_strikes = 1000, most_bounces = 200;
+// Largest energy imbalance of a step of elastic hinges over the energy supplied: a fifth of the default bound of a run.
+constexpr double vibrating_share = 2e-4;
+// Relative tolerance of what held rows must not do in the filter of an error.
+constexpr double filter_tolerance = 1e-3;
 // Relative rounding of times.
 constexpr double rounding = 1e-9;
 
@@ -43,8 +47,51 @@ double kinetic_norm(const Model& model, const State& a, const State* b) {
     return std::sqrt(e);
 }
 
-double Simulation::error(const State& coarse, const State& fine) const {
-    double worst = worst_place(coarse, fine, true);
+// Difference of the places and of the velocities of one step and two half steps, without vibration above the resolved frequency.
+void Simulation::differ(const State& coarse, const State& fine, double& place, double& speed) {
+    if (in_one_ || !prepare_filter(fine.last_step)) {
+        place = worst_place(coarse, fine, true);
+        speed = kinetic_norm(model_, coarse, &fine);
+        return;
+    }
+    const size_t n = fine.velocity.size();
+    moved_by_.resize(n);
+    difference_.velocity.resize(n);
+    difference_.pose = fine.pose;
+    for (size_t i = 0; i < n; i++) {
+        difference_.velocity[i] = coarse.velocity[i] - fine.velocity[i];
+        moved_by_[i] = {rotation_vector(coarse.pose[i].q * conjugate(fine.pose[i].q)), coarse.pose[i].x - fine.pose[i].x};
+    }
+    filter_change(difference_.velocity);
+    filter_change(moved_by_);
+    speed = kinetic_norm(model_, difference_, nullptr);
+    place = 0;
+    for (const Twist& d : moved_by_) place = std::max({place, norm(d.v) / model_.length, norm(d.w)});
+    for (size_t j = 0; j < model_.hinges.size(); j++) {
+        for (int k = 0; k < size(model_.hinges[j]); k++) {
+            const double turned = std::fabs(stepper_.filter().along(j, k, moved_by_));
+            place = std::max(place, model_.hinges[j].components[static_cast<size_t>(k)].freedom < 3 ? turned / model_.length : turned);
+        }
+    }
+}
+
+// Prepares the filter of vibration at the end of a step of length h just taken; false if all vibration counts.
+bool Simulation::prepare_filter(double h) {
+    if (!stepper_.elastic() || !std::isfinite(model_.resolved_frequency) || stepper_.stage().quasi_static) return false;
+    stepper_.filter().prepare(model_.resolved_frequency, h);
+    return true;
+}
+
+// filters velocities or small displacements
+void Simulation::filter_change(std::vector<Twist>& change) {
+    double largest = 0;
+    for (const Twist& d : change) largest = std::max({largest, norm(d.v), model_.length * norm(d.w)});
+    if (largest > 0) stepper_.filter().apply(change, filter_tolerance * largest);
+}
+
+double Simulation::error(const State& coarse, const State& fine) {
+    double worst = 0, difference = 0;
+    differ(coarse, fine, worst, difference);
     for (size_t j = 0; j < fine.hinge.size(); j++) {
         for (int k = 0; k < size(model_.hinges[j]); k++) {
             worst = std::max(worst, fine.hinge[j].component[k].overrun - state_.hinge[j].component[k].overrun);
@@ -52,19 +99,25 @@ double Simulation::error(const State& coarse, const State& fine) const {
     }
     double e = worst / scale_;
     const double speed = std::max(speed_, negligible_speed_);
-    if (speed > 0) e = std::max(e, kinetic_norm(model_, coarse, &fine) / speed);
+    if (speed > 0) e = std::max(e, difference / speed);
     e /= lost_ > 0 ? std::max(step_tolerance_, lost_tolerance) : (leading_ && !lead_->paired ? guided_share : 1) * step_tolerance_;
     if (stepper_.stage().quasi_static) return e;
     // an energy imbalance above the accuracy counts as an error of the step
-    e = std::max(e, unbalance(fine) / settings_.accuracy);
+    const double allowed = stepper_.elastic() ? std::min(settings_.accuracy, vibrating_share) : settings_.accuracy;
+    e = std::max(e, unbalance(fine) / allowed);
     return in_one_ ? std::max(e, unchanged) : e;
 }
 
-// Energy imbalance of a step relative to the energy supplied to the structure.
+// Energy imbalance of a step relative to the energy supplied to the structure, or what a hinge gives back of its dissipated energy: the
+// mean of opposite moments at both ends of a step, times the flow in the sense of the later one, is negative.
 double Simulation::unbalance(const State& fine) const {
     const Energies after = energies(model_, fine);
     const double reference = std::max(given(after), negligible_energy_ + lift_ * scale_ + rounding_share * after.kinetic);
-    return reference > 0 ? std::fabs(after.balance() - balance_) / reference : 0;
+    double wrong = std::fabs(after.balance() - balance_);
+    for (size_t j = 0; stepper_.elastic() && j < model_.hinges.size(); j++) {
+        wrong = std::max(wrong, dissipated(model_.hinges[j], state_.hinge[j]) - dissipated(model_.hinges[j], fine.hinge[j]));
+    }
+    return reference > 0 ? wrong / reference : 0;
 }
 
 // one step and two half steps; the half steps get the change of the velocities from the full step

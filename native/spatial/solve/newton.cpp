@@ -37,7 +37,8 @@ void NewtonSolver::relinked() {
     solved_ = false;
 }
 
-void NewtonSolver::begin(bool warm) {
+void NewtonSolver::begin(bool warm, bool rubs) {
+    rubs_ = rubs;
     last_solve_ = solves_ + most_solves * most_iterations();
     if (!warm) {
         path_.forget();
@@ -150,7 +151,7 @@ bool NewtonSolver::descend(int limit, bool full_steps) {
     for (int iteration = 0; iteration < limit && solves_ < last_solve_; iteration++) {
         solve_once();
         double slope = 0;
-        const bool done = balanced(slope);
+        const bool done = settled(slope);
         if (!std::isfinite(slope)) return false;
         if (done) {
             take();
@@ -168,6 +169,16 @@ bool NewtonSolver::descend(int limit, bool full_steps) {
         }
     }
     return false;
+}
+
+// Whether impulses agree with their laws, and friction with normal impulses, which it follows first; `slope` as in `balanced`.
+bool NewtonSolver::settled(double& slope) {
+    if (!balanced(slope)) return false;
+    if (!rubs_ || tolerance_ > impulse_tolerance || p_.contacts.rows() == 1 || p_.contacts.size() == 0) return true;
+    const double* impulse = p_.impulse.data() + p_.contact_rows();
+    if (p_.contacts.limits_hold(impulse)) return true;
+    follow_friction();
+    return balanced(slope) && p_.contacts.limits_hold(impulse);
 }
 
 // Whether a sliding hinge would reverse; if it continues and has a round surface, its next rates follow its impulse.

@@ -9,14 +9,17 @@
 
 namespace crumple::spatial {
 
+// Tolerance of the rates of held rows and of stiff laws relative to the speed; the rest is projected out at the end of the step.
+constexpr double rate_tolerance = 1e-10;
+
 class NewtonSolver {
 public:
     explicit NewtonSolver(Problem& problem);
 
     // the links of the problem have changed
     void relinked();
-    // Before a step; `warm`: it follows on a pass that was solved, and may start from it.
-    void begin(bool warm);
+    // Before a step; `warm`: it follows on a pass that was solved, and may start from it; `rubs`: friction follows the normal impulses.
+    void begin(bool warm, bool rubs);
     // begins the search for locked hinges with such rates
     void start_from(const std::vector<double>& rates);
     // Newton's method starts from the rates w, but hinges that were locked in the last pass start with the rates of that pass.
@@ -45,12 +48,24 @@ private:
     bool reverses(size_t link);
     void stop_reversing(size_t link);
     double search(double slope_end);
+    bool settled(double& slope);
+    void read_unknowns(size_t link, const double* x, double* w, double* impulse) const;
+    // friction.cpp
+    size_t contact_link(size_t contact) const;
+    double along_law(size_t link, int row, const double* x) const;
+    void answer_to_friction(size_t contact, double tolerance, std::vector<double>& applied, std::vector<double>& x);
+    void follow_friction();
+    void move_with_friction(size_t n, const std::vector<double>& change);
 
     Problem& p_;
     CentralPath path_;
     std::vector<Twist> next_;
     std::vector<double> overload_, worst_near_;
+    std::vector<Twist> answer_;                           // to friction: velocities, rates, impulses and unknowns per sliding contact
+    std::vector<double> answer_rates_;
+    std::vector<std::vector<double>> applied_, answers_;
     bool solved_ = false;                       // whether w holds the solution of the last pass
+    bool rubs_ = true;                          // friction follows the normal impulses
     bool full_steps_ = true;                    // full Newton steps have not cycled in this step
     double tolerance_ = 0;                      // relative tolerance of impulses at the present width of the ramps
     double energy_ = 0;                         // kinetic energy of the free motion [J]

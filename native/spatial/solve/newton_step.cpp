@@ -12,8 +12,6 @@ namespace {
 
 constexpr double energy_rounding = 1e-14;  // energy that a Newton iteration could still change, over the kinetic energy: rounding
 constexpr double no_energy = 1e-60;  // [J]: speeds that decay by friction would otherwise end below the smallest number
-// Tolerance of the rates of held rows and of stiff laws relative to the speed; the rest is projected out at the end of the step.
-constexpr double rate_tolerance = 1e-10;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -21,6 +19,7 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 bool NewtonSolver::solve_linear() {
     solve_once();
+    if (p_.contacts.rows() == 3 && p_.contacts.size() > 0) follow_friction();
     take();
     double sum = 0;
     for (const Twist& v : p_.velocity) sum += dot(v.w, v.w) + dot(v.v, v.v);
@@ -102,23 +101,25 @@ void NewtonSolver::solve_once() {
     for (size_t c = 0; c < links.size(); c++) {
         const int first = p_.start(c), held = links[c].held, n = links[c].laws;
         for (int i = 0; i < held; i++) p_.impulse[at(first + i)] = p_.x[at(first + i)];
-        if (n == 0) continue;
-        const Problem::Tangent& t = p_.tangent[c];
-        double* w = &p_.w_next[at(first + held)];
-        double* p = &p_.impulse[at(first + held)];
-        double along[most_components];
-        for (int j = 0; j < n; j++) w[j] += p_.bias[at(first + held + j)];
-        for (int k = 0; k < n; k++) {
-            along[k] = 0;
-            for (int j = 0; j < n; j++) along[k] += t.vectors[j * n + k] * w[j];
-            const double y = p_.x[at(first + held + k)];
-            if (p_.system.diagonal(first + held + k) > 1) along[k] = y / t.value[k];
-            for (int j = 0; j < n; j++) p[j] += t.value[k] * t.vectors[j * n + k] * y;
-        }
-        for (int j = 0; j < n; j++) {
-            w[j] = 0;
-            for (int k = 0; k < n; k++) w[j] += t.vectors[j * n + k] * along[k];
-        }
+        for (int j = 0; j < n; j++) p_.w_next[at(first + held + j)] += p_.bias[at(first + held + j)];
+        read_unknowns(c, &p_.x[at(first + held)], &p_.w_next[at(first + held)], &p_.impulse[at(first + held)]);
+    }
+}
+
+// Adds the impulses of a link's unknowns x along the roots of its tangent, and takes the rates w of stiff directions from them.
+void NewtonSolver::read_unknowns(size_t link, const double* x, double* w, double* impulse) const {
+    const Problem::Tangent& t = p_.tangent[link];
+    const int n = p_.system.links()[link].laws, first = p_.start(link) + p_.system.links()[link].held;
+    double along[most_components];
+    for (int k = 0; k < n; k++) {
+        along[k] = 0;
+        for (int j = 0; j < n; j++) along[k] += t.vectors[j * n + k] * w[j];
+        if (p_.system.diagonal(first + k) > 1) along[k] = x[k] / t.value[k];
+        for (int j = 0; j < n; j++) impulse[j] += t.value[k] * t.vectors[j * n + k] * x[k];
+    }
+    for (int j = 0; j < n; j++) {
+        w[j] = 0;
+        for (int k = 0; k < n; k++) w[j] += t.vectors[j * n + k] * along[k];
     }
 }
 

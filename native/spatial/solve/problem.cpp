@@ -28,7 +28,9 @@ Problem::Problem(const Model& of) : model(of), contacts(of.contact), hinge_link(
     for (const SpatialHinge& hinge : model.hinges) {
         component.push_back(components);
         components += size(hinge);
-        all_set_valued = all_set_valued && hinge.components.front().law.form == Form::set_valued;
+        const Form form = hinge.components.front().law.form;
+        all_set_valued = all_set_valued && form == Form::set_valued;
+        elastic = elastic || form == Form::elastic_plastic;
     }
     component.push_back(components);
     const size_t bodies = model.bodies.size();

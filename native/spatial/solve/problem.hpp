@@ -94,7 +94,7 @@ struct Problem {
     double speed = 0;                        // reference value of rates
     double length = 0;                       // length of the step [s]
     double narrowest_ramp = 0;               // smallest half-width of a hinge's ramp [rad/s]
-    bool all_set_valued = true;
+    bool all_set_valued = true, elastic = false;  // forms of the hinges: no other; at least one
 };
 
 }  // namespace crumple::spatial

@@ -25,7 +25,7 @@ Mat3 world(const Quat& q, const Mat3& m) {
 
 }  // namespace
 
-Stepper::Stepper(const Model& model) : p_(model), newton_(p_), contact_(p_), end_(p_, contact_), loops_(model) {
+Stepper::Stepper(const Model& model) : p_(model), newton_(p_), contact_(p_), end_(p_, contact_), loops_(model), filter_(p_) {
     for (auto* v : {&direction_, &momentum_, &guess_}) v->resize(model.bodies.size());
     // find the redundant held rows, with all hinges free
     const State s = start();
@@ -39,7 +39,7 @@ Stepper::Stepper(const Model& model) : p_(model), newton_(p_), contact_(p_), end
 }
 
 bool Stepper::step(State& s, double h, const std::vector<Twist>* guess, bool discarded) {
-    begin(s, h, guess);
+    begin(s, h, guess, discarded);
     bool settled = true;
     for (int pass = guess ? 1 : 0; pass < passes || (!settled && pass < most_passes); pass++) {
         place_middle(s, h);
@@ -53,7 +53,7 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess, bool dis
 }
 
 // The guess, contacts within reach, true rates at the start, and redundant rows.
-void Stepper::begin(State& s, double h, const std::vector<Twist>* guess) {
+void Stepper::begin(State& s, double h, const std::vector<Twist>* guess, bool discarded) {
     p_.length = h;
     guess_ = guess ? *guess : s.velocity;
     p_.speed = 0;
@@ -69,7 +69,7 @@ void Stepper::begin(State& s, double h, const std::vector<Twist>* guess) {
     find_redundant(s.pose);
     turned_back_.assign(p_.frozen.size(), false);
     // a guess is the result of a step that has just been solved
-    newton_.begin(guess != nullptr);
+    newton_.begin(guess != nullptr, !discarded);
 }
 
 // Finds the contacts within reach of a step.

@@ -17,6 +17,7 @@
 #include "spatial/step/end_of_step.hpp"
 #include "spatial/step/loops.hpp"
 #include "spatial/step/pass_records.hpp"
+#include "spatial/step/vibration_filter.hpp"
 
 namespace crumple::spatial {
 
@@ -31,7 +32,7 @@ public:
     void add_motion(State& state, const Twist* velocity, const Twist* impulse);
     // One step of length h; false if the equations did not converge (the state is then undefined).  `guess`: end velocities known to
     // first order; without them the step predicts them by a first pass.  `discarded`: no step follows, so contacts that it overlooked do
-    // not matter.
+    // not matter, and friction keeps the normal impulses of the step before.
     bool step(State& state, double h, const std::vector<Twist>* guess, bool discarded = false);
     // redundant held rows at the start: number, and per joint
     int redundant() const { return redundant_; }
@@ -44,6 +45,9 @@ public:
     double moved_by(const State& state, const std::vector<size_t>& loads);
     // displacement in a freedom of a joint, in the axes of its first body
     double relative(const State& state, int joint, int freedom) const;
+    // filter at the end of the last step; and whether hinges vibrate
+    VibrationFilter& filter() { return filter_; }
+    bool elastic() const { return p_.elastic; }
     // index of a hinge's first component in State::rotation
     int first_component(size_t hinge) const { return p_.component[hinge]; }
     const std::vector<Twist>& end_velocity() const { return p_.velocity; }
@@ -68,7 +72,7 @@ public:
 
 private:
     // stages of a step
-    void begin(State& s, double h, const std::vector<Twist>* guess);
+    void begin(State& s, double h, const std::vector<Twist>* guess, bool discarded);
     void place_middle(const State& s, double h);
     void aim(const State& s, double h);
     void freeze(const State& s, double h);
@@ -89,6 +93,7 @@ private:
     EndOfStep end_;
     PassRecords records_;
     Loops loops_;
+    VibrationFilter filter_;
     std::vector<Twist> direction_, momentum_, guess_;
     std::vector<char> turned_back_;  // per hinge: whether it reversed in a pass over the present step
     int redundant_ = 0;

@@ -201,15 +201,17 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
         cross += shell_problems(whole.analysis.shell, structure, defined)
         cross += stage_problems(whole.analysis.stages, structure, defined)
     # elastic members have hinges where rigid ones have none
-    bending = with_elastic_members(structure, whole.analysis.multibody) if whole else structure
+    settings = whole.analysis.multibody if whole else None
+    bending = with_elastic_members(structure, settings, duration) if settings else structure
     if whole and not cross:
         cross += filter_problems(bending, whole.outputs, duration, interval)
     scatter: Uncertainty | None = None
     criteria: dict[str, Criterion] = {}
     if whole and not cross:
         criteria, cross = criteria_in_si(whole.criteria, bending, whole.outputs)
-        whole_structure = with_elastic_members(Structure.of_sound_parts(whole), whole.analysis.multibody)
-        scatter, wrong = in_si(whole.uncertainty, data, whole_structure)
+        sound = Structure.of_sound_parts(whole)
+        bending = with_elastic_members(sound, whole.analysis.multibody, duration)
+        scatter, wrong = in_si(whole.uncertainty, data, bending)
         cross += wrong
     problems += [(path_of(problem.where), problem) for problem in cross]
     if problems or document.problems or whole is None:

@@ -74,7 +74,7 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
     from crumple.multibody import infinitesimal, link, notes, stuck_drives, stuck_note, unheld_notes
     from crumple.structure import with_elastic_members
 
-    linkage = link(with_elastic_members(analysis.structure, analysis.multibody))
+    linkage = link(with_elastic_members(analysis.structure, analysis.multibody, analysis.duration))
     loose = unheld_notes(analysis.structure, linkage, analysis.stages)
     stuck = stuck_note(stuck_drives(analysis.structure, linkage))
     yield from filter(None, (*notes(linkage), infinitesimal(linkage), stuck, *loose))

@@ -10,6 +10,7 @@ import numpy as np
 from crumple._core.outcome import Outcome
 from crumple.cancelling import asking
 from crumple.errors import CancelledError, InputError, Problem, Status
+from crumple.hinge import Form
 from crumple.multibody.answer.crush import with_crush
 from crumple.multibody.answer.histories import (
     clearance_channels,
@@ -34,6 +35,8 @@ from crumple.numeric.arrays import Floats
 from crumple.result import Provenance, Result, missing_pictures, sentences
 from crumple.structure import Structure, any_automatic, law_uses, placed_hinges, with_elastic_members
 
+FAILED = frozenset({Outcome.STEP_COLLAPSED, Outcome.STALLED, Outcome.NOT_FINITE})
+"""Ends of a run with members that bend after which rigid bars are tried."""
 FINER = (0.1, 0.01)
 """Shares of the accuracy at which a planar run is repeated whose energy residual exceeds its bound; a
 hundredth takes some ten times the steps."""
@@ -71,7 +74,7 @@ def solve_multibody(
     tests/verification.
     """
     begin = time.perf_counter()
-    structure = with_elastic_members(structure, run.settings)
+    given, structure = structure, with_elastic_members(structure, run.settings, run.duration)
     accuracy = run.settings.accuracy
     poll = poll_of(run.duration, (0.0, 0.7), progress, cancel)
     try:
@@ -85,6 +88,8 @@ def solve_multibody(
             solved, accuracy = _balanced(solver, solved, run, poll)
     except CancelledError as error:
         return _nothing_solved(run, str(error), time.perf_counter() - begin)
+    if structure is not given and run.settings.members == "auto" and solved.outcome in FAILED:
+        return _with_rigid_bars(given, run, solved, progress, cancel)
     if solved.outcome is Outcome.COMPLETE and run.checks:
         poll = poll_of(run.duration, (0.7, 1.0), progress, cancel)
         try:
@@ -103,15 +108,28 @@ def solve_multibody(
     )
 
 
+def _with_rigid_bars(
+    structure: Structure, run: Run, solved: Solved, progress: Progress | None, cancel: Cancel | None
+) -> Result:
+    """Result of rigid bars, where members that bend unless the input says otherwise end a run."""
+    rigid = replace(run, settings=run.settings.model_copy(update={"members": "rigid"}))
+    result = solve_multibody(structure, rigid, progress, cancel)
+    why = f"Members are rigid bars here: with members that bend the run ended early ({solved.reason})."
+    return replace(result, warnings=(why, *result.warnings))
+
+
 def _balanced(solver: Solver, solved: Solved, run: Run, poll: Poll) -> tuple[Solved, float]:
-    """A run of the tree kernel that keeps its energy balance, and the accuracy that it needed.
+    """A run of the tree kernel, or with elastic hinges, that keeps its energy balance, and its accuracy.
 
     The accuracy bounds errors of rotations.  Elastic hinges of stiff members vibrate, and the vibration loses
     energy of the order of the accuracy without turning a hinge much.
     """
     accuracy, bound = run.settings.accuracy, run.settings.energy_residual_bound
+    vibrates = Form.ELASTIC_PLASTIC in {hinge.record.form for hinge in solver.hinges}
+    if not vibrates and solver.kernel != "tree":
+        return solved, accuracy
     for share in FINER:
-        if solver.kernel != "tree" or solved.outcome is not Outcome.COMPLETE or solved.residual <= bound:
+        if solved.outcome is not Outcome.COMPLETE or solved.residual <= bound:
             break
         finer = solver.run(share * run.settings.accuracy / CHECK_FACTOR, poll)
         if finer.outcome is not Outcome.COMPLETE or finer.residual >= solved.residual:

@@ -211,6 +211,7 @@ ROTATIONAL_STIFFNESS = Dimension("a rotational stiffness", "N*m/rad", "20 kN*m/r
 ROTATIONAL_DAMPING = Dimension("a rotational damping", "N*m*s/rad", "2 kN*m*s/rad")
 ENERGY = Dimension("an energy", "J", "5 kJ")
 RATE = Dimension("a strain rate", "1/s", "40.4 1/s")
+FREQUENCY = Dimension("a frequency", "1/s", "500 Hz")
 NUMBER = Dimension("a number", "1", "0.5")
 COUNT = Whole(1, 20)
 
@@ -249,6 +250,7 @@ DampingOrCritical = Annotated[
     float | Literal["critical"], replace(_not_negative(ROTATIONAL_DAMPING), words=("critical",))
 ]
 PositiveRate = Annotated[float, _positive(RATE)]
+PositiveFrequency = Annotated[float, _positive(FREQUENCY)]
 Number = Annotated[float, NUMBER]
 PositiveNumber = Annotated[float, _positive(NUMBER)]
 NonNegativeNumber = Annotated[float, _not_negative(NUMBER)]

@@ -48,7 +48,8 @@ k = _kernels.spatial
 lists = ("joints", "hinges", "drives", "loads", "springs", "capsules", "obstacles", "pairs")
 def model(**keys):
     body = dict(mass=np.ones(1), inertia=np.eye(3)[None], centre=np.zeros((1, 3)), contact=(0.0, 0.0))
-    return body | {name: [] for name in lists} | dict(gravity=[0.0, 0.0, 0.0], length=1.0, breaks=[]) | keys
+    body |= {name: [] for name in lists} | dict(gravity=[0.0, 0.0, 0.0], length=1.0, breaks=[])
+    return body | dict(resolved_frequency=500.0) | keys
 def run(**keys):
     return k.Simulation(model(**keys), 1e-3, 1e-9, 1e-3)
 held = (-1, 0, [0.0] * 3, list(np.eye(3).ravel()), [True] * 6, False)

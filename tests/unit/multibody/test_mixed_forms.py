@@ -1,4 +1,4 @@
-"""Rigid hinges beside an elastic-plastic one need about as many Newton steps as rigid hinges alone."""
+"""Rigid hinges beside an elastic-plastic one need no more Newton steps than rigid hinges alone."""
 
 from crumple import loads, solve
 
@@ -27,12 +27,10 @@ analysis: {duration: 1 ms, multibody: {mechanism_check: off}}
 
 
 def newton_steps(law):
-    """Newton steps of a run, for every step that was tried."""
     result = solve(loads(CHAIN.replace("FORM", law)))
     assert result.status.ok
-    done = result.provenance.settings
-    return done["newton_steps"] / (done["steps"] + done["rejected_steps"])
+    return result.provenance.settings["newton_steps"]
 
 
 def test_one_elastic_hinge_does_not_slow_the_rigid_ones_down():
-    assert newton_steps("elastic") < 1.5 * newton_steps("rigid")
+    assert newton_steps("elastic") < newton_steps("rigid")

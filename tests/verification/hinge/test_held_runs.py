@@ -38,6 +38,7 @@ supports:
   ram: {{node: middle, motion: {{z: {{table: {{time: [0 s, 0.5 s], value: [0 m, {TRAVEL:g} m]}}}}}}}}
 analysis:
   duration: 0.5 s
+  multibody: {{members: rigid}}
 outputs: {{every: 10 ms}}
 """
 

@@ -73,7 +73,7 @@ def load():
 
 def deflection(structure, node, quantity, kernel):
     """Displacement or rotation of a node under the whole load, over the load."""
-    settings = MultibodySettings(kernel=kernel, accuracy=1e-4)
+    settings = MultibodySettings(kernel=kernel, accuracy=1e-4, members="rigid")
     stages = (Stage(name="load", kind="quasi-static", duration=RISE),) if kernel == "spatial" else ()
     result = solve_multibody(structure, Run(RISE, RISE / 20, settings, Outputs(nodes=(node,)), stages=stages))
     assert result.status.ok, result.reason

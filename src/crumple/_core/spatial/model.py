@@ -276,6 +276,8 @@ class SpatialModel:
     gravity: tuple[float, float, float] = (0.0, 0.0, 0.0)
     length: float = 1.0
     """Length [m] that converts displacements to angles in the error measure."""
+    resolved_frequency: float = math.inf
+    """Vibration of elastic hinges above it [1/s] does not count in the error measure."""
     breaks: Floats = field(default_factory=lambda: np.empty(0))
     """Times [s] after the start of every stage at which steps end: jumps and kinks of loads and drives,
     (n,)."""

@@ -292,6 +292,7 @@ def as_dict(model: SpatialModel) -> dict[str, Any]:
         "contact": (model.contact.friction, model.contact.restitution),
         "gravity": list(model.gravity),
         "length": model.length,
+        "resolved_frequency": model.resolved_frequency,
         "breaks": model.breaks.tolist(),
     }
 

@@ -55,7 +55,8 @@ def write_frozen(sources: list[LoadedInput], file: Path) -> None:
     texts: set[str] = set()
     notes = [f"Crumple {__version__}; formulas are not written, their hashes show whether they are the same."]
     for source in sources:
-        structure = with_elastic_members(source.analysis.structure, source.analysis.multibody)
+        analysis = source.analysis
+        structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
         texts |= set(used_texts(structure))
         for name, use in law_uses(structure).items():
             notes.append(f"{source.path.name}: hinge {name}: {use.origin} {use.content}")

@@ -45,8 +45,13 @@ SPATIAL = "The motion is spatial: hinges carry rigidly what is not about their o
 
 def assumptions(structure: Structure, solver: Solver) -> tuple[str, ...]:
     """Sentences with the assumptions of the model."""
+    jointed = dict.fromkeys(hinge.member for hinge in solver.hinges if not hinge.plastic)
+    rigid = [name for name in structure.members if name not in jointed]
     found = [
-        "Members are rigid between their hinges; masses are rigid lumps.",
+        *(["Members are rigid between their hinges."] if not jointed else []),
+        *([f"{named('Member', rigid)} are rigid between hinges."] if jointed and len(rigid) > 1 else []),
+        *([f"Member {rigid[0]} is rigid between hinges."] if jointed and len(rigid) == 1 else []),
+        "Masses are rigid lumps.",
         PLANAR if solver.kernel == "tree" else SPATIAL,
         _contact(structure),
         *free_parts(link(structure, solver.hinges)),
@@ -65,12 +70,11 @@ def assumptions(structure: Structure, solver: Solver) -> tuple[str, ...]:
         key = (hinge.record.form, math.isfinite(hinge.record.rate_reference), hinge.record.softening_variable)
         alike.setdefault(key, []).append(hinge)
     found += [_carries(structure, hinges) for hinges in alike.values()]
-    jointed = dict.fromkeys(hinge.member for hinge in solver.hinges if not hinge.plastic)
     if jointed:
         found.append(
-            f"{named('Member', list(jointed))} also bend{'s' if len(jointed) == 1 else ''} elastically at "
-            f"{sum(not hinge.plastic for hinge in solver.hinges)} elastic joint(s) between the hinges, which "
-            "have no plastic law: together they are as stiff as the member."
+            f"{named('Member', list(jointed))} also bend{'s' if len(jointed) == 1 else ''} at "
+            f"{sum(not hinge.plastic for hinge in solver.hinges)} joint(s) between the hinges, which are "
+            "together as stiff as the member and yield as its section does with plane walls."
         )
     return tuple(found)
 

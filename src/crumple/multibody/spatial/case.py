@@ -187,7 +187,9 @@ def spatial_case(structure: Structure, run: Run) -> SpatialCase:
     _refuse_later_motion(stages)
     longest = max(stage.duration for stage in stages)
     owners = tuple(name for name, _ in support_drives(structure, linkage, longest))
-    touching = with_obstacles(structure, linkage, spatial_model(structure, linkage, longest), owners, longest)
+    frequency = run.settings.resolved_frequency
+    plain = spatial_model(structure, linkage, longest, resolved_frequency=frequency)
+    touching = with_obstacles(structure, linkage, plain, owners, longest)
     touching = replace(touching, model=off_dead_centres(touching.model, linkage, dead_centres(linkage))[0])
     motions = [
         added_motion(structure, linkage, touching, stage, first=i == 0)[:2] for i, stage in enumerate(stages)

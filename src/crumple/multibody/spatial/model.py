@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -35,7 +36,9 @@ COUPLINGS = {
 }
 
 
-def spatial_model(structure: Structure, linkage: Linkage, duration: float) -> SpatialModel:
+def spatial_model(
+    structure: Structure, linkage: Linkage, duration: float, *, resolved_frequency: float = math.inf
+) -> SpatialModel:
     """Constants of the kernel's model, without obstacles.
 
     Parameters
@@ -44,6 +47,8 @@ def spatial_model(structure: Structure, linkage: Linkage, duration: float) -> Sp
         The structure, and its bodies and connections.
     duration
         Functions of time are sampled over it [s].
+    resolved_frequency
+        Vibration of elastic hinges above it [1/s] does not shorten steps.
     """
     x, y, z = structure.gravity
     return SpatialModel(
@@ -54,6 +59,7 @@ def spatial_model(structure: Structure, linkage: Linkage, duration: float) -> Sp
         drives=tuple(drive for _, drive in support_drives(structure, linkage, duration)),
         gravity=(x, y, z),
         length=max(structure.frame_of(name).length for name in structure.members),
+        resolved_frequency=resolved_frequency,
         breaks=breaks_of(structure, duration),
     )
 

@@ -76,7 +76,8 @@ class SpatialSolver:
         self._stages = stages_of(structure, run)
         refuse_floating(structure, self.linkage, self._stages)
         longest = max(stage.duration for stage in self._stages)
-        plain = spatial_model(structure, self.linkage, longest)
+        frequency = run.settings.resolved_frequency
+        plain = spatial_model(structure, self.linkage, longest, resolved_frequency=frequency)
         owners = tuple(name for name, _ in support_drives(structure, self.linkage, longest))
         touching = with_obstacles(structure, self.linkage, plain, owners, longest)
         self._model, self._dead_centres = touching.model, dead_centres(self.linkage)

@@ -52,7 +52,7 @@ def law_range(
     ----------
     docs/theory/measured_curves.md.  Verified in tests/unit/multibody/variants/test_law_range.py.
     """
-    bands, without, factors = law_factors(with_elastic_members(structure, run.settings))
+    bands, without, factors = law_factors(with_elastic_members(structure, run.settings, run.duration))
     if not bands:
         return None
     table = solve_variants(structure, run, factors, threads, cancel=cancel)

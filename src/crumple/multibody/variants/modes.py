@@ -67,7 +67,7 @@ def modes(
     ----------
     docs/theory/modes.md.  Verified in tests/unit/multibody/variants/test_modes.py.
     """
-    structure = with_elastic_members(structure, run.settings)
+    structure = with_elastic_members(structure, run.settings, run.duration)
     asked = run.settings.mechanism_check
     unasked = asked == "off" or (asked == "auto" and not any_automatic(structure))
     names = [hinge.name for hinge in plastic_hinges(structure)]

@@ -158,7 +158,7 @@ def solve_variants(
     ----------
     docs/theory/variants.md.  Verified in tests/unit/multibody/variants/test_variants.py.
     """
-    structure = with_elastic_members(structure, run.settings)
+    structure = with_elastic_members(structure, run.settings, run.duration)
     count = threads or available_cores()
     poll = _poll(progress, cancel)
     sampled = np.asarray(times, float)

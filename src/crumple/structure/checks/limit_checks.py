@@ -73,7 +73,7 @@ def history_problems(structure: StructureParts, outputs: Outputs, samples: float
     hinges = sum(hinge_counts(structure).values())
     values = samples * (PER_HINGE * hinges + PER_NODE * len(outputs.nodes))
     if values > MOST_VALUES:
-        what = f"{samples:.3g} samples of {hinges} hinges give {values:.3g} numbers"
+        what = f"{samples:.3g} samples of {hinges:.0f} hinges give {values:.3g} numbers"
         todo = "give a longer interval in 'every', or fewer hinges"
         yield Problem(what, "", f"at most {MOST_VALUES:.3g}", todo, "outputs.every")
 

@@ -18,12 +18,13 @@ from typing import TypeVar
 import numpy as np
 
 from crumple.hinge import HingeRecord, build_law, record_of
-from crumple.hinge.bending.estimate import automatic_type
+from crumple.hinge.bending.estimate import formula_or_estimate
 from crumple.hinge.record.record import Form
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section
 from crumple.structure.bending import bending_axis, planar
+from crumple.structure.hinges.asked import any_automatic
 from crumple.structure.keys.member import Member
 from crumple.structure.parts import StructureParts
 from crumple.structure.remembered import remembered
@@ -40,13 +41,27 @@ DAMPING = 3e-5
 f times it of critical damping, 1 % at 106 Hz and 100 % at 10.6 kHz."""
 SLENDER = 10.0
 """Length over depth from which the deflection by shear is neglected."""
+IMPACT = 0.5
+"""Longest run in which members bend unless the input says so [s]."""
 KEPT = 1024
 """Records kept: equal members of a frame share one."""
 
 
-def with_elastic_members(structure: Parts, settings: MultibodySettings) -> Parts:
-    """The structure with the members elastic that do not say otherwise, if the settings say so."""
-    if settings.members == "rigid":
+def with_elastic_members(structure: Parts, settings: MultibodySettings, duration: float) -> Parts:
+    """The structure with the members elastic that do not say otherwise, if the settings say so.
+
+    `auto` says so where any hinges are automatic, in runs of up to `IMPACT`: in longer ones vibration takes
+    most of the steps, and decays without effect.
+
+    Parameters
+    ----------
+    structure, settings
+        As of the input.
+    duration
+        Of the run [s].
+    """
+    automatic = duration <= IMPACT and any_automatic(structure)
+    if settings.members == "rigid" or (settings.members == "auto" and not automatic):
         return structure
     members = {
         name: spec if spec.elastic is not None or spec.rigid is True else _elastic(spec, settings.segments)
@@ -146,6 +161,7 @@ def _record(section: Section, material: Material, axis: Axis, rigidity: float, l
     )
 
 
+@remembered(KEPT)
 def _yielding(section: Section, material: Material, axis: Axis, rigidity: float) -> tuple[Floats, Floats]:
     """Plastic curvature from 0 [1/m] and moment [N m] of a section with plane walls, up to its fold."""
     from crumple.section import bending_moment  # noqa: PLC0415  (rigid members need no walls)
@@ -154,10 +170,8 @@ def _yielding(section: Section, material: Material, axis: Axis, rigidity: float)
     stress = material.flow_stress if curve is None else curve.yield_stress
     curvature = CURVATURES * stress * section.elastic_section_modulus(axis) / rigidity
     moment = bending_moment(section, material, axis, curvature)
-    fold = build_law(automatic_type(section, material, axis), section, material, axis)
-    # a law of the library may rise before it falls
-    rising = [0.0, *(kink for kink in fold.kinks() if kink <= fold.validity.rotation_max)]
-    moment = np.minimum(moment, float(fold.moment_capacity(rising).max()))
+    fold = build_law(formula_or_estimate(section, material, axis), section, material, axis)
+    moment = np.minimum(moment, float(fold.moment_capacity(0.0)))
     plastic = np.maximum.accumulate(curvature - moment / rigidity)
     kept = np.concatenate([[True], np.diff(plastic) > 1e-9 * plastic[-1]])
     return plastic[kept] - plastic[0], moment[kept]

@@ -1,4 +1,4 @@
-"""Where the law of each hinge comes from, for people: user, store, library, formula or estimate."""
+"""Where the law of each hinge comes from, for people: the user, a store, a formula, or an estimate."""
 
 from __future__ import annotations
 
@@ -29,8 +29,6 @@ from crumple.structure.settings.multibody_settings import MultibodySettings
 
 Parts = TypeVar("Parts", bound=StructureParts)
 
-ORIGINS: Mapping[str, Origin] = {"library": "library", "estimate": "estimate"}
-"""Origin of an automatic law by its name; any other is a formula."""
 AT_END = 1e-6
 """Distance of a hinge from its member's end, over the member's length, that is rounding."""
 
@@ -53,7 +51,7 @@ def used_texts(structure: StructureParts) -> tuple[str, ...]:
     if structure.laws is None:
         return ()
     # elastic members fold where rigid ones have no hinges
-    structure = with_elastic_members(structure, MultibodySettings(members="elastic"))
+    structure = with_elastic_members(structure, MultibodySettings(members="elastic"), 0.0)
     found = set()
     for place in hinge_places(structure):
         for axis in axes_of(place):
@@ -88,7 +86,7 @@ def law_use(structure: StructureParts, place: HingePlace, law: HingeLaw, record:
     origin: Origin = "stored"
     if text is None:
         named = is_named_law(structure, place)
-        origin = "user" if named else ORIGINS.get(law.name, "formula")
+        origin = "user" if named else "estimate" if law.name == "estimate" else "formula"
     band = law.validity.uncertainty
     content = content_hash(text) if text is not None else _hash_of_record(law, record)
     better = (

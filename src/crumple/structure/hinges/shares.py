@@ -133,9 +133,10 @@ def _about(
 ) -> AxisShares | None:
     """Shares about an axis: of elastic hinges and the member's joints, or of all where none is elastic."""
     # the spring of a corner adds to the flexibility of the members
-    own = [place for place in places if axis in axes_of(place) and not _of_corner(structure, place, axis)]
-    others = tuple(place.station for place in places if axis not in axes_of(place))
-    between = joint_stations(structure, member, axis, tuple(place.station for place in own), others)
+    bends = [(place, axis in axes_of(place)) for place in places]
+    own = [place for place, about in bends if about and not _of_corner(structure, place, axis)]
+    others = tuple([place.station for place, about in bends if not about])
+    between = joint_stations(structure, member, axis, tuple([place.station for place in own]), others)
     if not own and not between:
         return None
     seen: dict[int, Spring] = {}

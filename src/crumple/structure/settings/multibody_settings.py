@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from crumple.registry.quantity import Accuracy, Fraction, PositiveTime
+from crumple.registry.quantity import Accuracy, Fraction, PositiveFrequency, PositiveTime
 from crumple.registry.refusal import refuse
 from crumple.structure.keys.member import MOST_SEGMENTS, SEGMENTS
 from crumple.structure.schema.spec import Spec
@@ -17,10 +17,14 @@ class MultibodySettings(Spec):
 
     kernel: Literal["auto", "tree", "spatial"] = "auto"
     """Solver kernel: planar tree, spatial, or the tree wherever it is applicable."""
-    members: Literal["rigid", "elastic"] = "rigid"
-    """Whether members between their hinges are rigid bars, or bend and yield along their length."""
+    members: Literal["auto", "elastic", "rigid"] = "auto"
+    """Whether members between their hinges are rigid bars, or bend and yield along their length; auto: they
+    bend if any hinges are automatic, in runs of up to 0.5 s."""
     segments: Annotated[int, Field(ge=2, le=MOST_SEGMENTS)] = SEGMENTS
     """Segments of each elastic member; a member that states its own keeps them."""
+    resolved_frequency: PositiveFrequency = 500.0
+    """Vibration of elastic hinges and members above it does not shorten the steps of structures in space; it
+    keeps its energy, but not its phase."""
     accuracy: Accuracy = 1e-3
     """Relative error allowed in the rotations."""
     minimum_time_step: PositiveTime = 1e-9

@@ -44,7 +44,7 @@ def rail(friction, **settings):
 
 
 def solved(friction):
-    analysis = rail(friction)
+    analysis = rail(friction, members="rigid")
     return with_modes(solve(analysis), analysis)
 
 

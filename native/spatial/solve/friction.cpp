@@ -1,0 +1,137 @@
+// Friction limits of a Newton step: mu N with the normal impulse N that the step finds.
+//
+// With its limits frozen the problem is convex.  Its solution answers to a change of the limits by
+//     dN = R dL,   R from the linearised problem: one solve with the factors of the last Newton step for each sliding contact,
+// so N_found + R dL = L + dL is one linear system of the size of the number of sliding contacts, and all unknowns follow linearly.
+// Where contacts go on sliding in their directions this is Newton's method on the coupled problem.
+#include <algorithm>
+#include <cmath>
+
+#include "spatial/solve/newton.hpp"
+
+namespace crumple::spatial {
+
+namespace {
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+// Solves a x = b by elimination with the largest pivot of each column; false if a is singular.
+bool solve_dense(std::vector<double>& a, std::vector<double>& b) {
+    const size_t n = b.size();
+    for (size_t k = 0; k < n; k++) {
+        size_t best = k;
+        for (size_t i = k + 1; i < n; i++) {
+            if (std::fabs(a[i * n + k]) > std::fabs(a[best * n + k])) best = i;
+        }
+        if (!(std::fabs(a[best * n + k]) > 1e-9)) return false;
+        for (size_t j = 0; j < n && best != k; j++) std::swap(a[k * n + j], a[best * n + j]);
+        std::swap(b[k], b[best]);
+        for (size_t i = k + 1; i < n; i++) {
+            const double f = a[i * n + k] / a[k * n + k];
+            for (size_t j = k; j < n; j++) a[i * n + j] -= f * a[k * n + j];
+            b[i] -= f * b[k];
+        }
+    }
+    for (size_t k = n; k-- > 0;) {
+        for (size_t j = k + 1; j < n; j++) b[k] -= a[k * n + j] * b[j];
+        b[k] /= a[k * n + k];
+    }
+    return true;
+}
+
+}  // namespace
+
+size_t NewtonSolver::contact_link(size_t contact) const { return p_.connections.size() - p_.contacts.size() + contact; }
+
+// Impulse along a row of a link's laws of unknowns x along the roots of its tangent.
+double NewtonSolver::along_law(size_t link, int row, const double* x) const {
+    const Problem::Tangent& t = p_.tangent[link];
+    const int n = p_.system.links()[link].laws;
+    double sum = 0;
+    for (int k = 0; k < n; k++) sum += t.value[k] * t.vectors[row * n + k] * x[k];
+    return sum;
+}
+
+// Unknowns by which the linearised problem answers to an impulse per normal impulse of a sliding contact, and that impulse.
+void NewtonSolver::answer_to_friction(size_t contact, double tolerance, std::vector<double>& applied, std::vector<double>& x) {
+    const size_t first = at(p_.start(contact_link(contact)));
+    const double *w = &p_.w_next[first], slip = std::hypot(w[1], w[2]), mu = p_.contacts.friction(contact);
+    applied.assign(p_.x.size(), 0.0);
+    for (size_t k = 1; k < 3; k++) applied[first + k] = mu * w[k] / slip;
+    answer_.assign(p_.velocity.size(), Twist{});
+    p_.system.push(p_.rows, applied.data(), true, answer_.data());
+    x.resize(p_.x.size());
+    p_.system.rates(answer_.data(), x.data());
+    p_.system.solve(x.data(), tolerance);
+}
+
+// Sets the friction limits to those that the linearised problem finds, and moves the solution with them.
+void NewtonSolver::follow_friction() {
+    std::vector<size_t> sliding;
+    std::vector<double> left;
+    double largest = 0;
+    for (size_t i = 0; i < p_.contacts.size(); i++) {
+        if (p_.contacts.friction(i) == 0) continue;
+        const size_t first = at(p_.start(contact_link(i)));
+        const double found = std::max(-p_.impulse[first], 0.0), slip = std::hypot(p_.w_next[first + 1], p_.w_next[first + 2]);
+        if (slip > p_.contacts.frozen(i).width) {
+            sliding.push_back(i);
+            left.push_back(found - p_.contacts.normal(i));
+            largest = std::max(largest, std::fabs(left.back()));
+        } else {
+            p_.contacts.set_normal(i, found);
+        }
+    }
+    const size_t n = sliding.size();
+    if (largest == 0) return;
+    const double tolerance = rate_tolerance * p_.speed / largest;
+    applied_.resize(std::max(applied_.size(), n));
+    answers_.resize(applied_.size());
+    std::vector<double> matrix(n * n), change = left;
+    for (size_t j = 0; j < n; j++) {
+        answer_to_friction(sliding[j], tolerance, applied_[j], answers_[j]);
+        for (size_t i = 0; i < n; i++) {
+            const size_t link = contact_link(sliding[i]);
+            matrix[i * n + j] = (i == j ? 1 : 0) + along_law(link, 0, &answers_[j][at(p_.start(link))]);
+        }
+    }
+    if (!solve_dense(matrix, change)) change = left;
+    for (size_t j = 0; j < n; j++) {
+        const double before = p_.contacts.normal(sliding[j]);
+        change[j] = std::max(change[j], -before);
+        p_.contacts.set_normal(sliding[j], before + change[j]);
+    }
+    move_with_friction(n, change);
+}
+
+// Adds the answers to changes of the normal impulses of friction to velocities, rates and impulses.
+void NewtonSolver::move_with_friction(size_t n, const std::vector<double>& change) {
+    std::vector<double>& applied = applied_[0];
+    std::vector<double>& x = answers_[0];
+    for (size_t k = 0; k < x.size(); k++) {
+        applied[k] *= change[0];
+        x[k] *= change[0];
+        for (size_t j = 1; j < n; j++) {
+            applied[k] += change[j] * applied_[j][k];
+            x[k] += change[j] * answers_[j][k];
+        }
+    }
+    answer_.assign(p_.velocity.size(), Twist{});
+    p_.system.push(p_.rows, applied.data(), true, answer_.data());
+    p_.system.push(x.data(), answer_.data());
+    for (size_t i = 0; i < next_.size(); i++) next_[i] = next_[i] + answer_[i];
+    answer_rates_.resize(x.size());
+    p_.rates(p_.rows, answer_.data(), answer_rates_.data());
+    for (size_t c = 0; c < p_.connections.size(); c++) {
+        const Link& link = p_.system.links()[c];
+        const size_t first = at(p_.start(c));
+        for (int i = 0; i < link.held; i++) p_.impulse[first + at(i)] += x[first + at(i)];
+        read_unknowns(c, &x[first + at(link.held)], &answer_rates_[first + at(link.held)], &applied[first + at(link.held)]);
+        for (int j = 0; j < link.laws; j++) {
+            p_.w_next[first + at(link.held + j)] += answer_rates_[first + at(link.held + j)];
+            p_.impulse[first + at(link.held + j)] += applied[first + at(link.held + j)];
+        }
+    }
+}
+
+}  // namespace crumple::spatial

@@ -1,0 +1,55 @@
+"""Members bend by default where any hinges are automatic, in short runs, unless a member says otherwise."""
+
+import pytest
+from tests.support.multibody.frames import CLAMP, member, structure
+
+from crumple.multibody import Run, solve_multibody
+from crumple.structure import MultibodySettings, with_elastic_members
+
+SHORT, LONG = 0.1, 2.0
+NODES = {"a": (0.0, 0.0, 0.0), "b": (1.0, 0.0, 0.0), "c": (1.0, 0.0, 1.0)}
+
+
+def frame(**keys):
+    """Two members with automatic hinges, or with one hinge in the first."""
+    members = {"ab": member("a", "b", ("h", "a")), "bc": member("b", "c")}
+    if "hinges" in keys:
+        members["ab"]["hinges"] = members["bc"]["hinges"] = "auto"
+    return structure(NODES, members, supports=CLAMP, **keys)
+
+
+def bending(whole, duration, **settings):
+    found = with_elastic_members(whole, MultibodySettings(**settings), duration)
+    return sorted(name for name, spec in found.members.items() if spec.elastic)
+
+
+@pytest.mark.parametrize(
+    ("keys", "duration", "settings", "expected"),
+    [
+        ({"hinges": "auto"}, SHORT, {}, ["ab", "bc"]),
+        ({"hinges": "auto"}, LONG, {}, []),
+        ({"hinges": "auto"}, LONG, {"members": "elastic"}, ["ab", "bc"]),
+        ({"hinges": "auto"}, SHORT, {"members": "rigid"}, []),
+        ({}, SHORT, {}, []),
+        ({}, SHORT, {"members": "elastic"}, ["ab", "bc"]),
+    ],
+)
+def test_which_members_bend(keys, duration, settings, expected):
+    assert bending(frame(**keys), duration, **settings) == expected
+
+
+def test_a_rigid_member_does_not_bend():
+    whole = frame(hinges="auto")
+    members = whole.members | {"bc": whole.members["bc"].model_copy(update={"rigid": True})}
+    assert bending(whole.model_copy(update={"members": members}), SHORT) == ["ab"]
+
+
+def test_the_result_says_so():
+    whole = frame(hinges="auto", initial_velocity=[{"rotation": 5.0, "axis": (0, 1, 0)}])
+    bends, rigid = (
+        " ".join(solve_multibody(whole, Run(1e-3, 1e-3, MultibodySettings(members=members))).assumptions)
+        for members in ("auto", "rigid")
+    )
+    assert "joint(s) between the hinges" in bends
+    assert "Members are rigid between their hinges" not in bends
+    assert "Members are rigid between their hinges" in rigid
