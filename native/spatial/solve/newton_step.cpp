@@ -52,22 +52,13 @@ void NewtonSolver::tangent_of(size_t link, double* offset, double* tangent) cons
 // Stores the tangent D = Q d Q^T by its root Q sqrt(d), and the offset of the law.
 void NewtonSolver::linearise(size_t link) {
     const Link& l = p_.system.links()[link];
-    const int n = l.laws, first = p_.start(link) + l.held;
+    const int n = l.laws;
     Problem::Tangent& t = p_.tangent[link];
     double matrix[most_components * most_components];
     tangent_of(link, t.offset, matrix);
     eigenvectors(n, matrix, t.value, t.vectors);
-    for (int k = 0; k < n; k++) {
-        const double root = std::sqrt(std::max(t.value[k], 0.0));
-        Row sum;
-        for (int j = 0; j < n; j++) {
-            const Row& row = p_.rows[at(first + j)];
-            const double s = root * t.vectors[j * n + k];
-            sum = {sum.t + s * row.t, sum.ma + s * row.ma, sum.mb + s * row.mb};
-        }
-        p_.system.row(first + k) = sum;
-        t.value[k] = root;
-    }
+    for (int k = 0; k < n; k++) t.value[k] = std::sqrt(std::max(t.value[k], 0.0));
+    p_.set_law_rows(link, t);
 }
 
 // solves for velocities, rates and impulses with the tangent of every law at p_.w

@@ -129,6 +129,19 @@ void Problem::locate_all(const State& s, const std::vector<Pose>& poses, double 
     }
 }
 
+void Problem::set_law_rows(size_t link, const Tangent& roots) {
+    const int n = system.links()[link].laws, first = start(link) + system.links()[link].held;
+    for (int k = 0; k < n; k++) {
+        Row sum;
+        for (int j = 0; j < n; j++) {
+            const Row& row = rows[static_cast<size_t>(first + j)];
+            const double s = roots.value[k] * roots.vectors[j * n + k];
+            sum = {sum.t + s * row.t, sum.ma + s * row.ma, sum.mb + s * row.mb};
+        }
+        system.row(first + k) = sum;
+    }
+}
+
 void Problem::hold_rows() {
     for (size_t c = 0; c < connections.size(); c++) {
         const Link& link = system.links()[c];

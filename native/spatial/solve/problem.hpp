@@ -57,6 +57,8 @@ struct Problem {
     // rows of all links at the given poses, with the drives of the state's stage at time t
     void locate_all(const State& s, const std::vector<Pose>& poses, double t, std::vector<Row>& rows, double* error);
     void locate_spring(const Spring& spring, const std::vector<Pose>& poses, Row& row, double* length) const;
+    // sets the rows of a link's laws in the system: the located ones times the roots of a tangent, whose values are roots already
+    void set_law_rows(size_t link, const Tangent& roots);
     // sets up the system with held rows only, without laws
     void hold_rows();
     void rates(const std::vector<Row>& rows, const Twist* v, double* out) const;

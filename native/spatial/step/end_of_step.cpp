@@ -151,17 +151,8 @@ bool EndOfStep::project_positions(State& s, double h) {
     p_.set_mobilities(p_.end);
     auto set_rows = [&] {
         for (size_t c = 0; c < links.size(); c++) {
-            const int first = p_.start(c), held = links[c].held, n = links[c].laws;
-            for (int i = 0; i < held; i++) p_.system.row(first + i) = p_.rows[at(first + i)];
-            for (int k = 0; k < n; k++) {
-                Row sum;
-                for (int j = 0; j < n; j++) {
-                    const Row& row = p_.rows[at(first + held + j)];
-                    const double f = p_.tangent[c].value[k] * p_.tangent[c].vectors[j * n + k];
-                    sum = {sum.t + f * row.t, sum.ma + f * row.ma, sum.mb + f * row.mb};
-                }
-                p_.system.row(first + held + k) = sum;
-            }
+            for (int i = 0; i < links[c].held; i++) p_.system.row(p_.start(c) + i) = p_.rows[at(p_.start(c) + i)];
+            p_.set_law_rows(c, p_.tangent[c]);
         }
     };
     set_rows();

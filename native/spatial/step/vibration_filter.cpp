@@ -37,15 +37,7 @@ void VibrationFilter::set_row(size_t link, double scale) {
         eigenvectors(n, tangent, kept.value, kept.vectors);
         for (int k = 0; k < n; k++) kept.value[k] = scale * std::sqrt(std::max(kept.value[k], 0.0));
     }
-    for (int k = 0; k < n; k++) {
-        Row sum;
-        for (int j = 0; j < n; j++) {
-            const Row& row = p_.rows[at(first + j)];
-            const double f = kept.value[k] * kept.vectors[j * n + k];
-            sum = {sum.t + f * row.t, sum.ma + f * row.ma, sum.mb + f * row.mb};
-        }
-        p_.system.row(first + k) = sum;
-    }
+    p_.set_law_rows(link, kept);
 }
 
 void VibrationFilter::apply(std::vector<Twist>& change, double tolerance) {

@@ -1,0 +1,50 @@
+"""Where members that bend by default end a run early, the answer is that of rigid bars, and says so."""
+
+from pathlib import Path
+
+import pytest
+
+from crumple._core.outcome import Outcome
+from crumple.analysis import loads, with_law_range, with_modes
+from crumple.analysis import solve as solve_analysis
+from crumple.multibody import solve
+
+FRAME = Path("examples/12_l_frame.yaml").read_text(encoding="utf-8")
+
+
+@pytest.fixture(name="ended")
+def _ended(monkeypatch):
+    """Every run that would complete counts as one that ended early."""
+    monkeypatch.setattr(solve, "FAILED", frozenset({Outcome.COMPLETE}))
+
+
+def with_members(members):
+    analysis = loads(FRAME)
+    settings = analysis.multibody.model_copy(update={"members": members})
+    return analysis.model_copy(update={"multibody": settings})
+
+
+def test_the_answer_is_that_of_rigid_bars(ended):
+    found, rigid = solve_analysis(with_members("auto")), solve_analysis(with_members("rigid"))
+    assert found.status.ok
+    assert {name: hinge.rotation_max for name, hinge in found.hinges.items()} == {
+        name: hinge.rotation_max for name, hinge in rigid.hinges.items()
+    }
+    assert found.warnings[0].startswith("Members are rigid bars here")
+    assert found.warnings[1:] == rigid.warnings
+
+
+def test_members_that_were_asked_to_bend_do(ended):
+    found = solve_analysis(with_members("elastic"))
+    assert not any(warning.startswith("Members are rigid bars here") for warning in found.warnings)
+    assert (
+        found.hinges["corner-corner"].rotation_max
+        != solve_analysis(with_members("rigid")).hinges["corner-corner"].rotation_max
+    )
+
+
+def test_ranges_and_modes_of_such_an_answer_are_found(ended):
+    analysis = with_members("auto")
+    result = with_modes(with_law_range(solve_analysis(analysis), analysis), analysis)
+    assert result.law_range is not None
+    assert result.modes is not None
