@@ -130,6 +130,9 @@ bool Simulation::solve(double h) {
         ahead_.forget();
         return false;
     }
+    // a free flight that is repeated up to the closing of a contact needs no halves
+    closing_ = state_.contact.held.empty() ? coarse_.contact.closing : 0;
+    if (closing_ > 0 && length_.can_land(h)) return true;
     ahead_.compare(model_, state_.velocity, stepper_.end_velocity());
     keep_for_guide(h);
     const bool passed = next_output_ < outputs_.size() && outputs_[next_output_] <= state_.t + h * (1 + rounding);

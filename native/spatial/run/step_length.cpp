@@ -10,6 +10,10 @@ namespace {
 // Limits of the change from one step to the next.  In motion, where hinges lock and slide, steps that grow faster are rejected more often.
 // (With a factor of two, multiples of the first step meet the end of the run, and rounding decides how it is divided.)
 constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4, growth_in_motion = 2.2;
+// Error above which two rejected lengths show its order, and the least share of the second that the next one may be.
+constexpr double large_error = 10, shrink_limit_of_order = 0.02;
+// Order of the error of a step: of a motion without events, and least.
+constexpr double most_order = 3, least_order = 1;
 // Steps are not shortened below this multiple of the smallest step to end at the closing of a contact.
 constexpr double shortest_landing = 4;
 // In motion the factor is rounded down to whole parts: the error of a step in which hinges lock has few digits, and rounding in the moments that
@@ -17,6 +21,8 @@ constexpr double shortest_landing = 4;
 constexpr double parts_of_factor = 1024;
 // A rejected step is replaced by one of at most this share of its length; a whole share of the time left that is rounding.
 constexpr double shorter = 0.7, whole = 1 - 1e-9;
+
+double whole_parts(double factor) { return std::floor(factor * parts_of_factor) / parts_of_factor; }
 
 }  // namespace
 
@@ -39,22 +45,31 @@ StepPlan StepLength::plan(double h, double wanted, double longest, double left) 
     return out;
 }
 
+bool StepLength::can_land(double h) const { return h > shortest_landing * least_; }
+
 bool StepLength::land(double h, double closing) {
-    if (h <= shortest_landing * least_) return false;
+    if (!can_land(h)) return false;
     landing_ = std::max(closing, least_);
     return true;
 }
 
 double StepLength::after(double h, double e, bool quasi_static) const {
     const double most = quasi_static ? growth_limit : growth_in_motion;
-    const double factor = e > 0 ? safety * std::pow(e, -1.0 / 3) : most;
+    const double factor = e > 0 ? safety * std::pow(e, -1 / most_order) : most;
     const double bounded = std::clamp(factor, shrink_limit, most);
-    const double whole_parts = quasi_static ? bounded : std::floor(bounded * parts_of_factor) / parts_of_factor;
-    return std::clamp(h * whole_parts, least_, most_);
+    return std::clamp(h * (quasi_static ? bounded : whole_parts(bounded)), least_, most_);
 }
 
 void StepLength::shorten(double h, double e, bool quasi_static) {
-    h_ = std::max(std::min(after(h, e, quasi_static), shorter * h), least_);
+    double next = std::min(after(h, e, quasi_static), shorter * h);
+    // an event near the start of the step leaves an error of first order: two rejected lengths show it
+    if (!quasi_static && e > large_error && refused_error_ > e && std::isfinite(refused_error_)) {
+        const double order = std::clamp(std::log(refused_error_ / e) / std::log(refused_ / h), least_order, most_order);
+        next = std::min(next, h * whole_parts(std::max(safety * std::pow(e, -1 / order), shrink_limit_of_order)));
+    }
+    refused_ = h;
+    refused_error_ = e;
+    h_ = std::max(next, least_);
     landing_ = 0;
 }
 
@@ -67,6 +82,7 @@ void StepLength::follow(const StepPlan& plan, double e, bool quasi_static) {
     const double next = after(plan.h, e, quasi_static);
     h_ = plan.cut && e <= 1 ? std::max(h_, next) : next;
     landing_ = 0;
+    refused_error_ = 0;
 }
 
 }  // namespace crumple::spatial

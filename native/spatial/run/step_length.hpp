@@ -26,6 +26,8 @@ public:
     // Length and flags of the next step, of at most `longest`, before limits by loads; `aimed`: it is that of a leader's step.
     double wanted(double longest, double left, bool aimed) const;
     StepPlan plan(double h, double wanted, double longest, double left) const;
+    // whether a step of length h can be repeated up to the closing of a contact
+    bool can_land(double h) const;
     // Whether a step of length h that closes a contact after a time is to end there; it is then the next one.
     bool land(double h, double closing);
     // after a step of length h that was rejected for its error e, or ends where a share of it does
@@ -39,6 +41,7 @@ private:
 
     double least_, most_;
     double h_ = 0;
+    double refused_ = 0, refused_error_ = 0;  // of the step rejected last from the present state; error 0: none was
     double landing_ = 0;  // length of the step that ends at the closing of a contact; 0 if none is ahead
 };
 
