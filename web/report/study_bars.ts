@@ -1,6 +1,6 @@
 // Tornado and convergence of a study, as SVG.
 import { csv, fileButtons } from "./files";
-import { draw, extent, find, tidy } from "./study_drawing";
+import { draw, extent, find, make, tidy } from "./study_drawing";
 
 export interface Effect { response: string; unit: string; mean: number; bars: { variable: string; low: number; high: number; at_low: string; at_high: string }[] }
 export interface Convergence { name: string; unit: string; rows: number[]; values: (number | null)[]; band: (number | null)[][] }
@@ -8,6 +8,10 @@ export interface Convergence { name: string; unit: string; rows: number[]; value
 export function paintTornado(effect: Effect | undefined, parent: Element): void {
   parent.replaceChildren();
   if (!effect) return;
+  if (!effect.bars.length) {
+    make("p", parent, `${effect.response} is constant, ${tidy(effect.mean)}${effect.unit ? ` ${effect.unit}` : ""} in all rows: no variable has an effect on it.`);
+    return;
+  }
   const WIDE = 760, LINE = 30, MIDDLE = 180, svg = draw("svg", { viewBox: `0 0 ${WIDE} ${LINE * effect.bars.length + 46}`, role: "img", "aria-label": `Tornado of ${effect.response}` }, parent);
   const all = effect.bars.flatMap((bar) => [bar.low, bar.high]).concat(effect.mean), low = Math.min(...all), high = Math.max(...all);
   const x = (v: number) => MIDDLE + 60 + (WIDE - MIDDLE - 140) * (v - low) / (high - low || 1), end = LINE * effect.bars.length + 8;

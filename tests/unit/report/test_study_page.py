@@ -282,6 +282,26 @@ def test_a_click_on_a_point_shows_its_crash(browser, study):
     assert told.startswith(f"No shape of row {other} is stored")
 
 
+def test_the_page_says_that_a_response_is_constant(browser, tmp_path):
+    """The mass does not depend on the speed: its tornado has no bars."""
+    file = written(tmp_path, "{type: grid}", "{path: initial_velocity, low: 0.6, high: 1.2, steps: 3}", MASS)
+    loaded = LoadedStudy(file)
+    table, answer = run_study(loaded, tmp_path)
+    data = page_data(loaded, table, answer) | {"alike": {}}
+    assert [len(effect["bars"]) for effect in data["effects"]] == [1, 0]
+    page, _ = write_study_page(data, [], tmp_path)
+    browser.open(page.as_uri(), 1400, 900)
+    browser.settle()
+    told = "document.querySelector('#effects > div').textContent"
+    assert browser.evaluate(told).startswith("v0.61.2mean")
+    browser.evaluate(
+        "(() => { const s = document.querySelector('#effects select'); s.value = '1';"
+        " s.dispatchEvent(new Event('change')); return 1; })()"
+    )
+    said = browser.evaluate(told)
+    assert said == "m is constant, 2.9 kg in all rows: no variable has an effect on it."
+
+
 def test_the_page_fits_a_phone(browser, study):
     opened(browser, study[4], 390)
     assert browser.evaluate("document.documentElement.scrollWidth") <= 390

@@ -113,6 +113,10 @@ ${new XMLSerializer().serializeToString(standalone(figure()))}`;
   function paintTornado(effect, parent) {
     parent.replaceChildren();
     if (!effect) return;
+    if (!effect.bars.length) {
+      make("p", parent, `${effect.response} is constant, ${tidy(effect.mean)}${effect.unit ? ` ${effect.unit}` : ""} in all rows: no variable has an effect on it.`);
+      return;
+    }
     const WIDE = 760, LINE = 30, MIDDLE = 180, svg = draw("svg", { viewBox: `0 0 ${WIDE} ${LINE * effect.bars.length + 46}`, role: "img", "aria-label": `Tornado of ${effect.response}` }, parent);
     const all = effect.bars.flatMap((bar) => [bar.low, bar.high]).concat(effect.mean), low = Math.min(...all), high = Math.max(...all);
     const x = (v) => MIDDLE + 60 + (WIDE - MIDDLE - 140) * (v - low) / (high - low || 1), end = LINE * effect.bars.length + 8;
