@@ -125,6 +125,21 @@ def test_prints_on_a_few_pages_of_a4(browser, pages):
     assert [float(size) for size in box.groups()] == pytest.approx([595.3, 841.9], abs=1.0)
 
 
+def test_the_table_of_laws_has_room_on_paper(browser, pages):
+    """Names of hinges above their row, and four columns of text that share the width of A4 [px]."""
+    browser.open(pages["tube"].as_uri(), 673, 900)
+    browser.evaluate(UNFOLD)
+    browser.call("Emulation.setEmulatedMedia", media="print")
+    cells = "document.querySelectorAll('.laws tbody tr:first-child :is(th, td)')"
+    widths = browser.evaluate(f"[...{cells}].map(cell => cell.getBoundingClientRect().width)")
+    fits = browser.evaluate("document.documentElement.scrollWidth <= 673")
+    browser.call("Emulation.setEmulatedMedia", media="")
+    assert widths[0] > 660
+    assert min(widths[1:5]) > 80
+    assert sum(widths[1:]) < 673
+    assert fits
+
+
 def words_of_pages(paper):
     """How often text is drawn on each page of a PDF of Chromium's."""
     objects = {int(n): body for n, body in re.findall(rb"\n(\d+) 0 obj\s*(.*?)\s*endobj", paper, re.DOTALL)}
