@@ -2,7 +2,8 @@
 
 Ceilings: file 400 lines (Python, C++, TypeScript), function body 60 lines (no docstring; not TypeScript),
 6 positional arguments, 16 source files in a folder.  Aside: lines of literal tables at module level,
-keyword-only options, `self` and `cls`, and the `__init__.py` of a folder.
+keyword-only options, `self` and `cls`, the `__init__.py` of a folder, and scripts of pages, which are made of
+the TypeScript in `web/`.
 """
 
 from __future__ import annotations

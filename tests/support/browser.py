@@ -48,6 +48,14 @@ def find_browser():
     return next((path for name in names if (path := shutil.which(name))), None)
 
 
+# files that the page would save are kept in the page instead
+KEEP_FILES = """(() => { window.kept = {}; let last; const make = URL.createObjectURL.bind(URL);
+  URL.createObjectURL = (blob) => { last = blob; return make(blob); };
+  HTMLAnchorElement.prototype.click = function () {
+    const blob = last, kept = window.kept[this.download] = { blob, type: blob.type, size: blob.size };
+    blob.text().then((text) => { kept.text = text; }); }; return 1; })()"""
+
+
 class Browser:
     """One page.  `events` contains the messages that the browser sent by itself, newest last."""
 
@@ -114,6 +122,18 @@ class Browser:
     def settle(self):
         """Wait for the frames that the page has asked for."""
         self.evaluate("new Promise((done) => requestAnimationFrame(() => done(1)))")
+
+    def saved_files(self, buttons, count):
+        """Press all buttons of a selector: type, size and text of the `count` files that the page saves."""
+        self.evaluate(KEEP_FILES)
+        self.evaluate(f"document.querySelectorAll({json.dumps(buttons)}).forEach(b => b.click()); 1")
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            kept = self.evaluate("window.kept")
+            if len(kept) == count and all("text" in one for one in kept.values()):
+                return kept
+            time.sleep(0.05)
+        raise TimeoutError(f"the page saved {sorted(kept)}")
 
     def evaluate(self, script):
         """Value of an expression; of a promise, once it is kept."""

@@ -1,5 +1,7 @@
 // Sliders over a grid of runs: the scene shows a blend of the runs around the chosen values, and so do the curves.
 import type { Curve, Explore, Force, Model, Point, Scene } from "./scene";
+import { csv, fileButtons } from "./files";
+import { draw as element } from "./study_drawing";
 import type {} from "./viewer";
 
 const NEAR = 0.04;  // of a step of the grid: a slider this near to a solved value is put onto it
@@ -47,14 +49,6 @@ function blended(model: Model, models: Model[], weights: number[], forces: Force
   return same;
 }
 
-function element(name: string, attributes: Record<string, string | number>, parent: Element, text?: string): Element {
-  const made = document.createElementNS("http://www.w3.org/2000/svg", name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
-  if (text !== undefined) made.textContent = text;
-  parent.append(made);
-  return made;
-}
-
 /** one curve on axes that hold the curves of all runs */
 function chart(curve: Curve, times: number[], parent: Element, middle: number): (values: number[] | null) => void {
   const last = times[times.length - 1], panel = document.createElement("div");
@@ -79,7 +73,15 @@ function chart(curve: Curve, times: number[], parent: Element, middle: number): 
   document.addEventListener("crumple-time", (event) => {
     for (const end of ["x1", "x2"]) cursor.setAttribute(end, String(x(Math.min((event as CustomEvent<number>).detail, last))));
   });
-  return (values) => { now.setAttribute("points", values ? line(values) : ""); };
+  let shown: number[] | null = null;
+  const named = `${curve.name}, ${curve.unit}`, grey = middle < 0 ? [] : curve.values[middle];
+  const data = () => csv([[`time, ${unit}`, named, ...(middle < 0 ? [] : [`middle of the grid: ${named}`])],
+    ...times.map((t, i) => [factor * t, shown ? shown[i] : null, ...grey.slice(i, i + 1)])]);
+  panel.append(fileButtons(curve.name, () => svg, data));
+  return (values) => {
+    shown = values;
+    now.setAttribute("points", values ? line(values) : "");
+  };
 }
 
 /** makes one model, the blend, of all runs of a scene */

@@ -1,11 +1,13 @@
 // Page of a study: filters, figures of its rows on canvases, a table; a chosen row is shown in the viewer.
 import type {} from "./viewer";
+import { csv, fileButtons } from "./files";
 import { offer, paintCurve, paintTornado } from "./study_bars";
 import { find, make, paper, type Span, tidy } from "./study_drawing";
 import {
   at, axes, best, CHOSEN, colour, columns, complete, count, data, FAINT, FRONT, front, KEPT, kept, label, numbers,
   onFront, range, rows, shape, status, tick, told, VIOLATED,
 } from "./study_rows";
+import { type Brush, SvgBrush } from "./svg_brush";
 
 type Box = [number, number, number, number];
 /** row and its place in pixels of the page */
@@ -77,8 +79,18 @@ function offerFilters(): void {
 
 // figures
 
-type Brush = CanvasRenderingContext2D;
+type Sheet = [Brush, number, number];
 
+/** files of a figure on a canvas: the columns are those that it shows */
+function offerCanvas(canvas: HTMLCanvasElement, name: string, paintOn: (sheet: Sheet) => void, shownColumns: () => number[]): void {
+  const figure = () => {
+    const brush = new SvgBrush(canvas);
+    paintOn([brush, brush.wide, brush.tall]);
+    return brush.svg;
+  };
+  const table = () => csv([["row", ...shownColumns().map(label)], ...visible.map((i) => [rows[i], ...shownColumns().map((k) => columns[k].values[i])])]);
+  canvas.after(fileButtons(name, figure, table));
+}
 function dot(context: Brush, i: number, x: number, y: number, size: number): void {
   context.fillStyle = onFront.has(i) || i === best ? FRONT : colour(i);
   context.beginPath();
@@ -125,8 +137,8 @@ function nearest(canvas: HTMLCanvasElement, event: MouseEvent): number {
 }
 
 const pair = find<HTMLCanvasElement>("#pair canvas"), acrossChoice = find<HTMLSelectElement>("#pair [data-role=x]"), upChoice = find<HTMLSelectElement>("#pair [data-role=y]");
-function paintPair(): void {
-  const [context, wide, tall] = paper(pair), kx = Number(acrossChoice.value), ky = Number(upChoice.value), found: Spot[] = [];
+function paintPair([context, wide, tall]: Sheet = paper(pair)): void {
+  const kx = Number(acrossChoice.value), ky = Number(upChoice.value), found: Spot[] = [];
   const box: Box = [70, 26, wide - 90, tall - 70];
   const [x, y] = scatter(context, kx, ky, box, 2.6, found);
   spots.set(pair, found);
@@ -156,10 +168,10 @@ function paintPair(): void {
 }
 
 const matrix = find<HTMLCanvasElement>("#matrix canvas");
-function paintMatrix(): void {
+function paintMatrix(sheet?: Sheet): void {
   const n = Math.max(marked.length, 1);
   matrix.style.height = `${Math.min(matrix.getBoundingClientRect().width, 1100)}px`;
-  const [context, wide, tall] = paper(matrix), found: Spot[] = [], w = (wide - 10) / n, h = (tall - 10) / n;
+  const [context, wide, tall] = sheet ?? paper(matrix), found: Spot[] = [], w = (wide - 10) / n, h = (tall - 10) / n;
   marked.forEach((ky, row) => marked.forEach((kx, column) => {
     const box: Box = [column * w + 9, row * h + 9, w - 8, h - 8];
     context.strokeStyle = "#d3dae0";
@@ -201,8 +213,8 @@ const parallel = find<HTMLCanvasElement>("#parallel canvas");
 let lines: [number, number[]][] = [], drag: { axis: number; from: number; moved: boolean } | null = null;
 const top = 50, bottom = 26;
 const lane = (k: number, wide: number) => 60 + k * (wide - 120) / Math.max(axes.length - 1, 1);
-function paintParallel(): void {
-  const [context, wide, tall] = paper(parallel), high = tall - top - bottom;
+function paintParallel([context, wide, tall]: Sheet = paper(parallel)): void {
+  const high = tall - top - bottom;
   const y = (k: number, i: number) => top + high * (1 - (at(k, i) - range[k][0]) / (range[k][1] - range[k][0]));
   const trace = (i: number) => {
     context.beginPath();
@@ -334,9 +346,12 @@ function begin(): void {
   acrossChoice.value = String(goals[0] ?? 0);
   upChoice.value = String(goals[1] ?? responses.find((k) => k !== goals[0]) ?? responses[0]);
   find("#pair [data-role=front]").hidden = !front.length;
-  for (const select of [acrossChoice, upChoice]) select.addEventListener("change", paintPair);
+  for (const select of [acrossChoice, upChoice]) select.addEventListener("change", () => paintPair());
   offer("effects", data.effects, (effect) => effect.response, paintTornado);
   offer("convergence", data.convergence, (curve) => curve.name, paintCurve);
+  offerCanvas(parallel, "parallel", paintParallel, () => axes);
+  offerCanvas(pair, "two_columns", paintPair, () => [Number(acrossChoice.value), Number(upChoice.value)]);
+  offerCanvas(matrix, "matrix", paintMatrix, () => marked);
   for (const canvas of [pair, matrix]) canvas.addEventListener("click", (event) => choose(nearest(canvas, event)));
   parallel.addEventListener("pointerdown", (event) => { drag = { axis: axisAt(event), from: event.offsetY, moved: false }; });
   parallel.addEventListener("pointermove", (event) => {

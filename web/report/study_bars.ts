@@ -1,5 +1,6 @@
 // Tornado and convergence of a study, as SVG.
-import { draw, extent, find, tidy } from "./study_drawing";
+import { csv, fileButtons } from "./files";
+import { draw, extent, find, make, tidy } from "./study_drawing";
 
 export interface Effect { response: string; unit: string; mean: number; bars: { variable: string; low: number; high: number; at_low: string; at_high: string }[] }
 export interface Convergence { name: string; unit: string; rows: number[]; values: (number | null)[]; band: (number | null)[][] }
@@ -7,6 +8,10 @@ export interface Convergence { name: string; unit: string; rows: number[]; value
 export function paintTornado(effect: Effect | undefined, parent: Element): void {
   parent.replaceChildren();
   if (!effect) return;
+  if (!effect.bars.length) {
+    make("p", parent, `${effect.response} is constant, ${tidy(effect.mean)}${effect.unit ? ` ${effect.unit}` : ""} in all rows: no variable has an effect on it.`);
+    return;
+  }
   const WIDE = 760, LINE = 30, MIDDLE = 180, svg = draw("svg", { viewBox: `0 0 ${WIDE} ${LINE * effect.bars.length + 46}`, role: "img", "aria-label": `Tornado of ${effect.response}` }, parent);
   const all = effect.bars.flatMap((bar) => [bar.low, bar.high]).concat(effect.mean), low = Math.min(...all), high = Math.max(...all);
   const x = (v: number) => MIDDLE + 60 + (WIDE - MIDDLE - 140) * (v - low) / (high - low || 1), end = LINE * effect.bars.length + 8;
@@ -24,6 +29,9 @@ export function paintTornado(effect: Effect | undefined, parent: Element): void 
   draw("text", { x: x(effect.mean), y: end + 14, "text-anchor": "middle" }, svg, `mean ${tidy(effect.mean)}${unit}`);
   draw("text", { x: x(low), y: end + 30, "text-anchor": "middle" }, svg, tidy(low) + unit);
   draw("text", { x: x(high), y: end + 30, "text-anchor": "middle" }, svg, tidy(high) + unit);
+  const named = effect.response + (effect.unit ? `, ${effect.unit}` : ""), heads = ["variable", "at its low end", named, "at its high end", named];
+  const data = () => csv([heads, ...effect.bars.map((bar) => [bar.variable, bar.at_low, bar.low, bar.at_high, bar.high]), ["mean", "", effect.mean, "", effect.mean]]);
+  parent.append(fileButtons(`tornado_${effect.response}`, () => svg, data));
 }
 export function paintCurve(curve: Convergence | undefined, parent: Element): void {
   parent.replaceChildren();
@@ -45,6 +53,9 @@ export function paintCurve(curve: Convergence | undefined, parent: Element): voi
   draw("polyline", { points: path(curve.values, 1).join(" "), class: "curve" }, svg);
   draw("text", { x: LEFT, y: 14, class: "name" }, svg, curve.name + (curve.unit ? `, ${curve.unit}` : ""));
   draw("text", { x: WIDE - 20, y: TALL - 12, "text-anchor": "end" }, svg, `${last} rows`);
+  const heads = ["rows", curve.name + (curve.unit ? `, ${curve.unit}` : ""), ...curve.band.map((_, end) => (end ? "upper end" : "lower end"))];
+  const data = () => csv([heads, ...curve.rows.map((r, i) => [r, curve.values[i], ...curve.band.map((end) => end[i])])]);
+  parent.append(fileButtons(`convergence_${curve.name}`, () => svg, data));
 }
 export function offer<T>(id: string, entries: T[], name: (entry: T) => string, put: (entry: T | undefined, parent: Element) => void): void {
   const select = find<HTMLSelectElement>(`#${id} select`), parent = find(`#${id} > div`);

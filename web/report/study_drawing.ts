@@ -12,7 +12,9 @@ export function make<K extends keyof HTMLElementTagNameMap>(
   parent.append(made);
   return made;
 }
-export function draw(name: string, attributes: Record<string, string | number>, parent: Element, text?: string | number): Element {
+export function draw<K extends keyof SVGElementTagNameMap>(
+  name: K, attributes: Record<string, string | number>, parent: Element, text?: string | number,
+): SVGElementTagNameMap[K] {
   const made = document.createElementNS("http://www.w3.org/2000/svg", name);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
   if (text !== undefined) made.textContent = String(text);

@@ -131,8 +131,9 @@ def _law_file(laws: dict[str, HingeLaw], shape: Section, metal: Material, axis: 
         todo = "name one with --law"
         raise InputError(Problem("a law file holds one law", ", ".join(laws), "one law", todo, "--save"))
     ((name, law),) = laws.items()
+    methods = {Trust.MEASURED: "measured", Trust.COMPUTED: "library", Trust.ESTIMATED: "estimate"}
     origin = {
-        "method": "measured" if law.source.trust is Trust.MEASURED else "formula",
+        "method": methods.get(law.source.trust, "formula"),
         "section": shape.title,
         "axis": axis,
         "material": f"yield {metal.yield_stress / 1e6:g} MPa, flow stress {metal.flow_stress / 1e6:g} MPa",

@@ -188,13 +188,7 @@ def _show(answer: Answer) -> None:
             low, high = one["interval"]
             share = f"{one['probability']:.4g} (95 % interval {low:.4g} to {high:.4g})"
             typer.echo(f"probability that {one['response']} violates its limit, within this model: {share}")
-    if isinstance(answer.indices, str):
-        typer.echo(answer.indices)
-    else:
-        for name, indices in answer.indices.items():
-            for variable, found in {} if isinstance(indices, str) else indices.items():
-                values = f"first order {found['first']:.3f}, total {found['total']:.3f}"
-                typer.echo(f"Sobol' indices of {name} for {variable}: {values}")
+    _show_indices(answer.indices)
     if answer.best is not None:
         values = ", ".join(f"{key} {_plain(value)}" for key, value in answer.best["variables"].items())
         typer.echo(f"best row {answer.best['row']}: {values} (SI units)")
@@ -203,6 +197,20 @@ def _show(answer: Answer) -> None:
     _show_front(answer, text)
     if answer.verification is not None:
         _show_verification(answer.verification, text)
+
+
+def _show_indices(indices: Mapping[str, Any] | str) -> None:
+    """Print Sobol' indices, or why there are none."""
+    if isinstance(indices, str):
+        typer.echo(indices)
+        return
+    for name, by_variable in indices.items():
+        for reason in {found["reason"] for found in by_variable.values() if "reason" in found}:
+            typer.echo(f"no Sobol' indices of {name}: {reason}")
+        for variable, found in by_variable.items():
+            if "reason" not in found:
+                values = f"first order {found['first']:.3f}, total {found['total']:.3f}"
+                typer.echo(f"Sobol' indices of {name} for {variable}: {values}")
 
 
 def _show_front(answer: Answer, text: Callable[[float, str], str]) -> None:

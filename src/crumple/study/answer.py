@@ -20,6 +20,9 @@ from crumple.study.front import nondominated
 from crumple.study.study_file import Study
 from crumple.study.table import Table
 
+ROUNDING = 1e-12
+"""Largest difference of values that count as equal, as a share of the largest of them."""
+
 Limits = Sequence[tuple[str, float, float]]
 """Of constraints: response, lower limit and upper limit."""
 
@@ -194,6 +197,11 @@ def answer_of(
     )
 
 
+def is_constant(values: Floats) -> bool:
+    """Whether finite values differ by rounding at most."""
+    return bool(np.ptp(values) <= ROUNDING * np.abs(values).max(initial=0.0))
+
+
 def _statistics(column: Floats) -> dict[str, float]:
     known = column[np.isfinite(column)]
     if not known.size:
@@ -251,6 +259,12 @@ def sobol_answer(study: Study, table: Table, rows: Integers) -> dict[str, Any]:
         The study and its rows.
     rows
         Numbers of the rows of A, B, and of each variable A with that variable from B, (2 + variables, n).
+
+    Returns
+    -------
+    dict
+        By response and variable ``first`` and ``total``.  Both are None, and ``reason`` says why, if the
+        response has no variance, or one that is not known.
     """
     from scipy.stats import sobol_indices  # noqa: PLC0415  (slow to import)
 
@@ -258,20 +272,17 @@ def sobol_answer(study: Study, table: Table, rows: Integers) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for name in study.responses:
         values = columns[name][rows]
-        if not np.isfinite(values).all():
-            found[name] = "not a number in some rows"
+        reason = "not a number in some rows" if not np.isfinite(values).all() else ""
+        if not reason and is_constant(values):
+            reason = "the response is constant"
+        if reason:
+            none = {"first": None, "total": None, "reason": reason}
+            found[name] = {axis.name: none for axis in table.axes}
             continue
-        given: dict[Literal["f_A", "f_B", "f_AB"], Floats] = {
-            "f_A": values[:1],
-            "f_B": values[1:2],
-            "f_AB": values[2:, np.newaxis, :],
-        }
+        # given twice, since SciPy fails for one response of one variable
+        a, b, *mixed = np.repeat(values[:, np.newaxis], 2, axis=1)
+        given: dict[Literal["f_A", "f_B", "f_AB"], Floats] = {"f_A": a, "f_B": b, "f_AB": np.stack(mixed)}
         result = sobol_indices(func=given, n=count)
-        found[name] = {
-            axis.name: {
-                "first": float(np.atleast_1d(result.first_order.squeeze())[k]),
-                "total": float(np.atleast_1d(result.total_order.squeeze())[k]),
-            }
-            for k, axis in enumerate(table.axes)
-        }
+        first, total = (x.reshape(2, -1)[0].tolist() for x in (result.first_order, result.total_order))
+        found[name] = {axis.name: {"first": first[k], "total": total[k]} for k, axis in enumerate(table.axes)}
     return found

@@ -11,7 +11,7 @@ import numpy as np
 from crumple.numeric.arrays import Floats, Integers
 from crumple.numeric.binomial import clopper_pearson
 from crumple.numeric.ranking import largest_first
-from crumple.study.answer import Answer, columns_of, judged_rows
+from crumple.study.answer import Answer, columns_of, is_constant, judged_rows
 from crumple.study.space import Axis
 from crumple.study.study_file import LoadedStudy, Study
 from crumple.study.table import Table
@@ -137,7 +137,8 @@ def _effects(
     """Of each response the mean at either end of each variable, the largest effect first.
 
     Of a range the ends are the tenths of the rows with its lowest and highest values; of a choice the values
-    with the lowest and the highest mean.  The other variables vary meanwhile as they do in the study.
+    with the lowest and the highest mean.  The other variables vary meanwhile as they do in the study.  A
+    response that is constant has no bars.
     """
     found = []
     for name in study.responses:
@@ -145,13 +146,14 @@ def _effects(
         if known.size < 2:
             continue
         values, bars = columns[name][known] / units[name][1], []
-        for k, axis in enumerate(table.axes):
+        constant = is_constant(values)
+        for k, axis in enumerate(() if constant else table.axes):
             ends = _ends([table.points[i][k] for i in known.tolist()], values, units[axis.name])
             if ends is not None:
                 bars.append({"variable": axis.name, **ends})
         widths = {i: abs(float(bar["high"]) - float(bar["low"])) for i, bar in enumerate(bars)}
         bars = [bars[i] for i in largest_first(widths)]
-        if bars:
+        if bars or constant:
             mean = float(f"{values.mean():.{DIGITS}g}")
             found.append({"response": name, "unit": units[name][0], "mean": mean, "bars": bars})
     return found

@@ -82,6 +82,17 @@ def test_a_run_that_fails_where_folds_close_is_repeated_less_far(monkeypatch):
     assert asked[1].structure.supports["pushed"].motion.x.h1 == pytest.approx(-0.54 * model.length)
 
 
+def test_a_sub_model_that_stays_too_fast_is_refused():
+    """Twenty times too fast, over less than half a stroke: slowed down twice it keeps 2.8 % kinetic energy.
+
+    The share of kinetic energy in crushing falls more slowly than with the square of the time.
+    """
+    tube = RectangularTube(0.050, 0.025, 0.00265)
+    with pytest.raises(InputError, match="kinetic energy is 2") as caught:
+        characterise(Crush(tube, STEEL, largest=0.3, resolution=Resolution(3.0, 0.35)))
+    assert caught.value.problems[0].allowed == "at most 2%"
+
+
 def test_a_coarse_sub_model_gives_a_law_that_the_command_finds(tmp_path):
     coarse = Crush(SQUARE, STEEL, largest=0.4, resolution=Resolution(3.0, 7.0))
     done = characterise(coarse)

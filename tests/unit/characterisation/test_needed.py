@@ -55,7 +55,7 @@ def test_the_list_states_what_is_missing_and_solves_nothing(tmp_path):
 def test_laws_are_stored_one_by_one_and_a_failure_has_its_reason(tmp_path):
     section = RectangularTube(0.050, 0.025, 0.00265)
     good = Bending(section, STEEL, largest=math.radians(8.0), resolution=COARSE)
-    # a turn far too fast: the kinetic energy stays too large
+    # a negative length ends its process
     bad = Bending(section, STEEL, largest=math.radians(8.0), length_factor=-1.0, resolution=COARSE)
     ended = {done.number: done for done in characterise_all([good, bad], tmp_path, workers=2)}
     assert ended[0].path is not None

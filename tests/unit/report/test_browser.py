@@ -3,7 +3,6 @@
 import base64
 import os
 import re
-import time
 import zlib
 
 import pytest
@@ -107,33 +106,15 @@ def test_labels_of_grids_can_be_read_on_a_phone(browser, pages):
 def test_every_figure_can_be_kept_as_svg_png_and_csv(browser, pages):
     browser.open(pages["tube"].as_uri(), 1200, 1600)
     browser.evaluate(UNFOLD)
-    browser.evaluate(
-        "(() => { window.kept = []; const make = URL.createObjectURL.bind(URL);"
-        " URL.createObjectURL = (blob) => { window.last = blob; return make(blob); };"
-        " HTMLAnchorElement.prototype.click ="
-        " function () { window.kept.push([this.download, window.last]); };"
-        " const figure = document.querySelector('svg[aria-labelledby=rotation-title]').parentElement;"
-        " figure.querySelectorAll('.tools button').forEach(button => button.click()); return 1; })()"
-    )
-    for _ in range(200):
-        names = browser.evaluate("window.kept.map(([name, blob]) => [name, blob.type, blob.size])")
-        if len(names) == 3:
-            break
-        time.sleep(0.05)
-    kept = {name: (kind, size) for name, kind, size in names}
+    kept = browser.saved_files(":has(> svg[aria-labelledby=rotation-title]) > .tools button", 3)
     assert set(kept) == {"rotation.svg", "rotation.png", "rotation.csv"}
-    assert kept["rotation.png"][0] == "image/png"
+    assert kept["rotation.png"]["type"] == "image/png"
     # the picture has ink: the size of a blank PNG of 985 x 677 pixels is some 4 kB
-    assert kept["rotation.png"][1] > 8_000
-    browser.evaluate(
-        "createImageBitmap(window.kept.find(([name]) => name.endsWith('png'))[1]).then(picture => {"
-        " window.size = [picture.width, picture.height]; }); 1"
-    )
-    for _ in range(100):
-        if browser.evaluate("!!window.size"):
-            break
-        time.sleep(0.05)
-    assert browser.evaluate("window.size") == [985, 677]
+    assert kept["rotation.png"]["size"] > 8_000
+    assert kept["rotation.csv"]["text"].startswith('"time, ms"')
+    assert browser.evaluate(
+        "createImageBitmap(window.kept['rotation.png'].blob).then(picture => [picture.width, picture.height])"
+    ) == [985, 677]
 
 
 def test_prints_on_a_few_pages_of_a4(browser, pages):
@@ -142,6 +123,21 @@ def test_prints_on_a_few_pages_of_a4(browser, pages):
     assert len(re.findall(rb"/Type\s*/Page\b", paper)) in (4, 5)
     box = re.search(rb"/MediaBox\s*\[\s*0 0 ([\d.]+) ([\d.]+)\s*\]", paper)
     assert [float(size) for size in box.groups()] == pytest.approx([595.3, 841.9], abs=1.0)
+
+
+def test_the_table_of_laws_has_room_on_paper(browser, pages):
+    """Names of hinges above their row, and four columns of text that share the width of A4 [px]."""
+    browser.open(pages["tube"].as_uri(), 673, 900)
+    browser.evaluate(UNFOLD)
+    browser.call("Emulation.setEmulatedMedia", media="print")
+    cells = "document.querySelectorAll('.laws tbody tr:first-child :is(th, td)')"
+    widths = browser.evaluate(f"[...{cells}].map(cell => cell.getBoundingClientRect().width)")
+    fits = browser.evaluate("document.documentElement.scrollWidth <= 673")
+    browser.call("Emulation.setEmulatedMedia", media="")
+    assert widths[0] > 660
+    assert min(widths[1:5]) > 80
+    assert sum(widths[1:]) < 673
+    assert fits
 
 
 def words_of_pages(paper):

@@ -1,5 +1,6 @@
 """The page with sliders: exact at solved values, marked between them, empty where nothing was solved."""
 
+import csv
 import os
 import time
 
@@ -97,6 +98,29 @@ def test_nothing_is_shown_where_nothing_was_solved(browser, grid):
     assert browser.evaluate("document.querySelector('.chart .now').getAttribute('points')") == ""
     put(browser, 0, 0)
     assert browser.evaluate("document.querySelector('.chart .now').getAttribute('points').length") > 100
+
+
+def test_a_figure_can_be_kept_as_svg_png_and_csv(browser, grid):
+    points, page = grid
+    opened(browser, page)
+    put(browser, 0, 1)
+    kept = browser.saved_files("[data-role=curves] .panel:first-child button", 3)
+    name = next(iter(kept)).rsplit(".", 1)[0]
+    assert set(kept) == {f"{name}.svg", f"{name}.png", f"{name}.csv"}
+    lines = list(csv.reader(kept[f"{name}.csv"]["text"].splitlines()))
+    assert lines[0][0] == "time, ms"
+    assert lines[0][2] == f"middle of the grid: {lines[0][1]}"
+    result = points[1].result
+    unit = lines[0][1].rsplit(", ", 1)[1]
+    factor = {"J": 1.0, "kJ": 1e3}[unit]
+    times, values = ([float(line[k]) for line in lines[1:]] for k in (0, 1))
+    assert factor * np.array(values) == pytest.approx(
+        np.interp(1e-3 * np.array(times), result.time, result[name]), rel=1e-3, abs=1e-3
+    )
+    # lines have the colours that the rules of the page give them
+    svg = kept[f"{name}.svg"]["text"]
+    assert 'stroke="rgb(31, 95, 158)"' in svg
+    assert kept[f"{name}.png"]["size"] > 4_000
 
 
 def test_keys_go_from_solved_value_to_solved_value(browser, grid):

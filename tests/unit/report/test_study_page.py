@@ -1,5 +1,6 @@
 """The page of a study: what it embeds, and its figures, filters and shapes in a real browser."""
 
+import csv
 import json
 import math
 import os
@@ -7,6 +8,7 @@ import re
 import sys
 import time
 from dataclasses import replace
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -209,6 +211,37 @@ def test_the_page_in_a_browser(browser, study):
     assert [url for url in requests if not url.startswith("data:")] == [page.as_uri()]
 
 
+def test_every_figure_can_be_kept_as_svg_png_and_csv(browser, study):
+    """Those on canvases too, with as many points as rows are shown, and the rows as data."""
+    _, table, _, _, page, _ = study
+    opened(browser, page)
+    kept = browser.saved_files(".tools button", 15)
+    names = ("parallel", "two_columns", "matrix", "tornado_r", "convergence_best_m_so_far")
+    assert set(kept) == {f"{name}.{kind}" for name in names for kind in ("svg", "png", "csv")}
+    for name in names:
+        svg = ElementTree.fromstring(kept[f"{name}.svg"]["text"])
+        assert len(list(svg.iter("{http://www.w3.org/2000/svg}text"))) > 3, name
+        assert kept[f"{name}.png"]["size"] > 8_000, name
+        assert kept[f"{name}.csv"]["text"].count("\n") > 2, name
+    pair = list(csv.reader(kept["two_columns.csv"]["text"].splitlines()))
+    assert pair[0] == ["row", "m, kg", "r, deg"]
+    good = [i for i, row in enumerate(table.rows) if row.ok]
+    assert [int(line[0]) for line in pair[1:]] == good
+    assert [float(line[2]) for line in pair[1:]] == pytest.approx(
+        [math.degrees(table.rows[i].values[0]) for i in good], rel=1e-5
+    )
+    # a filled circle is a row
+    svg = ElementTree.fromstring(kept["two_columns.svg"]["text"])
+    discs = [one for one in svg.iter("{http://www.w3.org/2000/svg}path") if one.get("fill") != "none"]
+    assert len(discs) == len(good)
+    # what the rules of the page colour keeps its colour
+    svg = ElementTree.fromstring(kept["tornado_r.svg"]["text"])
+    assert {one.get("fill") for one in svg.iter("{http://www.w3.org/2000/svg}rect")} == {
+        "rgb(127, 168, 207)",
+        "rgb(201, 138, 75)",
+    }
+
+
 def test_a_click_on_a_point_shows_its_crash(browser, study):
     """The point of a stored row in the figure of two columns, and a row without shape in the table."""
     _, table, _, _, page, shown = study
@@ -247,6 +280,26 @@ def test_a_click_on_a_point_shows_its_crash(browser, study):
     browser.evaluate(f"document.querySelectorAll('#table tbody tr')[{other}].click(); 1")
     told = browser.evaluate("document.getElementById('shape-told').textContent")
     assert told.startswith(f"No shape of row {other} is stored")
+
+
+def test_the_page_says_that_a_response_is_constant(browser, tmp_path):
+    """The mass does not depend on the speed: its tornado has no bars."""
+    file = written(tmp_path, "{type: grid}", "{path: initial_velocity, low: 0.6, high: 1.2, steps: 3}", MASS)
+    loaded = LoadedStudy(file)
+    table, answer = run_study(loaded, tmp_path)
+    data = page_data(loaded, table, answer) | {"alike": {}}
+    assert [len(effect["bars"]) for effect in data["effects"]] == [1, 0]
+    page, _ = write_study_page(data, [], tmp_path)
+    browser.open(page.as_uri(), 1400, 900)
+    browser.settle()
+    told = "document.querySelector('#effects > div').textContent"
+    assert browser.evaluate(told).startswith("v0.61.2mean")
+    browser.evaluate(
+        "(() => { const s = document.querySelector('#effects select'); s.value = '1';"
+        " s.dispatchEvent(new Event('change')); return 1; })()"
+    )
+    said = browser.evaluate(told)
+    assert said == "m is constant, 2.9 kg in all rows: no variable has an effect on it."
 
 
 def test_the_page_fits_a_phone(browser, study):

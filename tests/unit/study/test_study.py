@@ -1,6 +1,7 @@
 """Studies: rows do not depend on workers or interruptions, failures are rows, mistakes have lines."""
 
 import csv
+import json
 import sqlite3
 import subprocess
 import sys
@@ -303,6 +304,20 @@ def test_the_command(run_command, tmp_path):  # noqa: F811
     assert run_command("check", file)[0] == 0
     code, out, _ = run_command("schema", "--study")
     assert '"sobol_indices"' in out
+
+
+def test_the_command_says_that_a_response_is_constant(run_command, tmp_path):  # noqa: F811
+    """The mass does not depend on the speed."""
+    response = ROTATION + "\n  m: {mass: true}"
+    file = written(tmp_path, "{type: sobol_indices, rows: 64}", response=response)
+    code, out, err = run_command("study", file, "--out", tmp_path / "out", "--workers", 1, "--no-page")
+    assert (code, err) == (0, "")
+    assert "Sobol' indices of r for v: first order" in out
+    assert "no Sobol' indices of m: the response is constant" in out
+    assert "Sobol' indices of m for v" not in out
+    indices = json.loads((tmp_path / "out" / "study.json").read_text())["indices"]
+    assert indices["m"]["v"] == {"first": None, "total": None, "reason": "the response is constant"}
+    assert indices["r"]["v"]["total"] == pytest.approx(1.0, abs=0.1)
 
 
 def test_a_full_disk_is_no_defect(run_command, tmp_path, monkeypatch):  # noqa: F811

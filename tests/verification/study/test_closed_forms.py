@@ -77,6 +77,26 @@ def test_above_five_percent_there_are_no_indices():
     assert "no indices" in answer.indices
 
 
+@pytest.mark.parametrize("noise", [0.0, 1e-14])
+def test_a_response_that_does_not_vary_has_no_indices(noise):
+    """Nor one that varies by rounding alone; another response of the same study has its own."""
+
+    def function(x):
+        return ishigami(x) | {"z": 3.0 + noise * np.sin(x["x1"])}
+
+    variables = ishigami_study().variables
+    method = {"type": "sobol_indices", "rows": 2048, "seed": 3}
+    _, answer = study_of(function, study(variables, method, ("y", "z")))
+    assert set(answer.indices["z"]) == {"x1", "x2", "x3"}
+    for found in answer.indices["z"].values():
+        assert found == {"first": None, "total": None, "reason": "the response is constant"}
+    assert answer.indices["y"]["x2"]["first"] == pytest.approx(exact_indices()["x2"][0], abs=0.02)
+    _, answer = study_of(
+        lambda x: ishigami(x) | {"z": 3.0 + 1e-9 * np.sin(x["x1"])}, study(variables, method, ("y", "z"))
+    )
+    assert answer.indices["z"]["x1"]["total"] == pytest.approx(1.0, abs=0.02)
+
+
 def test_a_failure_probability_is_in_its_interval():
     scatter = {"distribution": {"type": "normal", "mean": 2.0, "deviation": 0.5}}
     given = study(

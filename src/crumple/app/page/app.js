@@ -1,3 +1,4 @@
+// Made from web/ by make web: change it there.
 "use strict";
 (() => {
   // completion.ts

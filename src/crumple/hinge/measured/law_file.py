@@ -43,7 +43,7 @@ def stored_law(
     law
         Any law of bending or torsion.
     origin
-        Origin: ``method`` (formula, measured or shell) at least; section, axis, material,
+        Origin: ``method`` (formula, library, estimate, measured or shell) at least; section, axis, material,
         made_by and any information needed to reproduce it.
     error
         Bound of the relative sampling error.
@@ -61,7 +61,8 @@ def stored_law(
         If the method is missing.
     """
     if "method" not in origin:
-        raise InputError(Problem("the origin has no method", "", "formula, measured, shell", "", "origin"))
+        allowed = "formula, library, estimate, measured, shell"
+        raise InputError(Problem("the origin has no method", "", allowed, "", "origin"))
     if isinstance(law, StoredLaw):
         return law
     edges = (None, None) if band is None else (_sampled(band.lower, error), _sampled(band.upper, error))

@@ -53,7 +53,8 @@ class StoredLaw:
     law
         Name of the law from which it was made, for example ``kecman``.
     origin
-        Pairs of key and text: method (formula, measured, shell), section, axis, material, made_by, ...
+        Pairs of key and text: method (formula, library, estimate, measured, shell), section, axis, material,
+        made_by, ...
     curve
         Nominal capacity.
     sampling_error

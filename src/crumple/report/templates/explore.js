@@ -1,5 +1,87 @@
+// Made from web/ by make web: change it there.
 "use strict";
 (() => {
+  // report/files.ts
+  var SHARP = 4;
+  var STYLED = ["fill", "stroke", "stroke-width", "stroke-dasharray", "font-size", "font-family"];
+  function save(blob, name) {
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(blob);
+    link.download = name;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1e4);
+  }
+  function standalone(svg) {
+    const copy = svg.cloneNode(true);
+    const shapes = "line, polyline, polygon, rect, text", copies = copy.querySelectorAll(shapes);
+    svg.querySelectorAll(shapes).forEach((shape, i) => {
+      if (shape.hasAttribute("style")) return;
+      const style = getComputedStyle(shape);
+      for (const name of STYLED) {
+        const value = style.getPropertyValue(name);
+        if (value) copies[i].setAttribute(name, value);
+      }
+    });
+    copy.querySelectorAll(".time-cursor, .cursor").forEach((line) => line.remove());
+    return copy;
+  }
+  function savePicture(svg, name) {
+    const copy = standalone(svg), { width, height } = svg.viewBox.baseVal;
+    copy.setAttribute("width", String(SHARP * width));
+    copy.setAttribute("height", String(SHARP * height));
+    const image = new Image();
+    image.addEventListener("load", () => {
+      const canvas = document.createElement("canvas");
+      canvas.width = Math.round(SHARP * width);
+      canvas.height = Math.round(SHARP * height);
+      const brush = canvas.getContext("2d");
+      if (!brush) return;
+      brush.fillStyle = "#fff";
+      brush.fillRect(0, 0, canvas.width, canvas.height);
+      brush.drawImage(image, 0, 0, canvas.width, canvas.height);
+      canvas.toBlob((blob) => {
+        if (blob) save(blob, name);
+      }, "image/png");
+    });
+    image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(new XMLSerializer().serializeToString(copy))}`;
+  }
+  function csv(rows) {
+    const cell = (x) => {
+      if (typeof x === "number") return String(Number.isInteger(x) ? x : Number(x.toPrecision(6)));
+      return x && /[",\n]/.test(x) ? `"${x.replaceAll('"', '""')}"` : x ?? "";
+    };
+    return rows.map((row) => `${row.map(cell).join(",")}
+`).join("");
+  }
+  function fileButtons(title, figure, data) {
+    const tools = document.createElement("div"), name = title.replace(/[^\p{L}\p{N}._-]+/gu, "_");
+    tools.className = "tools";
+    const add = (label, action) => {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = label;
+      button.addEventListener("click", action);
+      tools.append(button);
+    };
+    add("SVG", () => {
+      const text = `<?xml version="1.0" encoding="utf-8"?>
+${new XMLSerializer().serializeToString(standalone(figure()))}`;
+      save(new Blob([text], { type: "image/svg+xml" }), `${name}.svg`);
+    });
+    add("PNG", () => savePicture(figure(), `${name}.png`));
+    if (data) add("CSV", () => save(new Blob([data()], { type: "text/csv" }), `${name}.csv`));
+    return tools;
+  }
+
+  // report/study_drawing.ts
+  function draw(name, attributes, parent, text) {
+    const made = document.createElementNS("http://www.w3.org/2000/svg", name);
+    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
+    if (text !== void 0) made.textContent = String(text);
+    parent.append(made);
+    return made;
+  }
+
   // report/explore.ts
   var NEAR = 0.04;
   var WIDE = 330;
@@ -45,37 +127,38 @@
     });
     return same;
   }
-  function element(name, attributes, parent, text) {
-    const made = document.createElementNS("http://www.w3.org/2000/svg", name);
-    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
-    if (text !== void 0) made.textContent = text;
-    parent.append(made);
-    return made;
-  }
   function chart(curve, times, parent, middle) {
     const last = times[times.length - 1], panel = document.createElement("div");
     panel.className = "panel";
     parent.append(panel);
-    const svg = element("svg", { viewBox: `0 0 ${WIDE} ${TALL}`, class: "chart", role: "img", "aria-label": curve.name }, panel);
+    const svg = draw("svg", { viewBox: `0 0 ${WIDE} ${TALL}`, class: "chart", role: "img", "aria-label": curve.name }, panel);
     const all = curve.values.flat(), size = Math.max(...all.map(Math.abs)), tidy = (v) => Math.abs(v) < 1e-4 * size ? 0 : v;
     const low = tidy(Math.min(0, ...all)), high = tidy(Math.max(0, ...all)), span = high - low || 1;
     const x = (t) => LEFT + (WIDE - LEFT - RIGHT) * (t - times[0]) / (last - times[0] || 1);
     const y = (v) => TALL - BOTTOM - (TALL - TOP - BOTTOM) * (v - low) / span;
     const line = (values) => values.map((v, i) => `${x(times[i]).toFixed(1)},${y(v).toFixed(1)}`).join(" ");
     const [factor, unit] = last > 2 ? [1, "s"] : [1e3, "ms"];
-    element("text", { x: 0, y: 13, class: "name" }, svg, `${curve.name}, ${curve.unit}`);
+    draw("text", { x: 0, y: 13, class: "name" }, svg, `${curve.name}, ${curve.unit}`);
     for (const v of /* @__PURE__ */ new Set([low, 0, high])) {
-      element("line", { x1: LEFT, x2: WIDE - RIGHT, y1: y(v), y2: y(v), class: "axis" }, svg);
-      element("text", { x: LEFT - 5, y: y(v) + 4, "text-anchor": "end" }, svg, String(Number(v.toPrecision(3))));
+      draw("line", { x1: LEFT, x2: WIDE - RIGHT, y1: y(v), y2: y(v), class: "axis" }, svg);
+      draw("text", { x: LEFT - 5, y: y(v) + 4, "text-anchor": "end" }, svg, String(Number(v.toPrecision(3))));
     }
-    element("text", { x: LEFT, y: TALL - 10 }, svg, "0");
-    element("text", { x: WIDE - RIGHT, y: TALL - 10, "text-anchor": "end" }, svg, `${Number((factor * last).toPrecision(4))} ${unit}`);
-    element("polyline", { points: middle < 0 ? "" : line(curve.values[middle]), class: "middle" }, svg);
-    const now = element("polyline", { points: "", class: "now" }, svg), cursor = element("line", { y1: TOP, y2: TALL - BOTTOM, class: "cursor" }, svg);
+    draw("text", { x: LEFT, y: TALL - 10 }, svg, "0");
+    draw("text", { x: WIDE - RIGHT, y: TALL - 10, "text-anchor": "end" }, svg, `${Number((factor * last).toPrecision(4))} ${unit}`);
+    draw("polyline", { points: middle < 0 ? "" : line(curve.values[middle]), class: "middle" }, svg);
+    const now = draw("polyline", { points: "", class: "now" }, svg), cursor = draw("line", { y1: TOP, y2: TALL - BOTTOM, class: "cursor" }, svg);
     document.addEventListener("crumple-time", (event) => {
       for (const end of ["x1", "x2"]) cursor.setAttribute(end, String(x(Math.min(event.detail, last))));
     });
+    let shown = null;
+    const named = `${curve.name}, ${curve.unit}`, grey = middle < 0 ? [] : curve.values[middle];
+    const data = () => csv([
+      [`time, ${unit}`, named, ...middle < 0 ? [] : [`middle of the grid: ${named}`]],
+      ...times.map((t, i) => [factor * t, shown ? shown[i] : null, ...grey.slice(i, i + 1)])
+    ]);
+    panel.append(fileButtons(curve.name, () => svg, data));
     return (values) => {
+      shown = values;
       now.setAttribute("points", values ? line(values) : "");
     };
   }
@@ -87,7 +170,7 @@
     const model = { ...runs[Math.max(middle, 0)] };
     const forces = [...new Map(runs.flatMap((run) => run.forces).map((one) => [`${one.on} ${one.name}`, one])).values()];
     scene.models = [model];
-    let draw = () => {
+    let draw2 = () => {
     }, charts = [];
     function show() {
       const around = corners(place, shape), failed = around.find(([index]) => numbers[index] < 0);
@@ -102,7 +185,7 @@
       const same = blended(model, chosen.map((k) => runs[k]), weights, forces);
       told.textContent = around.length === 1 ? "Solved: these values are a point of the grid." : `Interpolated between ${around.length} solved points${same ? "" : "; the shape is that of the nearest"}.`;
       charts.forEach((put, i) => put(mix(chosen.map((k) => curves[i].values[k]), weights)));
-      draw();
+      draw2();
     }
     axes.forEach((axis, k) => {
       const label = document.createElement("label"), name = document.createElement("span");
@@ -139,7 +222,7 @@
     });
     show();
     return (redraw) => {
-      draw = redraw;
+      draw2 = redraw;
       const parent = document.querySelector("[data-role=curves]");
       charts = curves.map((curve) => chart(curve, times, parent, middle));
       show();

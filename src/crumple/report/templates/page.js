@@ -1,12 +1,10 @@
+// Made from web/ by make web: change it there.
 "use strict";
 (() => {
-  // report/figures.ts
-  var cursors = [];
+  // report/files.ts
   var SHARP = 4;
-  function save(text, type, name) {
-    saveBlob(new Blob([text], { type }), name);
-  }
-  function saveBlob(blob, name) {
+  var STYLED = ["fill", "stroke", "stroke-width", "stroke-dasharray", "font-size", "font-family"];
+  function save(blob, name) {
     const link = document.createElement("a");
     link.href = URL.createObjectURL(blob);
     link.download = name;
@@ -15,7 +13,16 @@
   }
   function standalone(svg) {
     const copy = svg.cloneNode(true);
-    copy.querySelectorAll(".time-cursor").forEach((line) => line.remove());
+    const shapes = "line, polyline, polygon, rect, text", copies = copy.querySelectorAll(shapes);
+    svg.querySelectorAll(shapes).forEach((shape, i) => {
+      if (shape.hasAttribute("style")) return;
+      const style = getComputedStyle(shape);
+      for (const name of STYLED) {
+        const value = style.getPropertyValue(name);
+        if (value) copies[i].setAttribute(name, value);
+      }
+    });
+    copy.querySelectorAll(".time-cursor, .cursor").forEach((line) => line.remove());
     return copy;
   }
   function savePicture(svg, name) {
@@ -33,14 +40,13 @@
       brush.fillRect(0, 0, canvas.width, canvas.height);
       brush.drawImage(image, 0, 0, canvas.width, canvas.height);
       canvas.toBlob((blob) => {
-        if (blob) saveBlob(blob, name);
+        if (blob) save(blob, name);
       }, "image/png");
     });
     image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(new XMLSerializer().serializeToString(copy))}`;
   }
-  document.querySelectorAll("figure svg").forEach((svg) => {
-    const name = (svg.getAttribute("aria-labelledby") || "figure").replace(/-title$/, "");
-    const tools = document.createElement("div");
+  function fileButtons(title, figure, data) {
+    const tools = document.createElement("div"), name = title.replace(/[^\p{L}\p{N}._-]+/gu, "_");
     tools.className = "tools";
     const add = (label, action) => {
       const button = document.createElement("button");
@@ -50,13 +56,20 @@
       tools.append(button);
     };
     add("SVG", () => {
-      save(`<?xml version="1.0" encoding="utf-8"?>
-${new XMLSerializer().serializeToString(standalone(svg))}`, "image/svg+xml", `${name}.svg`);
+      const text = `<?xml version="1.0" encoding="utf-8"?>
+${new XMLSerializer().serializeToString(standalone(figure()))}`;
+      save(new Blob([text], { type: "image/svg+xml" }), `${name}.svg`);
     });
-    add("PNG", () => savePicture(svg, `${name}.png`));
-    const data = svg.dataset.csv;
-    if (data) add("CSV", () => save(data, "text/csv", `${name}.csv`));
-    svg.parentElement?.append(tools);
+    add("PNG", () => savePicture(figure(), `${name}.png`));
+    if (data) add("CSV", () => save(new Blob([data()], { type: "text/csv" }), `${name}.csv`));
+    return tools;
+  }
+
+  // report/figures.ts
+  var cursors = [];
+  document.querySelectorAll("figure svg").forEach((svg) => {
+    const name = (svg.getAttribute("aria-labelledby") || "figure").replace(/-title$/, ""), data = svg.dataset.csv;
+    svg.parentElement?.append(fileButtons(name, () => svg, data ? () => data : void 0));
     for (const [left, right, top, bottom, start, end] of JSON.parse(svg.dataset.time || "[]")) {
       const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
       line.setAttribute("class", "time-cursor");

@@ -1,5 +1,78 @@
+// Made from web/ by make web: change it there.
 "use strict";
 (() => {
+  // report/files.ts
+  var SHARP = 4;
+  var STYLED = ["fill", "stroke", "stroke-width", "stroke-dasharray", "font-size", "font-family"];
+  function save(blob, name) {
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(blob);
+    link.download = name;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1e4);
+  }
+  function standalone(svg) {
+    const copy = svg.cloneNode(true);
+    const shapes2 = "line, polyline, polygon, rect, text", copies = copy.querySelectorAll(shapes2);
+    svg.querySelectorAll(shapes2).forEach((shape2, i) => {
+      if (shape2.hasAttribute("style")) return;
+      const style = getComputedStyle(shape2);
+      for (const name of STYLED) {
+        const value = style.getPropertyValue(name);
+        if (value) copies[i].setAttribute(name, value);
+      }
+    });
+    copy.querySelectorAll(".time-cursor, .cursor").forEach((line) => line.remove());
+    return copy;
+  }
+  function savePicture(svg, name) {
+    const copy = standalone(svg), { width, height } = svg.viewBox.baseVal;
+    copy.setAttribute("width", String(SHARP * width));
+    copy.setAttribute("height", String(SHARP * height));
+    const image = new Image();
+    image.addEventListener("load", () => {
+      const canvas = document.createElement("canvas");
+      canvas.width = Math.round(SHARP * width);
+      canvas.height = Math.round(SHARP * height);
+      const brush = canvas.getContext("2d");
+      if (!brush) return;
+      brush.fillStyle = "#fff";
+      brush.fillRect(0, 0, canvas.width, canvas.height);
+      brush.drawImage(image, 0, 0, canvas.width, canvas.height);
+      canvas.toBlob((blob) => {
+        if (blob) save(blob, name);
+      }, "image/png");
+    });
+    image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(new XMLSerializer().serializeToString(copy))}`;
+  }
+  function csv(rows2) {
+    const cell = (x) => {
+      if (typeof x === "number") return String(Number.isInteger(x) ? x : Number(x.toPrecision(6)));
+      return x && /[",\n]/.test(x) ? `"${x.replaceAll('"', '""')}"` : x ?? "";
+    };
+    return rows2.map((row) => `${row.map(cell).join(",")}
+`).join("");
+  }
+  function fileButtons(title, figure, data2) {
+    const tools = document.createElement("div"), name = title.replace(/[^\p{L}\p{N}._-]+/gu, "_");
+    tools.className = "tools";
+    const add = (label2, action) => {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = label2;
+      button.addEventListener("click", action);
+      tools.append(button);
+    };
+    add("SVG", () => {
+      const text = `<?xml version="1.0" encoding="utf-8"?>
+${new XMLSerializer().serializeToString(standalone(figure()))}`;
+      save(new Blob([text], { type: "image/svg+xml" }), `${name}.svg`);
+    });
+    add("PNG", () => savePicture(figure(), `${name}.png`));
+    if (data2) add("CSV", () => save(new Blob([data2()], { type: "text/csv" }), `${name}.csv`));
+    return tools;
+  }
+
   // report/study_drawing.ts
   var find = (selector) => document.querySelector(selector);
   function make(name, parent, text, attributes = {}) {
@@ -41,6 +114,10 @@
   function paintTornado(effect, parent) {
     parent.replaceChildren();
     if (!effect) return;
+    if (!effect.bars.length) {
+      make("p", parent, `${effect.response} is constant, ${tidy(effect.mean)}${effect.unit ? ` ${effect.unit}` : ""} in all rows: no variable has an effect on it.`);
+      return;
+    }
     const WIDE = 760, LINE = 30, MIDDLE = 180, svg = draw("svg", { viewBox: `0 0 ${WIDE} ${LINE * effect.bars.length + 46}`, role: "img", "aria-label": `Tornado of ${effect.response}` }, parent);
     const all = effect.bars.flatMap((bar) => [bar.low, bar.high]).concat(effect.mean), low = Math.min(...all), high = Math.max(...all);
     const x = (v) => MIDDLE + 60 + (WIDE - MIDDLE - 140) * (v - low) / (high - low || 1), end = LINE * effect.bars.length + 8;
@@ -58,6 +135,9 @@
     draw("text", { x: x(effect.mean), y: end + 14, "text-anchor": "middle" }, svg, `mean ${tidy(effect.mean)}${unit}`);
     draw("text", { x: x(low), y: end + 30, "text-anchor": "middle" }, svg, tidy(low) + unit);
     draw("text", { x: x(high), y: end + 30, "text-anchor": "middle" }, svg, tidy(high) + unit);
+    const named = effect.response + (effect.unit ? `, ${effect.unit}` : ""), heads = ["variable", "at its low end", named, "at its high end", named];
+    const data2 = () => csv([heads, ...effect.bars.map((bar) => [bar.variable, bar.at_low, bar.low, bar.at_high, bar.high]), ["mean", "", effect.mean, "", effect.mean]]);
+    parent.append(fileButtons(`tornado_${effect.response}`, () => svg, data2));
   }
   function paintCurve(curve, parent) {
     parent.replaceChildren();
@@ -85,6 +165,9 @@
     draw("polyline", { points: path(curve.values, 1).join(" "), class: "curve" }, svg);
     draw("text", { x: LEFT, y: 14, class: "name" }, svg, curve.name + (curve.unit ? `, ${curve.unit}` : ""));
     draw("text", { x: WIDE - 20, y: TALL - 12, "text-anchor": "end" }, svg, `${last} rows`);
+    const heads = ["rows", curve.name + (curve.unit ? `, ${curve.unit}` : ""), ...curve.band.map((_, end) => end ? "upper end" : "lower end")];
+    const data2 = () => csv([heads, ...curve.rows.map((r, i) => [r, curve.values[i], ...curve.band.map((end) => end[i])])]);
+    parent.append(fileButtons(`convergence_${curve.name}`, () => svg, data2));
   }
   function offer(id, entries, name, put) {
     const select = find(`#${id} select`), parent = find(`#${id} > div`);
@@ -130,6 +213,66 @@
   var tick = (k, x) => columns[k].words ? columns[k].levels?.[Math.round(x)] ?? "" : tidy(x);
   var colour = (i) => kept[i] ? KEPT : VIOLATED;
   var shape = (i) => shapes[data.alike[rows[i]]];
+
+  // report/svg_brush.ts
+  var FONT = { "font-size": 11, "font-family": "sans-serif" };
+  var round = (x) => Number(x.toFixed(2));
+  var SvgBrush = class {
+    constructor(canvas, wide = canvas.clientWidth, tall = canvas.clientHeight) {
+      this.wide = wide;
+      this.tall = tall;
+      this.svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+      this.svg.setAttribute("viewBox", `0 0 ${wide} ${tall}`);
+      this.measure.font = `${FONT["font-size"]}px ${FONT["font-family"]}`;
+    }
+    wide;
+    tall;
+    svg;
+    strokeStyle = "#000";
+    fillStyle = "#000";
+    lineWidth = 1;
+    globalAlpha = 1;
+    textAlign = "left";
+    path = "";
+    measure = document.createElement("canvas").getContext("2d");
+    beginPath() {
+      this.path = "";
+    }
+    moveTo(x, y) {
+      this.path += `M${round(x)} ${round(y)}`;
+    }
+    lineTo(x, y) {
+      this.path += `L${round(x)} ${round(y)}`;
+    }
+    /** a full circle, whatever the angles */
+    arc(x, y, radius) {
+      const r = round(radius);
+      this.path += `M${round(x - r)} ${round(y)}a${r} ${r} 0 1 0 ${2 * r} 0a${r} ${r} 0 1 0 ${-2 * r} 0`;
+    }
+    stroke() {
+      draw("path", { d: this.path, ...this.outline() }, this.svg);
+    }
+    fill() {
+      draw("path", { d: this.path, ...this.inside() }, this.svg);
+    }
+    strokeRect(x, y, width, height) {
+      draw("rect", { x, y, width, height, ...this.outline() }, this.svg);
+    }
+    fillRect(x, y, width, height) {
+      draw("rect", { x, y, width, height, ...this.inside() }, this.svg);
+    }
+    fillText(text, x, y, most = Infinity) {
+      const anchor = { center: "middle", right: "end" }[this.textAlign] ?? "start";
+      const narrow = this.measure.measureText(text).width > most ? { textLength: most, lengthAdjust: "spacingAndGlyphs" } : {};
+      draw("text", { x, y, "text-anchor": anchor, ...FONT, ...this.inside(), ...narrow }, this.svg, text);
+    }
+    outline() {
+      return { fill: "none", stroke: String(this.strokeStyle), "stroke-width": this.lineWidth, opacity: this.globalAlpha };
+    }
+    inside() {
+      return { fill: String(this.fillStyle), opacity: this.globalAlpha };
+    }
+  };
 
   // report/study.ts
   var NEAR = 12;
@@ -207,6 +350,15 @@
       });
     }
   }
+  function offerCanvas(canvas, name, paintOn, shownColumns) {
+    const figure = () => {
+      const brush = new SvgBrush(canvas);
+      paintOn([brush, brush.wide, brush.tall]);
+      return brush.svg;
+    };
+    const table2 = () => csv([["row", ...shownColumns().map(label)], ...visible.map((i) => [rows[i], ...shownColumns().map((k) => columns[k].values[i])])]);
+    canvas.after(fileButtons(name, figure, table2));
+  }
   function dot(context, i, x, y, size) {
     context.fillStyle = onFront.has(i) || i === best ? FRONT : colour(i);
     context.beginPath();
@@ -255,8 +407,8 @@
   var pair = find("#pair canvas");
   var acrossChoice = find("#pair [data-role=x]");
   var upChoice = find("#pair [data-role=y]");
-  function paintPair() {
-    const [context, wide, tall] = paper(pair), kx = Number(acrossChoice.value), ky = Number(upChoice.value), found = [];
+  function paintPair([context, wide, tall] = paper(pair)) {
+    const kx = Number(acrossChoice.value), ky = Number(upChoice.value), found = [];
     const box = [70, 26, wide - 90, tall - 70];
     const [x, y] = scatter(context, kx, ky, box, 2.6, found);
     spots.set(pair, found);
@@ -285,10 +437,10 @@
     }
   }
   var matrix = find("#matrix canvas");
-  function paintMatrix() {
+  function paintMatrix(sheet) {
     const n = Math.max(marked.length, 1);
     matrix.style.height = `${Math.min(matrix.getBoundingClientRect().width, 1100)}px`;
-    const [context, wide, tall] = paper(matrix), found = [], w = (wide - 10) / n, h = (tall - 10) / n;
+    const [context, wide, tall] = sheet ?? paper(matrix), found = [], w = (wide - 10) / n, h = (tall - 10) / n;
     marked.forEach((ky, row) => marked.forEach((kx, column) => {
       const box = [column * w + 9, row * h + 9, w - 8, h - 8];
       context.strokeStyle = "#d3dae0";
@@ -334,8 +486,8 @@
   var top = 50;
   var bottom = 26;
   var lane = (k, wide) => 60 + k * (wide - 120) / Math.max(axes.length - 1, 1);
-  function paintParallel() {
-    const [context, wide, tall] = paper(parallel), high = tall - top - bottom;
+  function paintParallel([context, wide, tall] = paper(parallel)) {
+    const high = tall - top - bottom;
     const y = (k, i) => top + high * (1 - (at(k, i) - range[k][0]) / (range[k][1] - range[k][0]));
     const trace = (i) => {
       context.beginPath();
@@ -483,9 +635,12 @@
     acrossChoice.value = String(goals[0] ?? 0);
     upChoice.value = String(goals[1] ?? responses.find((k) => k !== goals[0]) ?? responses[0]);
     find("#pair [data-role=front]").hidden = !front.length;
-    for (const select of [acrossChoice, upChoice]) select.addEventListener("change", paintPair);
+    for (const select of [acrossChoice, upChoice]) select.addEventListener("change", () => paintPair());
     offer("effects", data.effects, (effect) => effect.response, paintTornado);
     offer("convergence", data.convergence, (curve) => curve.name, paintCurve);
+    offerCanvas(parallel, "parallel", paintParallel, () => axes);
+    offerCanvas(pair, "two_columns", paintPair, () => [Number(acrossChoice.value), Number(upChoice.value)]);
+    offerCanvas(matrix, "matrix", paintMatrix, () => marked);
     for (const canvas of [pair, matrix]) canvas.addEventListener("click", (event) => choose(nearest(canvas, event)));
     parallel.addEventListener("pointerdown", (event) => {
       drag = { axis: axisAt(event), from: event.offsetY, moved: false };

@@ -80,7 +80,9 @@ def history_problems(structure: StructureParts, outputs: Outputs, samples: float
 
 def hinge_counts(structure: StructureParts) -> dict[str, float]:
     """Hinges of every member, without placing any."""
-    return {name: _hinges_of(structure, name) for name in structure.members}
+    return structure.kept.once(
+        "hinge counts", "", lambda: {name: _hinges_of(structure, name) for name in structure.members}
+    )
 
 
 def _hinges_of(structure: StructureParts, name: str) -> float:

@@ -41,4 +41,8 @@ def where_automatic(structure: StructureParts, member: str) -> str | None:
 
 def any_automatic(structure: StructureParts) -> bool:
     """Whether any member has automatic hinges."""
-    return any(automatic_of(structure, member) is not None for member in structure.members)
+    return structure.kept.once(
+        "any automatic",
+        "",
+        lambda: any(automatic_of(structure, one) is not None for one in structure.members),
+    )

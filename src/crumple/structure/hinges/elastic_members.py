@@ -98,11 +98,10 @@ def joint_stations(
     hinges, others
         Stations of its hinges about that axis, and of those about other axes alone [m].
     """
-    if planar(structure) and axis != bending_axis(structure, member):
+    number = segments_of(structure, member)
+    if number == 0 or (planar(structure) and axis != bending_axis(structure, member)):
         return ()
-    number, length = segments_of(structure, member), structure.frame_of(member).length
-    if number == 0:
-        return ()
+    length = structure.frame_of(member).length
     segment = length / number
     rigid = structure.members[member].rigid_parts(length)
     # without hinges a joint lies in the middle of each segment

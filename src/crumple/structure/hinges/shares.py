@@ -12,7 +12,7 @@ from crumple.hinge.measured.library import is_of_joint
 from crumple.section import Axis
 from crumple.structure.hinges.corner.across import ACROSS
 from crumple.structure.hinges.corner_laws import MITRED
-from crumple.structure.hinges.elastic_members import joint_stations, shear_stretch
+from crumple.structure.hinges.elastic_members import joint_stations, segments_of, shear_stretch
 from crumple.structure.hinges.flexibility import flexibility, tributary_lengths
 from crumple.structure.hinges.places import HingePlace, law_of, law_spec
 from crumple.structure.parts import StructureParts
@@ -134,6 +134,8 @@ def _about(
     """Shares about an axis: of elastic hinges and the member's joints, or of all where none is elastic."""
     # the spring of a corner adds to the flexibility of the members
     bends = [(place, axis in axes_of(place)) for place in places]
+    if not segments_of(structure, member) and not any(about for _, about in bends):
+        return None
     own = [place for place, about in bends if about and not _of_corner(structure, place, axis)]
     others = tuple([place.station for place, about in bends if not about])
     between = joint_stations(structure, member, axis, tuple([place.station for place in own]), others)

@@ -1,0 +1,66 @@
+"""Members that carry more torque than their section, and whose hinges cannot twist.
+
+A hinge about bending axes alone carries any torque along its member.  The largest that two outputs in a row
+reach is compared with the plastic torque of a closed section.  An open section warps, and its plastic torque,
+which neglects that, says little.  A member with one hinge that twists carries no more than that takes: so do
+all elastic members of closed sections.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from crumple.hinge import Freedom
+from crumple.multibody.answer.forces import on_second
+from crumple.multibody.answer.poses import SpatialPoses
+from crumple.multibody.answer.solved import Solved
+from crumple.multibody.checks.names import named
+from crumple.numeric.rotation import turned
+from crumple.result import Caution
+from crumple.section import plastic_interaction
+from crumple.structure import Structure
+from crumple.structure.hinges.automatic import twists
+
+
+def torques_without_twist(structure: Structure, solved: Solved) -> Iterator[Caution]:
+    """One caution for all members of closed sections that would yield in torsion, and cannot.
+
+    Parameters
+    ----------
+    structure, solved
+        The structure and the result of its run.  The planar kernel gives no forces, and so no caution.
+    """
+    found: dict[str, tuple[float, float]] = {}
+    for member, torque in _torques(structure, solved):
+        limit = plastic_interaction(
+            structure.section_of(member), structure.material_of(member)
+        ).plastic_torque
+        if torque > max(limit, found.get(member, (0.0, 0.0))[0]):
+            found[member] = torque, limit
+    if found:
+        one, most = len(found) == 1, max(torque / limit for torque, limit in found.values())
+        text = (
+            f"{named('Member', list(found))} {'carries' if one else 'carry'} up to {most:.3g} times the "
+            f"plastic torque of {'its section' if one else 'their sections'}, but the hinges there cannot "
+            "twist: the model is rigid in torsion. Give them 'axes: [y, z, x]'."
+        )
+        for member, (torque, limit) in found.items():
+            yield Caution("torque_without_twist", torque, limit, "N*m", f"member {member}", text)
+
+
+def _torques(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:
+    """Members without a hinge that twists, and the largest torque [N m] that persists for two outputs."""
+    poses = solved.poses
+    if not isinstance(poses, SpatialPoses) or poses.rows < 2:
+        return
+    connections = poses.linkage.connections
+    hinged = [(i, one.first, one.hinge.member) for i, one in enumerate(connections) if one.hinge is not None]
+    twisting = {member for i, _, member in hinged if int(Freedom.X) in connections[i].free}
+    for i, body, member in hinged:
+        if member in twisting or not twists(structure, member):
+            continue
+        axis = turned(poses.quaternion(body), structure.frame_of(member).x)
+        torque = np.abs(np.einsum("ni,ni->n", on_second(poses, i).moment, axis))
+        yield member, float(np.minimum(torque[1:], torque[:-1]).max())
