@@ -9,12 +9,12 @@ of the mid-lines of webs and flanges and the wall t,
 
 and, with the moment M_K(theta) of the straight member's Kecman-type mechanism,
 
-    closing   M = min(M_0, (1 - c s) M_K)
+    closing   M = (M_0^-p + ((1 - c s) M_F)^-p)^(-1/p)
     opening   M = min(o M_0, (1 + d s) M_K, M_p)
 
-g, k, c, o, d were fitted to four corners solved by shells. Limits: alpha -> 0 gives the straight member;
-a wall so thick that k t >= b s gives the whole flange. Elastic stiffness of the corner's own: K = r E t
-h^2.
+where M_F is that of the mechanism before it is capped. The constants were fitted to corners solved by
+shells. Limits: alpha -> 0 gives the straight member, rounded where its fold begins; a wall so thick that
+k t >= b s gives the whole flange. Elastic stiffness of the corner's own: K = r E t h^2.
 """
 
 from __future__ import annotations
@@ -42,13 +42,15 @@ from crumple.section import Axis, Section
 SOURCE = Source(
     "mitred corner: webs over the mitre, flanges by bending of their walls, softening of the straight tube",
     Trust.FITTED,
-    "derived here, with five constants fitted to four corners solved by shells; a law from shells "
+    "derived here, with constants fitted to corners solved by shells; a law from shells "
     "(crumple characterise) replaces it",
 )
 WEB, FLANGE = 0.56, 2.44
 """g and k of the moment at the start [-]."""
-CLOSING, OPENING, OPEN_RISE = 0.55, 0.75, 1.12
+CLOSING, OPENING, OPEN_RISE = 0.45, 0.75, 1.12
 """c, d and o of the moment of both senses [-]."""
+ROUNDING = 3.0
+"""p of the transition from the start to the fold of a corner that closes [-]."""
 STIFFNESS = 0.34
 """r of the elastic stiffness [-]."""
 SMALLEST, LARGEST = math.radians(5.0), math.radians(100.0)
@@ -173,11 +175,12 @@ class MitredCornerLaw:
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Rotations where the slope jumps [rad]."""
-        cap, factor = self._bounds(sense)
         end = self.tube.jamming_angle
+        if self.closes(sense):
+            return (end,)
 
         def above(rotation: Floats) -> Floats:
-            return cap - factor * self.tube.moment_capacity(rotation)
+            return self._opening_start - self._opening_share * self.tube.moment_capacity(rotation)
 
         crossing = sign_change(above, 1e-4 * end, end * (1.0 - 1e-9))
         # the capped part of the straight member's curve has no kinks
@@ -186,15 +189,25 @@ class MitredCornerLaw:
 
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
-        cap, factor = self._bounds(sense)
-        return np.asarray(np.minimum(cap, factor * self.tube.moment_capacity(rotation, sense)), np.float64)
+        if not self.closes(sense):
+            fold = self._opening_share * self.tube.moment_capacity(rotation, sense)
+            return np.asarray(np.minimum(self._opening_start, fold), np.float64)
+        upto = np.minimum(np.asarray(rotation, np.float64), self.tube.jamming_angle)
+        fold = (1.0 - CLOSING * self.slope) * self.tube.mechanism.moment(upto)
+        return self.start * (1.0 + (self.start / fold) ** ROUNDING) ** (-1.0 / ROUNDING)
+
+    def closes(self, sense: int) -> bool:
+        """Whether a sense of the rotation closes the corner."""
+        return (sense > 0) == (self.closing is Closing.POSITIVE)
 
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
         """Factor on the capacity at a rotation rate [rad/s]."""
         return rate_factor(self.rate, rotation_rate)
 
-    def _bounds(self, sense: int) -> tuple[float, float]:
-        """Largest moment [N m], and factor on the straight member's, of a sense."""
-        if (sense > 0) == (self.closing is Closing.POSITIVE):
-            return self.start, 1.0 - CLOSING * self.slope
-        return min(OPEN_RISE * self.start, self.plastic), 1.0 + OPENING * self.slope
+    @property
+    def _opening_start(self) -> float:
+        return min(OPEN_RISE * self.start, self.plastic)
+
+    @property
+    def _opening_share(self) -> float:
+        return 1.0 + OPENING * self.slope

@@ -14,7 +14,7 @@ from crumple.structure.hinges.asked import automatic_of
 from crumple.structure.hinges.corner.across import bisector_law, is_turned
 from crumple.structure.hinges.corners import Corner, corners
 from crumple.structure.hinges.law_choice import automatic_law, stored_text, with_type
-from crumple.structure.keys.hinge_axes import AxisLaws
+from crumple.structure.keys.hinge_axes import AxialSlip, AxisLaws
 from crumple.structure.keys.law import LawKeys, LawReference
 from crumple.structure.keys.member import Hinge
 from crumple.structure.parts import StructureParts
@@ -113,7 +113,7 @@ def corner_hinges(structure: StructureParts, member: str, keys: Mapping[str, Any
         if corner.first != member:
             continue
         if keys["axes"] is None:
-            own = {**keys, "axis": corner.axis, "law": law}
+            own = {**keys, "axis": corner.axis, "law": law, **_shortening(structure, corner, keys)}
         else:
             turned = is_turned(structure, corner, keys["axes"])
             aside = _out_of_plane(structure, corner, keys["law"]) if turned else keys["law"]
@@ -125,6 +125,18 @@ def corner_hinges(structure: StructureParts, member: str, keys: Mapping[str, Any
         station = 0.0 if nodes[0] == node else length
         found.append(Hinge.model_construct(name=corner_name(node), at=station, **own))
     return found
+
+
+def _shortening(structure: StructureParts, corner: Corner, keys: Mapping[str, Any]) -> dict[str, Any]:
+    """Slip at a corner of elastic members in a plane that obstacles may press: compression folds it too.
+
+    Without obstacles axial forces are small, and the planar kernel, which has no slip, solves the model.
+    """
+    members = (structure.members[name] for name in (corner.first, corner.second))
+    able = structure.obstacles and all(member.elastic for member in members)
+    if keys["coupling"] is not None or not able:
+        return {}
+    return {"axial": keys["axial"] or AxialSlip(), "coupling": "tension-flange"}
 
 
 def _out_of_plane(

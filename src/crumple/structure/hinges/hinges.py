@@ -24,8 +24,8 @@ from crumple.hinge import (
 )
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, half_fold_length
-from crumple.structure.hinges.corner.springs import with_corner_springs
-from crumple.structure.hinges.corner_laws import turned_corner
+from crumple.structure.hinges.corner.springs import with_corner_arm, with_corner_springs
+from crumple.structure.hinges.corner_laws import corner_of, turned_corner
 from crumple.structure.hinges.elastic_members import yielding_record
 from crumple.structure.hinges.places import (
     MADE,
@@ -273,7 +273,7 @@ def spatial_record_of(
     )
     corner = turned_corner(structure, place.name, place.keys.axes)
     if corner is None:
-        return record
+        return record if corner_of(structure, place.name) is None else with_corner_arm(record)
     return with_corner_springs(record, corner, metal, shares.twist, torsion)
 
 

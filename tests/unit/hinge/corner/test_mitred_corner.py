@@ -39,11 +39,25 @@ def frame(section: str = "square_tube, side: 50 mm", arm: str = "[corner, tip]")
 
 
 def test_a_corner_in_line_is_the_straight_member():
+    """Opened at once; closed where neither the start nor the fold governs alone."""
     law = build_law("mitred_corner", TUBE, STEEL, "y", angle=math.radians(5.0))
     straight = build_law("kecman", TUBE, STEEL, "y")
     at = np.radians([0.0, 2.0, 10.0, 30.0])
-    for sense in (1, -1):
-        np.testing.assert_allclose(law.moment_capacity(at, sense), straight.moment_capacity(at), rtol=0.04)
+    np.testing.assert_allclose(law.moment_capacity(at, -1), straight.moment_capacity(at), rtol=0.04)
+    far = np.radians([0.0, 0.01, 30.0])
+    np.testing.assert_allclose(law.moment_capacity(far, 1), straight.moment_capacity(far), rtol=0.06)
+
+
+def test_a_closing_corner_falls_from_its_start_to_the_fold():
+    """Where both would carry the same moment it carries 2^(-1/3) of it."""
+    law = build_law("mitred_corner", TUBE, STEEL, "y", angle=RIGHT)
+    at = np.radians(np.linspace(0.0, 60.0, 601))
+    moment = law.moment_capacity(at)
+    assert moment[0] == pytest.approx(law.start, rel=1e-3)
+    assert (np.diff(moment) <= 1e-9 * law.start).all()
+    fold = (1.0 - 0.45 * law.slope) * law.tube.mechanism.moment(at[1:])
+    k = int(np.argmin(np.abs(fold - law.start))) + 1
+    assert moment[k] == pytest.approx(2.0 ** (-1.0 / 3.0) * law.start, rel=0.01)
 
 
 def test_the_moment_at_the_start_is_that_of_webs_and_strips_of_the_flanges():
@@ -74,11 +88,14 @@ def test_the_closing_sense_is_the_weaker_one_and_can_be_either():
 
 def test_kinks_are_where_the_slope_jumps():
     law = build_law("mitred_corner", TUBE, STEEL, "y", angle=RIGHT)
-    for sense in (1, -1):
-        # the first one is where the mechanism begins to govern
-        first = next(at for at in law.kinks(sense) if 0.0 < at < np.radians(40.0))
-        before, after = law.moment_capacity(np.array([0.98, 1.02]) * first, sense)
-        assert after < before == pytest.approx(float(law.moment_capacity(0.0, sense)), rel=0.05)
+    # opened, the first one is where the mechanism begins to govern
+    first = next(at for at in law.kinks(-1) if 0.0 < at < np.radians(40.0))
+    before, after = law.moment_capacity(np.array([0.98, 1.02]) * first, -1)
+    assert after < before == pytest.approx(float(law.moment_capacity(0.0, -1)), rel=0.05)
+    # closed, the only one is where the fold jams
+    (jammed,) = law.kinks(1)
+    before, at, after = law.moment_capacity(np.array([0.98, 1.0, 1.02]) * jammed, 1)
+    assert before > at == after
 
 
 @pytest.mark.parametrize("degrees", [2.0, 110.0])

@@ -1,0 +1,80 @@
+"""S-rails that a wall strikes: bends with the estimate of a mitred corner under axial force, against shells.
+
+Tubes with two bends against a wall (friction 0.1), a mass behind them, 25 ms, elastic members. Shells with
+3.4 to 4.5 elements along half a fold: shortening [m], peak and mean force at the wall [N], filtered alike
+in both. The slip of the corner was chosen on the first three; the fourth was described
+and solved after that choice. Tolerances: the targets of docs/theory/comparison.md, 10 % of the shortening
+and 15 % of the mean force; 20 % of the peak, which the crush of the rail's end at the wall lowers in shells.
+Without slip and with the law of before the fourth was 14, 22 and 42 % off.
+
+Kind: independent calculation.  Source: derived here.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from crumple.analysis import loads, solve
+from crumple.comparison import with_frames
+from crumple.comparison.measure.measures import measure
+
+RAIL = """crumple: 1
+materials:
+  steel: {{youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: {strength} MPa}}
+sections:
+  rail: {{type: rectangular_tube, width: {width} mm, depth: {depth} mm, thickness: {wall} mm}}
+nodes:
+  front: [0 m, 0 m, 0 m]
+  lower_bend: [{bend} m, 0 m, 0 m]
+  upper_bend: [{top} m, 0 m, {rise} m]
+  rear: [{end} m, 0 m, {rise} m]
+members:
+  front: {{nodes: [front, lower_bend], section: rail, material: steel}}
+  middle: {{nodes: [lower_bend, upper_bend], section: rail, material: steel}}
+  rear: {{nodes: [upper_bend, rear], section: rail, material: steel}}
+hinges: auto
+supports: {{sled: {{node: rear, fix: [y, z, rx, ry, rz]}}}}
+masses: {{sled: {{node: rear, mass: {mass} kg}}}}
+obstacles: {{wall: {{type: plane, point: [-1 mm, 0 m, 0 m], normal: [1, 0, 0], friction: 0.1}}}}
+initial_velocity: [{{translation: [-{speed} m/s, 0 m/s, 0 m/s]}}]
+analysis: {{duration: 25 ms, multibody: {{members: elastic, mechanism_check: off}}}}
+outputs: {{every: 0.1 ms, distances: {{crush: {{from: front, to: rear}}}}}}
+"""
+PLACES = {"bend": 0.2, "end": 0.75, "mass": 90, "speed": 6}
+# strength, section and shape; what shells say
+RAILS = {
+    "50x50x2, 33 deg": (
+        PLACES | {"strength": 280, "width": 50, "depth": 50, "wall": 2, "top": 0.45, "rise": 0.16},
+        (0.0609, 10.2e3, 4.77e3),
+    ),
+    "60x60x2.5, 45 deg": (
+        PLACES
+        | {"strength": 350, "width": 60, "depth": 60, "wall": 2.5, "top": 0.4, "rise": 0.2}
+        | {"end": 0.7, "mass": 150},
+        (0.0623, 12.7e3, 8.75e3),
+    ),
+    "60x40x1.8, 18 deg": (
+        PLACES
+        | {"strength": 320, "width": 60, "depth": 40, "wall": 1.8, "top": 0.5, "rise": 0.1}
+        | {"end": 0.8},
+        (0.0616, 16.7e3, 6.14e3),
+    ),
+    "50x70x2.2, 25 deg, not used": (
+        PLACES
+        | {"strength": 400, "width": 50, "depth": 70, "wall": 2.2, "bend": 0.25, "top": 0.55}
+        | {"rise": 0.14, "end": 0.85, "mass": 200, "speed": 7},
+        (0.0727, 29.1e3, 12.31e3),
+    ),
+}
+ALLOWED = {"shortening": 0.10, "peak force": 0.20, "mean force": 0.15}
+
+
+@pytest.mark.parametrize("rail", RAILS)
+def test_rail_shortens_and_pushes_as_in_shells(rail, record_figure):
+    shape, shells = RAILS[rail]
+    analysis = with_frames(loads(RAIL.format(**shape)))
+    found = measure(solve(analysis, "multibody", checks=False), analysis.structure)
+    values = (found.extents["crush"], found.peak_force["wall"], found.mean_force["wall"])
+    for (name, allowed), value, expected in zip(ALLOWED.items(), values, shells, strict=True):
+        unit = "m" if name == "shortening" else "N"
+        record_figure(f"{name}, {rail}", value, expected, allowed, unit, relative=True)
