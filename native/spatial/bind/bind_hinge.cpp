@@ -94,24 +94,40 @@ Surface make_surface(const nb::dict& d, int n) {
     return s;
 }
 
+hinge::Curve make_shift(const nb::dict& d) {
+    auto places = entry<Doubles>(d, "shift_rotation"), shares = entry<Doubles>(d, "shift_share");
+    require(places.size() == shares.size(), "a shift needs one share per rotation");
+    for (size_t i = 0; i < shares.size(); i++) {
+        require(std::fabs(shares[i]) < 1 && (i == 0 || places[i] > places[i - 1]), "shares of a shift are below 1, at increasing rotations");
+    }
+    return {std::move(places), std::move(shares)};
+}
+
 }  // namespace
 
 SpatialHinge make_hinge(const nb::dict& d) {
     SpatialHinge h;
     const int form = entry<int>(d, "form"), softening = entry<int>(d, "softening");
     int slips = 0, turns = 0;
+    bool shifts = false;
     for (nb::handle item : entry<nb::list>(d, "components")) {
         const auto c = as<nb::dict>(item, "a component of a hinge");
         h.components.push_back({entry<int>(c, "freedom"),
-                                hinge::make_hinge(c, static_cast<Form>(form), static_cast<Softening>(softening))});
+                                hinge::make_hinge(c, static_cast<Form>(form), static_cast<Softening>(softening)),
+                                make_shift(c), entry<int>(c, "shift_like")});
         const Component& last = h.components.back();
         require(last.freedom >= 0 && last.freedom < 6, "a freedom is one of six");
         require(form != 1 || (last.law.stiffness > 0 && std::isfinite(last.law.stiffness)), "an elastic hinge needs a stiffness");
         (last.freedom < 3 ? slips : turns)++;
+        shifts = shifts || !last.shift.values().empty();
     }
     require(size(h) >= 1 && size(h) <= most_components, "a hinge has one to four components");
     h.surface = make_surface(d, size(h));
     h.fracture = entry<double>(d, "fracture");
+    for (const Component& c : h.components) {
+        require(c.like < size(h) && (c.like >= 0 || c.shift.values().empty()), "a component with a shift is like another one of its hinge");
+    }
+    require(!shifts || (h.surface.coupling == Coupling::ellipsoid && form != 2), "only an ellipsoid that is not regularised has a shift");
     require(h.surface.coupling != Coupling::ball || slips == 0, "a ball hinge has rotations only");
     require(h.surface.coupling != Coupling::tension_flange || (slips == 1 && turns == 1 && form != 2 && h.surface.arm > 0),
             "a hinge about its tension flange has one slip and one rotation, an arm, and is not regularised");

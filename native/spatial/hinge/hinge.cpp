@@ -16,6 +16,8 @@ constexpr double smallest_flow = 1e-8;
 constexpr double smallest_episode = 1e-2;
 // Rates below this multiple of the ramp's half-width count as rest when the rotation of the hinge's axis is evaluated.
 constexpr double at_rest = 10;
+// Share of the capacity in one sense up to which the centre of the set moves in that sense, so that the set keeps both halves.
+constexpr double farthest = 0.9;
 
 Form form_of(const SpatialHinge& hinge) { return hinge.components[0].law.form; }
 const hinge::Hinge& law_of(const SpatialHinge& hinge, int k) { return hinge.components[static_cast<size_t>(k)].law; }
@@ -28,13 +30,26 @@ double first_capacity(const SpatialHinge& hinge, int k, int sense) {
     return law_of(hinge, k).scale * curve_of(law_of(hinge, k), sense).at(0, hint);
 }
 
+bool shifts(const SpatialHinge& hinge) {
+    for (const Component& c : hinge.components) {
+        if (!c.shift.values().empty()) return true;
+    }
+    return false;
+}
+
+// Softening measure per rotation about an axis alone: the initial capacity, along which the centre moves that of another component.
+double weight_of(const SpatialHinge& hinge, int k, int sense) {
+    const int like = hinge.components[static_cast<size_t>(k)].like;
+    return first_capacity(hinge, like < 0 ? k : like, sense);
+}
+
 // Work D_0(e) of a proportional rotation by e at the initial capacities, and the point of the surface where it is found.  `guess`: such a
 // point for a similar e, or null.
 SurfacePoint measure_from(const SpatialHinge& hinge, const double* e, const double* guess) {
     const int n = size(hinge);
     const double none[most] = {};
     double y[most];
-    for (int k = 0; k < n; k++) y[k] = e[k] * first_capacity(hinge, k, e[k] < 0 ? 1 : 0);
+    for (int k = 0; k < n; k++) y[k] = e[k] * weight_of(hinge, k, e[k] < 0 ? 1 : 0);
     return nearest(hinge.surface, n, y, none, guess, nullptr, true);
 }
 
@@ -51,6 +66,7 @@ SurfacePoint measure_after(const SpatialHinge& hinge, const SpatialHingeState& s
 double measure(const SpatialHinge& hinge, const double* e) { return measure_from(hinge, e, nullptr).value; }
 
 bool softens(const SpatialHinge& hinge) {
+    if (shifts(hinge)) return true;
     for (const Component& c : hinge.components) {
         for (const hinge::Curve* curve : {&c.law.positive, &c.law.negative}) {
             for (const double value : curve->values()) {
@@ -124,10 +140,34 @@ void set_coupled_capacity(const SpatialHinge& hinge, const SpatialHingeState& s,
     for (int k = 0; k < n; k++) {
         for (int sense = 0; sense < 2; sense++) {
             const hinge::Curve& curve = curve_of(law_of(hinge, k), sense);
-            const double per_work = 1 / first_capacity(hinge, k, sense);
+            const double per_work = 1 / weight_of(hinge, k, sense);
             const double ahead = capacity_over(curve, from * per_work, to * per_work, at_end, f.hint[k][sense]);
             const double here = held > 0 && !at_end ? curve.at(from * per_work, f.hint[k][sense]) : 0;
             f.component[k].capacity[sense] = law_of(hinge, k).scale * (at_end ? ahead : held * here + (1 - held) * ahead);
+        }
+        const Component& c = hinge.components[static_cast<size_t>(k)];
+        if (c.shift.values().empty()) continue;
+        const hinge::HingeState& driver = s.component[c.like];
+        const double so_far = std::max(driver.peak[0], driver.peak[1]);
+        int hint = 0;
+        f.shift[k] = capacity_over(c.shift, so_far, std::max(so_far, std::fabs(end[c.like])), at_end, hint);
+    }
+}
+
+// Moves the centre of an ellipsoid along a component such that the capacity about every axis alone stays: half axes in place of capacities.
+void shift_centre(const SpatialHinge& hinge, FrozenSpatialHinge& f) {
+    for (int k = 0; k < size(hinge); k++) {
+        f.centre[k] = 0;
+        if (f.shift[k] == 0) continue;
+        const int far = f.shift[k] < 0 ? 0 : 1;
+        double* capacity = f.component[k].capacity;
+        const double share = std::fabs(f.shift[k]), way = std::min(share / (1 - share) * capacity[far], farthest * capacity[1 - far]);
+        capacity[far] += way;
+        capacity[1 - far] -= way;
+        f.centre[k] = f.shift[k] < 0 ? -way : way;
+        const double wider = 1 / std::sqrt(1 - way * way / (capacity[far] * capacity[far]));
+        for (int other = 0; other < size(hinge); other++) {
+            for (int sense = 0; sense < 2 && other != k; sense++) f.component[other].capacity[sense] *= wider;
         }
     }
 }
@@ -138,10 +178,10 @@ void apply_rate_factor(const SpatialHinge& hinge, const double* rate, FrozenSpat
     const double power = on_flange(hinge) ? 0 : measure(hinge, rate);
     for (int k = 0; k < size(hinge); k++) {
         for (int sense = 0; sense < 2; sense++) {
-            const double first = first_capacity(hinge, k, sense);
-            const double factor = hinge::rate_factor(law_of(hinge, k), on_flange(hinge) ? rate[k] : power / first);
+            const double own = on_flange(hinge) ? rate[k] : power / weight_of(hinge, k, sense);
+            const double factor = hinge::rate_factor(law_of(hinge, k), own);
             f.component[k].capacity[sense] *= factor;
-            if (on_flange(hinge) && rotates(hinge, k)) f.top[sense] = factor * first;
+            if (on_flange(hinge) && rotates(hinge, k)) f.top[sense] = factor * first_capacity(hinge, k, sense);
         }
     }
 }
@@ -164,6 +204,7 @@ void break_open(const SpatialHinge& hinge, FrozenSpatialHinge& f) {
     for (hinge::FrozenHinge& c : f.component) {
         for (double& capacity : c.capacity) capacity *= left;
     }
+    for (double& centre : f.centre) centre *= left;
     for (double& top : f.top) top *= left;
 }
 
@@ -201,6 +242,7 @@ void freeze_coupled(const SpatialHinge& hinge, const SpatialHingeState& s, const
     for (int k = 0; k < n; k++) mean[k] = (f.w0[k] + w1[k]) / 2, flow[k] = f.h * mean[k];
     if (form_of(hinge) == Form::elastic_plastic) {
         set_coupled_capacity(hinge, s, e, none, f);
+        shift_centre(hinge, f);
         for (int sense = 0; sense < 2; sense++) {
             for (int k = 0; k < n; k++) {
                 if (rotates(hinge, k)) f.top[sense] = first_capacity(hinge, k, sense);
@@ -212,6 +254,7 @@ void freeze_coupled(const SpatialHinge& hinge, const SpatialHingeState& s, const
     }
     set_coupled_capacity(hinge, s, e, flow, f);
     apply_rate_factor(hinge, mean, f);
+    shift_centre(hinge, f);
     set_reference(hinge, f);
     f.lead = form_of(hinge) == Form::elastic_plastic ? 0 : lead_of(hinge, f, w1);
     f.intact = s.fracture_time >= 0 ? 0 : share_before_fracture(hinge, e, flow);
@@ -359,7 +402,8 @@ void commit(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHinge
         flow[k] = elastic ? turn[k] - (end - f.tau0[k]) / law_of(hinge, k).stiffness : turn[k];
         c.dissipated += impulse[k] / f.h * flow[k];
         c.moment = end;
-        c.capacity = f.component[k].capacity[f.w0[k] + w1[k] < 0 ? 1 : 0];
+        const int sense = f.w0[k] + w1[k] < 0 ? 1 : 0;
+        c.capacity = f.component[k].capacity[sense] + (sense == 0 ? f.centre[k] : -f.centre[k]);
         c.plastic += flow[k];
         c.accumulated += std::fabs(flow[k]);
         c.peak[0] = std::max(c.peak[0], c.plastic);

@@ -35,6 +35,10 @@ using hinge::Softening;
 struct Component {
     int freedom = 4;
     hinge::Hinge law;
+    // Share by which the centre of the set has moved along the component, over the largest rotation so far about the component `like` (no
+    // points: no shift).  The initial capacity of that one is also the weight of this one in the measure of softening; -1: its own.
+    hinge::Curve shift;
+    int like = -1;
 };
 
 // Parameters of one hinge.  All components have the form and softening of the first one.
@@ -70,7 +74,8 @@ struct FrozenSpatialHinge {
     double intact = 1;          // share of the step before fracture; 0: fractured
     double w0[most_components] = {}, tau0[most_components] = {};
     double top[2] = {0, 0};     // tension flange: initial capacity of the moment in both senses
-    hinge::FrozenHinge component[most_components];  // capacities of both senses, stops, damper
+    hinge::FrozenHinge component[most_components];  // capacities of both senses, stops, damper; of a shifted set its half axes
+    double shift[most_components] = {}, centre[most_components] = {};  // share of the shift, and the centre of K
     int hint[most_components][2] = {};
     // Coupled: the point of the surface found last, from which the next search starts.  Results depend on it by rounding alone.
     mutable double found[most_components] = {};

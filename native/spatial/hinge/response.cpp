@@ -13,7 +13,7 @@ constexpr int most = most_components;
 // Rounding error of eight operations on a rate, 2.2e-16 each, relative to the tolerance of impulses, 1e-9.
 constexpr double rounding_weight = 8 * 2.2e-16 / 1e-9;
 
-// The problem of surface.hpp for the rates of a step.  Components are x = tau/scale, impulses are h scale x.
+// The problem of surface.hpp for the rates of a step.  Components are x = (tau - centre)/scale, impulses are h (centre + scale x).
 struct Trial {
     double scale[most] = {}, y[most] = {}, m[most] = {};
     double y_rate[most] = {};  // dy_k/dw_k
@@ -44,7 +44,7 @@ Trial trial_of(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const dou
     double drive[most], load = 0;
     for (int k = 0; k < n; k++) {
         const hinge::Hinge& law = hinge.components[static_cast<size_t>(k)].law;
-        drive[k] = form == Form::elastic_plastic ? f.tau0[k] + law.stiffness * f.h * (f.w0[k] + w[k]) / 2
+        drive[k] = form == Form::elastic_plastic ? f.tau0[k] - f.centre[k] + law.stiffness * f.h * (f.w0[k] + w[k]) / 2
                                                  : f.lead * f.w0[k] + (1 - f.lead) * w[k];
         if (hinge.components[static_cast<size_t>(k)].freedom >= 3) load = drive[k];
     }
@@ -116,7 +116,7 @@ void coupled_law(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const d
     const double share = elastic ? f.h / 2 : f.h;
     double sum = elastic ? p.value : f.h * p.value / (1 - f.lead);
     for (int k = 0; k < n; k++) {
-        const double start = elastic ? share * f.tau0[k] : 0;
+        const double start = share * ((elastic ? f.tau0[k] : 0) + f.centre[k]);
         sum += start * w[k];
         if (impulse != nullptr) impulse[k] = start + share * t.scale[k] * p.x[k];
     }
@@ -187,7 +187,9 @@ void add_beside(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const do
 double power_at_capacity(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w) {
     Trial t = trial_of(hinge, f, w);
     std::fill(t.m, t.m + most, 0.0);
-    return point_of(hinge, f, t, nullptr).value;
+    double power = point_of(hinge, f, t, nullptr).value;
+    for (int k = 0; k < size(hinge); k++) power += f.centre[k] * (f.lead * f.w0[k] + (1 - f.lead) * w[k]);
+    return power;
 }
 
 bool round(const SpatialHinge& hinge) {
@@ -205,7 +207,7 @@ bool follow_impulse(const SpatialHinge& hinge, const FrozenSpatialHinge& f, cons
     double x[most], square = 0, along = 0;
     for (int k = 0; k < n; k++) {
         const hinge::Hinge& one = hinge.components[static_cast<size_t>(k)].law;
-        x[k] = (impulse[k] - hinge::beside_response(one, f.component[k], w[k]).impulse) / (f.h * t.scale[k]);
+        x[k] = (impulse[k] - f.h * f.centre[k] - hinge::beside_response(one, f.component[k], w[k]).impulse) / (f.h * t.scale[k]);
         square += x[k] * x[k];
         along += x[k] * t.y[k];
     }

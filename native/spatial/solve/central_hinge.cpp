@@ -113,7 +113,8 @@ CentralPoint near_path(const SpatialHinge& hinge, const FrozenSpatialHinge& f, c
         const Part& p = parts[i];
         double square = 0;
         for (int k = p.first; k < p.first + p.n; k++) {
-            out.x[k] = impulse[k] / (f.h * capacity(f, k, impulse[k]));
+            const double beyond = impulse[k] / f.h - f.centre[k];
+            out.x[k] = beyond / capacity(f, k, beyond);
             const double y = weight(p, f, k, w[k]) * seen(p, f, k, w[k]);
             square += y * y;
         }
@@ -137,7 +138,7 @@ void path_tangent(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const 
         for (int j = 0; j < p.n; j++) {
             const int row = p.first + j;
             const double scale = f.h * capacity(f, row, at.x[row]);
-            offset[row] = scale * at.x[row];
+            offset[row] = f.h * f.centre[row] + scale * at.x[row];
             for (int k = 0; k < p.n; k++) {
                 const int column = p.first + k;
                 const double c = weight(p, f, column, at.x[column]);

@@ -38,6 +38,9 @@ def component(freedom, positive, negative=None, **more):
         "viscous_damping": 0.0,
         "stop_positive": [],
         "stop_negative": [],
+        "shift_rotation": [],
+        "shift_share": [],
+        "shift_like": -1,
     } | more
 
 

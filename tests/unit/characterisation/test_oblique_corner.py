@@ -12,11 +12,13 @@ from crumple.characterisation.coupling.oblique_corner import (
     ObliqueCorner,
     coupling_errors,
     on_ellipsoid,
+    on_shifted_ellipsoid,
 )
 from crumple.characterisation.resolution import Resolution
 from crumple.characterisation.sub_model import StrongCornerError
 from crumple.cli.main import app
 from crumple.errors import Problem
+from crumple.hinge.corner.shift import corner_shift
 from crumple.material import Material
 from crumple.section import RectangularTube
 
@@ -48,11 +50,29 @@ def test_a_fold_on_the_ellipsoid_has_no_error_and_strong_senses_are_left_out():
     def solved(one):
         if isinstance(one, Bending) and one.sense < 0:
             raise StrongCornerError(Problem("strong", "", ""))
-        return made_up(800.0 if isinstance(one, ObliqueCorner) else 400.0 * math.sqrt(4.0))
+        if not isinstance(one, ObliqueCorner):
+            return made_up(500.0)
+        laws = made_up(800.0), (made_up(500.0), made_up(500.0))
+        return made_up(on_shifted_ellipsoid(one.tilt, *laws, corner_shift(TUBE, one.angle), ROTATION)[0])
 
     assert coupling_errors(model, made_up(800.0), solved) == {
-        COUPLED[0]: "coupling ellipsoid work +0% to 10 deg, +0% to 30 deg"
+        COUPLED[0]: "coupling shifted ellipsoid work +0% to 10 deg, +0% to 30 deg"
     }
+
+
+def test_a_shift_keeps_the_moments_about_the_axes_and_helps_to_open():
+    laws = made_up(800.0), (made_up(500.0), made_up(900.0))
+
+    def moment(tilt, share):
+        return on_shifted_ellipsoid(tilt, *laws, lambda _: np.float64(share), ROTATION)[0]
+
+    for share in (0.0, 0.3, 0.6):
+        for tilt, alone in ((0.0, 800.0), (math.pi / 2.0, 500.0), (-math.pi / 2.0, 900.0)):
+            np.testing.assert_allclose(moment(tilt, share), alone)
+    for tilt in (0.3, math.pi / 4.0):
+        np.testing.assert_allclose(moment(tilt, 0.0), on_ellipsoid(tilt, laws[0], laws[1][0], ROTATION))
+        assert np.all(moment(tilt, 0.5) < moment(tilt, 0.0))
+        assert np.all(moment(-tilt, 0.5) > moment(-tilt, 0.0))
 
 
 @pytest.mark.parametrize("axis", ["y", "z"])

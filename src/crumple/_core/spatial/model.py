@@ -114,9 +114,16 @@ def planar(first: int, second: int, position: ArrayLike, normal: ArrayLike) -> S
 
 @dataclass(frozen=True, eq=False)
 class SpatialComponent(HingeConstants):
-    """One component of a hinge: a relative freedom of its joint, and its resistance."""
+    """One component of a hinge: a relative freedom of its joint, and its resistance.
+
+    `shift` (rotation, share): where the centre of the set lies along it, over the largest rotation about the
+    component `shift_like`, whose initial capacity is its weight in the measure of softening; empty and -1:
+    without a shift.
+    """
 
     freedom: int
+    shift: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
+    shift_like: int = -1
 
 
 class Coupling(IntEnum):

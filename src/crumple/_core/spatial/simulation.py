@@ -329,7 +329,13 @@ def _hinge(hinge: SpatialHinge) -> dict[str, Any]:
 
 
 def _component(component: SpatialComponent) -> dict[str, Any]:
-    return {"freedom": component.freedom} | component.constants()
+    rotation, share = component.shift
+    shift = {
+        "shift_rotation": _list(rotation),
+        "shift_share": _list(share),
+        "shift_like": component.shift_like,
+    }
+    return {"freedom": component.freedom} | shift | component.constants()
 
 
 def _load(load: SpatialLoad) -> tuple[Any, ...]:

@@ -47,6 +47,26 @@ class Coupling(Enum):
 
 
 @dataclass(frozen=True)
+class Shift:
+    """Centre of an ellipsoid along a component; piecewise linear, constant beyond its last point.
+
+    Attributes
+    ----------
+    rotation
+        Largest plastic rotation so far about `like` [rad], strictly increasing, shape (n,).
+    share
+        Centre over the half axis of the sense from which it moves away, between -1 and 1 [-], shape (n,).
+    like
+        Freedom on whose rotation the shift depends; rotations along the shift soften the hinge as those
+        about it.
+    """
+
+    rotation: Floats
+    share: Floats
+    like: Freedom
+
+
+@dataclass(frozen=True)
 class HingeComponent:
     """Curves of both senses, stiffness, rate factor, damper and stops about or along one axis.
 
@@ -57,10 +77,14 @@ class HingeComponent:
     record
         As of a planar hinge; for the axial freedom lengths [m] stand for rotations and forces [N] for
         moments, and the negative sense is shortening.
+    shift
+        Of a set whose centre moves along this axis: where it is; the record keeps the capacities about the
+        axis alone.
     """
 
     freedom: Freedom
     record: HingeRecord
+    shift: Shift | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from crumple._core.spatial.model import (
     SpatialModel,
     SpatialSurface,
 )
-from crumple.hinge import Coupling, HingeRecord
+from crumple.hinge import Coupling, HingeComponent, HingeRecord, SpatialHingeRecord
 from crumple.multibody.bodies.actions import applied_loads, driven_freedoms
 from crumple.multibody.bodies.hinge_constants import FORMS, SOFTENING, hinge_constants
 from crumple.multibody.bodies.linkage import Connection, Linkage
@@ -105,7 +106,7 @@ def _hinge(joint: int, connection: Connection) -> SpatialHinge:
     surface = spatial.surface
     return SpatialHinge(
         joint,
-        tuple(_component(int(part.freedom), part.record) for part in spatial.components),
+        tuple(_part(spatial, part) for part in spatial.components),
         SpatialSurface(
             COUPLINGS[surface.coupling],
             surface.rows,
@@ -118,6 +119,14 @@ def _hinge(joint: int, connection: Connection) -> SpatialHinge:
         SOFTENING[spatial.softening_variable],
         spatial.fracture,
     )
+
+
+def _part(spatial: SpatialHingeRecord, part: HingeComponent) -> SpatialComponent:
+    plain = _component(int(part.freedom), part.record)
+    if part.shift is None:
+        return plain
+    like = spatial.freedoms.index(part.shift.like)
+    return replace(plain, shift=(part.shift.rotation, part.shift.share), shift_like=like)
 
 
 def _component(freedom: int, record: HingeRecord) -> SpatialComponent:

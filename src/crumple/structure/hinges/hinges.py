@@ -24,6 +24,7 @@ from crumple.hinge import (
 )
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, half_fold_length
+from crumple.structure.hinges.corner.shift import with_corner_shift
 from crumple.structure.hinges.corner.springs import with_corner_arm, with_corner_springs
 from crumple.structure.hinges.corner_laws import corner_of, turned_corner
 from crumple.structure.hinges.elastic_members import yielding_record
@@ -274,7 +275,8 @@ def spatial_record_of(
     corner = turned_corner(structure, place.name, place.keys.axes)
     if corner is None:
         return record if corner_of(structure, place.name) is None else with_corner_arm(record)
-    return with_corner_springs(record, corner, metal, shares.twist, torsion)
+    sprung = with_corner_springs(record, corner, metal, shares.twist, torsion)
+    return with_corner_shift(sprung, corner, metal[0])
 
 
 def _side(structure: StructureParts, member: str) -> float:

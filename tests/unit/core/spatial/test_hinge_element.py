@@ -30,6 +30,9 @@ from crumple._core import _kernels
 
 FALLING = ([0.0, 0.5, 1.0], [100.0, 60.0, 50.0])
 WEAKER = ([0.0, 0.5, 1.0], [70.0, 30.0, 20.0])
+SHIFTED = "shifted"
+SHIFT = {"shift_rotation": [0.0, 0.2, 1.0], "shift_share": [-0.2, -0.5, -0.4], "shift_like": 0}
+"""Of an ellipsoid whose centre moves along its component 1."""
 STIFFNESS = (4e3, 3e3, 5e3, 2e3)
 MIRRORED = [[0.9, 0.5, 0.3, 0.0], [0.6, -0.8, 0.5, 0.0], [0.2, 0.6, -0.9, 0.0], [0.5, 0.2, 0.8, 0.0]]
 ROWS = np.array([np.array(row) * [a, b, 1, 1] for row in MIRRORED for a in (1, -1) for b in (1, -1)])
@@ -48,6 +51,9 @@ def made(form, coupling, n, softening=PEAK, **more):
         )
         for i, freedom in enumerate(freedoms[:n])
     ]
+    if coupling == SHIFTED:
+        parts[1] |= SHIFT
+        coupling = ELLIPSOID
     extra = {"arm": 0.5} if coupling == TENSION_FLANGE else {}
     if coupling == SECTION:
         extra = {"rows": ROWS[:, :n].ravel().tolist(), "power": 6.0, "torsion": 3 if n == 4 else -1}
@@ -63,12 +69,14 @@ KINDS = [
     (SECTION, 3),
     (SECTION, 4),
     (TENSION_FLANGE, 2),
+    (SHIFTED, 3),
+    (SHIFTED, 4),
 ]
 CASES = [
     (form, coupling, n)
     for form in (SET_VALUED, ELASTIC_PLASTIC, REGULARISED)
     for coupling, n in KINDS
-    if (form, coupling) != (REGULARISED, TENSION_FLANGE)
+    if form != REGULARISED or coupling not in (TENSION_FLANGE, SHIFTED)
 ]
 rates = st.lists(st.floats(-3.0, 3.0), min_size=4, max_size=4)
 
@@ -115,7 +123,7 @@ def test_tangent_and_potential_against_differences(form, coupling, n):
     assert good >= 38
 
 
-@pytest.mark.parametrize("coupling", [ELLIPSOID, BALL, SECTION, TENSION_FLANGE])
+@pytest.mark.parametrize("coupling", [ELLIPSOID, BALL, SECTION, TENSION_FLANGE, SHIFTED])
 @given(w=rates, other=rates)
 def test_flow_is_normal_to_the_surface_and_dissipates(coupling, w, other):
     """tau.w >= tau'.w for every tau' that the hinge can carry: associated flow, and dissipation >= 0."""
@@ -153,9 +161,9 @@ def test_pure_loads_reach_the_capacities_of_their_axes(form, coupling):
     [
         (form, coupling)
         for form in (SET_VALUED, ELASTIC_PLASTIC, REGULARISED)
-        for coupling in (NONE, ELLIPSOID, SECTION, TENSION_FLANGE, BALL)
-        # the kernel refuses a regularised hinge about its tension flange
-        if (form, coupling) != (REGULARISED, TENSION_FLANGE)
+        for coupling in (NONE, ELLIPSOID, SECTION, TENSION_FLANGE, BALL, SHIFTED)
+        # the kernel refuses both of these as regularised hinges
+        if form != REGULARISED or coupling not in (TENSION_FLANGE, SHIFTED)
     ],
 )
 @pytest.mark.parametrize("softening", [PEAK, ROTATION, ACCUMULATED])
@@ -192,6 +200,52 @@ def test_swing_of_an_elastic_hinge_keeps_its_energy():
         element.step(2e-3)
     assert element.state["dissipated"] == pytest.approx(0.0, abs=1e-12 * start)
     assert element.energy == pytest.approx(start, rel=1e-12)
+
+
+@pytest.mark.parametrize("form", [SET_VALUED, ELASTIC_PLASTIC])
+def test_a_shifted_set_keeps_the_capacity_about_every_axis_alone(form):
+    """Flow along the normals of ((M_n + c)/A)^2 + (M_u/B)^2 + (M_t/T)^2 = 1 at its points on the axes."""
+    closing, opening, aside, twist, share = 50.0, 90.0, 80.0, 60.0, 0.4
+    parts = [
+        component(freedom, *capacity, elastic_stiffness=1e7 if form == ELASTIC_PLASTIC else np.inf)
+        for freedom, capacity in ((ABOUT_Y, (closing, opening)), (ABOUT_Z, (aside,)), (TORSION, (twist,)))
+    ]
+    parts[0] |= {"shift_rotation": [0.0, 1.0], "shift_share": [-share] * 2, "shift_like": 1}
+    far = closing / (1.0 - share)
+    centre, narrower = -share * far, np.sqrt(1.0 - share**2)
+    for moment, half in (
+        ([closing, 0.0, 0.0], far),
+        ([-opening, 0.0, 0.0], opening + centre),
+        ([0.0, aside, 0.0], far),
+        ([0.0, -aside, 0.0], far),
+        ([0.0, 0.0, twist], far),
+    ):
+        half_axes = np.array([half, aside / narrower, twist / narrower])
+        flow = (np.array(moment) - [centre, 0.0, 0.0]) / half_axes**2
+        element = rig(hinge(*parts, form=form, coupling=ELLIPSOID))
+        for _ in range(50):
+            found = element.led(H, flow / np.abs(flow).max())
+        np.testing.assert_allclose(found, moment, atol=2e-3 * twist)
+        assert element.state["dissipated"] > 0.0
+
+
+def test_a_shift_grows_with_its_other_component_and_softens_like_it():
+    parts = [component(ABOUT_Y, 100.0), component(ABOUT_Z, FALLING), component(TORSION, WEAKER)]
+    parts[0] |= {"shift_rotation": [0.0, 0.1], "shift_share": [0.0, -0.3], "shift_like": 1}
+    element = rig(hinge(*parts, coupling=ELLIPSOID))
+    for _ in range(300):
+        element.led(H, [1.0, 0.0, 0.0])
+    assert element.state["moment"][0] == pytest.approx(100.0)
+    # no shift yet, and the capacity about the other axis after as much rotation
+    fallen = np.interp(0.3, *FALLING)
+    np.testing.assert_allclose(element.led(1e-6, [0.0, 1.0, 0.0]), [0.0, fallen, 0.0], rtol=1e-4, atol=2e-3)
+    for _ in range(200):
+        element.led(H, [0.0, -1.0, 0.0])
+    # at rest along the shift the moment is that of the centre, and the others are the largest there
+    widest = np.interp(np.hypot(0.3, 0.2), *FALLING) / np.sqrt(1.0 - 0.3**2)
+    np.testing.assert_allclose(
+        element.led(1e-6, [0.0, -1.0, 0.0]), [-0.3 / 0.7 * 100.0, -widest, 0.0], rtol=1e-4, atol=1e-6
+    )
 
 
 def test_capacity_sensitivity_against_differences():
@@ -246,6 +300,13 @@ def test_fracture_opens_the_hinge_for_good(form, coupling):
         ({"coupling": TENSION_FLANGE}, "tension flange"),
         ({"coupling": BALL}, "rotations only"),
         ({"form": ELASTIC_PLASTIC}, "needs a stiffness"),
+        ({"components": [component(ABOUT_Y, 1.0, **SHIFT), component(ABOUT_Z, 1.0)]}, "has a shift"),
+        ({"components": [component(ABOUT_Y, 1.0, shift_share=[0.1])]}, "one share per rotation"),
+        (
+            {"components": [component(ABOUT_Y, 1.0, shift_rotation=[0.0], shift_share=[1.0])]},
+            "shares of a shift are below 1",
+        ),
+        ({"components": [component(ABOUT_Y, 1.0, shift_like=1)]}, "is like another"),
     ],
 )
 def test_constants_that_make_no_sense_are_refused(change, message):

@@ -1,0 +1,59 @@
+"""Shift of the yield set of a mitred corner of two rectangular tubes, in the sense in which the corner opens.
+
+Shells that turn a corner about a moment between its bisector and the normal of its plane carry more if it
+opens and less if it closes, and close a corner that is turned about its bisector alone. With the moments M_n
+about the normal, positive if it closes, M_u along the bisector and M_t along the tangent, the set
+
+    ((M_n + c)/A)^2 + (M_u/B)^2 + (M_t/T)^2 <= 1,    c = share A
+
+has its centre at a share of its half axis in closing. The share grows with the rotation theta about the
+bisector, and vanishes for members in line, where both senses are alike:
+
+    share = g sin(alpha) (1 - exp(-theta/theta_1)),    theta_1 = r t/a,    a = sqrt(b h)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crumple.hinge.corner.mitred_corner import LARGEST
+from crumple.numeric.arrays import Floats
+from crumple.section import RectangularTube, Section
+
+SHARE = 0.63
+"""g, share of the shift of a right-angled corner that has folded far [-]."""
+TURN = 3.2
+"""r, rotation over which the shift grows, times the slenderness of the walls [rad]."""
+
+
+def corner_shift(section: Section, angle: float) -> Callable[[ArrayLike], Floats] | None:
+    """Share of the half axis in closing by which the centre has moved in opening [-], as a function.
+
+    Parameters
+    ----------
+    section
+        Of both members.
+    angle
+        Between their axes, 0 in line [rad].
+
+    Returns
+    -------
+    callable
+        Share at rotations about the bisector, >= 0 [rad], of any shape; None if it is not known: of other
+        sections than rectangular tubes, and of corners steeper than those of the estimates.
+
+    References
+    ----------
+    docs/theory/mitred_corner.md.  Derived here; constants fitted to corners solved by shells.  Verified in
+    tests/verification/hinge/test_shifted_corners.py.
+    """
+    if not isinstance(section, RectangularTube) or angle > LARGEST * (1.0 + 1e-9):
+        return None
+    wall = section.thickness
+    turn = TURN * wall / math.sqrt((section.width - wall) * (section.depth - wall))
+    largest = SHARE * math.sin(angle)
+    return lambda rotation: np.asarray(largest * (1.0 - np.exp(-np.asarray(rotation, float) / turn)))
