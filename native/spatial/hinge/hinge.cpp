@@ -3,86 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spatial/hinge/capacities.hpp"
+
 namespace crumple::spatial {
 
 namespace {
 
 constexpr int most = most_components;
-// Change of a softening variable [rad or m] below which the mean capacity is taken at the middle: differences of areas lose digits.
-constexpr double smallest_mean = 1e-7;
-// Flow in a step [rad or m] up to which a hinge creeps: D_0 then changes by the work of the flow at the point of the surface found last.
-constexpr double smallest_flow = 1e-8;
 // The rest time of an elastic hinge ignores flow below this share of its accumulated plastic work, as with a single component.
 constexpr double smallest_episode = 1e-2;
 // Rates below this multiple of the ramp's half-width count as rest when the rotation of the hinge's axis is evaluated.
 constexpr double at_rest = 10;
-// Share of the capacity in one sense up to which the centre of the set moves in that sense, so that the set keeps both halves.
-constexpr double farthest = 0.9;
-
-Form form_of(const SpatialHinge& hinge) { return hinge.components[0].law.form; }
-const hinge::Hinge& law_of(const SpatialHinge& hinge, int k) { return hinge.components[static_cast<size_t>(k)].law; }
-bool rotates(const SpatialHinge& hinge, int k) { return hinge.components[static_cast<size_t>(k)].freedom >= 3; }
-bool on_flange(const SpatialHinge& hinge) { return hinge.surface.coupling == Coupling::tension_flange; }
-const hinge::Curve& curve_of(const hinge::Hinge& law, int sense) { return sense == 0 ? law.positive : law.negative; }
-
-double first_capacity(const SpatialHinge& hinge, int k, int sense) {
-    int hint = 0;
-    return law_of(hinge, k).scale * curve_of(law_of(hinge, k), sense).at(0, hint);
-}
-
-bool shifts(const SpatialHinge& hinge) {
-    for (const Component& c : hinge.components) {
-        if (!c.shift.values().empty()) return true;
-    }
-    return false;
-}
-
-// Softening measure per rotation about an axis alone: the initial capacity, along which the centre moves that of another component.
-double weight_of(const SpatialHinge& hinge, int k, int sense) {
-    const int like = hinge.components[static_cast<size_t>(k)].like;
-    return first_capacity(hinge, like < 0 ? k : like, sense);
-}
-
-// Work D_0(e) of a proportional rotation by e at the initial capacities, and the point of the surface where it is found.  `guess`: such a
-// point for a similar e, or null.
-SurfacePoint measure_from(const SpatialHinge& hinge, const double* e, const double* guess) {
-    const int n = size(hinge);
-    const double none[most] = {};
-    double y[most];
-    for (int k = 0; k < n; k++) y[k] = e[k] * weight_of(hinge, k, e[k] < 0 ? 1 : 0);
-    return nearest(hinge.surface, n, y, none, guess, nullptr, true);
-}
-
-// The same for the rotation e after a flow from the present one.
-SurfacePoint measure_after(const SpatialHinge& hinge, const SpatialHingeState& s, const double* e, const double* flow) {
-    bool creeps = hinge.surface.coupling == Coupling::section;
-    for (int k = 0; k < size(hinge); k++) creeps = creeps && std::fabs(flow[k]) <= smallest_flow;
-    if (!creeps) return measure_from(hinge, e, s.along);
-    SurfacePoint p{{s.along[0], s.along[1], s.along[2], s.along[3]}, s.work};
-    for (int k = 0; k < size(hinge); k++) p.value += p.x[k] * first_capacity(hinge, k, p.x[k] < 0 ? 1 : 0) * flow[k];
-    return p;
-}
-
-double measure(const SpatialHinge& hinge, const double* e) { return measure_from(hinge, e, nullptr).value; }
-
-bool softens(const SpatialHinge& hinge) {
-    if (shifts(hinge)) return true;
-    for (const Component& c : hinge.components) {
-        for (const hinge::Curve* curve : {&c.law.positive, &c.law.negative}) {
-            for (const double value : curve->values()) {
-                if (value != curve->values().front()) return true;
-            }
-        }
-    }
-    return false;
-}
-
-bool rated(const SpatialHinge& hinge) {
-    for (const Component& c : hinge.components) {
-        if (std::isfinite(c.law.rate_reference)) return true;
-    }
-    return false;
-}
 
 // Plastic rotation that determines the softening of a coupled hinge: the integrated rates; for the ball the relative rotation itself,
 // so that its angle counts independently of the path of the axis.
@@ -99,91 +30,6 @@ double length_of_rotation(const SpatialHinge& hinge, const double* e) {
     double square = 0;
     for (int k = 0; k < size(hinge); k++) square += rotates(hinge, k) ? e[k] * e[k] : 0;
     return std::sqrt(square);
-}
-
-// Mean of a capacity over its variable from a to b; the value at b for the elastic form.
-double capacity_over(const hinge::Curve& curve, double a, double b, bool at_end, int& hint) {
-    if (at_end) return curve.at(b, hint);
-    if (std::fabs(b - a) < smallest_mean) return curve.at((a + b) / 2, hint);
-    return (curve.integral(b, hint) - curve.integral(a, hint)) / (b - a);
-}
-
-// Capacities of a coupled hinge over a plastic flow from e: the mean over the flow, for the elastic form the value at its end.
-void set_coupled_capacity(const SpatialHinge& hinge, const SpatialHingeState& s, const double* e, const double* flow,
-                          FrozenSpatialHinge& f) {
-    const int n = size(hinge);
-    const bool at_end = form_of(hinge) == Form::elastic_plastic;
-    if (on_flange(hinge)) {
-        for (int k = 0; k < n; k++) hinge::set_capacity(law_of(hinge, k), s.component[k], flow[k], f.hint[k], f.component[k]);
-        return;
-    }
-    if (!softens(hinge)) {
-        for (int k = 0; k < n; k++) {
-            for (int sense = 0; sense < 2; sense++) f.component[k].capacity[sense] = first_capacity(hinge, k, sense);
-        }
-        return;
-    }
-    double end[most] = {};
-    for (int k = 0; k < n; k++) end[k] = e[k] + flow[k];
-    const bool follows = hinge.surface.coupling == Coupling::section;
-    double from = follows ? s.work : measure(hinge, e), to = measure_after(hinge, s, end, flow).value, held = 0;
-    switch (law_of(hinge, 0).softening) {
-        case Softening::rotation: break;
-        case Softening::accumulated: from = s.softening, to = s.softening + measure(hinge, flow); break;
-        case Softening::peak: {
-            // share of the flow before it exceeds the peak so far, with the capacity at that peak
-            const double peak = std::max(s.softening, from);
-            held = to <= peak ? 1 : (peak - from) / (to - from);
-            from = peak, to = std::max(peak, to);
-        }
-    }
-    for (int k = 0; k < n; k++) {
-        for (int sense = 0; sense < 2; sense++) {
-            const hinge::Curve& curve = curve_of(law_of(hinge, k), sense);
-            const double per_work = 1 / weight_of(hinge, k, sense);
-            const double ahead = capacity_over(curve, from * per_work, to * per_work, at_end, f.hint[k][sense]);
-            const double here = held > 0 && !at_end ? curve.at(from * per_work, f.hint[k][sense]) : 0;
-            f.component[k].capacity[sense] = law_of(hinge, k).scale * (at_end ? ahead : held * here + (1 - held) * ahead);
-        }
-        const Component& c = hinge.components[static_cast<size_t>(k)];
-        if (c.shift.values().empty()) continue;
-        const hinge::HingeState& driver = s.component[c.like];
-        const double so_far = std::max(driver.peak[0], driver.peak[1]);
-        int hint = 0;
-        f.shift[k] = capacity_over(c.shift, so_far, std::max(so_far, std::fabs(end[c.like])), at_end, hint);
-    }
-}
-
-// Moves the centre of an ellipsoid along a component such that the capacity about every axis alone stays: half axes in place of capacities.
-void shift_centre(const SpatialHinge& hinge, FrozenSpatialHinge& f) {
-    for (int k = 0; k < size(hinge); k++) {
-        f.centre[k] = 0;
-        if (f.shift[k] == 0) continue;
-        const int far = f.shift[k] < 0 ? 0 : 1;
-        double* capacity = f.component[k].capacity;
-        const double share = std::fabs(f.shift[k]), way = std::min(share / (1 - share) * capacity[far], farthest * capacity[1 - far]);
-        capacity[far] += way;
-        capacity[1 - far] -= way;
-        f.centre[k] = f.shift[k] < 0 ? -way : way;
-        const double wider = 1 / std::sqrt(1 - way * way / (capacity[far] * capacity[far]));
-        for (int other = 0; other < size(hinge); other++) {
-            for (int sense = 0; sense < 2 && other != k; sense++) f.component[other].capacity[sense] *= wider;
-        }
-    }
-}
-
-// Rate factors.  For coupled components the rate is the one about their own axis that alone would dissipate the total power.
-void apply_rate_factor(const SpatialHinge& hinge, const double* rate, FrozenSpatialHinge& f) {
-    if (!rated(hinge) && !on_flange(hinge)) return;
-    const double power = on_flange(hinge) ? 0 : measure(hinge, rate);
-    for (int k = 0; k < size(hinge); k++) {
-        for (int sense = 0; sense < 2; sense++) {
-            const double own = on_flange(hinge) ? rate[k] : power / weight_of(hinge, k, sense);
-            const double factor = hinge::rate_factor(law_of(hinge, k), own);
-            f.component[k].capacity[sense] *= factor;
-            if (on_flange(hinge) && rotates(hinge, k)) f.top[sense] = factor * first_capacity(hinge, k, sense);
-        }
-    }
 }
 
 // Share t of a plastic flow from e at which the rotation reaches the fracture rotation: |e + t flow| = fracture.
@@ -241,8 +87,7 @@ void freeze_coupled(const SpatialHinge& hinge, const SpatialHingeState& s, const
     plastic_rotation(hinge, s, q0, e);
     for (int k = 0; k < n; k++) mean[k] = (f.w0[k] + w1[k]) / 2, flow[k] = f.h * mean[k];
     if (form_of(hinge) == Form::elastic_plastic) {
-        set_coupled_capacity(hinge, s, e, none, f);
-        shift_centre(hinge, f);
+        set_coupled_capacity(hinge, s, e, none, nullptr, f);
         for (int sense = 0; sense < 2; sense++) {
             for (int k = 0; k < n; k++) {
                 if (rotates(hinge, k)) f.top[sense] = first_capacity(hinge, k, sense);
@@ -252,9 +97,7 @@ void freeze_coupled(const SpatialHinge& hinge, const SpatialHingeState& s, const
         law(hinge, f, w1, impulse, nullptr, nullptr);
         for (int k = 0; k < n; k++) flow[k] -= (2 * impulse[k] / f.h - 2 * f.tau0[k]) / law_of(hinge, k).stiffness;
     }
-    set_coupled_capacity(hinge, s, e, flow, f);
-    apply_rate_factor(hinge, mean, f);
-    shift_centre(hinge, f);
+    set_coupled_capacity(hinge, s, e, flow, mean, f);
     set_reference(hinge, f);
     f.lead = form_of(hinge) == Form::elastic_plastic ? 0 : lead_of(hinge, f, w1);
     f.intact = s.fracture_time >= 0 ? 0 : share_before_fracture(hinge, e, flow);

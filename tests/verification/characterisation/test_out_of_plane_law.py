@@ -7,10 +7,9 @@ test_l_frame_out_of_plane, whose tip is pushed by 200 mm out of the plane, with 
 bending and torsion and of their corner in its plane and about both of its directions out of it, and
 elastic members: work, and rotation of the arm, against the shell model of the same input (5 mm elements,
 energy residual 2e-7 or less), solved once by this program. Tolerances: 5 % of the work, and of the rotations
-about the axes in the plane 3 degrees, since they were found to differ by up to 2.9 (with rigid bars by 3.3):
-this is what the laws reach, not a target that was set. About the normal of the plane the shells' arm turns
-by 6 degrees at 90 and by 10 at 60 degrees, as a corner also closes while it folds out of its plane, and the
-hinges' by -4 and -1: no law says this, so it is not compared.
+3.5 degrees, since they were found to differ by up to 3.2: this is what the laws reach, not a target that was
+set. About the normal of the plane the arm is compared at the end; without the shift of the set of its corner
+it turned by -4 degrees at 90 and by -1 at 60 degrees.
 
 Kind: invariant; independent calculation.  Source: derived here; run here.
 """
@@ -38,6 +37,10 @@ SHELLS = {
     60: ((343.9, 488.9, 540.5), (-11.7, -16.9, -18.9), (14.8, 21.1, 23.8)),
     30: ((400.3, 561.2, 617.7), (-9.1, -12.2, -13.3), (8.1, 11.0, 12.2)),
 }
+NORMAL = {90: 6.4, 60: 10.2, 30: 3.8}
+"""Rotation of the tip about y, the normal of the plane, at the last of TIMES [deg]."""
+WITHIN = 3.5
+"""Tolerance of rotations [deg]."""
 
 
 @pytest.mark.slow
@@ -80,4 +83,6 @@ def test_frame_out_of_its_plane_follows_its_shells(degrees, tmp_path, record_fig
         record_figure(f"work at {time} ms", value, work, 0.05, "J", relative=True)
         for axis, expected in (("x", about_x), ("z", about_z)):
             turned = math.degrees(float(found[f"node.tip.rotation.{axis}"][i]))
-            record_figure(f"rotation of the arm about {axis} at {time} ms", turned, expected, 3.0, "deg")
+            record_figure(f"rotation of the arm about {axis} at {time} ms", turned, expected, WITHIN, "deg")
+    turned = math.degrees(float(found["node.tip.rotation.y"][5]))
+    record_figure("rotation of the arm about y at the end", turned, NORMAL[degrees], WITHIN, "deg")

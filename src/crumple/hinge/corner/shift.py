@@ -49,7 +49,7 @@ def corner_shift(section: Section, angle: float) -> Callable[[ArrayLike], Floats
     References
     ----------
     docs/theory/mitred_corner.md.  Derived here; constants fitted to corners solved by shells.  Verified in
-    tests/verification/hinge/test_shifted_corners.py.
+    tests/verification/characterisation/test_shifted_corners.py.
     """
     if not isinstance(section, RectangularTube) or angle > LARGEST * (1.0 + 1e-9):
         return None

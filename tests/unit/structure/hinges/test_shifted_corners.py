@@ -84,7 +84,7 @@ def test_only_three_rotations_on_an_ellipsoid_are_shifted():
         coupling=crumple.hinge.Coupling.ELLIPSOID,
     )
     assert with_corner_shift(plain, corner, section) is plain
-    other = framed(FRAME.replace("hinges: auto", "hinges: {coupling: none}"))
+    other = framed(FRAME.replace("hinges: auto", "hinges: {axes: [x, y, z], coupling: none}"))
     assert all(part.shift is None for part in corner_hinge(other)[1].spatial.components)
     ramped = [
         replace(part, record=replace(part.record, form=Form.REGULARISED), shift=None)
@@ -99,6 +99,6 @@ def test_a_corner_struck_across_its_plane_also_closes(members):
     result = crumple.solve(framed(members=members))
     corner = corner_hinge(framed(members=members))[2]
     turned = np.array([result[f"node.tip.rotation.{axis}"][-1] for axis in "xyz"])
-    # a rotation of the arm about this normal increases the angle between the members; without the shift -8 deg
+    # a rotation of the arm about this normal increases the angle between the members; -8 deg without shift
     assert math.degrees(turned @ np.array(corner.normal)) > 2.0
     assert abs(result.energy_residual) < 1e-4
