@@ -46,7 +46,7 @@ Distance distance_from(const Obstacle& o, Vec3 x) {
 
 ObstacleContact::ObstacleContact(const Sheets& sheets)
     : sheets_(sheets), model_(sheets.model.obstacles), states_(model_.size()), turn_(model_.size()), present_(model_.size(), 0),
-      searched_at_(model_.size()) {
+      searched_at_(model_.size()), mass_(sheets.mass), half_(sheets.half) {
     for (std::size_t i = 0; i < model_.size(); i++) {
         const Obstacle& o = model_[i];
         states_[i].velocity = o.mass > 0.0 ? o.velocity : Vec3{};
@@ -62,8 +62,21 @@ void ObstacleContact::attach(const std::vector<RigidBody>& bodies, const std::ve
     bodies_ = &bodies;
     body_states_ = &states;
     body_of_.assign(sheets_.mass.size(), -1);
-    for (std::size_t b = 0; b < bodies.size(); b++)
-        for (Index n : bodies[b].nodes) body_of_[n] = std::int32_t(b);
+    for (std::size_t b = 0; b < bodies.size(); b++) {
+        double mass = 0.0, half = 0.0, walls = 0.0;
+        for (Index n : bodies[b].nodes) {
+            body_of_[n] = std::int32_t(b);
+            if (!(sheets_.half[n] > 0.0)) continue;
+            mass += sheets_.mass[n];
+            half += sheets_.half[n];
+            walls += 1.0;
+        }
+        for (Index n : bodies[b].nodes) {
+            if (sheets_.half[n] > 0.0 || walls == 0.0) continue;
+            mass_[n] = mass / walls;
+            half_[n] = half / walls;
+        }
+    }
 }
 
 Vec3 ObstacleContact::in_frame(std::size_t o, Vec3 x) const {
@@ -80,9 +93,9 @@ void ObstacleContact::place(const Motions& m) {
         for (std::size_t k = 0; k < gap_[i].size(); k++) {
             const Index n = model_[i].nodes[k];
             const double distance = distance_from(model_[i], in_frame(i, position_of(m, n))).value;
-            gap_[i][k] = std::min(sheets_.half[n] + model_[i].gap, distance);
+            gap_[i][k] = std::min(half_[n] + model_[i].gap, distance);
             stick_[i][k] = {};
-            if (-distance > states_[i].inside) {
+            if (sheets_.half[n] > 0.0 && -distance > states_[i].inside) {
                 states_[i].inside = -distance;
                 states_[i].inside_node = n;
             }
@@ -145,7 +158,7 @@ void ObstacleContact::hold_bodies(const Motions& m) {
     std::vector<double> touching(bodies_->size(), 0.0);  // wall mass of each set's nodes that touch
     for (std::size_t i = 0; i < items_.size(); i++) {
         const Index n = model_[items_[i].obstacle].nodes[items_[i].place];
-        if (touch_[i].active && body_of_[n] >= 0) touching[std::size_t(body_of_[n])] += sheets_.mass[n];
+        if (touch_[i].active && body_of_[n] >= 0) touching[std::size_t(body_of_[n])] += mass_[n];
     }
     for (std::size_t i = 0; i < items_.size(); i++) {
         const Obstacle& o = model_[items_[i].obstacle];
@@ -162,7 +175,7 @@ void ObstacleContact::hold_bodies(const Motions& m) {
         t.soft = o.mass > 0.0 ? o.mass / (o.mass + mass) : 1.0;
         t.damping = o.damping;
         t.friction = o.friction;
-        t.share = sheets_.mass[n] / touching[b];
+        t.share = mass_[n] / touching[b];
         t.stick = stick_[items_[i].obstacle][items_[i].place];
         of[b].push_back(t);
     }
@@ -193,7 +206,7 @@ double ObstacleContact::commit(const Motions& m, NodeForces& forces) {
         forces.add(o.nodes[items_[i].place], touch_[i].force);
         s.force = s.force - touch_[i].force;
         s.moment = s.moment - touch_[i].moment;
-        const double depth = touch_[i].depth / sheets_.half[o.nodes[items_[i].place]];
+        const double depth = touch_[i].depth / half_[o.nodes[items_[i].place]];
         s.deepest = std::max(s.deepest, depth);
         deepest = std::max(deepest, depth);
     }

@@ -31,7 +31,8 @@ public:
     };
 
     explicit ObstacleContact(const Sheets& sheets);
-    // Sets the rigid bodies; the contacts of each body are solved together.  They must outlive this object.
+    // Sets the rigid bodies; the contacts of each body are solved together.  They must outlive this object.  Nodes of a body without
+    // elements touch like the mean of its nodes with elements.
     void attach(const std::vector<RigidBody>& bodies, const std::vector<RigidState>& states);
 
     bool any() const { return !model_.empty(); }
@@ -84,6 +85,7 @@ private:
     const std::vector<RigidBody>* bodies_ = nullptr;
     const std::vector<RigidState>* body_states_ = nullptr;
     std::vector<std::int32_t> body_of_;                  // [node] rigid set, -1: none
+    std::vector<double> mass_, half_;                    // [node] as in the sheets, and for nodes of rigid sets without elements
     std::vector<Item> items_;
     std::vector<Touch> touch_;
     double outside_work_ = 0.0;

@@ -17,7 +17,7 @@ from crumple.structure.bending import across_plane, planar
 from crumple.structure.change import changed, value_at
 from crumple.structure.checks.checks import output_problems, problems_in, shell_problems
 from crumple.structure.checks.limit_checks import history_problems
-from crumple.structure.checks.obstacle_checks import gap, stage_problems
+from crumple.structure.checks.obstacle_checks import stage_problems
 from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges.asked import any_automatic
 from crumple.structure.hinges.elastic_members import with_elastic_members
@@ -38,6 +38,7 @@ from crumple.structure.keys.obstacles import (
     SphereObstacle,
     Travel,
     Turning,
+    gap,
 )
 from crumple.structure.keys.outputs import Distance, Filter, Outputs, SectionForce, SectionRotation
 from crumple.structure.keys.section import ShapeSpec

@@ -102,10 +102,11 @@ def _add_sets(core: Any, model: ShellModel) -> None:
 def _obstacle(model: ShellModel, obstacle: RigidObstacle) -> dict[str, Any]:
     vectors = ("point", "axis", "edge", "guide", "velocity", "turn_about", "turn_axis")
     numbers = ("radius", "length", "friction", "gap", "mass", "active")
-    nodes = walls = np.unique(model.elements)
+    nodes = np.unique(model.elements)
     if obstacle.nodes is not None:
-        # a node of no element has no wall that could come into contact; the kernel refuses unknown ones
-        nodes = np.setdiff1d(obstacle.nodes, np.setdiff1d(np.arange(len(model.position)), walls))
+        # a node of no element and no rigid set has nothing that could touch; the kernel refuses unknown ones
+        solid = np.concatenate([nodes, *(rigid.nodes for rigid in model.rigid_sets)])
+        nodes = np.setdiff1d(obstacle.nodes, np.setdiff1d(np.arange(len(model.position)), solid))
     damping = model.settings.contact_damping if obstacle.damping is None else obstacle.damping
     return {
         **{name: floats(getattr(obstacle, name)) for name in vectors},

@@ -32,8 +32,8 @@ TAKEN = ("energy.contact", "energy.friction")
 
 
 def impulse(time: Floats, force: Floats) -> float:
-    """Length of the integral of a force (n_times, 3) [N] over time [s], [N s]."""
-    return float(np.linalg.norm(np.diff(time) @ (force[1:] + force[:-1]) / 2.0))
+    """Length of the impulse [N s] of a force (n_times, 3) [N], each the mean since the time before [s]."""
+    return float(np.linalg.norm(np.diff(time) @ force[1:]))
 
 
 def dissipated_at(

@@ -194,9 +194,8 @@ def _mean(time: Floats, force: Floats, rest: float) -> float:
     until = time <= rest
     if np.count_nonzero(until) < 2:
         return 0.0
-    force, time = force[until], time[until]
-    impulse = np.diff(time) @ (force[1:] + force[:-1]) / 2.0
-    return float(np.linalg.norm(impulse) / (time[-1] - time[0]))
+    time = time[until]
+    return impulse(time, force[until]) / float(time[-1] - time[0])
 
 
 def _borders(structure: Structure, member: str) -> tuple[float, float]:

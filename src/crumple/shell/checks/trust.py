@@ -225,7 +225,7 @@ def _flat_members(structure: Structure, case: ShellCase) -> Iterator[str]:
 
 def _off_centre(case: ShellCase, body: Body, lump: Lump) -> float:
     """Distance of a body's lump or of its sections' middle from its node [m]; 0 if it is small."""
-    walls = case.mesh.position[body.nodes[:-1]]
+    walls = case.mesh.position[body.nodes[body.nodes < case.mesh.walls]]
     size, centre = float(np.ptp(walls, axis=0).max()), lump.centre if lump.mass > 0.0 else body.place
     distance = max(float(np.linalg.norm(at - body.place)) for at in (walls.mean(axis=0), centre))
     return distance if distance > OFF_CENTRE * size else 0.0

@@ -12,6 +12,7 @@ from crumple.numeric.arrays import Floats, Integers
 from crumple.shell.checks.refusals import refuse_sizes, refuse_waves
 from crumple.shell.mesh.bays import Bays, Levels, bays_of, coarse_rings, left_out, levels_of, without_points
 from crumple.shell.mesh.contour import Contour, contour_of
+from crumple.shell.mesh.cut_ends import CutEnd, cut_ends_of
 from crumple.shell.mesh.imperfection import offsets
 from crumple.shell.mesh.joints import SHEARED_LENGTH, Joint, Kind, joints_of, welded_joints
 from crumple.shell.mesh.stations import Sizes, Zone, stations
@@ -79,7 +80,8 @@ class Mesh:
     Attributes
     ----------
     position
-        Nodes [m], (n, 3): those of walls, then one reference node per rigid body at its structure node.
+        Nodes [m], (n, 3): those of walls, then points of ends cut back at joints, then one reference node per
+        rigid body at its structure node.
     quads
         Corners, (m, 4), counter-clockwise seen from outside; a triangle repeats its third.
     tubes
@@ -88,6 +90,8 @@ class Mesh:
         By node.
     reference
         Reference node by node name.
+    cut_ends
+        What obstacles touch where members are cut back; empty without obstacles.
     """
 
     position: Floats
@@ -95,11 +99,12 @@ class Mesh:
     tubes: dict[str, Tube]
     joints: dict[str, Joint]
     reference: dict[str, int]
+    cut_ends: tuple[CutEnd, ...]
 
     @property
     def walls(self) -> int:
         """Number of nodes in walls."""
-        return len(self.position) - len(self.reference)
+        return len(self.position) - len(self.reference) - sum(len(end.nodes) for end in self.cut_ends)
 
     @property
     def triangles(self) -> NDArray[np.bool_]:
@@ -172,7 +177,7 @@ def mesh_of(structure: Structure, settings: ShellSettings, outputs: Outputs | No
     welded = {name for tee in tees.values() for name in (tee.before, tee.after, tee.branch.member)}
     halved = {name: _halved(settings, contours[name], at, whole=name in welded) for name, at in rings.items()}
     parts = _Parts(contours, joints, rings, halved, seams)
-    return _joined(structure, parts, imperfection=settings.imperfection)
+    return _joined(structure, parts, imperfection=settings.imperfection, size=size)
 
 
 @dataclass(frozen=True, eq=False)
@@ -255,7 +260,7 @@ def _check_number(contours: dict[str, Contour], rings: dict[str, Floats]) -> Non
         raise InputError(Problem(what, str(number), allowed, todo, "analysis.shell.element_size"))
 
 
-def _joined(structure: Structure, parts: _Parts, *, imperfection: float) -> Mesh:
+def _joined(structure: Structure, parts: _Parts, *, imperfection: float, size: float) -> Mesh:
     """Nodes numbered member by member; a mitre's second end and a welded branch take nodes that are there."""
     contours, joints, halved = parts.contours, parts.joints, parts.halved
     positions: list[Floats] = []
@@ -282,10 +287,15 @@ def _joined(structure: Structure, parts: _Parts, *, imperfection: float) -> Mesh
         tubes[name] = Tube(frame, contours[name], parts.rings[name], numbers, bays, elements)
         quads.append(numbers.reshape(-1)[bays.corners])
         elements += len(quads[-1])
+    cut_ends: tuple[CutEnd, ...] = ()
+    if structure.obstacles:
+        cut_ends, points_there = cut_ends_of(structure, contours, joints, size, count)
+        positions += points_there
+    count += sum(len(end.nodes) for end in cut_ends)
     bodies = [node for node, joint in joints.items() if joint.is_body]
     reference = {node: count + i for i, node in enumerate(bodies)}
     positions += [np.asarray(structure.nodes[node], float)[None] for node in bodies]
-    return Mesh(np.concatenate(positions), np.concatenate(quads), tubes, joints, reference)
+    return Mesh(np.concatenate(positions), np.concatenate(quads), tubes, joints, reference, cut_ends)
 
 
 def _points(structure: Structure, member: str, ring: Floats, at: Floats, joints: dict[str, Joint]) -> Floats:

@@ -99,7 +99,9 @@ def _body(structure: Structure, mesh: Mesh, group: Group) -> Body:
         for node in nodes
     }
     held, pinned = _hold(structure, group)
-    numbers = np.append(group.walls, [mesh.reference[node] for node in nodes]).astype(np.int64)
+    solid = [end.nodes for end in mesh.cut_ends if end.node in group.joints]
+    references = [mesh.reference[node] for node in nodes]
+    numbers = np.concatenate([group.walls, *solid, references]).astype(np.int64)
     pin = None if pinned is None else np.asarray(structure.nodes[pinned], float)
     return Body(lumps, numbers, mesh.position[numbers[-1]], held, pin, group.stretch)
 

@@ -11,6 +11,7 @@ import numpy as np
 from crumple._core.shell.model import History
 from crumple._core.shell.simulation import RigidObstacle, Shape, ShellState
 from crumple.errors import InputError, Problem
+from crumple.numeric.arrays import Integers
 from crumple.shell.mesh.contour import triple
 from crumple.shell.mesh.mesh import Mesh
 from crumple.shell.model.drives import velocity_of
@@ -44,7 +45,9 @@ def obstacles_of(structure: Structure, mesh: Mesh, stage: Stage, begin: float) -
             friction=obstacle.friction,
             damping=rebound_damping(obstacle.restitution),
             active=stage.obstacles is None or name in stage.obstacles,
-            nodes=touching(mesh, obstacle).astype(np.uint32),
+            nodes=np.concatenate(
+                [touching(mesh, obstacle), *_cut_away(mesh, obstacle)], dtype=np.uint32, casting="unsafe"
+            ),
             **(
                 _mass(obstacle)
                 if obstacle.mass is not None
@@ -59,6 +62,11 @@ def touching(mesh: Mesh, obstacle: Obstacle) -> np.ndarray[tuple[int], np.dtype[
     """Wall nodes of the members that can touch an obstacle."""
     members = mesh.tubes if obstacle.members is None else obstacle.members
     return np.unique(np.concatenate([mesh.tubes[member].nodes.reshape(-1) for member in members]))
+
+
+def _cut_away(mesh: Mesh, obstacle: Obstacle) -> list[Integers]:
+    """Points of the outlines of those members where joints cut them back."""
+    return [end.nodes for end in mesh.cut_ends if obstacle.members is None or end.member in obstacle.members]
 
 
 def refuse_walls_inside(structure: Structure, mesh: Mesh, stage: Stage) -> None:

@@ -8,9 +8,8 @@ import numpy as np
 
 from crumple.errors import Problem
 from crumple.function import TimeFunction
-from crumple.numeric.arrays import Floats
 from crumple.structure.checks.start_checks import swallowed
-from crumple.structure.keys.obstacles import CylinderObstacle, Obstacle, PlaneObstacle
+from crumple.structure.keys.obstacles import Obstacle, gap
 from crumple.structure.keys.stages import Stage, Until
 from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import Names, unknown
@@ -64,26 +63,6 @@ def _members_inside(
         if min(gaps[0], gaps[-1]) >= -INSIDE > least:
             what, todo = f"the member '{name}' starts inside the obstacle", "move the member or the obstacle"
             yield Problem(what, f"{-1e3 * least:.4g} mm deep", "outside it", todo, where)
-
-
-def gap(obstacle: Obstacle, points: Floats) -> Floats:
-    """Distance of points, (..., 3), from an obstacle at the start [m], (...,), negative inside."""
-    apart = points - np.asarray(obstacle.point, float)
-    if isinstance(obstacle, PlaneObstacle):
-        above = apart @ _unit(obstacle.normal)
-        if obstacle.edge is None:
-            return np.asarray(above, float)
-        beyond = apart @ _unit(obstacle.edge)
-        outside = np.minimum(above, beyond) > 0.0
-        return np.asarray(np.where(outside, np.hypot(above, beyond), np.maximum(above, beyond)))
-    radius = float(getattr(obstacle, "radius", 0.0))
-    if isinstance(obstacle, CylinderObstacle):
-        axis = _unit(obstacle.axis)
-        along = apart @ axis
-        if obstacle.length is not None:
-            along = np.clip(along, 0.0, obstacle.length)
-        apart = apart - along[..., None] * axis
-    return np.asarray(np.linalg.norm(apart, axis=-1) - radius)
 
 
 def stage_problems(
@@ -208,9 +187,3 @@ def _touching_nodes(structure: StructureParts, obstacle: Obstacle) -> list[str]:
     members = structure.members if obstacle.members is None else obstacle.members
     ends = {node for name in members if name in structure.members for node in structure.members[name].nodes}
     return [node for node in structure.nodes if node in ends]
-
-
-def _unit(direction: tuple[float, float, float]) -> Floats:
-    vector = np.asarray(direction, float)
-    unit: Floats = vector / np.linalg.norm(vector)
-    return unit

@@ -5,7 +5,8 @@ all sit on nodes: so a candidate lies at each end of a member, half a fold lengt
 can carry a moment.  Distributed inertia and long spans also bend members in between: `spacing` puts further
 candidates there.  A candidate that is never loaded to its capacity stays rigid, and changes nothing.
 
-Members of a straight run between supports (held_runs) also lengthen at their hinges, unless the input says
+Members of a straight run between supports (held_runs), and elastic members of structures of which an
+obstacle strikes a rigid joint (joint_reach), also change their length at their hinges, unless the input says
 otherwise.
 
 A corner whose law is stored has one hinge at its node in place of the candidates in its zone, and the
@@ -24,7 +25,7 @@ from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import FOLDS, automatic_of, folds_at_ends
 from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
 from crumple.structure.hinges.held_runs import held_runs
-from crumple.structure.hinges.joint_reach import joint_reach
+from crumple.structure.hinges.joint_reach import joint_reach, strikes_joint
 from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
 from crumple.structure.keys.hinge_axes import AxialSlip, HingeAxes
 from crumple.structure.keys.member import AutomaticHinges, Hinge
@@ -105,7 +106,10 @@ def lengthens(structure: StructureParts, member: str) -> bool:
     """Whether the automatic hinges of a member lengthen although the input does not say so."""
     asked = automatic_of(structure, member)
     unsaid = asked is not None and "axial" not in asked.model_fields_set
-    return unsaid and member in held_runs(structure)
+    if not unsaid:
+        return False
+    elastic = bool(structure.members[member].elastic)
+    return member in held_runs(structure) or (elastic and strikes_joint(structure))
 
 
 def twists(structure: StructureParts, member: str) -> bool:

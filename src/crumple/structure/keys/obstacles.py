@@ -203,6 +203,32 @@ class MemberContact(Spec):
     """Speed of separation over speed of approach between rigid bodies; not used in shells."""
 
 
+def gap(obstacle: Obstacle, points: Floats) -> Floats:
+    """Distance of points, (..., 3), from an obstacle at the start [m], (...,), negative inside."""
+    apart = points - np.asarray(obstacle.point, float)
+    if isinstance(obstacle, PlaneObstacle):
+        above = apart @ _unit(obstacle.normal)
+        if obstacle.edge is None:
+            return np.asarray(above, float)
+        beyond = apart @ _unit(obstacle.edge)
+        outside = np.minimum(above, beyond) > 0.0
+        return np.asarray(np.where(outside, np.hypot(above, beyond), np.maximum(above, beyond)))
+    radius = float(getattr(obstacle, "radius", 0.0))
+    if isinstance(obstacle, CylinderObstacle):
+        axis = _unit(obstacle.axis)
+        along = apart @ axis
+        if obstacle.length is not None:
+            along = np.clip(along, 0.0, obstacle.length)
+        apart = apart - along[..., None] * axis
+    return np.asarray(np.linalg.norm(apart, axis=-1) - radius)
+
+
 def _refuse_zero(key: str, direction: Direction) -> None:
     if not any(direction):
         refuse("the direction is zero", key=key, allowed="a direction such as [0, 0, 1]")
+
+
+def _unit(direction: tuple[float, float, float]) -> Floats:
+    vector = np.asarray(direction, float)
+    unit: Floats = vector / np.linalg.norm(vector)
+    return unit

@@ -63,7 +63,14 @@ def test_the_impulse_is_the_length_of_the_integral():
     force = np.tile([3.0, 0.0, -4.0], (5, 1))
     assert impulse(np.linspace(0.0, 2.0, 5), force) == pytest.approx(10.0)
     # what is pushed back counts against it
-    assert impulse(np.array([0.0, 1.0, 2.0]), np.array([[1.0, 0, 0], [0, 0, 0], [-1.0, 0, 0]])) == 0.0
+    assert impulse(np.array([0.0, 1.0, 2.0]), np.array([[0, 0, 0], [1.0, 0, 0], [-1.0, 0, 0]])) == 0.0
+
+
+def test_a_force_is_the_mean_since_the_time_before():
+    """An impact of 10 N s in one of several unequal intervals, as pictures between the outputs make them."""
+    force = np.zeros((4, 3))
+    force[2, 0] = 10.0 / 0.05
+    assert impulse(np.array([0.0, 0.2, 0.25, 0.4]), force) == pytest.approx(10.0)
 
 
 def test_the_hinge_under_the_pole_and_what_contact_takes_are_dissipated_there(one):

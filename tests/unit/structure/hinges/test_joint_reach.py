@@ -1,4 +1,4 @@
-"""Rigid joints take a part of their members: hinges lie half a fold outside of it."""
+"""Rigid joints take a part of their members: hinges lie outside; members yield where one is struck."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ import math
 import pytest
 
 from crumple.analysis import loads
+from crumple.hinge import Freedom
 from crumple.section import half_fold_length
-from crumple.structure import hinge_places
-from crumple.structure.hinges.joint_reach import LARGEST_SHARE, joint_reach
+from crumple.structure import hinge_places, plastic_hinges, with_elastic_members
+from crumple.structure.hinges.joint_reach import LARGEST_SHARE, joint_reach, strikes_joint
 
 T_FRAME = """crumple: 1
 materials:
@@ -66,3 +67,55 @@ def test_mitred_corners_have_no_joint_between_their_members():
     corner = corner.replace("  b: {node: right, fix: all}\n", "").replace("right: [0.4 m, 0 m, 0 m], ", "")
     structure = loads(corner).structure
     assert joint_reach(structure, "stem", "middle") == 0.0
+
+
+STRUCK = """crumple: 1
+materials:
+  steel: {{youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}}
+sections: {{tube: {{type: square_tube, side: 40 mm, thickness: 2 mm}}}}
+nodes: {{left: [-0.4 m, 0 m, 0 m], middle: [0 m, 0 m, 0 m], right: [0.4 m, 0 m, 0 m], tip: [0 m, 0 m, 0.4 m]}}
+members:
+  left_arm: {{nodes: [left, middle], section: tube, material: steel}}
+  right_arm: {{nodes: [middle, right], section: tube, material: steel}}
+  stem: {{nodes: [middle, tip], section: tube, material: steel}}
+hinges: {hinges}
+masses: {{payload: {{node: tip, mass: 10 kg}}}}
+obstacles: {{ball: {{type: sphere, point: {at}, radius: 50 mm, mass: 20 kg, guide: [0, 0, 1], {more}}}}}
+analysis: {{duration: 1 ms}}
+"""
+RISES = "velocity: [0 m/s, 0 m/s, 5 m/s]"
+
+
+def struck(at, more=RISES, hinges="auto"):
+    """The T-frame, free and at rest, and a ball below it."""
+    return loads(STRUCK.format(at=at, more=more, hinges=hinges))
+
+
+def test_a_joint_is_struck_where_it_is_nearest_to_what_moves():
+    assert strikes_joint(struck("[0 m, 0 m, -0.1 m]").structure)
+    # the wall of an arm, and the free end of one
+    assert not strikes_joint(struck("[0.16 m, 0 m, -0.1 m]").structure)
+    assert not strikes_joint(struck("[0.4 m, 0 m, -0.1 m]").structure)
+    # nothing moves; it touches the stem alone
+    assert not strikes_joint(struck("[0 m, 0 m, -0.1 m]", more="friction: 0.1").structure)
+    assert strikes_joint(struck("[0 m, 0 m, -0.1 m]", more=f"{RISES}, members: [stem]").structure)
+
+
+@pytest.mark.parametrize(
+    ("at", "hinges", "yields"),
+    [
+        ("[0 m, 0 m, -0.1 m]", "auto", True),
+        ("[0 m, 0 m, -0.1 m]", "{axial: false}", False),
+        ("[0.16 m, 0 m, -0.1 m]", "auto", False),
+    ],
+)
+def test_elastic_members_yield_along_their_axes_where_a_joint_is_struck(at, hinges, yields):
+    analysis = struck(at, hinges=hinges)
+    bends = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    assert {Freedom.AXIAL in freedoms(hinge) for hinge in plastic_hinges(bends)} == {yields}
+    # rigid bars keep their length
+    assert not any(Freedom.AXIAL in freedoms(hinge) for hinge in plastic_hinges(analysis.structure))
+
+
+def freedoms(hinge):
+    return set() if hinge.spatial is None else {component.freedom for component in hinge.spatial.components}
