@@ -17,8 +17,8 @@ from crumple.section import Section
 from crumple.structure.hinges.corners import Corner
 
 ARM = 0.4
-"""Shortening of a corner that folds over its rotation, as a share of that about the tension flange [-]; chosen
-on three S-rails in shells, docs/theory/mitred_corner.md."""
+"""Shortening of a corner that folds over its rotation, as a share of that about the tension flange [-]; from
+three S-rails in shells, docs/theory/mitred_corner.md."""
 
 
 def with_corner_arm(record: SpatialHingeRecord) -> SpatialHingeRecord:
