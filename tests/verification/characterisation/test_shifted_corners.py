@@ -7,7 +7,7 @@ degrees of plastic rotation about the moment, and rotation about the normal ther
 to choose. The hinge has the estimates about all axes, and the shift. Tolerances: the band of 25 % of the laws
 (found: 11 %; without the shift 26 %), and 8 degrees (found: 7.1; without the shift 15).
 
-Kind: independent calculation.  Source: derived here; run here.
+Kind: independent calculation.  Source: derived here.
 """
 
 import math
