@@ -22,7 +22,7 @@ public:
     double allowed() const { return h_; }
     // before the first step of a stage, and at its beginning
     void begin(double duration);
-    void forget() { h_ = 0; }
+    void forget() { h_ = refused_error_ = 0; }
     // Length and flags of the next step, of at most `longest`, before limits by loads; `aimed`: it is that of a leader's step.
     double wanted(double longest, double left, bool aimed) const;
     StepPlan plan(double h, double wanted, double longest, double left) const;

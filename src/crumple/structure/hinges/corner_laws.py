@@ -113,7 +113,7 @@ def corner_hinges(structure: StructureParts, member: str, keys: Mapping[str, Any
         if corner.first != member:
             continue
         if keys["axes"] is None:
-            own = {**keys, "axis": corner.axis, "law": law, **_shortening(structure, corner, keys)}
+            own = {**keys, "axis": corner.axis, "law": law, **_shortening(structure, corner, keys, law)}
         else:
             turned = is_turned(structure, corner, keys["axes"])
             aside = _out_of_plane(structure, corner, keys["law"]) if turned else keys["law"]
@@ -127,14 +127,19 @@ def corner_hinges(structure: StructureParts, member: str, keys: Mapping[str, Any
     return found
 
 
-def _shortening(structure: StructureParts, corner: Corner, keys: Mapping[str, Any]) -> dict[str, Any]:
+def _shortening(
+    structure: StructureParts, corner: Corner, keys: Mapping[str, Any], law: LawKeys
+) -> dict[str, Any]:
     """Slip at a corner of elastic members in a plane that obstacles may press: compression folds it too.
 
-    Without obstacles axial forces are small, and the planar kernel, which has no slip, solves the model.
+    Without obstacles axial forces are small, and the planar kernel, which has no slip, solves the model. The
+    input may say `axial: false` or another coupling; the regularised form cannot slip.
     """
-    members = (structure.members[name] for name in (corner.first, corner.second))
-    able = structure.obstacles and all(member.elastic for member in members)
-    if keys["coupling"] is not None or not able:
+    members = [structure.members[name] for name in (corner.first, corner.second)]
+    asked = automatic_of(structure, corner.first)
+    declined = asked is not None and asked.axial is None and "axial" in asked.model_fields_set
+    able = structure.obstacles and all(member.elastic for member in members) and law.form != "regularised"
+    if declined or not able or keys["coupling"] is not None:
         return {}
     return {"axial": keys["axial"] or AxialSlip(), "coupling": "tension-flange"}
 

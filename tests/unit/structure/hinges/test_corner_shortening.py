@@ -42,8 +42,16 @@ def test_it_slips_by_a_share_of_the_distance_of_the_tension_flange():
     assert {*spatial.freedoms} == {Freedom.AXIAL, Freedom.Y}
 
 
-@pytest.mark.parametrize("case", [{"obstacles": "{}"}, {"members": "rigid"}])
-def test_it_only_turns_where_nothing_presses_or_bars_are_rigid(case):
+@pytest.mark.parametrize(
+    "case",
+    [
+        {"obstacles": "{}"},
+        {"members": "rigid"},
+        {"hinges": "{axial: false}"},
+        {"hinges": "{law: {type: auto, form: regularised}}"},
+    ],
+)
+def test_it_only_turns_where_nothing_presses_or_the_model_or_the_input_does_not_let_it_slip(case):
     assert corner(**case).spatial is None
 
 
