@@ -15,17 +15,13 @@ namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-// Solves a x = b by elimination with the largest pivot of each column; false if a is singular.
+// Solves a x = b by elimination without exchanges, with pivots as if they were positive; false if one vanishes.  A negative pivot says
+// that the normal impulse grows by more than the friction that it causes (Painleve's paradox): the contact sticks or opens, what lies
+// between is unstable, and Newton's method would go there.  With the positive pivot it goes as far away from it.
 bool solve_dense(std::vector<double>& a, std::vector<double>& b) {
     const size_t n = b.size();
     for (size_t k = 0; k < n; k++) {
-        size_t best = k;
-        for (size_t i = k + 1; i < n; i++) {
-            if (std::fabs(a[i * n + k]) > std::fabs(a[best * n + k])) best = i;
-        }
-        if (!(std::fabs(a[best * n + k]) > 1e-9)) return false;
-        for (size_t j = 0; j < n && best != k; j++) std::swap(a[k * n + j], a[best * n + j]);
-        std::swap(b[k], b[best]);
+        if (!(std::fabs(a[k * n + k]) > 1e-9)) return false;
         for (size_t i = k + 1; i < n; i++) {
             const double f = a[i * n + k] / a[k * n + k];
             for (size_t j = k; j < n; j++) a[i * n + j] -= f * a[k * n + j];
@@ -33,8 +29,8 @@ bool solve_dense(std::vector<double>& a, std::vector<double>& b) {
         }
     }
     for (size_t k = n; k-- > 0;) {
-        for (size_t j = k + 1; j < n; j++) b[k] -= a[k * n + j] * b[j];
-        b[k] /= a[k * n + k];
+        b[k] /= std::fabs(a[k * n + k]);
+        for (size_t j = k + 1; j < n; j++) b[k] -= a[k * n + j] / a[k * n + k] * b[j];
     }
     return true;
 }

@@ -85,6 +85,29 @@ def test_impact_that_reverses_the_slip(record_figure):
     assert record.energy.friction[-1] >= 0.0
 
 
+@pytest.mark.parametrize("friction", [1.0, 1.3, 2.0, 10.0])
+def test_impact_that_jams(friction, record_figure):
+    """Above a friction of 1.21 the friction of the slip would press the rod on the plane more than the plane
+    pushes it back (Painleve's paradox): both impulses are those that stop the end, at any friction.
+
+    (1/m + z^2/I) F - x z N/I = s and (1/m + x^2/I) N - x z F/I = v, with the arm (x, z) from centre to contact.
+    """
+    slope, speed, slip, mass, radius = math.radians(60.0), 3.0, 1.5, 4.0, 0.05
+    first, second = inclined_rod(slope, 0.03, radius)
+    body = rod(first, second, mass=mass)
+    velocity = [[0, 0, 0, -slip, 0, -speed]]
+    run = simulation([body], [rod_shape(0, first, second)], [plane(friction=friction)], velocity, NO_GRAVITY)
+    record = run.run(np.array([0.0, 0.012]))
+    x, z, inertia = -math.cos(slope) / 2, -math.sin(slope) / 2 - radius, body.inertia[1, 1]
+    mobility = np.eye(2) / mass + np.array([[z * z, -x * z], [-x * z, x * x]]) / inertia
+    along, normal = np.linalg.solve(mobility, [slip, speed])
+    assert along < friction * normal
+    found = mass * (record.velocity[1, 0, [3, 5]] + [slip, speed])
+    record_figure(f"jam, friction {friction:g}, along", found[0], along, 1e-3, "N s")
+    record_figure(f"jam, friction {friction:g}, normal", found[1], normal, 1e-3, "N s")
+    assert record.residual < MAX_RESIDUAL
+
+
 def test_rod_falls_over_on_a_smooth_plane(record_figure):
     """Its centre falls straight down: energy gives the spin at every angle.
 
