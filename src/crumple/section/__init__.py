@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from crumple.section.capacity.capacity import MomentCapacity, moment_capacity
     from crumple.section.capacity.interaction import PlasticInteraction, plastic_interaction
     from crumple.section.capacity.interaction_fit import InteractionFit, fitted_interaction
-    from crumple.section.fold import half_fold_length
+    from crumple.section.fold import fold_distance, half_fold_length
     from crumple.section.properties.properties import SectionProperties
     from crumple.section.section import AXES, Axis, Section
     from crumple.section.shapes.angle import Angle
@@ -49,6 +49,7 @@ _FILES = {
     "Weld": "wall",
     "bending_moment": "capacity.bending_curve",
     "fitted_interaction": "capacity.interaction_fit",
+    "fold_distance": "fold",
     "half_fold_length": "fold",
     "moment_capacity": "capacity.capacity",
     "outline_section": "wall_section",
@@ -78,6 +79,7 @@ __all__ = [
     "Weld",
     "bending_moment",
     "fitted_interaction",
+    "fold_distance",
     "half_fold_length",
     "moment_capacity",
     "outline_section",

@@ -1,4 +1,4 @@
-"""Where a fold forms: half its length along the member.
+"""Length of a fold, and the place of the hinge that stands for it.
 
     H_b = 1.276 b^(2/3) t^(1/3)
 
@@ -10,9 +10,12 @@ from __future__ import annotations
 
 from crumple.section.section import Axis, Section
 
+FROM_FACE = 0.7
+"""Distance of a hinge from a rigid face over half the length of its fold [-]."""
+
 
 def half_fold_length(section: Section, axis: Axis = "y") -> float:
-    """Half the length of a bending fold along the member: a fold at a clamp forms about this far from it.
+    """Half the length of a bending fold along the member.
 
     Parameters
     ----------
@@ -41,3 +44,23 @@ def half_fold_length(section: Section, axis: Axis = "y") -> float:
     thickness = section.thickness
     width = section.flange_width(axis) - thickness
     return float(1.276 * width ** (2.0 / 3.0) * thickness ** (1.0 / 3.0))
+
+
+def fold_distance(section: Section, axis: Axis = "y") -> float:
+    """Distance of a hinge from a clamp or the face of a rigid joint [m]: `FROM_FACE` of half a fold length.
+
+    Parameters
+    ----------
+    section, axis
+        As for `half_fold_length`.
+
+    Notes
+    -----
+    A fixed hinge at 0.63 to 0.75 of half a fold takes the work of the fold, in shells of cantilevers of
+    three rectangular tubes up to 10 degrees; the fold itself turns about places from 0.6 to 0.95.
+
+    References
+    ----------
+    Derived here: docs/theory/half_fold_length.md, docs/theory/tube_library.md (folds at a rigid face).
+    """
+    return FROM_FACE * half_fold_length(section, axis)

@@ -90,7 +90,7 @@ def test_impact_that_jams(friction, record_figure):
     """Above a friction of 1.21 the friction of the slip would press the rod on the plane more than the plane
     pushes it back (Painleve's paradox): both impulses are those that stop the end, at any friction.
 
-    (1/m + z^2/I) F - x z N/I = s and (1/m + x^2/I) N - x z F/I = v, with the arm (x, z) from centre to contact.
+    (1/m + z^2/I) F - x z N/I = s and (1/m + x^2/I) N - x z F/I = v; (x, z) from centre to contact.
     """
     slope, speed, slip, mass, radius = math.radians(60.0), 3.0, 1.5, 4.0, 0.05
     first, second = inclined_rod(slope, 0.03, radius)

@@ -7,7 +7,7 @@ k = (I_b/b)/(I_c/h) of beam and columns, inextensible:
     clamped feet    24 E I_c/h^3 (6 k + 1)/(6 k + 4)
     pinned feet      6 E I_c/h^3 2 k/(2 k + 1)
 
-Along and in twist: E A/L and G J/L.  Hinges lie half a fold length inside their members, or at uneven places.
+Along and in twist: E A/L and G J/L.  Hinges lie near the ends of their members, or at uneven places.
 The energy that rigid hinges leave out: M^2 L/(6 E I) with the moment M at the ends of a guided column.
 The planar kernel has no quasi-static stages: there the load rises over 0.5 s, some hundred periods of the
 slowest vibration.

@@ -16,7 +16,7 @@ import pytest
 from tests.support.structures import cantilever
 
 from crumple.multibody import Run, solve_multibody
-from crumple.section import half_fold_length
+from crumple.section import fold_distance
 from crumple.structure import MultibodySettings, Outputs
 
 # largest tip rotation [rad], its time [s], plastic energy [J] at the plastic tip rotations [rad] below
@@ -44,7 +44,7 @@ def tube(request):
     x, z = (result[f"node.tip.displacement.{axis}"] for axis in "xz")
     chord = np.arctan2(z, 1.0 + x)
     # the moment at the root is that of the hinge over its share of the lever arm
-    root = -result["hinge.root.moment"] / (1.0 - half_fold_length(structure.section_of("tube"), "y"))
+    root = -result["hinge.root.moment"] / (1.0 - fold_distance(structure.section_of("tube"), "y"))
     elastic = root / STIFFNESS if request.param == "elastic-plastic" else 0.0
     until = int(np.argmax(chord)) + 1
     plastic = np.maximum.accumulate((chord - elastic)[:until])

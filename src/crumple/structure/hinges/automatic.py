@@ -1,7 +1,7 @@
 """Positions of candidate hinges of `hinges: auto`: wherever a fold can form.
 
 Bending moments are largest where something holds, joins or loads a member, and masses, supports and joints
-all sit on nodes: so a candidate lies at each end of a member, half a fold length inside, unless nothing there
+all sit on nodes: so a candidate lies near each end of a member (`fold_distance`), unless nothing there
 can carry a moment.  Distributed inertia and long spans also bend members in between: `spacing` puts further
 candidates there.  A candidate that is never loaded to its capacity stays rigid, and changes nothing.
 
@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from crumple.section import Axis, half_fold_length
+from crumple.section import Axis, fold_distance, half_fold_length
 from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import FOLDS, automatic_of, folds_at_ends
 from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
@@ -71,7 +71,7 @@ def _further(structure: StructureParts, member: str, given: tuple[Hinge, ...]) -
 
 
 def _about_at(structure: StructureParts, member: str, hinge: Hinge) -> float:
-    """Distance of a given hinge from the member's first node [m], but for half a fold at a clamp."""
+    """Distance of a given hinge from the member's first node [m], but for the distance of a fold from a clamp."""
     offset = hinge.offset or 0.0
     if not isinstance(hinge.at, str):
         return hinge.at + offset
@@ -150,7 +150,8 @@ def automatic_stations(
     # a member that is shorter than two folds has room for one
     if 4.0 * half >= end - start:
         return {f"{member}-1": (start + end) / 2.0} if any(loaded) else {}
-    first, last = start + half, end - half
+    inside = max(fold_distance(section, axis) for axis in axes)
+    first, last = start + inside, end - inside
     number = 1 if spacing is None else max(1, math.ceil((last - first) / spacing * (1.0 - 1e-9)))
     between = np.linspace(first, last, number + 1)[1:-1]
     found = {f"{member}-{nodes[0]}": first} if loaded[0] else {}

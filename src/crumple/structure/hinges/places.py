@@ -1,6 +1,6 @@
 """Where the hinges of a structure are, and which law each has.
 
-A hinge at a node that is held against its rotation lies half a fold length inside the member: a fold needs
+A hinge at a node that is held against its rotation lies inside the member (`fold_distance`): a fold needs
 room, and a clamp gives none.  Between the equal bars of a member lies one hinge each.
 """
 
@@ -12,7 +12,7 @@ from crumple import hinge
 from crumple.hinge import HingeLaw
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
-from crumple.section import Axis, Section, half_fold_length
+from crumple.section import Axis, Section, fold_distance
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges.asked import where_automatic
 from crumple.structure.hinges.automatic import hinges_of
@@ -109,7 +109,7 @@ def hinge_station(structure: StructureParts, member: str, given: Hinge) -> float
     if offset is None:
         axis = first_axis(given) or bending_axis(structure, member)
         held = holds_rotation(structure, given.at, structure.frame_of(member).axis(axis))
-        offset = half_fold_length(structure.section_of(member), axis) if held else 0.0
+        offset = fold_distance(structure.section_of(member), axis) if held else 0.0
     return offset if given.at == spec.nodes[0] else structure.frame_of(member).length - offset
 
 

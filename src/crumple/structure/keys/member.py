@@ -69,7 +69,7 @@ class Placed(Spec):
     """A node of the member, or the distance from its first node."""
     offset: Length | None = None
     """Shift from that place into the member (from a distance: towards the second node);
-    without it half a fold length at a clamp, else 0."""
+    without it the distance of a fold from a clamp, 0.7 of half a fold length, at one, else 0."""
 
 
 class Hinge(HingeAxes, Placed):
@@ -83,8 +83,8 @@ class AutomaticHinges(HingeAxes):
     """
 
     spacing: PositiveLength | None = None
-    """Largest distance between candidates along a member; without it they lie at its ends alone, half a fold
-    length inside."""
+    """Largest distance between candidates along a member; without it they lie at its ends alone, at the
+    distance of a fold from a rigid face."""
 
 
 def _automatic(given: Any) -> Any:

@@ -4,13 +4,14 @@ import pytest
 from tests.support.multibody.frames import CLAMP, LAW, member, structure
 
 from crumple.errors import InputError
-from crumple.section import RectangularTube, half_fold_length
+from crumple.section import RectangularTube, fold_distance, half_fold_length
 from crumple.structure import any_automatic, hinge_places, placed_hinges, planar
 from crumple.structure.hinges.automatic import automatic_stations
 
 NODES = {"a": (0.0, 0.0, 0.0), "b": (1.0, 0.0, 0.0), "c": (1.0, 0.0, 1.0), "d": (1.02, 0.0, 0.0)}
 FRAME = {"ab": member("a", "b") | {"hinges": ()}, "bc": member("b", "c") | {"hinges": ()}}
-HALF = half_fold_length(RectangularTube(0.050, 0.025, 0.00265), "y")
+INSIDE = fold_distance(RectangularTube(0.050, 0.025, 0.00265), "y")
+FOLD = 2.0 * half_fold_length(RectangularTube(0.050, 0.025, 0.00265), "y")
 
 
 def stations(whole):
@@ -22,13 +23,13 @@ def frame(hinges="auto", **parts):
     return structure({k: v for k, v in NODES.items() if k != "d"}, FRAME, hinges=hinges, **parts)
 
 
-def test_candidates_lie_half_a_fold_inside_every_end_that_can_carry_a_moment():
+def test_candidates_lie_inside_every_end_that_can_carry_a_moment():
     # nothing is joined to node c: no moment there
-    assert stations(frame(hinges={"law": "kecman"})) == {"ab-a": HALF, "ab-b": 1.0 - HALF, "bc-b": HALF}
+    assert stations(frame(hinges={"law": "kecman"})) == {"ab-a": INSIDE, "ab-b": 1.0 - INSIDE, "bc-b": INSIDE}
 
 
 def test_a_mitred_corner_has_one_hinge_at_its_node():
-    assert stations(frame()) == {"ab-a": HALF, "corner-b": pytest.approx(1.0)}
+    assert stations(frame()) == {"ab-a": INSIDE, "corner-b": pytest.approx(1.0)}
 
 
 def test_a_mass_with_inertia_or_off_its_node_carries_a_moment_a_point_does_not():
@@ -42,14 +43,14 @@ def test_a_mass_with_inertia_or_off_its_node_carries_a_moment_a_point_does_not()
 
 def test_spacing_divides_the_way_between_the_ends_evenly():
     found = list(stations(frame({"spacing": 0.3, "law": LAW})).values())[:5]
-    reach = 1.0 - 2 * HALF
-    assert found == [HALF, HALF + reach / 4, HALF + reach / 2, HALF + 3 * reach / 4, 1.0 - HALF]
+    reach = 1.0 - 2 * INSIDE
+    assert found == [INSIDE, INSIDE + reach / 4, INSIDE + reach / 2, INSIDE + 3 * reach / 4, 1.0 - INSIDE]
 
 
 def test_a_member_too_short_for_two_folds_gets_one_in_its_middle():
     nodes = {"a": NODES["a"], "d": (0.06, 0.0, 0.0)}
     whole = structure(nodes, {"ad": member("a", "d") | {"hinges": "auto"}}, supports=CLAMP)
-    assert 4 * HALF > 0.06
+    assert 4 * INSIDE > 0.06
     assert stations(whole) == {"ad-1": 0.03}
 
 
@@ -147,7 +148,7 @@ def test_an_elastic_member_folds_at_its_ends_unless_its_list_of_hinges_is_empty(
         members = {"ab": elastic("a", "b", **keys), "bc": FRAME["bc"]}
         return structure(nodes, members, supports=CLAMP)
 
-    assert stations(found()) == {"ab-a": HALF, "ab-b": 1.0 - HALF}
+    assert stations(found()) == {"ab-a": INSIDE, "ab-b": 1.0 - INSIDE}
     assert any_automatic(found())
     assert stations(found(hinges=())) == {}
     assert stations(found(elastic=False)) == {}
@@ -156,7 +157,7 @@ def test_an_elastic_member_folds_at_its_ends_unless_its_list_of_hinges_is_empty(
 def test_two_elastic_members_that_are_asked_for_nothing_have_the_hinge_of_their_corner():
     members = {"ab": elastic("a", "b"), "bc": elastic("b", "c")}
     whole = structure({k: NODES[k] for k in "abc"}, members, supports=CLAMP)
-    assert stations(whole) == {"ab-a": HALF, "corner-b": pytest.approx(1.0)}
+    assert stations(whole) == {"ab-a": INSIDE, "corner-b": pytest.approx(1.0)}
 
 
 @pytest.mark.parametrize(
@@ -165,8 +166,8 @@ def test_two_elastic_members_that_are_asked_for_nothing_have_the_hinge_of_their_
         ({"at": 0.5}, {"ab-a", "ab-b"}),
         ({"at": "a"}, {"ab-b"}),
         ({"at": "b", "offset": 0.1}, {"ab-a", "ab-b"}),
-        ({"at": 1.0 - 2.9 * HALF}, {"ab-a"}),
-        ({"at": 1.0 - 3.1 * HALF}, {"ab-a", "ab-b"}),
+        ({"at": 1.0 - INSIDE - 0.95 * FOLD}, {"ab-a"}),
+        ({"at": 1.0 - INSIDE - 1.05 * FOLD}, {"ab-a", "ab-b"}),
     ],
 )
 def test_an_elastic_member_with_a_list_of_hinges_folds_at_the_ends_that_it_leaves_out(given, left):

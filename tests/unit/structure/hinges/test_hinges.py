@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from crumple.hinge import Form, Freedom, SofteningVariable
-from crumple.section import half_fold_length
+from crumple.section import fold_distance
 from crumple.structure import Structure, hinge_places, placed_hinges, plastic_hinges, shares_left_out
 
 
@@ -12,11 +12,11 @@ def placed(keys):
     return placed_hinges(Structure(**keys))
 
 
-def test_a_hinge_at_a_clamp_lies_half_a_fold_length_inside(keys):
+def test_a_hinge_at_a_clamp_lies_where_its_fold_turns(keys):
     (hinge,) = placed(keys)
     structure = Structure(**keys)
-    inside = half_fold_length(structure.section_of("arm"), "y")
-    assert hinge.station == inside > 0.02
+    inside = fold_distance(structure.section_of("arm"), "y")
+    assert hinge.station == inside > 0.016
     np.testing.assert_allclose(hinge.position, [inside, 0, 0])
     np.testing.assert_allclose(hinge.direction, [0, 1, 0])
 
@@ -31,7 +31,7 @@ def test_the_offset_overrides_it(keys):
 def test_offsets_point_into_the_member_from_either_end(keys):
     keys["members"]["arm"]["nodes"] = ("tip", "root")
     (hinge,) = placed(keys)
-    assert hinge.station == pytest.approx(1.0 - half_fold_length(Structure(**keys).section_of("arm"), "y"))
+    assert hinge.station == pytest.approx(1.0 - fold_distance(Structure(**keys).section_of("arm"), "y"))
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import pytest
 
 from crumple.analysis import loads
 from crumple.hinge import Freedom
-from crumple.section import half_fold_length
+from crumple.section import fold_distance
 from crumple.structure import hinge_places, plastic_hinges, with_elastic_members
 from crumple.structure.hinges.joint_reach import LARGEST_SHARE, joint_reach, strikes_joint
 
@@ -41,7 +41,7 @@ def test_a_stem_begins_at_the_face_of_its_chord_and_the_chord_beside_the_stem():
     assert joint_reach(structure, "stem", "tip") == 0.0
     assert joint_reach(structure, "left_arm", "left") == 0.0
     at = {place.name: place.station for place in hinge_places(structure)}
-    half = half_fold_length(structure.section_of("stem"), "y")
+    half = fold_distance(structure.section_of("stem"), "y")
     assert at["stem-middle"] == pytest.approx(0.030 + half)
 
 

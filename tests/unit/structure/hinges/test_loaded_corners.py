@@ -7,7 +7,7 @@ import math
 import pytest
 
 from crumple.analysis import loads
-from crumple.section import half_fold_length
+from crumple.section import fold_distance
 from crumple.shell.mesh.mesh import mesh_of
 from crumple.structure import ShellSettings, hinge_places
 from crumple.structure.hinges.corners import corners, untreated
@@ -50,7 +50,7 @@ def test_a_loaded_corner_folds_in_either_member_outside_of_its_mitre(acting):
     # the inner edges of two tubes of 60 mm meet 30 mm from the node
     assert joint_reach(structure, "post", "corner") == pytest.approx(0.030)
     at = {place.name: place.station for place in hinge_places(structure)}
-    half = half_fold_length(structure.section_of("post"), "y")
+    half = fold_distance(structure.section_of("post"), "y")
     assert at["arm-corner"] == pytest.approx(0.030 + half)
     assert at["post-corner"] == pytest.approx(0.45 - 0.030 - half)
 

@@ -10,7 +10,7 @@ from tests.support.stored_laws import law_text, store_of
 from crumple.errors import InputError
 from crumple.hinge.measured.place_hash import place_hash
 from crumple.material import Material
-from crumple.section import CircularTube, RectangularTube, half_fold_length
+from crumple.section import CircularTube, RectangularTube, fold_distance
 from crumple.structure import Structure, law_uses, placed_hinges, used_texts, with_used_laws
 from crumple.structure.hinges.corners import corners, untreated
 
@@ -22,7 +22,7 @@ CLOSING, OPENING = 400.0, 300.0
 MITRE = law_text(CORNER, CLOSING, OPENING, corner="90 deg", stiffness=6e4)
 NODES = {"a": (0.0, 0.0, 0.0), "b": (0.0, 0.0, 0.5), "c": (0.5, 0.0, 0.5)}
 CLAMP = {"clamp": {"node": "a", "fix": "all"}}
-HALF = half_fold_length(SECTION, "y")
+INSIDE = fold_distance(SECTION, "y")
 PLAIN = {"section": "tube", "material": "steel"}
 DOWN = [{"nodes": ["c"], "translation": (0.0, 0.0, -3.0)}]
 
@@ -63,7 +63,7 @@ def test_a_store_does_not_hide_that_a_member_at_a_corner_names_nothing(key, kind
 def test_members_use_the_law_of_their_section_and_a_corner_its_own(tmp_path):
     whole = frame(laws=stored(tmp_path, STRAIGHT, MITRE))
     foot, corner = placed_hinges(whole)
-    assert (foot.name, foot.station) == ("post-a", pytest.approx(HALF))
+    assert (foot.name, foot.station) == ("post-a", pytest.approx(INSIDE))
     assert float(foot.law.moment_capacity(0.1)) == 900.0
     assert (corner.name, corner.member, corner.station) == ("corner-b", "post", 0.5)
     assert corner.record.form.value == "elastic-plastic"
@@ -94,7 +94,7 @@ def test_the_corner_closes_with_its_closing_moment_however_members_are_numbered(
 
 def test_candidates_outside_the_zone_of_the_corner_stay(tmp_path):
     whole = frame(laws=stored(tmp_path, MITRE), hinges={"spacing": 0.05})
-    zone = 0.050 + HALF
+    zone = 0.050 + INSIDE
     stations = [h.station for h in placed_hinges(whole) if h.member == "arm"]
     assert stations
     assert min(stations) > zone

@@ -226,14 +226,14 @@ def test_problems_of_walls_name_their_place_and_their_names(keys):
         ("square_tube", None, "y"),
     ],
 )
-def test_hinges_in_sections_of_walls_lie_half_a_fold_inside_the_clamp(keys, kind, law, axis):
+def test_hinges_in_sections_of_walls_lie_where_the_fold_turns(keys, kind, law, axis):
     keys["sections"]["tube"] = {"type": kind, **SHAPES[kind][0]}
     keys["members"]["arm"]["hinges"] = [{"name": "fold", "at": "root", "axis": axis}]
     if law is not None:
         keys["members"]["arm"]["hinges"][0]["law"] = law
     structure = Structure(**keys)
     (hinge,) = placed_hinges(structure)
-    inside = section.half_fold_length(structure.section_of("arm"), axis)
+    inside = section.fold_distance(structure.section_of("arm"), axis)
     assert 0.0 < hinge.station == pytest.approx(inside)
     assert hinge.record.positive.moment[0] > 0.0
 
