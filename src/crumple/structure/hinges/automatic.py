@@ -71,7 +71,7 @@ def _further(structure: StructureParts, member: str, given: tuple[Hinge, ...]) -
 
 
 def _about_at(structure: StructureParts, member: str, hinge: Hinge) -> float:
-    """Distance of a given hinge from the member's first node [m], but for the distance of a fold from a clamp."""
+    """Distance of a given hinge from the member's first node [m], but for `fold_distance` at a clamp."""
     offset = hinge.offset or 0.0
     if not isinstance(hinge.at, str):
         return hinge.at + offset
