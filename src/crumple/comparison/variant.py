@@ -41,15 +41,17 @@ def variants_of(analysis: Analysis, motions: Sequence[HingeMotion]) -> dict[str,
     """
     structure = analysis.structure
     elastic = _with_members(analysis, structure, "elastic")
+    bending = with_elastic_members(structure, elastic.multibody, analysis.duration)
     found = {}
     if with_elastic_members(structure, analysis.multibody, analysis.duration) is not structure:
         found[RIGID_MEMBERS] = _with_members(analysis, structure, "rigid")
     else:
         if (hinges := with_elastic_hinges(structure)) is not None:
             found[ELASTIC_HINGES] = analysis.model_copy(update={"structure": hinges})
-        if with_elastic_members(structure, elastic.multibody, analysis.duration) is not structure:
+        if bending is not structure:
             found[ELASTIC_MEMBERS] = elastic
-    if (measured := with_measured_laws(structure, motions)) is not None:
+    # automatic hinges of elastic members also twist and lengthen
+    if (measured := with_measured_laws(bending, motions)) is not None:
         found[SHELL_LAWS] = _with_members(analysis, measured, "elastic")
     return found
 

@@ -46,7 +46,7 @@ KINDS = (
     Kind(
         "hinge.NAME.rotation",
         "rad",
-        "rotation, elastic part included; of several components the length of their vector, as below",
+        "rotation, elastic part included; of several rotations the length of their vector, as below",
     ),
     Kind("hinge.NAME.rotation_rate", "rad/s", "rate of the rotation"),
     Kind(

@@ -2,6 +2,9 @@
 
 A multibody hinge at a corner stands for both legs.  In shapes each leg is measured by itself: the fold of the
 hinge's own member, and the fold of the other one, which has no hinge there.  Their rotations add up.
+
+The rotation of a hinge that bends about both axes is an angle without a sense.  The other leg's fold then
+adds its own angle: both legs of a corner that closes or opens fold in one sense.
 """
 
 from __future__ import annotations
@@ -11,8 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from crumple.comparison.measure.motion import HingeMotion, Measured
-from crumple.numeric.arrays import Floats
+from crumple.comparison.measure.motion import HingeMotion, Measured, bends_two_ways
 from crumple.structure import PlacedHinge, Structure
 from crumple.structure.hinges.corner_laws import corner_laws, corner_name
 from crumple.structure.hinges.corners import Corner
@@ -32,15 +34,14 @@ def with_corners(seen: Measured, structure: Structure, hinges: Sequence[PlacedHi
         Hinges at corners are known by the structure's stored laws.
     """
     at = {corner_name(node): corner for node, (corner, _) in corner_laws(structure).items()}
-    directions = {hinge.name: hinge.direction for hinge in hinges}
+    placed = {hinge.name: hinge for hinge in hinges}
     rest, found = list(seen.extra), []
     for motion in seen.hinges:
         corner = at.get(motion.name)
         both = motion
         for fold in [one for one in rest if corner is not None and _beside(structure, corner, one)]:
             assert corner is not None
-            sense = _sense(structure, corner, directions[motion.name])
-            both = _sum(both, fold, sense)
+            both = _sum(both, fold, _sense(structure, corner, placed[motion.name], fold))
             rest.remove(fold)
         found.append(both)
     return replace(seen, hinges=tuple(found), extra=tuple(rest))
@@ -56,18 +57,21 @@ def _beside(structure: Structure, corner: Corner, fold: HingeMotion) -> bool:
     return away <= corner.zone(structure)
 
 
-def _sense(structure: Structure, corner: Corner, direction: Floats) -> float:
-    """Sense in which a rotation in the second member adds to that of the hinge in the first."""
+def _sense(structure: Structure, corner: Corner, hinge: PlacedHinge, fold: HingeMotion) -> float:
+    """Sense in which the rotation of a fold in either member adds to that of the hinge in the first."""
+    if bends_two_ways(hinge):
+        return fold.sense
+    if fold.member == hinge.member:
+        return 1.0
     frame = structure.frame_of(corner.second)
-    along = max((float(frame.axis(axis) @ direction) for axis in ("y", "z")), key=abs)
+    along = max((float(frame.axis(axis) @ hinge.direction) for axis in ("y", "z")), key=abs)
     ends = structure.members[corner.first].nodes[1] == corner.node
     begins = structure.members[corner.second].nodes[0] == corner.node
     return float(np.sign(along)) * (1.0 if ends == begins else -1.0)
 
 
 def _sum(motion: HingeMotion, fold: HingeMotion, sense: float) -> HingeMotion:
-    own = fold.member == motion.member
-    added = {key: getattr(motion, key) + (1.0 if own else sense) * getattr(fold, key) for key in SUMMED}
+    added = {key: getattr(motion, key) + sense * getattr(fold, key) for key in SUMMED}
     where = f"Sum of both members at the corner. {motion.how} {fold.how}"
     return replace(
         motion, **added, plastic_work=motion.plastic_work + fold.plastic_work, how=where, fold=True

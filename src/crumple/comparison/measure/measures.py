@@ -183,9 +183,19 @@ def _force(result: Result, obstacle: str) -> Floats | None:
 
 
 def _filtered(result: Result, force: Floats) -> Floats:
-    step = float(result.time[1] - result.time[0])
-    even = np.arange(result.time[0], result.time[-1] + step / 2, step)
-    parts = [cfc(np.interp(even, result.time, force[:, i]), step, 60) for i in range(3)]
+    """Magnitude of a force through CFC 60 [N], at equal intervals.
+
+    Each value is the mean since the output before.  Shapes add outputs between, so that intervals differ:
+    what is kept at equal ones is the impulse.
+    """
+    time = result.time
+    step = float(time[1] - time[0])
+    even = np.arange(time[0], time[-1] + step / 2, step)
+    passed = np.concatenate([np.zeros((1, 3)), np.cumsum(np.diff(time)[:, None] * force[1:], axis=0)])
+    parts = []
+    for i in range(3):
+        means = np.diff(np.interp(even, time, passed[:, i])) / step
+        parts.append(cfc(np.concatenate([force[:1, i], means]), step, 60))
     return np.asarray(np.linalg.norm(parts, axis=0))
 
 

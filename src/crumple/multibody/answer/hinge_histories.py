@@ -79,12 +79,15 @@ def hinge_columns(
 
 
 def _named(parts: list[Floats], free: tuple[int, ...]) -> dict[str, Floats]:
-    """Columns of one hinge: values of one rotation; else the lengths of its rotations, and components."""
+    """Columns of one hinge: its only rotation, or the lengths of several; and components beside others."""
     of_turning = list(zip(TURNING, parts, strict=True))
-    if len(free) == 1 and free[0] >= 3:
-        return {name: np.ascontiguousarray(values[:, 0]) for name, values in of_turning}
     turning = [k for k, freedom in enumerate(free) if freedom >= 3]
-    columns = {name: np.linalg.norm(values[:, turning], axis=1) for name, values in of_turning}
+    if len(turning) == 1:
+        columns = {name: np.ascontiguousarray(values[:, turning[0]]) for name, values in of_turning}
+    else:
+        columns = {name: np.linalg.norm(values[:, turning], axis=1) for name, values in of_turning}
+    if len(free) == 1 and turning:
+        return columns
     for (name, values), axial in zip(of_turning, AXIAL, strict=True):
         for k, freedom in enumerate(free):
             one, axis = np.ascontiguousarray(values[:, k]), AXES[freedom % 3]

@@ -167,7 +167,8 @@ def idle(structure: Structure, hinge: PlacedHinge | None, joint: str | None) -> 
             f"both sides of {what}",
             came,
             "hinges and joints between parts that can move against each other",
-            "remove it, or put hinges into the parallel load path",
+            "remove it, put hinges into the parallel load path, or let the members bend "
+            "(analysis.multibody.members: elastic)",
             where,
         )
     )

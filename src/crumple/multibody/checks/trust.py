@@ -22,6 +22,8 @@ from crumple.text.names import listed
 
 LOST_SHARE = 1e-3
 """Share of the energy input that may be lost at the start before a warning is given."""
+MOST = 0.5
+"""The same share from which the parts are taken to be locked, as bars of fixed length in a triangle are."""
 ELASTIC_SHARE = 0.05
 """Share of elastic energy above which rigid bars need a warning: as large as the laws' own scatter."""
 ERROR_SHARE = 0.01
@@ -30,6 +32,10 @@ SMALL_ERROR = 1e-5
 """Estimated error [rad] that is negligible, however small the rotations are."""
 SLOW_SHARE = 0.05
 """Energy removed from the motion over that in the structure above which a stage is not quasi-static."""
+LOCKED = (
+    " If members must change their length for it, as in a triangle, give their hinges 'axial: true', or "
+    "solve with shells."
+)
 OFF_AXIS = 0.5
 """Angle [deg] between a hinge's axis and the normal of the plane above which bending across counts."""
 SOFTENING = {
@@ -147,6 +153,7 @@ def warnings(
         found.append(
             f"{vanished:.4g} J of the given {max(solved.given, kinetic + solved.lost):.4g} J is lost "
             "at the start: the given motion does not fit the supports and hinges."
+            + (LOCKED if vanished > MOST * max(solved.given, kinetic) else "")
         )
     stored = energy_left_out(structure, solved.hinges)
     total = energy_put_in(solved)

@@ -20,7 +20,7 @@ PLACE = place_hash(
 TIME = np.linspace(0.0, 1.0, 5)
 
 
-def frame(tmp_path, arm):
+def frame(tmp_path, arm, thrown=(0.0, 0.0, -3.0)):
     store = store_of(tmp_path / "laws", law_text(PLACE, corner="90 deg", stiffness=6e4))
     member = {"section": "tube", "material": "steel"}
     return Structure(
@@ -30,7 +30,7 @@ def frame(tmp_path, arm):
         members={"post": {"nodes": ("a", "b"), **member}, "arm": {"nodes": arm, **member}},
         supports={"clamp": {"node": "a", "fix": "all"}},
         hinges="auto",
-        initial_velocity=[{"nodes": ["c"], "translation": (0.0, 0.0, -3.0)}],
+        initial_velocity=[{"nodes": ["c"], "translation": thrown}],
         laws=str(store),
     )
 
@@ -56,6 +56,16 @@ def test_folds_of_both_legs_that_close_the_corner_add_up(tmp_path, arm, station)
     assert both.rotation[-1] == pytest.approx(0.5 * closing)
     assert both.plastic_work[-1] == pytest.approx(2.0)
     assert seen.extra == (far,)
+
+
+@pytest.mark.parametrize("turned", [0.3, -0.3])
+def test_the_angles_of_both_legs_of_a_corner_in_space_add_up(tmp_path, turned):
+    """The angle of a hinge that bends about both axes has no sense; that of the other leg's fold has one."""
+    whole = frame(tmp_path, ("b", "c"), (0.0, 1.0, -3.0))
+    post, leg = motion("corner-b", "post", 0.49, 0.2), motion("arm at 10 mm", "arm", 0.01, turned)
+    (both,) = with_corners(Measured({}, (), (post,), (leg,)), whole, plastic_hinges(whole)).hinges
+    assert both.rotation[-1] == pytest.approx(0.5)
+    assert both.plastic_rotation[-1] == pytest.approx(0.5)
 
 
 def test_hinges_away_from_corners_stay_as_they_are(tmp_path):

@@ -73,6 +73,13 @@ def test_axial_components_have_names_and_units_of_their_own(rows):
     np.testing.assert_allclose(found["moment"], np.linalg.norm(rows.hinge.moment[:, 1:3], axis=1))
 
 
+def test_the_only_rotation_of_a_hinge_that_also_slips_has_its_sign(rows):
+    found = columns(rows, (0, 4), sign=-1.0)
+    for name, kernel in (("rotation", "rotation"), ("rotation_rate", "rate"), ("moment", "moment")):
+        np.testing.assert_array_equal(found[name], -getattr(rows.hinge, kernel)[:, 1])
+        np.testing.assert_array_equal(found[f"{name}.y"], found[name])
+
+
 def test_a_hinge_that_only_slips_does_not_turn(rows):
     found = columns(rows, (0,))
     np.testing.assert_array_equal(found["slip.x.travel"], rows.hinge.rotation[:, 0])
