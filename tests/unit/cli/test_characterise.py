@@ -23,7 +23,7 @@ def test_law_is_solved_once_and_kept(tmp_path, monkeypatch):
     folder = tmp_path / "kept"
     first = invoke("--store", str(folder), "--to", "10 deg", "--json", "--threads", "1")
     assert first.exit_code == 0, first.output
-    content = json.loads(first.output)
+    content = json.loads(first.stdout)
     curve = content["curve"]
     assert curve["rotation"][0] == 0.0
     assert curve["rotation"][-1] == pytest.approx(0.1745, rel=0.05)
