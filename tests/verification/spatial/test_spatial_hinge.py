@@ -277,8 +277,9 @@ def test_fold_about_the_tension_flange_shortens_by_normality(record_figure):
 
 
 def test_the_arm_of_a_fold_gains_with_compression(record_figure):
-    """Compression between two gains: M + N (arm + gain) less gain times its force, and shortening by their sum."""
-    arm, gain, share, yield_force, compression, moment, capacity = 0.02, 0.03, 0.1, 200e3, 30e3, 500.0, 1200.0
+    """Between two gains the fold takes M + N arm + gain (N - share N_y), and shortens by arm + gain."""
+    arm, gain, share, yield_force = 0.02, 0.03, 0.1, 200e3
+    compression, moment, capacity = 30e3, 500.0, 1200.0
     constants = hinge(
         component(AXIAL, yield_force, 150e3),
         component(ABOUT_Y, capacity),

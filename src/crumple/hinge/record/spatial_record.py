@@ -108,7 +108,7 @@ class HingeSurface:
         Tension flange: what the arm gains [m] for the part of a compressive force beyond a share [-] of the
         yield force, both increasing, at most three.
     growth
-        Tension flange: largest plastic rotation so far [rad] and share of `arm` [-], below 1; empty: all of it.
+        Tension flange: largest plastic rotation so far [rad] and share of `arm` [-], below 1; empty: all.
     error
         Largest relative distance between this surface and that of the walls.
     """

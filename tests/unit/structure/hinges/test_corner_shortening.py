@@ -50,7 +50,7 @@ def test_it_turns_about_its_tension_flange_when_it_is_folded_and_compressed():
 
 
 def test_its_gains_stand_for_an_arm_that_grows_with_compression():
-    """The moment lost up to any compression, steps against the straight line that they replace: within 2 %."""
+    """The moment lost up to any compression: steps against the straight line that they replace."""
     surface, flange, full = corner().spatial.surface, 0.024, 0.135
     compression = np.linspace(0.0, 0.25, 101)
     gained = np.diff([0.0] + [gain for gain, _ in surface.gains])
@@ -59,7 +59,7 @@ def test_its_gains_stand_for_an_arm_that_grows_with_compression():
     )
     below = np.minimum(compression, full)
     line = 0.55 * flange * (below**2 / (2.0 * full) + compression - below)
-    np.testing.assert_allclose(steps, line, atol=0.02 * line[-1])
+    np.testing.assert_allclose(steps, line, atol=1.1e-3 * flange)
 
 
 def test_it_slips_at_right_angles_to_the_mitre():

@@ -8,8 +8,6 @@ sin^2(a/2) l/(G J) to that about the bisector. The product of both, which couple
 from __future__ import annotations
 
 import math
-
-import numpy as np
 from dataclasses import replace
 
 from crumple.hinge import Form, HingeLaw, SpatialHingeRecord
