@@ -275,7 +275,8 @@ def spatial_record_of(
     )
     corner = turned_corner(structure, place.name, place.keys.axes)
     if corner is None:
-        return record if corner_of(structure, place.name) is None else with_corner_slip(record)
+        plain = corner_of(structure, place.name)
+        return record if plain is None else with_corner_slip(record, plain, metal[0])
     sprung = with_corner_springs(record, corner, metal, shares.twist, torsion)
     return with_corner_shift(sprung, corner, metal[0])
 
