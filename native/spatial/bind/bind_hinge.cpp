@@ -121,7 +121,8 @@ SpatialHinge make_hinge(const nb::dict& d) {
         h.components.push_back({entry<int>(c, "freedom"),
                                 hinge::make_hinge(c, static_cast<Form>(form), static_cast<Softening>(softening)),
                                 make_shares(entry<Doubles>(c, "shift_rotation"), entry<Doubles>(c, "shift_share"), 1,
-                                            "shares of a shift are below 1, at increasing rotations"), entry<int>(c, "shift_like")});
+                                            "shares of a shift are below 1, at increasing rotations"),
+                                entry<int>(c, "shift_like")});
         const Component& last = h.components.back();
         require(last.freedom >= 0 && last.freedom < 6, "a freedom is one of six");
         require(form != 1 || (last.law.stiffness > 0 && std::isfinite(last.law.stiffness)), "an elastic hinge needs a stiffness");
