@@ -75,6 +75,13 @@ nb::dict state_of(const Element& e) {
     return d;
 }
 
+// Shares over increasing rotations, all below a limit.
+hinge::Curve make_shares(const Doubles& rotation, const Doubles& share, double limit, const char* refusal) {
+    require(rotation.size() == share.size(), "one share per rotation is needed");
+    for (size_t i = 0; i < share.size(); i++) require(std::fabs(share[i]) < limit && (i == 0 || rotation[i] > rotation[i - 1]), refusal);
+    return {{rotation.begin(), rotation.end()}, {share.begin(), share.end()}};
+}
+
 Surface make_surface(const nb::dict& d, int n) {
     require(n >= 1 && n <= most_components, "a hinge has one to four components");
     Surface s;
@@ -86,21 +93,20 @@ Surface make_surface(const nb::dict& d, int n) {
     s.torque_power = entry<double>(d, "torque_power");
     s.torsion = entry<int>(d, "torsion");
     s.arm = entry<double>(d, "arm");
+    const auto gains = entry<Doubles>(d, "arm_gains"), shares = entry<Doubles>(d, "arm_gain_shares");
+    require(gains.size() == shares.size() && gains.size() <= most_arm_gains, "an arm has up to three gains, with a share each");
+    for (size_t i = 0; i < gains.size(); i++) {
+        require(gains[i] > (i == 0 ? 0 : gains[i - 1]) && shares[i] > (i == 0 ? 0 : shares[i - 1]), "gains of an arm and their shares increase");
+        s.gains.push_back({gains[i], shares[i]});
+    }
+    s.growth = make_shares(entry<Doubles>(d, "growth_rotation"), entry<Doubles>(d, "growth_share"), 1,
+                           "shares of the growth of an arm are below 1, at increasing rotations");
     if (s.coupling == Coupling::section) {
         require(!s.rows.empty() && s.rows.size() % static_cast<size_t>(n) == 0, "rows must have one column per component");
         require(s.power >= 2 && s.torque_power >= 2, "the powers of a surface are at least 2");
         require(s.torsion >= -1 && s.torsion < n, "the torque is no component");
     }
     return s;
-}
-
-hinge::Curve make_shift(const nb::dict& d) {
-    auto places = entry<Doubles>(d, "shift_rotation"), shares = entry<Doubles>(d, "shift_share");
-    require(places.size() == shares.size(), "a shift needs one share per rotation");
-    for (size_t i = 0; i < shares.size(); i++) {
-        require(std::fabs(shares[i]) < 1 && (i == 0 || places[i] > places[i - 1]), "shares of a shift are below 1, at increasing rotations");
-    }
-    return {std::move(places), std::move(shares)};
 }
 
 }  // namespace
@@ -114,7 +120,9 @@ SpatialHinge make_hinge(const nb::dict& d) {
         const auto c = as<nb::dict>(item, "a component of a hinge");
         h.components.push_back({entry<int>(c, "freedom"),
                                 hinge::make_hinge(c, static_cast<Form>(form), static_cast<Softening>(softening)),
-                                make_shift(c), entry<int>(c, "shift_like")});
+                                make_shares(entry<Doubles>(c, "shift_rotation"), entry<Doubles>(c, "shift_share"), 1,
+                                            "shares of a shift are below 1, at increasing rotations"),
+                                entry<int>(c, "shift_like")});
         const Component& last = h.components.back();
         require(last.freedom >= 0 && last.freedom < 6, "a freedom is one of six");
         require(form != 1 || (last.law.stiffness > 0 && std::isfinite(last.law.stiffness)), "an elastic hinge needs a stiffness");

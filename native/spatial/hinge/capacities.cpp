@@ -89,6 +89,11 @@ void mean_capacities(const SpatialHinge& hinge, const SpatialHingeState& s, cons
     const bool at_end = form_of(hinge) == Form::elastic_plastic;
     if (on_flange(hinge)) {
         for (int k = 0; k < n; k++) hinge::set_capacity(law_of(hinge, k), s.component[k], flow[k], f.hint[k], f.component[k]);
+        if (hinge.surface.growth.values().empty()) return;
+        const int turn = rotates(hinge, 0) ? 0 : 1;
+        const double so_far = std::max(s.component[turn].peak[0], s.component[turn].peak[1]);
+        int hint = 0;
+        f.grown = capacity_over(hinge.surface.growth, so_far, std::max(so_far, std::fabs(e[turn] + flow[turn])), at_end, hint);
         return;
     }
     if (!softens(hinge)) {

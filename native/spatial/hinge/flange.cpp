@@ -25,24 +25,35 @@ struct Side {
     double a[2], bound;
 };
 
-void sides(const Flange& f, Side* out) {
-    out[0] = {{0, 1}, f.top};
-    out[1] = {{-f.arm, 1}, f.moment};
-    out[2] = {{-1, 0}, f.crush};
-    out[3] = {{1, 0}, f.pull};
-    out[4] = {{0, -1}, 0};
-}
+constexpr int most_sides = 5 + most_arm_gains;
 
-constexpr int flange_sides = 5;
+// The last one is M >= 0, which bounds nothing.
+int sides(const Flange& f, Side* out) {
+    int count = 0;
+    out[count++] = {{0, 1}, f.top};
+    out[count++] = {{-f.arm, 1}, f.moment};
+    double bound = f.moment, gained = 0;
+    for (size_t i = 0; f.gains != nullptr && i < f.gains->size(); i++) {
+        // meets the side before where the compressive force is the share of the yield force
+        const ArmGain& next = (*f.gains)[i];
+        bound += (next.gain - gained) * next.share * f.pull;
+        gained = next.gain;
+        out[count++] = {{-f.arm - gained, 1}, bound};
+    }
+    out[count++] = {{-1, 0}, f.crush};
+    out[count++] = {{1, 0}, f.pull};
+    out[count++] = {{0, -1}, 0};
+    return count;
+}
 
 }  // namespace
 
 double gauge(const Flange& f, const double* x) {
     const double at[2] = {x[f.axial], std::fabs(x[1 - f.axial])};
-    Side side[flange_sides];
-    sides(f, side);
+    Side side[most_sides];
+    const int count = sides(f, side);
     double g = 0;
-    for (int i = 0; i < flange_sides - 1; i++) g = std::max(g, dot(side[i].a, at) / side[i].bound);
+    for (int i = 0; i < count - 1; i++) g = std::max(g, dot(side[i].a, at) / side[i].bound);
     return g;
 }
 
@@ -62,20 +73,20 @@ SurfacePoint nearest(const Flange& f, const double* y, const double* m, double* 
         }
         return p;
     };
-    Side side[flange_sides];
-    sides(f, side);
+    Side side[most_sides];
+    const int count = sides(f, side);
     bool inside = metric[0] > 0 && metric[1] > 0;
     if (inside) {
         for (int i = 0; i < 2; i++) x[i] = load[i] / metric[i], block[3 * i] = 1 / metric[i];
-        for (const Side& s : side) inside = inside && dot(s.a, x) <= s.bound;
+        for (int i = 0; i < count; i++) inside = inside && dot(side[i].a, x) <= side[i].bound;
         if (inside) return finish();
         block[0] = block[3] = 0;
     }
-    for (int i = 0; i < flange_sides - 1; i++) {
+    for (int i = 0; i < count - 1; i++) {
         const double* a = side[i].a;
         const double square = dot(a, a), foot[2] = {a[0] * side[i].bound / square, a[1] * side[i].bound / square}, along[2] = {-a[1], a[0]};
         double low = -1e300, high = 1e300;
-        for (int j = 0; j < flange_sides; j++) {
+        for (int j = 0; j < count; j++) {
             const double slope = dot(side[j].a, along), left = side[j].bound - dot(side[j].a, foot);
             if (j == i || (slope == 0 && left >= 0)) continue;
             if (slope == 0) high = -1e300;

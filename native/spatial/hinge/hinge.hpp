@@ -74,6 +74,7 @@ struct FrozenSpatialHinge {
     double intact = 1;          // share of the step before fracture; 0: fractured
     double w0[most_components] = {}, tau0[most_components] = {};
     double top[2] = {0, 0};     // tension flange: initial capacity of the moment in both senses
+    double grown = 1;           // tension flange: share of its arm
     hinge::FrozenHinge component[most_components];  // capacities of both senses, stops, damper; of a shifted set its half axes
     double shift[most_components] = {}, centre[most_components] = {};  // share of the shift, and the centre of K
     int hint[most_components][2] = {};

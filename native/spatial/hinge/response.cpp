@@ -27,7 +27,8 @@ Flange flange_of(const SpatialHinge& hinge, const FrozenSpatialHinge& f, double 
     Flange out;
     out.axial = hinge.components[0].freedom < 3 ? 0 : 1;
     const int sense = moment_sign < 0 ? 1 : 0;
-    out.arm = hinge.surface.arm;
+    out.arm = f.grown * hinge.surface.arm;
+    out.gains = &hinge.surface.gains;
     out.moment = f.component[1 - out.axial].capacity[sense];
     out.top = std::max(f.top[sense], out.moment);
     out.pull = f.component[out.axial].capacity[0];

@@ -7,6 +7,8 @@
 
 #include <vector>
 
+#include "hinge/curve.hpp"
+
 namespace crumple::spatial {
 
 enum class Coupling {
@@ -17,12 +19,20 @@ enum class Coupling {
     tension_flange,  // the fold rotates about its tension flange, see `Flange`
 };
 
+// What the arm of a tension flange gains [m] beyond a compressive force, given as a share of the yield force.
+struct ArmGain {
+    double gain, share;
+};
+constexpr int most_arm_gains = 3;
+
 struct Surface {
     Coupling coupling = Coupling::none;
     std::vector<double> rows;  // section: (rows, n), a column per component in their order; the torque's column is zero
     double power = 2, torque_power = 2;
     int torsion = -1;          // section: component that is the torque, or -1
-    double arm = 0;            // tension flange: distance of the flange from the centroid [m]
+    double arm = 0;              // tension flange: distance of the flange from the centroid [m]
+    std::vector<ArmGain> gains;  // tension flange: compression moves the axis of the fold outwards
+    hinge::Curve growth;         // tension flange: share of `arm` over the largest plastic rotation so far; empty: 1
 };
 
 // Solution of the problem: point x, value of the maximum, multiplier of g <= 1 (zero inside).
@@ -41,10 +51,11 @@ double half_square(const Surface& s, int n, const double* x, double* gradient, d
 SurfacePoint nearest(const Surface& s, int n, const double* y, const double* m, const double* guess, double* derivative,
                      bool value_only = false);
 
-// Set of (M, N), N positive in tension: |M| <= top, |M| - N arm <= moment, -crush <= N <= pull.
+// Set of (M, N), N positive in tension: |M| <= top, |M| - N arm <= moment, the same with every gain of the arm, -crush <= N <= pull.
 struct Flange {
     int axial = 0;  // which of the two components is N
     double moment = 0, top = 0, arm = 0, crush = 0, pull = 0;
+    const std::vector<ArmGain>* gains = nullptr;
 };
 double gauge(const Flange& f, const double* x);
 SurfacePoint nearest(const Flange& f, const double* y, const double* m, double* derivative);

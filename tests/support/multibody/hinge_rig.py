@@ -15,6 +15,7 @@ NONE, ELLIPSOID, BALL, SECTION, TENSION_FLANGE = range(5)
 AXIAL, TORSION, ABOUT_Y, ABOUT_Z = 0, 3, 4, 5
 
 FORMS = (SET_VALUED, ELASTIC_PLASTIC, REGULARISED)
+NO_ARM = {"arm": 0.0, "arm_gains": [], "arm_gain_shares": [], "growth_rotation": [], "growth_share": []}
 
 
 def component(freedom, positive, negative=None, **more):
@@ -46,7 +47,7 @@ def component(freedom, positive, negative=None, **more):
 
 def hinge(*components, form=SET_VALUED, softening=PEAK, coupling=NONE, **more):
     """Constants of a hinge as the kernel takes them."""
-    plain = {"rows": [], "power": 2.0, "torque_power": 2.0, "torsion": -1, "arm": 0.0, "fracture": math.inf}
+    plain = {"rows": [], "power": 2.0, "torque_power": 2.0, "torsion": -1, "fracture": math.inf, **NO_ARM}
     plain |= {"form": form, "softening": softening, "coupling": coupling, "components": list(components)}
     return plain | more
 

@@ -54,6 +54,7 @@ def run(**keys):
     return k.Simulation(model(**keys), 1e-3, 1e-9, 1e-3)
 held = (-1, 0, [0.0] * 3, list(np.eye(3).ravel()), [True] * 6, False)
 surface = dict(coupling=3, rows=[1.0] * 5, power=2.0, torque_power=2.0, torsion=-1, arm=0.0)
+surface |= dict(arm_gains=[], arm_gain_shares=[], growth_rotation=[], growth_share=[])
 nan = float("nan")
 """
 CALLS = {

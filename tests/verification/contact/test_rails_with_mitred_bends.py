@@ -1,11 +1,12 @@
 """S-rails that a wall strikes: bends with the estimate of a mitred corner under axial force, against shells.
 
-Tubes with two bends against a wall (friction 0.1), a mass behind them, 25 ms, elastic members. Shells with
-3.4 to 4.5 elements along half a fold: shortening [m], peak and mean force at the wall [N], filtered alike
-in both. The slip of the corner was chosen on the first three; the fourth was described
-and solved after that choice. Tolerances: the targets of docs/theory/comparison.md, 10 % of the shortening
-and 15 % of the mean force; 20 % of the peak, which the crush of the rail's end at the wall lowers in shells.
-Without slip and with the law of before the fourth was 14, 22 and 42 % off.
+Tubes with two bends against a wall (friction 0.1), a mass behind them, elastic members. Shells with 3.4 to
+4.5 elements along half a fold: shortening [m], peak and mean force at the wall [N], filtered alike in both.
+The constants of the corner were fitted to sub-models of six others; the first three rails were used for an
+earlier choice. The last three have a flight of 10 ms before they meet the wall, since the filter depends on
+its convention at the start of a record; two of them were described and solved after all choices. Tolerances:
+the targets of docs/theory/comparison.md, 10 % of the shortening and 15 % of both forces. With the law of
+before the peak forces of these three were 19, 17 and 0 % off.
 
 Kind: independent calculation.  Source: derived here.
 """
@@ -35,12 +36,12 @@ members:
 hinges: auto
 supports: {{sled: {{node: rear, fix: [y, z, rx, ry, rz]}}}}
 masses: {{sled: {{node: rear, mass: {mass} kg}}}}
-obstacles: {{wall: {{type: plane, point: [-1 mm, 0 m, 0 m], normal: [1, 0, 0], friction: 0.1}}}}
+obstacles: {{wall: {{type: plane, point: [-{gap} mm, 0 m, 0 m], normal: [1, 0, 0], friction: 0.1}}}}
 initial_velocity: [{{translation: [-{speed} m/s, 0 m/s, 0 m/s]}}]
-analysis: {{duration: 25 ms, multibody: {{members: elastic, mechanism_check: off}}}}
+analysis: {{duration: {duration} ms, multibody: {{members: elastic, mechanism_check: off}}}}
 outputs: {{every: 0.1 ms, distances: {{crush: {{from: front, to: rear}}}}}}
 """
-PLACES = {"bend": 0.2, "end": 0.75, "mass": 90, "speed": 6}
+PLACES = {"bend": 0.2, "end": 0.75, "mass": 90, "speed": 6, "gap": 1, "duration": 25}
 # strength, section and shape; what shells say
 RAILS = {
     "50x50x2, 33 deg": (
@@ -65,8 +66,23 @@ RAILS = {
         | {"rise": 0.14, "end": 0.85, "mass": 200, "speed": 7},
         (0.0727, 29.1e3, 12.31e3),
     ),
+    "50x50x1.8, 18 deg, after a flight, not used": (
+        {"strength": 280, "width": 50, "depth": 50, "wall": 1.8, "bend": 0.22, "top": 0.5053}
+        | {"rise": 0.0927, "end": 0.8053, "mass": 100, "speed": 6, "gap": 60, "duration": 35},
+        (0.0654, 20.3e3, 4.38e3),
+    ),
+    "45x60x1.7, 23 deg, after a flight, not used": (
+        {"strength": 250, "width": 45, "depth": 60, "wall": 1.7, "bend": 0.25, "top": 0.4801}
+        | {"rise": 0.0977, "end": 0.7801, "mass": 90, "speed": 6, "gap": 60, "duration": 35},
+        (0.0686, 16.8e3, 4.06e3),
+    ),
+    "65x55x2.3, 33 deg, after a flight, not used": (
+        {"strength": 380, "width": 65, "depth": 55, "wall": 2.3, "bend": 0.22, "top": 0.4716}
+        | {"rise": 0.1634, "end": 0.7716, "mass": 180, "speed": 6.5, "gap": 65, "duration": 35},
+        (0.0678, 24.6e3, 6.07e3),
+    ),
 }
-ALLOWED = {"shortening": 0.10, "peak force": 0.20, "mean force": 0.15}
+ALLOWED = {"shortening": 0.10, "peak force": 0.15, "mean force": 0.15}
 
 
 @pytest.mark.parametrize("rail", RAILS)

@@ -276,6 +276,29 @@ def test_fold_about_the_tension_flange_shortens_by_normality(record_figure):
     assert pulled.w[1] == pytest.approx(max(rate, (1700.0 - 1500.0) / inertia * duration), rel=1e-3)
 
 
+def test_the_arm_of_a_fold_gains_with_compression(record_figure):
+    """Between two gains the fold takes M + N arm + gain (N - share N_y), and shortens by arm + gain."""
+    arm, gain, share, yield_force = 0.02, 0.03, 0.1, 200e3
+    compression, moment, capacity = 30e3, 500.0, 1200.0
+    constants = hinge(
+        component(AXIAL, yield_force, 150e3),
+        component(ABOUT_Y, capacity),
+        coupling=TENSION_FLANGE,
+        arm=arm,
+        arm_gains=[gain, 0.04],
+        arm_gain_shares=[share, 0.5],
+    )
+    inertia, mass, duration = 3.0, 40.0, 0.05
+    made = rig(constants, [mass, inertia])
+    for _ in range(100):
+        made.step(duration / 100, [-compression, moment])
+    reduced = compression * arm + gain * (compression - share * yield_force)
+    acceleration = (moment + reduced - capacity) / (inertia + mass * (arm + gain) ** 2)
+    record_figure("rotation", made.q[1], acceleration * duration**2 / 2, 1e-3, "rad", relative=True)
+    record_figure("shortening over rotation", -made.q[0] / made.q[1], arm + gain, 1e-6, "m", relative=True)
+    assert made.energy == pytest.approx(0.0, abs=1e-8 * capacity)
+
+
 def test_fracture_leaves_the_rest_of_the_motion(record_figure):
     moment, rate, angle = 700.0, 15.0, 0.2
     made = rig(hinge(component(ABOUT_Y, moment), coupling=NONE, fracture=angle), INERTIA, [rate])

@@ -138,7 +138,10 @@ class Coupling(IntEnum):
 
 @dataclass(frozen=True, eq=False)
 class SpatialSurface:
-    """Surface of interaction; `rows` (k, components), the column of component `torsion` is zero."""
+    """Surface of interaction; `rows` (k, components), the column of component `torsion` is zero.
+
+    `gains` and `growth` of the arm of a tension flange: see `HingeSurface`.
+    """
 
     coupling: Coupling = Coupling.NONE
     rows: Floats = field(default_factory=lambda: np.zeros((0, 0)))
@@ -146,6 +149,8 @@ class SpatialSurface:
     torque_power: float = 2.0
     torsion: int = -1
     arm: float = 0.0
+    gains: tuple[tuple[float, float], ...] = ()
+    growth: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
 
 
 @dataclass(frozen=True, eq=False)

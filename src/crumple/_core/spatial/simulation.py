@@ -325,6 +325,10 @@ def _hinge(hinge: SpatialHinge) -> dict[str, Any]:
         "torque_power": surface.torque_power,
         "torsion": surface.torsion,
         "arm": surface.arm,
+        "arm_gains": [gain for gain, _ in surface.gains],
+        "arm_gain_shares": [share for _, share in surface.gains],
+        "growth_rotation": _list(surface.growth[0]),
+        "growth_share": _list(surface.growth[1]),
     }
 
 

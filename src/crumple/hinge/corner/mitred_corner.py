@@ -5,7 +5,8 @@ but the bending of the flange's own wall resists what turns it, so that the flan
 there; the webs carry the moment, over the length h/cos(alpha/2) of the mitre. With the distances b and h
 of the mid-lines of webs and flanges and the wall t,
 
-    M_0 = sigma_y t [h^2/2 (1 - g s^2)/(1 - s^2) + b h min(1, k t/(b s))] <= M_p,    s = sin(alpha/2)
+    M_0 = sigma_y t [h^2/2 (1 - g s^2)/(1 - s^2) + b h/sqrt(1 + x^2)] <= M_p,
+    x = b s/(k t),    s = sin(alpha/2)
 
 and, with the moment M_K(theta) of the straight member's Kecman-type mechanism,
 
@@ -13,8 +14,9 @@ and, with the moment M_K(theta) of the straight member's Kecman-type mechanism,
     opening   M = min(o M_0, (1 + d s) M_K, M_p)
 
 where M_F is that of the mechanism before it is capped. The constants were fitted to corners solved by
-shells. Limits: alpha -> 0 gives the straight member, rounded where its fold begins; a wall so thick that
-k t >= b s gives the whole flange. Elastic stiffness of the corner's own: K = r E t h^2.
+shells. Limits: alpha -> 0 or a thick wall (x -> 0) gives the straight member, rounded where its fold
+begins; for large x the flange carries k t/(b s) of its yield force. Elastic stiffness of the corner's
+own: K = r E t h^2.
 """
 
 from __future__ import annotations
@@ -145,7 +147,7 @@ class MitredCornerLaw:
         across, deep = section.flange_width(axis) - wall, section.bending_depth(axis) - wall
         s = math.sin(angle / 2.0)
         webs = deep**2 / 2.0 * (1.0 - WEB * s**2) / (1.0 - s**2)
-        flanges = across * deep * min(1.0, FLANGE * wall / (across * s))
+        flanges = across * deep / math.hypot(1.0, across * s / (FLANGE * wall))
         plastic = float(tube.moment_capacity(0.0))
         return cls(
             min(material.yield_stress * wall * (webs + flanges), plastic),

@@ -104,6 +104,11 @@ class HingeSurface:
         Component that is the twist, or -1.
     arm
         Tension flange: its distance from the centroid [m].
+    gains
+        Tension flange: what the arm gains [m] for the part of a compressive force beyond a share [-] of the
+        yield force, both increasing, at most three.
+    growth
+        Tension flange: largest plastic rotation so far [rad] and share of `arm` [-], below 1; empty: all.
     error
         Largest relative distance between this surface and that of the walls.
     """
@@ -114,6 +119,8 @@ class HingeSurface:
     torque_power: float = 2.0
     torsion: int = -1
     arm: float = 0.0
+    gains: tuple[tuple[float, float], ...] = ()
+    growth: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
     error: float = 0.0
 
     def gauge(self, shares: Floats) -> Floats:

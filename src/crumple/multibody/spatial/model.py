@@ -114,6 +114,8 @@ def _hinge(joint: int, connection: Connection) -> SpatialHinge:
             surface.torque_power,
             surface.torsion,
             surface.arm,
+            surface.gains,
+            surface.growth,
         ),
         FORMS[spatial.form],
         SOFTENING[spatial.softening_variable],

@@ -25,7 +25,8 @@ from crumple.hinge import (
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, half_fold_length
 from crumple.structure.hinges.corner.shift import with_corner_shift
-from crumple.structure.hinges.corner.springs import with_corner_arm, with_corner_springs
+from crumple.structure.hinges.corner.slip import with_corner_slip
+from crumple.structure.hinges.corner.springs import with_corner_springs
 from crumple.structure.hinges.corner_laws import corner_of, turned_corner
 from crumple.structure.hinges.elastic_members import yielding_record
 from crumple.structure.hinges.places import (
@@ -274,7 +275,8 @@ def spatial_record_of(
     )
     corner = turned_corner(structure, place.name, place.keys.axes)
     if corner is None:
-        return record if corner_of(structure, place.name) is None else with_corner_arm(record)
+        plain = corner_of(structure, place.name)
+        return record if plain is None else with_corner_slip(record, plain, metal[0])
     sprung = with_corner_springs(record, corner, metal, shares.twist, torsion)
     return with_corner_shift(sprung, corner, metal[0])
 
@@ -288,6 +290,9 @@ def _placed(structure: StructureParts, place: HingePlace, shares: HingeShares) -
     law, record = _bending(structure, place, shares)
     frame = structure.frame_of(place.member)
     corner = turned_corner(structure, place.name, place.keys.axes)
+    if corner is None and place.keys.axial is not None and place.keys.axes is None:
+        # in a plane a corner slips at right angles to its mitre
+        corner = corner_of(structure, place.name)
     axes = None if corner is None else corner.axes(structure)
     return PlacedHinge(
         name=place.name,

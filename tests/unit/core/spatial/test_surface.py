@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.optimize import minimize
-from tests.support.multibody.hinge_rig import BALL, ELLIPSOID, SECTION
+from tests.support.multibody.hinge_rig import BALL, ELLIPSOID, NO_ARM, SECTION
 
 from crumple._core import _kernels
 
@@ -20,7 +20,7 @@ def surface(coupling, rows=None, power=2.0, torque_power=2.0, torsion=-1):
     flat = [] if rows is None else rows.ravel().tolist()
     return {"coupling": coupling, "rows": flat, "power": power, "torque_power": torque_power} | {
         "torsion": torsion,
-        "arm": 0.0,
+        **NO_ARM,
     }
 
 
@@ -106,8 +106,21 @@ def test_gauge_is_a_norm_and_its_gradient_is_true():
             np.testing.assert_allclose(gradient, slope, atol=1e-8)
 
 
-def test_tension_flange_against_a_general_optimiser():
-    """|M| <= 100, |M| - 0.5 N <= 60, -80 <= N <= 150 at softened moment: by SciPy's SLSQP."""
+GAINING = {"arm_gains": [0.3, 0.8], "arm_gain_shares": [0.1, 0.3]}
+GROWN = {"growth_rotation": [0.0, 1e-9, 1.0], "growth_share": [0.0, 0.8, 0.8]}
+
+
+@pytest.mark.parametrize(
+    ("more", "arms", "bounds"),
+    [
+        ({}, [0.5], [60.0]),
+        # sides meet at compressions of 0.1 and 0.3 of the yield force of 150
+        (GAINING, [0.5, 0.8, 1.3], [60.0, 60.0 + 0.3 * 15.0, 60.0 + 0.3 * 15.0 + 0.5 * 45.0]),
+        (GAINING | GROWN, [0.4, 0.7, 1.2], [60.0, 60.0 + 0.3 * 15.0, 60.0 + 0.3 * 15.0 + 0.5 * 45.0]),
+    ],
+)
+def test_tension_flange_against_a_general_optimiser(more, arms, bounds):
+    """|M| <= 100, |M| - arm N <= bound, -80 <= N <= 150 at softened moment: by SciPy's SLSQP."""
     from tests.support.multibody.hinge_rig import (
         ABOUT_Y,
         AXIAL,
@@ -124,6 +137,7 @@ def test_tension_flange_against_a_general_optimiser():
         form=ELASTIC_PLASTIC,
         coupling=TENSION_FLANGE,
         arm=0.5,
+        **more,
     )
     stiffness = np.array([900.0, 400.0])
     for force, moment in itertools.product((-2.0, -0.4, -0.05, 0.05, 0.3, 2.0), (-1.0, -0.3, 0.1, 0.3, 1.0)):
@@ -137,8 +151,8 @@ def test_tension_flange_against_a_general_optimiser():
         sides = [
             {"type": "ineq", "fun": lambda t: 100.0 - t[1]},
             {"type": "ineq", "fun": lambda t: 100.0 + t[1]},
-            {"type": "ineq", "fun": lambda t: 60.0 - t[1] + 0.5 * t[0]},
-            {"type": "ineq", "fun": lambda t: 60.0 + t[1] + 0.5 * t[0]},
+            {"type": "ineq", "fun": lambda t: np.array(bounds) - t[1] + np.array(arms) * t[0]},
+            {"type": "ineq", "fun": lambda t: np.array(bounds) + t[1] + np.array(arms) * t[0]},
             {"type": "ineq", "fun": lambda t: t[0] + 80.0},
             {"type": "ineq", "fun": lambda t: 150.0 - t[0]},
         ]
@@ -148,5 +162,5 @@ def test_tension_flange_against_a_general_optimiser():
 
         found = minimize(distance, np.zeros(2), constraints=sides, method="SLSQP", options={"ftol": 1e-14})
         np.testing.assert_allclose(end, found.x, atol=2e-3)
-        assert all(side["fun"](end) >= -1e-12 * 150.0 for side in sides)
+        assert all(np.all(side["fun"](end) >= -1e-12 * 150.0) for side in sides)
         assert distance(end) <= found.fun + 1e-9

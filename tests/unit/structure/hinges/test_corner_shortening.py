@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+
+import numpy as np
 import pytest
 
 from crumple.analysis import loads
@@ -13,7 +16,7 @@ RAIL = """crumple: 1
 materials:
   steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}
 sections:
-  tube: {type: square_tube, side: 50 mm, thickness: 2 mm}
+  tube: {type: square_tube, side: 50 mm, thickness: GAUGE}
 nodes: {front: [0 m, 0 m, 0 m], bend: [0.3 m, 0 m, 0 m], rear: [0.6 m, 0 m, 0.15 m]}
 members:
   first: {nodes: [front, bend], section: tube, material: steel}
@@ -28,18 +31,56 @@ analysis: {duration: 1 ms, multibody: {members: MEMBERS}}
 WALL = "{wall: {type: plane, point: [0 m, 0 m, 0 m], normal: [1, 0, 0]}}"
 
 
-def corner(hinges="auto", obstacles=WALL, members="elastic"):
-    text = RAIL.replace("HINGES", hinges).replace("OBSTACLES", obstacles).replace("MEMBERS", members)
+HALF = math.atan2(0.15, 0.3) / 2.0
+FOLD = 0.7 - 35.0 * math.sin(HALF) * 2.0 / 48.0
+"""Arm of the corner's fold over the distance of the tension flange."""
+
+
+def corner(hinges="auto", obstacles=WALL, members="elastic", wall="2 mm"):
+    text = (
+        RAIL.replace("HINGES", hinges)
+        .replace("OBSTACLES", obstacles)
+        .replace("MEMBERS", members)
+        .replace("GAUGE", wall)
+    )
     analysis = loads(text)
     structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
     return next(hinge for hinge in placed_hinges(structure) if hinge.name == "corner-bend")
 
 
-def test_it_slips_by_a_share_of_the_distance_of_the_tension_flange():
+def test_it_turns_about_its_tension_flange_when_it_is_folded_and_compressed():
     spatial = corner().spatial
-    assert spatial.surface.coupling is Coupling.TENSION_FLANGE
-    assert spatial.surface.arm == pytest.approx(0.4 * 0.024)
+    surface = spatial.surface
+    assert surface.coupling is Coupling.TENSION_FLANGE
     assert {*spatial.freedoms} == {Freedom.AXIAL, Freedom.Y}
+    assert surface.arm == pytest.approx(FOLD * 0.024)
+    # folded, beyond the last gain; not folded, under little compression
+    assert surface.arm + surface.gains[-1][0] == pytest.approx(0.024)
+    assert surface.growth[1][[0, -1]] == pytest.approx([0.0, 1.0], abs=3e-3)
+
+
+def test_its_gains_stand_for_an_arm_that_grows_with_compression():
+    """The moment lost up to any compression: steps against the line that they replace, n/72 off at most."""
+    surface, flange, full = corner().spatial.surface, 0.024, 0.157
+    compression = np.linspace(0.0, 0.25, 101)
+    gained = np.diff([0.0] + [gain for gain, _ in surface.gains])
+    steps = sum(
+        g * np.maximum(compression - share, 0.0) for g, (_, share) in zip(gained, surface.gains, strict=True)
+    )
+    below = np.minimum(compression, full)
+    line = (1.0 - FOLD) * flange * (below**2 / (2.0 * full) + compression - below)
+    np.testing.assert_allclose(steps, line, atol=(1.0 - FOLD) * full / 72.0 * flange * (1.0 + 1e-9))
+
+
+def test_steep_corners_of_thick_walls_keep_a_small_arm():
+    """With walls of 4 mm the formula is negative: the least that was found stays."""
+    assert corner(wall="4 mm").spatial.surface.arm == pytest.approx(0.05 * 0.023)
+
+
+def test_it_slips_at_right_angles_to_the_mitre():
+    bent = corner()
+    assert bent.axes[0] == pytest.approx([math.cos(HALF), 0.0, math.sin(HALF)])
+    assert bent.axes[1] == pytest.approx(bent.direction)
 
 
 @pytest.mark.parametrize(

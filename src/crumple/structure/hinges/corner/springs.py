@@ -1,4 +1,4 @@
-"""Elastic stiffness of a corner's hinge about the corner's own axes, and its shortening in a plane.
+"""Elastic stiffness of a corner's hinge about the corner's own axes.
 
 A length l of the first member twists by l/(G J) times the torque about its own axis, which is at half the
 corner's angle a to the tangent. So it adds cos^2(a/2) l/(G J) to the flexibility about the tangent and
@@ -10,22 +10,11 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from crumple.hinge import Coupling, Form, HingeLaw, SpatialHingeRecord
+from crumple.hinge import Form, HingeLaw, SpatialHingeRecord
 from crumple.hinge.record.spatial_record import Freedom, HingeComponent
 from crumple.material import Material
 from crumple.section import Section
 from crumple.structure.hinges.corners import Corner
-
-ARM = 0.4
-"""Shortening of a corner that folds over its rotation, as a share of that about the tension flange [-]; from
-three S-rails in shells, docs/theory/mitred_corner.md."""
-
-
-def with_corner_arm(record: SpatialHingeRecord) -> SpatialHingeRecord:
-    """Record of a corner's hinge in a plane: it shortens as it folds, less than a straight member."""
-    if record.surface.coupling is not Coupling.TENSION_FLANGE:
-        return record
-    return replace(record, surface=replace(record.surface, arm=ARM * record.surface.arm))
 
 
 def with_corner_springs(
