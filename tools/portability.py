@@ -130,6 +130,7 @@ def arithmetic() -> tuple[str, ...]:
 def units(kernels: tuple[str, ...]) -> list[tuple[str, Path, tuple[str, ...]]]:
     """Object name, source and options of everything but the bindings."""
     element = NATIVE / "shell" / "element" / "kernel.cpp"
+    blocks = NATIVE / "spatial" / "solve" / "block_kernels.cpp"
     tangent = NATIVE / "planar" / "tangent.cpp"
     again = [
         NATIVE / name for name in re.findall(r'#include "(.*\.cpp)"', tangent.read_text(encoding="utf-8"))
@@ -137,13 +138,16 @@ def units(kernels: tuple[str, ...]) -> list[tuple[str, Path, tuple[str, ...]]]:
     found: list[tuple[str, Path, tuple[str, ...]]] = [("program", PROGRAM, ())]
     for source in sorted(NATIVE.rglob("*.cpp")):
         name = "_".join(source.relative_to(NATIVE).with_suffix("").parts)
-        if "bind" in name or source in (element, tangent):
+        if "bind" in name or source in (element, tangent, blocks):
             continue
         # of the sources that are compiled once more for derivatives, one is for these alone
         if source in again:
             found.append((f"{name}_tangent", source, ("-DCRUMPLE_TANGENT",)))
         if source.stem != "directions":
             found.append((name, source, ()))
+    found.append(("blocks_plain", blocks, ("-O3", "-DCRUMPLE_BLOCKS=blocks_plain")))
+    if "v3" in kernels:
+        found.append(("blocks_v3", blocks, ("-O3", "-DCRUMPLE_BLOCKS=blocks_v3", "-march=x86-64-v3")))
     for level in kernels:
         name = level if level == "generic" else f"x86-64-{level}"
         options = (

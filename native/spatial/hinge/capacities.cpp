@@ -38,13 +38,6 @@ SurfacePoint measure_from(const SpatialHinge& hinge, const double* e, const doub
     return nearest(hinge.surface, n, y, none, guess, nullptr, true);
 }
 
-bool rated(const SpatialHinge& hinge) {
-    for (const Component& c : hinge.components) {
-        if (std::isfinite(c.law.rate_reference)) return true;
-    }
-    return false;
-}
-
 // Mean of a capacity over its variable from a to b; the value at b for the elastic form.
 double capacity_over(const hinge::Curve& curve, double a, double b, bool at_end, int& hint) {
     if (at_end) return curve.at(b, hint);
@@ -78,6 +71,13 @@ bool softens(const SpatialHinge& hinge) {
                 if (value != curve->values().front()) return true;
             }
         }
+    }
+    return false;
+}
+
+bool rated(const SpatialHinge& hinge) {
+    for (const Component& c : hinge.components) {
+        if (std::isfinite(c.law.rate_reference)) return true;
     }
     return false;
 }

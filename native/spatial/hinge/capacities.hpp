@@ -17,6 +17,8 @@ double measure(const SpatialHinge& hinge, const double* e);
 // the same for the rotation e after a flow from the present one
 SurfacePoint measure_after(const SpatialHinge& hinge, const SpatialHingeState& s, const double* e, const double* flow);
 bool softens(const SpatialHinge& hinge);
+// whether a capacity depends on the rate
+bool rated(const SpatialHinge& hinge);
 // Capacities of a coupled hinge over a plastic flow from e, the mean over the flow (elastic-plastic: the value at its end), and the centre of
 // its set.  `rate`: of the rate factors; null: without them.
 void set_coupled_capacity(const SpatialHinge& hinge, const SpatialHingeState& s, const double* e, const double* flow, const double* rate,

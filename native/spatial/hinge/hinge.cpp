@@ -12,6 +12,8 @@ namespace {
 constexpr int most = most_components;
 // The rest time of an elastic hinge ignores flow below this share of its accumulated plastic work, as with a single component.
 constexpr double smallest_episode = 1e-2;
+// Flow in a step [rad or m] that is the rounding of an elastic rotation.
+constexpr double no_flow = 1e-15;
 // Rates below this multiple of the ramp's half-width count as rest when the rotation of the hinge's axis is evaluated.
 constexpr double at_rest = 10;
 
@@ -24,6 +26,11 @@ void plastic_rotation(const SpatialHinge& hinge, const SpatialHingeState& s, con
         if (hinge.surface.coupling != Coupling::ball) continue;
         e[k] = form_of(hinge) == Form::elastic_plastic ? q[k] - c.moment / law_of(hinge, k).stiffness : q[k];
     }
+}
+
+// Whether a flow is rounding.
+bool stands_still(const SpatialHinge& hinge, const double* flow) {
+    return std::all_of(flow, flow + size(hinge), [](double part) { return std::fabs(part) <= no_flow; });
 }
 
 double length_of_rotation(const SpatialHinge& hinge, const double* e) {
@@ -97,7 +104,9 @@ void freeze_coupled(const SpatialHinge& hinge, const SpatialHingeState& s, const
         law(hinge, f, w1, impulse, nullptr, nullptr);
         for (int k = 0; k < n; k++) flow[k] -= (2 * impulse[k] / f.h - 2 * f.tau0[k]) / law_of(hinge, k).stiffness;
     }
-    set_coupled_capacity(hinge, s, e, flow, mean, f);
+    // the capacities without flow are those of an elastic hinge that does not yield
+    const bool elastic = form_of(hinge) == Form::elastic_plastic && !on_flange(hinge) && !rated(hinge);
+    if (!elastic || !stands_still(hinge, flow)) set_coupled_capacity(hinge, s, e, flow, mean, f);
     set_reference(hinge, f);
     f.lead = form_of(hinge) == Form::elastic_plastic ? 0 : lead_of(hinge, f, w1);
     f.intact = s.fracture_time >= 0 ? 0 : share_before_fracture(hinge, e, flow);
@@ -145,7 +154,7 @@ void follow_flow(const SpatialHinge& hinge, const FrozenSpatialHinge& f, Spatial
     const bool elastic = form_of(hinge) == Form::elastic_plastic;
     // rigid hinges flow whenever they slide; the work of a flow shows when an elastic one does
     const bool counted = elastic || law_of(hinge, 0).softening == Softening::accumulated;
-    const double work = on_flange(hinge) || !counted ? 0 : measure(hinge, flow);
+    const double work = on_flange(hinge) || !counted || stands_still(hinge, flow) ? 0 : measure(hinge, flow);
     double ahead = 0, start = 0;
     for (int k = 0; k < size(hinge); k++) {
         const double c = std::max(f.component[k].capacity[0], f.component[k].capacity[1]);

@@ -186,15 +186,19 @@ void inverse_block(int n, const double* m, double multiplier, const Shape& at, d
     }
 }
 
+// A point where a search may begin, with its g.
+struct Start {
+    const double* x;
+    double g;
+};
+
 // The point where a search begins: of the given ones, put on the surface, that with the largest objective.
-double begin_at(const Surface& s, int n, const double* y, const double* m, std::initializer_list<const double*> starts, double* x) {
+double begin_at(int n, const double* y, const double* m, std::initializer_list<Start> starts, double* x) {
     double best = -1;
-    for (const double* start : starts) {
-        if (start == nullptr) continue;
+    for (const Start& start : starts) {
         double trial[most];
-        const double g = gauge(s, n, start, nullptr);
-        if (!(g > 0)) continue;
-        for (int k = 0; k < n; k++) trial[k] = start[k] / g;
+        if (!(start.g > 0)) continue;
+        for (int k = 0; k < n; k++) trial[k] = start.x[k] / start.g;
         const double f = objective(n, y, m, trial);
         if (f <= best) continue;
         best = f;
@@ -205,17 +209,18 @@ double begin_at(const Surface& s, int n, const double* y, const double* m, std::
 
 // Newton's method on the surface: a step in the tangent plane, then back to g = 1 along the ray.  The multiplier is that of the
 // radial direction, which is exact at the solution.  The objective never decreases, so the iteration converges from any start.
-SurfacePoint on_section(const Surface& s, int n, const double* y, const double* m, const double* guess, double* derivative,
+SurfacePoint on_section(const Surface& s, int n, const double* y, const double* m, Start free, const double* guess, double* derivative,
                         bool value_only) {
     SurfacePoint p;
     const double load = length(n, y);
-    double free[most] = {0, 0, 0, 0};
-    bool equal = true;
-    for (int k = 0; k < n; k++) free[k] = m[k] > 0 ? y[k] / m[k] : 0, equal = equal && m[k] == m[0];
     const double tolerance = value_only ? value_converged : converged;
+    const Start near{guess, guess ? gauge(s, n, guess, nullptr) : 0};
     // the largest work is sought from one rotation to the next, so the point before is near
-    double best = value_only ? begin_at(s, n, y, m, {guess}, p.x) : 0;
-    if (!(best > 0)) best = begin_at(s, n, y, m, {equal ? y : free, guess}, p.x);
+    double best = value_only ? begin_at(n, y, m, {near}, p.x) : 0;
+    if (!(best > 0)) {
+        if (free.g == 0) free = {y, gauge(s, n, y, nullptr)};
+        best = begin_at(n, y, m, {free, near}, p.x);
+    }
     Shape at = shape(s, n, p.x, true);
     auto residual = [&](const double* x, const Shape& here, double* r) {
         double multiplier = 0;
@@ -321,17 +326,20 @@ double half_square(const Surface& s, int n, const double* x, double* gradient, d
 SurfacePoint nearest(const Surface& s, int n, const double* y, const double* m, const double* guess, double* derivative,
                      bool value_only) {
     SurfacePoint p;
-    bool inside = true;
+    bool inside = true, weighed = true;
     for (int k = 0; k < n; k++) {
         inside = inside && (m[k] > 0 || y[k] == 0);
+        weighed = weighed && m[k] > 0;
         p.x[k] = m[k] > 0 ? y[k] / m[k] : 0;
     }
     double largest = 0;
     for (int k = 0; k < n; k++) largest = std::max(largest, std::fabs(y[k]));
-    if (largest > smallest_load && (!inside || gauge(s, n, p.x, nullptr) > 1)) {
+    const double g = inside && largest > smallest_load ? gauge(s, n, p.x, nullptr) : 0;
+    if (largest > smallest_load && (!inside || g > 1)) {
+        const SurfacePoint free = p;
         double load[most], metric[most];
         for (int k = 0; k < n; k++) load[k] = y[k] / largest, metric[k] = m[k] / largest;
-        p = s.coupling == Coupling::section ? on_section(s, n, load, metric, guess, derivative, value_only)
+        p = s.coupling == Coupling::section ? on_section(s, n, load, metric, {free.x, weighed ? g : 0}, guess, derivative, value_only)
                                             : on_ellipsoid(n, load, metric, derivative);
         p.value *= largest;
         p.multiplier *= largest;

@@ -8,6 +8,9 @@ namespace crumple::spatial {
 
 namespace {
 
+// Tolerance of the rates of held rows under a unit impulse, relative to the largest of them when all bodies are free.
+constexpr double inertia_tolerance = 1e-12;
+
 size_t at(int i) { return static_cast<size_t>(i); }
 
 }  // namespace
@@ -29,26 +32,27 @@ void Stepper::add_motion(State& s, const Twist* velocity, const Twist* impulse) 
     }
     find_redundant(s.pose);
     p_.hold_rows();
-    p_.system.factor();
-    p_.system.solve(p_.x.data(), 0);
-    p_.system.push(p_.x.data(), s.velocity.data());
+    p_.system.solve(p_.x.data(), 0, s.velocity.data());
 }
 
-double Stepper::effective_inertia(const State& s, size_t hinge, int component) {
+void Stepper::free_hinges(const State& s) {
     p_.locate_all(s, s.pose, s.t, p_.rows, p_.error.data());
     p_.set_mobilities(s.pose);
+    find_redundant(s.pose);
+    p_.hold_rows();
+}
+
+double Stepper::effective_inertia(size_t hinge, int component) {
     const size_t link = p_.hinge_link[hinge];
     const Link& l = p_.system.links()[link];
     const Row& row = p_.rows[at(p_.start(link) + l.held + component)];
     std::fill(direction_.begin(), direction_.end(), Twist{});
     if (l.body[0] >= 0) direction_[at(l.body[0])] = p_.system.mobility(at(l.body[0]), {-row.ma, -row.t});
     if (l.body[1] >= 0) direction_[at(l.body[1])] = p_.system.mobility(at(l.body[1]), {row.mb, row.t});
-    find_redundant(s.pose);
-    p_.hold_rows();
-    p_.system.factor();
     p_.system.rates(direction_.data(), p_.x.data());
-    p_.system.solve(p_.x.data(), 0);
-    p_.system.push(p_.x.data(), direction_.data());
+    double largest = 0;
+    for (const double x : p_.x) largest = std::max(largest, std::fabs(x));
+    p_.system.solve(p_.x.data(), inertia_tolerance * largest, direction_.data());
     const Twist a = p_.model.twist(direction_, l.body[0]), b = p_.model.twist(direction_, l.body[1]);
     return 1 / rate(row, a, b);
 }
@@ -65,10 +69,8 @@ double Stepper::moved_by(const State& s, const std::vector<size_t>& loads) {
     }
     for (size_t i = 0; i < momentum_.size(); i++) direction_[i] = p_.system.mobility(i, momentum_[i]);
     p_.hold_rows();
-    p_.system.factor();
     p_.system.rates(direction_.data(), p_.x.data());
-    p_.system.solve(p_.x.data(), 0);
-    p_.system.push(p_.x.data(), direction_.data());
+    p_.system.solve(p_.x.data(), 0, direction_.data());
     double power = 0;
     for (size_t i = 0; i < momentum_.size(); i++) {
         power += dot(momentum_[i].w, direction_[i].w) + dot(momentum_[i].v, direction_[i].v);

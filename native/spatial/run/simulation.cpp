@@ -44,11 +44,12 @@ void Simulation::make_ready() {
 // The effective inertia of every damper is evaluated at the start.
 void Simulation::set_damping() {
     critical_.clear();
+    stepper_.free_hinges(state_);
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         SpatialHinge& hinge = model_.hinges[j];
         for (int k = 0; k < size(hinge); k++) {
             hinge::Hinge& law = hinge.components[static_cast<size_t>(k)].law;
-            if (law.damping > 0) law.damped_inertia = stepper_.effective_inertia(state_, j, k);
+            if (law.damping > 0) law.damped_inertia = stepper_.effective_inertia(j, k);
             for (hinge::Stop& stop : law.stop) {
                 if (std::isnan(stop.damping)) critical_.push_back({j, k, &stop});
             }
@@ -76,6 +77,8 @@ void Simulation::record_step(double h) {
 }
 
 void Simulation::set_critical_damping(const std::vector<bool>& which) {
+    if (std::find(which.begin(), which.end(), true) == which.end()) return;
+    stepper_.free_hinges(state_);
     const Critical* last = nullptr;
     double inertia = 0;
     for (size_t i = 0; i < critical_.size(); i++) {
@@ -83,7 +86,7 @@ void Simulation::set_critical_damping(const std::vector<bool>& which) {
         if (!which[i]) continue;
         // both stops of a component have the same effective inertia
         if (!last || last->hinge != c.hinge || last->component != c.component) {
-            inertia = stepper_.effective_inertia(state_, c.hinge, c.component);
+            inertia = stepper_.effective_inertia(c.hinge, c.component);
         }
         last = &c;
         c.stop->damping = 2 * std::sqrt(c.stop->stiffness * inertia);

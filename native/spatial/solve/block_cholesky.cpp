@@ -14,79 +14,19 @@ namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-// Largest number of rows of a node: six, of a joint.
-constexpr int most_block = 6;
 // Share of the diagonal below which a pivot is rounding; smaller pivots are raised to it, and refinement corrects the solution.
 constexpr double rounding = 2.2e-16;
 
-// Compile-time sizes of the most common blocks: six rows of joints, three of contacts.
-template <int N>
-struct Fixed {
-    operator int() const { return N; }
-};
-
-template <class Use>
-inline void with_size(int n, Use use) {
-    if (n == 6) {
-        use(Fixed<6>());
-    } else if (n == 3) {
-        use(Fixed<3>());
-    } else {
-        use(n);
-    }
-}
-
-// The index of the node eliminated later runs fastest in a block, so that the innermost loops have no reductions and vectorise.
-// target (m x n) -= b (k x m)^T a (k x n)
-template <class N, class M, class K>
-inline void subtract_product(double* target, const double* a, const double* b, N n, M m, K k) {
-    for (int j = 0; j < m; j++) {
-        double row[most_block];
-        for (int i = 0; i < n; i++) row[i] = target[j * n + i];
-        for (int l = 0; l < k; l++) {
-            for (int i = 0; i < n; i++) row[i] -= b[l * m + j] * a[l * n + i];
-        }
-        for (int i = 0; i < n; i++) target[j * n + i] = row[i];
-    }
-}
-
-// b (k x n) := L^-1 b, L lower triangular (k x k) with reciprocal diagonal
-template <class N, class K>
-inline void solve_rows(double* b, const double* lower, const double* reciprocal, N n, K k) {
-    for (int j = 0; j < k; j++) {
-        double* row = b + j * n;
-        for (int l = 0; l < j; l++) {
-            for (int i = 0; i < n; i++) row[i] -= lower[j * k + l] * b[l * n + i];
-        }
-        for (int i = 0; i < n; i++) row[i] *= reciprocal[j];
-    }
-}
-
-// other (n) -= b (k x n)^T own (k)
-template <class N, class K>
-inline void carry_forward(double* other, const double* b, const double* own, N n, K k) {
-    for (int l = 0; l < k; l++) {
-        for (int i = 0; i < n; i++) other[i] -= b[l * n + i] * own[l];
-    }
-}
-
-// own (k) -= b (k x n) other (n)
-template <class N, class K>
-inline void carry_back(double* own, const double* b, const double* other, N n, K k) {
-    for (int l = 0; l < k; l++) {
-        double s = 0;
-        for (int i = 0; i < n; i++) s += b[l * n + i] * other[i];
-        own[l] -= s;
-    }
-}
-
 }  // namespace
 
-void BlockCholesky::analyse(const std::vector<int>& size, const std::vector<std::vector<int>>& cliques) {
-    const int n = static_cast<int>(size.size());
-    size_ = size;
+void BlockCholesky::analyse(const std::vector<int>& held, const std::vector<int>& laws, const std::vector<std::vector<int>>& cliques) {
+    const int n = static_cast<int>(held.size());
+    held_ = held;
+    laws_ = laws;
+    size_ = held;
     start_.assign(at(n) + 1, 0);
-    for (int i = 0; i < n; i++) start_[at(i) + 1] = start_[at(i)] + size[at(i)];
+    for (int i = 0; i < n; i++) size_[at(i)] += laws[at(i)];
+    for (int i = 0; i < n; i++) start_[at(i) + 1] = start_[at(i)] + size_[at(i)];
     std::vector<std::vector<int>> near(at(n));
     for (const auto& clique : cliques) {
         for (const int a : clique) {
@@ -99,14 +39,18 @@ void BlockCholesky::analyse(const std::vector<int>& size, const std::vector<std:
         std::sort(list.begin(), list.end());
         list.erase(std::unique(list.begin(), list.end()), list.end());
     }
-    eliminate(size, near);
+    eliminate(near);
+    list_updates();
     values_.assign(values_.size(), 0.0);
+    factor_ = values_;
     inverse_.assign(at(start_.back()), 0.0);
+    root_.assign(at(n) * most_laws * most_laws, 0.0);
+    changed_.assign(at(n), 1);
 }
 
 // Minimum degree with the graph of the factor kept explicitly: `near` holds the neighbours that are not yet eliminated.
-void BlockCholesky::eliminate(const std::vector<int>& size, std::vector<std::vector<int>>& near) {
-    const int n = static_cast<int>(size.size());
+void BlockCholesky::eliminate(std::vector<std::vector<int>>& near) {
+    const int n = static_cast<int>(size_.size());
     order_.clear();
     place_.assign(at(n), -1);
     diagonal_.assign(at(n), 0);
@@ -139,25 +83,34 @@ void BlockCholesky::eliminate(const std::vector<int>& size, std::vector<std::vec
     for (int k = 0; k < n; k++) {
         const int node = order_[at(k)];
         diagonal_[at(node)] = next;
-        next += at(size[at(node)] * size[at(node)]);
+        next += at(size_[at(node)] * size_[at(node)]);
         auto& column = columns[at(k)];
         std::sort(column.begin(), column.end(), [&](int a, int b) { return place_[at(a)] < place_[at(b)]; });
         for (const int a : column) {
             below_.push_back({a, next});
-            next += at(size[at(a)] * size[at(node)]);
+            next += at(size_[at(a)] * size_[at(node)]);
         }
         first_.push_back(below_.size());
     }
     values_.resize(next);
-    update_.clear();
-    first_update_.assign(1, 0);
-    for (int k = 0; k < n; k++) {
-        for (size_t p = first_[at(k)]; p < first_[at(k) + 1]; p++) {
-            for (size_t q = first_[at(k)]; q <= p; q++) {
+}
+
+// Products of the blocks of every column, by the column to which they contribute.
+void BlockCholesky::list_updates() {
+    const size_t n = order_.size();
+    std::vector<std::vector<Update>> to(n);
+    for (size_t k = 0; k < n; k++) {
+        for (size_t p = first_[k]; p < first_[k + 1]; p++) {
+            for (size_t q = first_[k]; q <= p; q++) {
                 const int a = below_[p].node, b = below_[q].node;
-                update_.push_back({block(a, b), below_[p].block, below_[q].block, size[at(a)], size[at(b)]});
+                to[at(place_[at(b)])].push_back({block(a, b), below_[p].block, below_[q].block, size_[at(a)], size_[at(order_[k])]});
             }
         }
+    }
+    update_.clear();
+    first_update_.assign(1, 0);
+    for (const std::vector<Update>& list : to) {
+        update_.insert(update_.end(), list.begin(), list.end());
         first_update_.push_back(update_.size());
     }
 }
@@ -171,25 +124,34 @@ size_t BlockCholesky::block(int a, int b) const {
     return std::lower_bound(begin, end, wanted, [&](const Entry& e, int place) { return place_[at(e.node)] < place; })->block;
 }
 
-void BlockCholesky::clear() { std::fill(values_.begin(), values_.end(), 0.0); }
+void BlockCholesky::clear() {
+    std::fill(values_.begin(), values_.end(), 0.0);
+    std::fill(changed_.begin(), changed_.end(), 1);
+}
 
-// Cholesky factor of a diagonal block, in its lower triangle, and the reciprocals of the pivots.
-void BlockCholesky::factor_diagonal(int node, const double* floor, const char* redundant) {
-    const int n = size_[at(node)];
-    double* a = &values_[diagonal_[at(node)]];
+void BlockCholesky::set_root(int node, const double* root) {
+    const int n = laws_[at(node)] * laws_[at(node)];
+    double* own = &root_[at(node) * most_laws * most_laws];
+    if (std::equal(root, root + n, own)) return;
+    std::copy(root, root + n, own);
+    changed_[at(node)] = 1;
+}
+
+// Factor of a diagonal block in its lower triangle, with the reciprocals of the pivots, and W in the place of the laws.
+void BlockCholesky::factor_diagonal(int node, const char* redundant) {
+    const int n = size_[at(node)], held = held_[at(node)];
+    double* a = &factor_[diagonal_[at(node)]];
+    const double* before = &values_[diagonal_[at(node)]];
     double* reciprocal = &inverse_[at(start_[at(node)])];
-    for (int j = 0; j < n; j++) {
+    for (int j = 0; j < held; j++) {
         double pivot = a[j * n + j];
         for (int k = 0; k < j; k++) pivot -= a[j * n + k] * a[j * n + k];
-        // up to here `reciprocal` holds the diagonal before elimination
         if (redundant[j]) {
-            a[j * n + j] = 0;
             reciprocal[j] = 0;
-            for (int i = j + 1; i < n; i++) a[i * n + j] = 0;
+            for (int i = j; i < n; i++) a[i * n + j] = 0;
             continue;
         }
-        pivot = std::max(pivot, floor[j] > 0 ? floor[j] : rounding * reciprocal[j]);
-        a[j * n + j] = std::sqrt(pivot);
+        a[j * n + j] = std::sqrt(std::max(pivot, rounding * before[j * n + j]));
         reciprocal[j] = 1 / a[j * n + j];
         for (int i = j + 1; i < n; i++) {
             double s = a[i * n + j];
@@ -197,61 +159,115 @@ void BlockCholesky::factor_diagonal(int node, const double* floor, const char* r
             a[i * n + j] = s * reciprocal[j];
         }
     }
+    for (int i = held; i < n; i++) {
+        for (int j = held; j <= i; j++) {
+            for (int k = 0; k < held; k++) a[i * n + j] -= a[i * n + k] * a[j * n + k];
+            a[j * n + i] = a[i * n + j];
+        }
+    }
+    invert_laws(node);
 }
 
-void BlockCholesky::factor(const std::vector<double>& floor, const std::vector<char>& redundant) {
-    for (size_t node = 0; node < size_.size(); node++) {
-        const int n = size_[node];
-        for (int i = 0; i < n; i++) inverse_[at(start_[node] + i)] = values_[diagonal_[node] + at(i * n + i)];
+// W of a node from the part S that its held rows leave of its laws.
+void BlockCholesky::invert_laws(int node) {
+    const int n = laws_[at(node)], wide = size_[at(node)];
+    const double* root = &root_[at(node) * most_laws * most_laws];
+    double* s = &factor_[diagonal_[at(node)]] + held_[at(node)] * (wide + 1);
+    double product[most_laws][most_laws], g[most_laws][most_laws];
+    for (int i = 0; i < n; i++) {
+        for (int k = 0; k < n; k++) {
+            product[i][k] = 0;
+            for (int j = 0; j < n; j++) product[i][k] += s[i * wide + j] * root[j * n + k];
+        }
     }
+    for (int l = 0; l < n; l++) {
+        for (int k = 0; k <= l; k++) {
+            g[l][k] = l == k ? 1 : 0;
+            for (int i = 0; i < n; i++) g[l][k] += root[i * n + l] * product[i][k];
+        }
+    }
+    for (int j = 0; j < n; j++) {
+        for (int k = 0; k < j; k++) g[j][j] -= g[j][k] * g[j][k];
+        const double reciprocal = 1 / std::sqrt(std::max(g[j][j], 1.0));
+        for (int i = j + 1; i < n; i++) {
+            for (int k = 0; k < j; k++) g[i][j] -= g[i][k] * g[j][k];
+            g[i][j] *= reciprocal;
+        }
+        // row j of W
+        for (int i = 0; i < n; i++) {
+            double w = root[i * n + j];
+            for (int k = 0; k < j; k++) w -= g[j][k] * s[k * wide + i];
+            s[j * wide + i] = w * reciprocal;
+        }
+    }
+}
+
+void BlockCholesky::factor(const std::vector<char>& redundant) {
     for (size_t k = 0; k < order_.size(); k++) {
+        if (!changed_[at(order_[k])]) continue;
         pause();
-        const int node = order_[k], n = size_[at(node)];
-        const size_t first = at(start_[at(node)]);
-        factor_diagonal(node, &floor[first], &redundant[first]);
-        const double *lower = &values_[diagonal_[at(node)]], *reciprocal = &inverse_[at(start_[at(node)])];
-        for (size_t p = first_[k]; p < first_[k + 1]; p++) {
-            double* b = &values_[below_[p].block];
-            const int rows = size_[at(below_[p].node)];
-            with_size(rows, [&](auto m) { with_size(n, [&](auto k) { solve_rows(b, lower, reciprocal, m, k); }); });
-        }
-        for (size_t p = first_update_[k]; p < first_update_[k + 1]; p++) {
-            const Update& u = update_[p];
-            double *target = &values_[u.target], *a = &values_[u.a], *b = &values_[u.b];
-            with_size(u.rows_a, [&](auto l) {
-                with_size(u.rows_b, [&](auto m) { with_size(n, [&](auto k) { subtract_product(target, a, b, l, m, k); }); });
-            });
-        }
+        factor_column(k, redundant);
+        for (size_t p = first_[k]; p < first_[k + 1]; p++) changed_[at(below_[p].node)] = 1;
+    }
+    std::fill(changed_.begin(), changed_.end(), 0);
+}
+
+// Factorises a column from that of A, all columns before it being done.
+void BlockCholesky::factor_column(size_t k, const std::vector<char>& redundant) {
+    const int node = order_[k], n = size_[at(node)], held = held_[at(node)];
+    const size_t begin = diagonal_[at(node)], end = k + 1 < order_.size() ? diagonal_[at(order_[k + 1])] : values_.size();
+    std::copy(&values_[begin], values_.data() + end, &factor_[begin]);
+    for (size_t p = first_update_[k]; p < first_update_[k + 1]; p++) {
+        const Update& u = update_[p];
+        double *target = &factor_[u.target], *a = &factor_[u.a], *b = &factor_[u.b];
+        blocks_.subtract_product(target, a, b, u.rows_a, n, u.inner);
+    }
+    factor_diagonal(node, &redundant[at(start_[at(node)])]);
+    const double *lower = &factor_[begin], *reciprocal = &inverse_[at(start_[at(node)])];
+    for (size_t p = first_[k]; p < first_[k + 1]; p++) {
+        double* b = &factor_[below_[p].block];
+        blocks_.solve_rows(b, lower, reciprocal, held, size_[at(below_[p].node)], n);
     }
 }
 
 void BlockCholesky::solve(double* x) const {
     for (size_t k = 0; k < order_.size(); k++) {
-        const int node = order_[k], n = size_[at(node)];
+        const int node = order_[k], n = size_[at(node)], held = held_[at(node)];
         double* own = x + start_[at(node)];
-        const double *lower = &values_[diagonal_[at(node)]], *reciprocal = &inverse_[at(start_[at(node)])];
+        const double *lower = &factor_[diagonal_[at(node)]], *reciprocal = &inverse_[at(start_[at(node)])];
+        double laws[most_laws];
         for (int j = 0; j < n; j++) {
             double s = own[j];
-            for (int l = 0; l < j; l++) s -= lower[j * n + l] * own[l];
-            own[j] = s * reciprocal[j];
+            for (int l = 0; l < std::min(j, held); l++) s -= lower[j * n + l] * own[l];
+            own[j] = j < held ? s * reciprocal[j] : s;
         }
+        for (int j = held; j < n; j++) {
+            laws[j - held] = 0;
+            for (int l = held; l < n; l++) laws[j - held] += lower[j * n + l] * own[l];
+        }
+        std::copy(laws, laws + n - held, own + held);
         for (size_t p = first_[k]; p < first_[k + 1]; p++) {
             const int rows = size_[at(below_[p].node)];
             double* other = x + start_[at(below_[p].node)];
-            const double* b = &values_[below_[p].block];
-            with_size(rows, [&](auto m) { with_size(n, [&](auto k) { carry_forward(other, b, own, m, k); }); });
+            const double* b = &factor_[below_[p].block];
+            blocks_.carry_forward(other, b, own, rows, n);
         }
     }
     for (size_t k = order_.size(); k-- > 0;) {
-        const int node = order_[k], n = size_[at(node)];
+        const int node = order_[k], n = size_[at(node)], held = held_[at(node)];
         double* own = x + start_[at(node)];
-        const double *lower = &values_[diagonal_[at(node)]], *reciprocal = &inverse_[at(start_[at(node)])];
+        const double *lower = &factor_[diagonal_[at(node)]], *reciprocal = &inverse_[at(start_[at(node)])];
         for (size_t p = first_[k]; p < first_[k + 1]; p++) {
             const int rows = size_[at(below_[p].node)];
-            const double *other = x + start_[at(below_[p].node)], *b = &values_[below_[p].block];
-            with_size(rows, [&](auto m) { with_size(n, [&](auto k) { carry_back(own, b, other, m, k); }); });
+            const double *other = x + start_[at(below_[p].node)], *b = &factor_[below_[p].block];
+            blocks_.carry_back(own, b, other, rows, n);
         }
-        for (int j = n - 1; j >= 0; j--) {
+        double laws[most_laws] = {};
+        for (int l = held; l < n; l++) {
+            for (int j = held; j < n; j++) laws[j - held] += lower[l * n + j] * own[l];
+        }
+        std::copy(laws, laws + n - held, own + held);
+        for (int j = held - 1; j >= 0; j--) {
             double s = own[j];
             for (int l = j + 1; l < n; l++) s -= lower[l * n + j] * own[l];
             own[j] = s * reciprocal[j];

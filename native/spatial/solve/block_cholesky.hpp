@@ -1,30 +1,45 @@
 // Cholesky factorisation of a sparse symmetric matrix of small dense blocks, with one node per connection of bodies.
 //
+// A node has held rows, then rows of laws.  For those the matrix is A + D^-1 with the tangent D = R R^T of the law, which may vanish along
+// some directions and be very large along others.  Of the part S of A that is left when the rows before are eliminated, the law part is
+// inverted as (S + D^-1)^-1 = W^T W with W = G^-1 R^T and G G^T = 1 + R^T S R: well conditioned for any D.
+//
 // The pattern is analysed once: nodes are eliminated in minimum degree order, and the target of every product of two blocks
-// is stored, so that factorisation is a pass over flat lists without allocation.  A chain costs O(N).
+// is stored, so that factorisation is a pass over flat lists without allocation.  A chain costs O(N).  If only some tangents have changed,
+// only their columns are factorised again and those that depend on them.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
+#include "spatial/solve/block_kernels.hpp"
+
 namespace crumple::spatial {
 
 using std::size_t;
 
+// Largest number of laws of a link.
+constexpr int most_laws = 4;
+
 class BlockCholesky {
 public:
-    // `size`: number of rows of every node; `cliques`: sets of nodes that are all coupled with each other (those at one body)
-    void analyse(const std::vector<int>& size, const std::vector<std::vector<int>>& cliques);
-    // start of the block of two coupled nodes; the row index of the node eliminated later runs fastest
+    // `held`, `laws`: number of rows of every node; `cliques`: sets of nodes that are all coupled with each other (those at one body)
+    void analyse(const std::vector<int>& held, const std::vector<int>& laws, const std::vector<std::vector<int>>& cliques);
+    // start of the block of two coupled nodes in A; the row index of the node eliminated later runs fastest
     size_t block(int a, int b) const;
     bool later(int a, int b) const { return place_[static_cast<size_t>(a)] > place_[static_cast<size_t>(b)]; }
+    // A, without the inverse tangents
     double* values() { return values_.data(); }
+    const double* values() const { return values_.data(); }
     // first row of a node in a right-hand side, and the number of all rows
     int start(int node) const { return start_[static_cast<size_t>(node)]; }
     int rows() const { return start_.back(); }
+    // sets A to zero
     void clear();
-    // Redundant rows get a zero solution.  The pivot of a row with a floor is at least that floor, of others at least rounding.
-    void factor(const std::vector<double>& floor, const std::vector<char>& redundant);
+    // sets the root R of a node's tangent (laws x laws, row by row)
+    void set_root(int node, const double* root);
+    // Factorises A with the present tangents.  Redundant rows get a zero solution; the pivots of other held rows are at least rounding.
+    void factor(const std::vector<char>& redundant);
     void solve(double* x) const;
 
 private:
@@ -34,16 +49,23 @@ private:
     };
     struct Update {
         size_t target, a, b;  // target -= b^T a
-        int rows_a, rows_b;
+        int rows_a, inner;
     };
-    void eliminate(const std::vector<int>& size, std::vector<std::vector<int>>& near);
-    void factor_diagonal(int node, const double* floor, const char* redundant);
+    void eliminate(std::vector<std::vector<int>>& near);
+    void list_updates();
+    void factor_column(size_t k, const std::vector<char>& redundant);
+    void factor_diagonal(int node, const char* redundant);
+    void invert_laws(int node);
 
-    std::vector<int> size_, start_, order_, place_;
+    const BlockKernels& blocks_ = block_kernels();
+    std::vector<int> held_, laws_, size_, start_, order_, place_;
     std::vector<size_t> diagonal_, first_, first_update_;  // per node; per position in the order of elimination
     std::vector<Entry> below_;
-    std::vector<Update> update_;
-    std::vector<double> values_, inverse_;  // blocks; reciprocals of the pivots
+    std::vector<Update> update_;            // by the column of the target
+    std::vector<double> values_, factor_;   // blocks of A, and of its factor
+    std::vector<double> inverse_;           // reciprocals of the pivots of held rows
+    std::vector<double> root_;              // per node
+    std::vector<char> changed_;             // per node: whether its column must be factorised again
 };
 
 }  // namespace crumple::spatial

@@ -39,15 +39,6 @@ bool solve_dense(std::vector<double>& a, std::vector<double>& b) {
 
 size_t NewtonSolver::contact_link(size_t contact) const { return p_.connections.size() - p_.contacts.size() + contact; }
 
-// Impulse along a row of a link's laws of unknowns x along the roots of its tangent.
-double NewtonSolver::along_law(size_t link, int row, const double* x) const {
-    const Problem::Tangent& t = p_.tangent[link];
-    const int n = p_.system.links()[link].laws;
-    double sum = 0;
-    for (int k = 0; k < n; k++) sum += t.value[k] * t.vectors[row * n + k] * x[k];
-    return sum;
-}
-
 // Unknowns by which the linearised problem answers to an impulse per normal impulse of a sliding contact, and that impulse.
 void NewtonSolver::answer_to_friction(size_t contact, double tolerance, std::vector<double>& applied, std::vector<double>& x) {
     const size_t first = at(p_.start(contact_link(contact)));
@@ -58,7 +49,7 @@ void NewtonSolver::answer_to_friction(size_t contact, double tolerance, std::vec
     p_.system.push(p_.rows, applied.data(), true, answer_.data());
     x.resize(p_.x.size());
     p_.system.rates(answer_.data(), x.data());
-    p_.system.solve(x.data(), tolerance);
+    p_.system.solve(x.data(), tolerance, answer_.data());
 }
 
 // Sets the friction limits to those that the linearised problem finds, and moves the solution with them.
@@ -88,7 +79,7 @@ void NewtonSolver::follow_friction() {
         answer_to_friction(sliding[j], tolerance, applied_[j], answers_[j]);
         for (size_t i = 0; i < n; i++) {
             const size_t link = contact_link(sliding[i]);
-            matrix[i * n + j] = (i == j ? 1 : 0) + along_law(link, 0, &answers_[j][at(p_.start(link))]);
+            matrix[i * n + j] = (i == j ? 1 : 0) + answers_[j][at(p_.start(link))];
         }
     }
     if (!solve_dense(matrix, change)) change = left;

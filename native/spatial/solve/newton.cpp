@@ -33,6 +33,7 @@ NewtonSolver::NewtonSolver(Problem& problem) : p_(problem), path_(problem) {
 
 void NewtonSolver::relinked() {
     overload_.assign(p_.connections.size(), 0.0);
+    evaluated_.resize(p_.connections.size());
     path_.relinked();
     solved_ = false;
 }
@@ -65,6 +66,7 @@ void NewtonSolver::keep_locked() {
 }
 
 bool NewtonSolver::solve() {
+    forget_laws();
     solved_ = solve_laws();
     return solved_;
 }
@@ -129,6 +131,7 @@ bool NewtonSolver::narrow_ramps() {
 
 void NewtonSolver::widen(double width, bool& narrowest) {
     narrowest = true;
+    forget_laws();
     for (size_t i = 0; i < p_.contacts.size(); i++) {
         p_.contacts.widen(i, width);
         if (width > creep_rate && p_.contacts.ramps(i)) narrowest = false;

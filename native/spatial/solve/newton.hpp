@@ -1,6 +1,7 @@
 // Newton's method for the end velocities of a step, on the convex potential of its problem with all laws frozen.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -34,14 +35,20 @@ public:
 
 private:
     friend class CentralPath;
+    // law of a hinge at the rates where it was last evaluated in this pass
+    struct Evaluated {
+        double w[most_components] = {NAN}, impulse[most_components], tangent[most_components * most_components];
+    };
     bool solve_laws();
+    void forget_laws();
+    const Evaluated& evaluate(size_t link, const double* w);
     int most_iterations() const;
     bool narrow_ramps();
     void widen(double width, bool& narrowest);
     bool descend(int limit, bool full_steps);
     void solve_once();
     void take();
-    void tangent_of(size_t link, double* offset, double* tangent) const;
+    void tangent_of(size_t link, double* offset, double* tangent);
     void linearise(size_t link);
     bool balanced(double& slope);
     void take_full_step();
@@ -52,7 +59,6 @@ private:
     void read_unknowns(size_t link, const double* x, double* w, double* impulse) const;
     // friction.cpp
     size_t contact_link(size_t contact) const;
-    double along_law(size_t link, int row, const double* x) const;
     void answer_to_friction(size_t contact, double tolerance, std::vector<double>& applied, std::vector<double>& x);
     void follow_friction();
     void move_with_friction(size_t n, const std::vector<double>& change);
@@ -60,6 +66,7 @@ private:
     Problem& p_;
     CentralPath path_;
     std::vector<Twist> next_;
+    std::vector<Evaluated> evaluated_;          // per link
     std::vector<double> overload_, worst_near_;
     std::vector<Twist> answer_;                           // to friction: velocities, rates, impulses and unknowns per sliding contact
     std::vector<double> answer_rates_;

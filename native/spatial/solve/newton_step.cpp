@@ -18,6 +18,7 @@ size_t at(int i) { return static_cast<size_t>(i); }
 }  // namespace
 
 bool NewtonSolver::solve_linear() {
+    forget_laws();
     solve_once();
     if (p_.contacts.rows() == 3 && p_.contacts.size() > 0) follow_friction();
     take();
@@ -27,8 +28,24 @@ bool NewtonSolver::solve_linear() {
     return solved_;
 }
 
+// After a change of what is frozen.
+void NewtonSolver::forget_laws() {
+    for (Evaluated& e : evaluated_) e.w[0] = NAN;
+}
+
+// Impulse and tangent of a law.  An iteration compares with them what the one before it has found, and begins with the same rates.
+const NewtonSolver::Evaluated& NewtonSolver::evaluate(size_t link, const double* w) {
+    Evaluated& e = evaluated_[link];
+    const int n = p_.system.links()[link].laws;
+    // the normal impulses of friction change within a pass
+    if (std::equal(w, w + n, e.w) && !p_.is_contact(link)) return e;
+    p_.respond(link, w, e.impulse, e.tangent);
+    std::copy(w, w + n, e.w);
+    return e;
+}
+
 // Linearisation of a law, or of its point on the central path, as impulse = offset + tangent w.
-void NewtonSolver::tangent_of(size_t link, double* offset, double* tangent) const {
+void NewtonSolver::tangent_of(size_t link, double* offset, double* tangent) {
     const Link& l = p_.system.links()[link];
     const int n = l.laws;
     const double* w = &p_.w[at(p_.start(link) + l.held)];
@@ -38,7 +55,9 @@ void NewtonSolver::tangent_of(size_t link, double* offset, double* tangent) cons
     if (path_.on(link)) {
         path_.linearise(link, w, impulse, slope, offset, tangent);
     } else {
-        p_.respond(link, w, impulse, slope);
+        const Evaluated& law = evaluate(link, w);
+        std::copy_n(law.impulse, n, impulse);
+        std::copy_n(law.tangent, n * n, slope);
     }
     for (int i = 0; i < n; i++) {
         offset[i] += impulse[i];
@@ -49,16 +68,15 @@ void NewtonSolver::tangent_of(size_t link, double* offset, double* tangent) cons
     }
 }
 
-// Stores the tangent D = Q d Q^T by its root Q sqrt(d), and the offset of the law.
+// Stores the tangent and the offset of a law.
 void NewtonSolver::linearise(size_t link) {
-    const Link& l = p_.system.links()[link];
-    const int n = l.laws;
+    const int n = p_.system.links()[link].laws;
     Problem::Tangent& t = p_.tangent[link];
     double matrix[most_components * most_components];
     tangent_of(link, t.offset, matrix);
-    eigenvectors(n, matrix, t.value, t.vectors);
-    for (int k = 0; k < n; k++) t.value[k] = std::sqrt(std::max(t.value[k], 0.0));
-    p_.set_law_rows(link, t);
+    eigenvectors(n, matrix, t.root, t.vectors);
+    for (int k = 0; k < n; k++) t.root[k] = std::sqrt(std::max(t.root[k], 0.0));
+    p_.system.set_tangent(link, t.vectors, t.root);
 }
 
 // solves for velocities, rates and impulses with the tangent of every law at p_.w
@@ -66,28 +84,20 @@ void NewtonSolver::solve_once() {
     pause();
     const std::vector<Link>& links = p_.system.links();
     for (size_t c = 0; c < links.size(); c++) {
-        const int first = p_.start(c);
-        for (int i = 0; i < links[c].held; i++) p_.system.row(first + i) = p_.rows[at(first + i)];
         if (links[c].laws == 0) continue;
         linearise(c);
-        for (int k = 0; k < links[c].laws; k++) p_.impulse[at(first + links[c].held + k)] = p_.tangent[c].offset[k];
+        std::copy_n(p_.tangent[c].offset, links[c].laws, &p_.impulse[at(p_.start(c) + links[c].held)]);
     }
     next_ = p_.free;
     p_.system.push(p_.rows, p_.impulse.data(), true, next_.data());
     p_.system.factor();
     solves_++;
     p_.system.rates(next_.data(), p_.x.data());
+    for (size_t k = 0; k < p_.x.size(); k++) p_.x[k] += p_.bias[k];
     for (size_t c = 0; c < links.size(); c++) {
-        const int first = p_.start(c), held = links[c].held, n = links[c].laws;
-        for (int i = 0; i < held; i++) p_.x[at(first + i)] += p_.bias[at(first + i)] - p_.target[at(first + i)];
-        const Problem::Tangent& t = p_.tangent[c];
-        for (int k = 0; k < n; k++) {
-            for (int j = 0; j < n; j++) p_.x[at(first + held + k)] += t.value[k] * t.vectors[j * n + k] * p_.bias[at(first + held + j)];
-        }
+        for (int i = 0; i < links[c].held; i++) p_.x[at(p_.start(c) + i)] -= p_.target[at(p_.start(c) + i)];
     }
-    p_.system.solve(p_.x.data(), rate_tolerance * p_.speed);
-    p_.system.push(p_.x.data(), next_.data());
-    // rates: in stiff directions from their own unknown, which preserves the digits of a locked hinge
+    p_.system.solve(p_.x.data(), rate_tolerance * p_.speed, next_.data());
     p_.rates(p_.rows, next_.data(), p_.w_next.data());
     for (size_t c = 0; c < links.size(); c++) {
         const int first = p_.start(c), held = links[c].held, n = links[c].laws;
@@ -97,18 +107,24 @@ void NewtonSolver::solve_once() {
     }
 }
 
-// Adds the impulses of a link's unknowns x along the roots of its tangent, and takes the rates w of stiff directions from them.
+// Adds the impulses x of a link's laws, and takes the rates w of stiff directions from them, which preserves the digits of a locked hinge.
 void NewtonSolver::read_unknowns(size_t link, const double* x, double* w, double* impulse) const {
     const Problem::Tangent& t = p_.tangent[link];
-    const int n = p_.system.links()[link].laws, first = p_.start(link) + p_.system.links()[link].held;
+    const int n = p_.system.links()[link].laws;
     double along[most_components];
     for (int k = 0; k < n; k++) {
+        double direction[most_components], force = 0;
         along[k] = 0;
-        for (int j = 0; j < n; j++) along[k] += t.vectors[j * n + k] * w[j];
-        if (p_.system.diagonal(first + k) > 1) along[k] = x[k] / t.value[k];
-        for (int j = 0; j < n; j++) impulse[j] += t.value[k] * t.vectors[j * n + k] * x[k];
+        for (int j = 0; j < n; j++) {
+            direction[j] = t.vectors[j * n + k];
+            along[k] += direction[j] * w[j];
+            force += direction[j] * x[j];
+        }
+        const double stiffness = t.root[k] * t.root[k];
+        if (stiffness * p_.system.mobility_along(link, direction) > 1) along[k] = force / stiffness;
     }
     for (int j = 0; j < n; j++) {
+        impulse[j] += x[j];
         w[j] = 0;
         for (int k = 0; k < n; k++) w[j] += t.vectors[j * n + k] * along[k];
     }
@@ -126,8 +142,7 @@ bool NewtonSolver::balanced(double& slope) {
     for (size_t c = 0; c < links.size(); c++) {
         const int first = p_.start(c) + links[c].held, n = links[c].laws;
         if (n == 0) continue;
-        double p[most_components];
-        p_.respond(c, &p_.w_next[at(first)], p, nullptr);
+        const double* p = evaluate(c, &p_.w_next[at(first)]).impulse;
         for (int k = 0; k < n; k++) {
             const double left = p[k] - p_.impulse[at(first + k)];
             double scale = std::fabs(p[k]);

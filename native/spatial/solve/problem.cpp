@@ -129,24 +129,17 @@ void Problem::locate_all(const State& s, const std::vector<Pose>& poses, double 
     }
 }
 
-void Problem::set_law_rows(size_t link, const Tangent& roots) {
-    const int n = system.links()[link].laws, first = start(link) + system.links()[link].held;
-    for (int k = 0; k < n; k++) {
-        Row sum;
-        for (int j = 0; j < n; j++) {
-            const Row& row = rows[static_cast<size_t>(first + j)];
-            const double s = roots.value[k] * roots.vectors[j * n + k];
-            sum = {sum.t + s * row.t, sum.ma + s * row.ma, sum.mb + s * row.mb};
-        }
-        system.row(first + k) = sum;
+void Problem::assemble() {
+    system.assemble(rows);
+    for (size_t c = 0; c < connections.size(); c++) {
+        if (system.links()[c].laws > 0) system.set_tangent(c, tangent[c].vectors, tangent[c].root);
     }
 }
 
 void Problem::hold_rows() {
-    for (size_t c = 0; c < connections.size(); c++) {
-        const Link& link = system.links()[c];
-        for (int i = 0; i < link.rows(); i++) system.row(start(c) + i) = i < link.held ? rows[at(start(c) + i)] : Row{};
-    }
+    system.assemble(rows);
+    system.free_laws();
+    system.factor();
 }
 
 void Problem::rates(const std::vector<Row>& rows, const Twist* v, double* out) const {

@@ -32,10 +32,11 @@ struct Problem {
         Kind kind = Kind::joint;
         int index = 0;  // index among the connections of its kind
     };
-    // Linearisation of a law, P = offset + root root^T w, at the rates where it was last evaluated.
+    // Linearisation of a law, P = offset + D w, at the rates where it was last evaluated; D by its eigenvectors, and the square roots of its
+    // eigenvalues.
     struct Tangent {
         double offset[most_components] = {};
-        double vectors[most_components * most_components] = {}, value[most_components] = {};
+        double vectors[most_components * most_components] = {}, root[most_components] = {};
     };
 
     explicit Problem(const Model& model);
@@ -57,9 +58,9 @@ struct Problem {
     // rows of all links at the given poses, with the drives of the state's stage at time t
     void locate_all(const State& s, const std::vector<Pose>& poses, double t, std::vector<Row>& rows, double* error);
     void locate_spring(const Spring& spring, const std::vector<Pose>& poses, Row& row, double* length) const;
-    // sets the rows of a link's laws in the system: the located ones times the roots of a tangent, whose values are roots already
-    void set_law_rows(size_t link, const Tangent& roots);
-    // sets up the system with held rows only, without laws
+    // sets up the system at the rows last located, with the tangents of the laws that were found last
+    void assemble();
+    // sets up and factorises the system with held rows only, without laws
     void hold_rows();
     void rates(const std::vector<Row>& rows, const Twist* v, double* out) const;
     double displacement(const Drive& drive, size_t index, const State& s, double t) const;

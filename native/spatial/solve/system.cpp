@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/machine.hpp"
+
 namespace crumple::spatial {
 
 namespace {
@@ -12,39 +14,36 @@ constexpr double law_tolerance = 1e-6, tiny = 1e-300;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-template <int N>
-struct Fixed {
-    operator int() const { return N; }
-};
-
-// block (n x m) += sign p (n x 6) q (6 x most_rows, the first m)
-template <class N, class M>
-inline void add_products(double* block, const double* p, const double* q, double sign, N n, M m) {
-    for (int i = 0; i < n; i++) {
-        double row[most_rows] = {};
-        for (int k = 0; k < 6; k++) {
-            for (int j = 0; j < m; j++) row[j] += p[6 * i + k] * q[most_rows * k + j];
-        }
-        for (int j = 0; j < m; j++) block[i * m + j] += sign * row[j];
-    }
-}
-
 }  // namespace
+
+extern const BlockKernels blocks_plain;
+#if defined(__x86_64__)
+extern const BlockKernels blocks_v3;
+#endif
+
+const BlockKernels& block_kernels() {
+#if defined(__x86_64__)
+    static const bool wide = x86_level() >= 3;
+    if (wide) return blocks_v3;
+#endif
+    return blocks_plain;
+}
 
 void System::analyse(size_t bodies, const std::vector<Link>& links) {
     links_ = links;
     bodies_.resize(bodies);
     impulse_.resize(bodies);
     impulse_sum_.resize(bodies);
-    std::vector<int> size;
+    std::vector<int> held, laws;
     std::vector<std::vector<int>> around(bodies);
     for (size_t c = 0; c < links.size(); c++) {
-        size.push_back(links[c].rows());
+        held.push_back(links[c].held);
+        laws.push_back(links[c].laws);
         for (const int body : links[c].body) {
             if (body >= 0) around[at(body)].push_back(static_cast<int>(c));
         }
     }
-    matrix_.analyse(size, around);
+    matrix_.analyse(held, laws, around);
     pairs_.clear();
     for (size_t body = 0; body < bodies; body++) {
         for (const int a : around[body]) {
@@ -52,7 +51,7 @@ void System::analyse(size_t bodies, const std::vector<Link>& links) {
                 if (a != b && !matrix_.later(a, b)) continue;
                 const int side_a = links[at(a)].body[0] == static_cast<int>(body) ? 0 : 1;
                 const int side_b = links[at(b)].body[0] == static_cast<int>(body) ? 0 : 1;
-                pairs_.push_back({2 * b + side_b, 2 * a + side_a, size[at(b)], size[at(a)], matrix_.block(a, b), side_a != side_b});
+                pairs_.push_back({2 * b + side_b, 2 * a + side_a, links[at(b)].rows(), links[at(a)].rows(), matrix_.block(a, b), side_a != side_b});
             }
         }
     }
@@ -60,13 +59,12 @@ void System::analyse(size_t bodies, const std::vector<Link>& links) {
     rows_.resize(n);
     sides_.resize(2 * links.size());
     redundant_.assign(n, 0);
-    for (auto* v : {&residual_, &correction_, &diagonal_, &rhs_, &floor_}) v->assign(n, 0.0);
-    for (size_t c = 0; c < links.size(); c++) {
-        for (int i = links[c].held; i < links[c].rows(); i++) floor_[at(start(c) + i)] = 1;
-    }
+    for (auto* v : {&residual_, &correction_, &rhs_}) v->assign(n, 0.0);
+    tangent_.assign(links.size(), Tangent());
 }
 
-void System::assemble() {
+void System::assemble(const std::vector<Row>& rows) {
+    rows_ = rows;
     for (size_t c = 0; c < links_.size(); c++) {
         const Link& link = links_[c];
         const Row* row = &rows_[at(start(c))];
@@ -89,27 +87,33 @@ void System::assemble() {
     double* values = matrix_.values();
     for (const Pair& pair : pairs_) {
         const double *p = sides_[at(pair.a)].p, *q = sides_[at(pair.b)].q;
-        const double sign = pair.negative ? -1 : 1;
-        if (pair.rows_a == 6 && pair.rows_b == 6) {
-            add_products(values + pair.block, p, q, sign, Fixed<6>(), Fixed<6>());
-        } else {
-            add_products(values + pair.block, p, q, sign, pair.rows_a, pair.rows_b);
-        }
-    }
-    for (size_t c = 0; c < links_.size(); c++) {
-        const int n = links_[c].rows();
-        double* block = values + matrix_.block(static_cast<int>(c), static_cast<int>(c));
-        for (int i = 0; i < n; i++) {
-            double& d = block[i * n + i];
-            diagonal_[at(start(c) + i)] = d;
-            if (i >= links_[c].held) d += 1;
-        }
+        blocks_.add_product(values + pair.block, p, q, pair.negative ? -1 : 1, pair.rows_a, pair.rows_b);
     }
 }
 
-void System::factor() {
-    assemble();
-    matrix_.factor(floor_, redundant_);
+void System::set_tangent(size_t link, const double* vectors, const double* roots) {
+    const int n = links_[link].laws;
+    Tangent& t = tangent_[link];
+    std::copy(vectors, vectors + n * n, t.vectors);
+    std::copy(roots, roots + n, t.root);
+    double root[most_laws * most_laws];
+    for (int i = 0; i < n * n; i++) root[i] = vectors[i] * roots[i % n];
+    matrix_.set_root(static_cast<int>(link), root);
+}
+
+void System::free_laws() {
+    const Tangent none;
+    for (size_t c = 0; c < links_.size(); c++) set_tangent(c, none.vectors, none.root);
+}
+
+double System::mobility_along(size_t link, const double* vector) const {
+    const int n = links_[link].rows(), held = links_[link].held, c = static_cast<int>(link);
+    const double* block = matrix_.values() + matrix_.block(c, c) + held * (n + 1);
+    double sum = 0;
+    for (int i = 0; i < n - held; i++) {
+        for (int j = 0; j < n - held; j++) sum += vector[i] * block[i * n + j] * vector[j];
+    }
+    return sum;
 }
 
 int System::redundant() const { return static_cast<int>(std::count(redundant_.begin(), redundant_.end(), 1)); }
@@ -119,37 +123,69 @@ int System::redundant(size_t link) const {
     return static_cast<int>(std::count(first, first + links_[link].rows(), 1));
 }
 
-void System::solve(double* x, double tolerance) {
+void System::solve(double* x, double tolerance, Twist* v) {
     const size_t n = at(rows());
     std::copy(x, x + n, rhs_.begin());
     matrix_.solve(x);
     double last = INFINITY;
-    for (int pass = 0; pass < refinements; pass++) {
+    for (int pass = 0;; pass++) {
         std::fill(impulse_.begin(), impulse_.end(), Twist{});
         push(x, impulse_.data());
+        if (pass == refinements) break;
         rates(impulse_.data(), residual_.data());
-        double worst = 0;
-        for (size_t c = 0; c < links_.size(); c++) {
-            const int first = start(c), held = links_[c].held, count = links_[c].rows();
-            double largest = 0;
-            for (int i = held; i < count; i++) largest = std::max(largest, std::fabs(x[first + i]));
-            // the change of the rates by the impulses is -J M^-1 J^T x
-            for (int i = 0; i < count; i++) {
-                const size_t k = at(first + i);
-                residual_[k] += rhs_[k] - (i < held ? 0 : x[k]);
-                const double left = std::fabs(residual_[k]);
-                // the unknown of a locked hinge is small compared with the terms that cancel in it
-                if (i < held) worst = std::max(worst, left / (tolerance + tiny));
-                else if (left > law_tolerance * largest) worst = std::max(worst, left / (law_tolerance * largest + tiny));
-            }
-        }
+        const double worst = imbalance(x, tolerance);
         // stop if converged, or if rounding prevents further improvement
-        if (!(worst > 1) || worst > last / 4) return;
+        if (!(worst > 1) || worst > last / 4) break;
         last = worst;
         correction_ = residual_;
         matrix_.solve(correction_.data());
         for (size_t k = 0; k < n; k++) x[k] += correction_[k];
     }
+    for (size_t i = 0; i < bodies_.size(); i++) v[i] = v[i] + impulse_[i];
+}
+
+// Completes the residuals of the rows, whose change of the rates by the impulses, -J M^-1 J^T x, they hold; largest one over its tolerance.
+double System::imbalance(const double* x, double tolerance) {
+    // the unknowns of joints are refined relative to the largest one: small ones, of lightly loaded hinges, decide nothing
+    double largest_of_joints = 0;
+    for (size_t c = 0; c < links_.size(); c++) {
+        if (links_[c].held > 0) largest_of_joints = std::max(largest_of_joints, largest_of_laws(c, x));
+    }
+    double worst = 0;
+    for (size_t c = 0; c < links_.size(); c++) {
+        const int held = links_[c].held, n = links_[c].laws;
+        double* r = &residual_[at(start(c))];
+        for (int i = 0; i < held + n; i++) r[i] += rhs_[at(start(c) + i)];
+        for (int i = 0; i < held; i++) worst = std::max(worst, std::fabs(r[i]) / (tolerance + tiny));
+        if (n == 0) continue;
+        const double law = law_tolerance * (held > 0 ? largest_of_joints : largest_of_laws(c, x)) + tiny;
+        const Tangent& t = tangent_[c];
+        double left[most_laws] = {};
+        for (int k = 0; k < n; k++) {
+            // without stiffness there is no impulse, and the rate is free
+            if (t.root[k] == 0) continue;
+            double along = 0;
+            for (int j = 0; j < n; j++) along += t.vectors[j * n + k] * (r[held + j] - x[start(c) + held + j] / (t.root[k] * t.root[k]));
+            worst = std::max(worst, t.root[k] * std::fabs(along) / law);
+            for (int j = 0; j < n; j++) left[j] += t.vectors[j * n + k] * along;
+        }
+        std::copy(left, left + n, r + held);
+    }
+    return worst;
+}
+
+// Largest unknown y of a link's laws.
+double System::largest_of_laws(size_t link, const double* x) const {
+    const int n = links_[link].laws;
+    const double* own = x + start(link) + links_[link].held;
+    const Tangent& t = tangent_[link];
+    double largest = 0;
+    for (int k = 0; k < n; k++) {
+        double along = 0;
+        for (int j = 0; j < n && t.root[k] > 0; j++) along += t.vectors[j * n + k] * own[j] / t.root[k];
+        largest = std::max(largest, std::fabs(along));
+    }
+    return largest;
 }
 
 void System::rates(const Twist* v, double* out) const {
@@ -160,8 +196,6 @@ void System::rates(const Twist* v, double* out) const {
         for (int i = 0; i < link.rows(); i++) out[first + i] = rate(rows_[at(first + i)], a, b);
     }
 }
-
-void System::push(const double* x, Twist* v) { push(rows_, x, false, v); }
 
 void System::push(const std::vector<Row>& rows, const double* x, bool laws_only, Twist* v) {
     std::vector<Twist>& sum = impulse_sum_;

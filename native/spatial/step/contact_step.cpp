@@ -41,13 +41,7 @@ void ContactStep::commit(State& s, double h) {
 void ContactStep::push_obstacles(State& s, double h) {
     for (size_t i = 0; i < p_.contacts.size(); i++) {
         const size_t link = p_.connections.size() - p_.contacts.size() + i, first = at(p_.start(link));
-        const Problem::Tangent& t = p_.tangent[link];
-        const size_t n = p_.contacts.rows();
-        double impulse[3] = {};
-        for (size_t k = 0; k < n; k++) {
-            for (size_t j = 0; j < n; j++) impulse[j] += t.value[k] * t.vectors[n * j + k] * p_.x[first + k];
-        }
-        p_.contacts.push(i, h, &p_.rows[first], impulse, s.contact);
+        p_.contacts.push(i, h, &p_.rows[first], &p_.x[first], s.contact);
     }
 }
 

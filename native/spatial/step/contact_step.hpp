@@ -17,8 +17,7 @@ public:
     // after a pass: restores the true rates; returns whether friction has used the normal impulses that the pass found
     bool settle();
     void commit(State& s, double h);
-    // Adds the impulses on obstacles from the projection of the rates, in which contacts keep their tangents: x is their unknown along
-    // the roots of the tangents.
+    // Adds the impulses on obstacles from the projection of the rates, in which contacts keep their tangents.
     void push_obstacles(State& s, double h);
     // error of a link's law row that the projection corrects: the overlap of a closed contact
     double overlap(size_t link) const;

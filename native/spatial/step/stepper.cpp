@@ -86,6 +86,7 @@ void Stepper::place_middle(const State& s, double h) {
     p_.set_mobilities(p_.middle);
     set_free(s);
     p_.locate_all(s, p_.middle, s.t + h / 2, p_.rows, p_.error.data());
+    p_.system.assemble(p_.rows);
 }
 
 // predicts the poses at the middle and the end, and the impulses of gravity and loads
@@ -110,15 +111,13 @@ void Stepper::project_middle(const State& s, double t) {
     p_.locate_all(s, p_.middle, t, p_.rows, p_.error.data());
     p_.set_mobilities(p_.middle);
     p_.hold_rows();
-    p_.system.factor();
     for (int pass = 0; pass < 2; pass++) {
         for (size_t c = 0; c < p_.connections.size(); c++) {
             const Link& link = p_.system.links()[c];
             for (int i = 0; i < link.rows(); i++) p_.x[at(p_.start(c) + i)] = i < link.held ? p_.error[at(p_.start(c) + i)] : 0;
         }
-        p_.system.solve(p_.x.data(), 1e-12 * p_.model.length);
         std::fill(direction_.begin(), direction_.end(), Twist{});
-        p_.system.push(p_.x.data(), direction_.data());
+        p_.system.solve(p_.x.data(), 1e-12 * p_.model.length, direction_.data());
         for (size_t i = 0; i < p_.middle.size(); i++) p_.middle[i] = moved(p_.middle[i], direction_[i]);
         p_.locate_all(s, p_.middle, t, p_.rows, p_.error.data());
     }

@@ -39,8 +39,10 @@ public:
     const std::vector<int>& redundant_rows() const { return redundant_rows_; }
     int held_rows() const;
     double displacement(const Drive& drive, size_t index, const State& s, double t) const { return p_.displacement(drive, index, s, t); }
+    // prepares `effective_inertia` in this state
+    void free_hinges(const State& state);
     // effective inertia (mass for a slip) at a component of a hinge with all hinges free
-    double effective_inertia(const State& state, size_t hinge, int component);
+    double effective_inertia(size_t hinge, int component);
     // kinetic norm of the structure's response to a unit impulse of these loads, with all hinges free and contacts open
     double moved_by(const State& state, const std::vector<size_t>& loads);
     // displacement in a freedom of a joint, in the axes of its first body

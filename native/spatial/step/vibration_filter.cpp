@@ -18,32 +18,29 @@ size_t at(int i) { return static_cast<size_t>(i); }
 void VibrationFilter::prepare(double frequency, double h) {
     // elastic laws have the tangent h^2 K/4 for the end rates of a step
     const double scale = 2 / (2 * pi * frequency * h);
+    p_.assemble();
     for (size_t c = 0; c < p_.connections.size(); c++) {
-        const int first = p_.start(c);
-        for (int i = 0; i < p_.system.links()[c].held; i++) p_.system.row(first + i) = p_.rows[at(first + i)];
-        if (p_.system.links()[c].laws > 0) set_row(c, scale);
+        if (p_.system.links()[c].laws > 0) set_tangent(c, scale);
     }
     p_.system.factor();
 }
 
-// The rows of a link's laws times the roots of its tangent, without dampers and stops.
-void VibrationFilter::set_row(size_t link, double scale) {
+// Tangent of a link's laws without dampers and stops.
+void VibrationFilter::set_tangent(size_t link, double scale) {
     const Link& l = p_.system.links()[link];
     const int n = l.laws, first = p_.start(link) + l.held;
-    Problem::Tangent kept = p_.tangent[link];
-    if (const SpatialHinge* hinge = p_.hinge_of(link)) {
-        double tangent[most_components * most_components];
-        law(*hinge, p_.frozen[at(p_.hinge_index(link))], &p_.w[at(first)], nullptr, tangent, nullptr);
-        eigenvectors(n, tangent, kept.value, kept.vectors);
-        for (int k = 0; k < n; k++) kept.value[k] = scale * std::sqrt(std::max(kept.value[k], 0.0));
-    }
-    p_.set_law_rows(link, kept);
+    const SpatialHinge* hinge = p_.hinge_of(link);
+    if (!hinge) return;
+    double tangent[most_components * most_components], root[most_components], vectors[most_components * most_components];
+    law(*hinge, p_.frozen[at(p_.hinge_index(link))], &p_.w[at(first)], nullptr, tangent, nullptr);
+    eigenvectors(n, tangent, root, vectors);
+    for (int k = 0; k < n; k++) root[k] = scale * std::sqrt(std::max(root[k], 0.0));
+    p_.system.set_tangent(link, vectors, root);
 }
 
 void VibrationFilter::apply(std::vector<Twist>& change, double tolerance) {
     p_.system.rates(change.data(), p_.x.data());
-    p_.system.solve(p_.x.data(), tolerance);
-    p_.system.push(p_.x.data(), change.data());
+    p_.system.solve(p_.x.data(), tolerance, change.data());
 }
 
 double VibrationFilter::along(size_t hinge, int component, const std::vector<Twist>& change) const {

@@ -21,7 +21,7 @@ public:
     double along(size_t hinge, int component, const std::vector<Twist>& change) const;
 
 private:
-    void set_row(size_t link, double scale);
+    void set_tangent(size_t link, double scale);
 
     Problem& p_;
 };
