@@ -2,12 +2,12 @@
 
 Members of the side a at an angle 2 h share a mitre, whose outer edge is a/(2 sin h) from the node.  Where the
 members are so close that the edge would be further beyond the node than the tube's corners are from its axis
-(sqrt(1/2) a), their walls end there, and the tip is at sqrt(1/2) a cos h + a/2 sin h.  Two such members with
-their free ends up fall on the corner; the plane that is across the bisector stops them there.  Three tubes
-along the edges of a cube meet at its corner, sqrt(3)/2 a from the node.  Rolled by 45 degrees they meet in the
-middles of their walls, which are a/2 from the axes: at sqrt(3/8) a.
+(sqrt(1/2) a), their walls end there, and the tip is at sqrt(1/2) a cos h + a/2 sin h.  Two such members fall
+on the corner with their free ends up, at a constant speed: the time of the impact gives the distance.  Three
+tubes along the edges of a cube meet at its corner, sqrt(3)/2 a from the node.  Rolled by 45 degrees they meet
+in the middles of their walls, which are a/2 from the axes: at sqrt(3/8) a.
 
-The tip is a ball of a thousandth of a/2, so that it lies (a/2)/1000 (1/sin h - 1) deeper, 0.03 mm at most here.
+The tip is a ball of the radius a/2000, which is less deep by (1/sin h - 1) a/2000, 0.03 mm at most here.
 The tolerance adds the way in one output.
 
 Kind: independent calculation.  Source: derived here.
@@ -40,7 +40,8 @@ def reach_of(ends, keys="", hinges="", kept=""):
     nodes = {"low": (0.0, 0.0, 0.0), **{f"end_{i}": tuple(end) for i, end in enumerate(ends)}}
     lines = [f"  {name}: [{', '.join(f'{x:.12g} m' for x in place)}]" for name, place in nodes.items()]
     members = [
-        f"  leg_{i}: {{nodes: [low, end_{i}], section: tube, material: steel{keys}}}" for i in range(len(ends))
+        f"  leg_{i}: {{nodes: [low, end_{i}], section: tube, material: steel{keys}}}"
+        for i in range(len(ends))
     ]
     text = "\n".join([HEAD + "nodes:", *lines, "members:", *members, hinges + TAIL.replace("KEPT", kept)])
     result = solve(loads(text))
