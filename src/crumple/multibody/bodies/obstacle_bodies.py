@@ -4,7 +4,7 @@ A fixed obstacle is part of the ground.  One with a mass is a body that slides a
 body whose every freedom is held and some are driven.  Members touch with capsules: segments with a radius.  A
 section wider than deep gets two of them side by side, so that its width and its depth are both right.  Planes
 are also touched by the corners of free end faces, since a face that tilts on a wall rolls about its rim, and
-by the tips of joints, where the walls of members that meet at an angle go on beyond the node.
+by the tips of corners, where the walls of two members that meet at an angle go on beyond the node.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from crumple.multibody.bodies.assembly import Piece
 from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.bodies.sampled_functions import sampled_motion
 from crumple.numeric.arrays import Floats
-from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Structure
+from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Structure, gap
 from crumple.structure.hinges.corners import leaving
 from crumple.structure.hinges.joint_reach import NARROWEST
 
@@ -52,8 +52,6 @@ DIRECTIONS = 8
 LEAST_TIP = 0.1
 """Least distance of a tip beyond its node, over that from the member's axis: at bends below 11 to 16 degrees
 the round ends of capsules reach as far, within 1 % of their radius."""
-BETWEEN = 8
-"""Parts of each side of an outline between which the line that starts first at a joint is looked for."""
 ROUND = 1.1
 """Ratio of the sides of a section up to which one row of capsules represents it."""
 
@@ -73,7 +71,7 @@ class Touching:
     velocity
         Velocity at the start of every body after those of the linkage [m/s], (obstacle bodies, 3).
     members
-        Member of every capsule; further capsules are corners of end faces and tips of joints.
+        Member of every capsule; further capsules are corners of end faces and tips of corners.
     """
 
     model: SpatialModel
@@ -120,12 +118,12 @@ def with_obstacles(
             names += [name] * len(driven)
         owners_of = [{name} for name in member]
         if isinstance(obstacle, PlaneObstacle):
-            owners_of += [of for _, of in corners]
-        touching = tuple(
-            i
-            for i, of in enumerate(owners_of)
-            if obstacle.members is None or not of.isdisjoint(obstacle.members)
-        )
+            # what starts inside is met with the round ends of capsules, which are less far out
+            owners_of += [
+                of if free or float(gap(obstacle, ball.first)) > 0.0 else set() for ball, of, free in corners
+            ]
+        allowed = set(structure.members if obstacle.members is None else obstacle.members)
+        touching = tuple(i for i, of in enumerate(owners_of) if of & allowed)
         obstacles.append(_shape(obstacle, body, touching))
     contact = structure.member_contact
     pairs = SpatialContact()
@@ -139,7 +137,7 @@ def with_obstacles(
         joints=tuple(joints),
         drives=tuple(drives),
         obstacles=tuple(obstacles),
-        capsules=(*capsules, *(ball for ball, _ in corners)),
+        capsules=(*capsules, *(ball for ball, *_ in corners)),
         contact=pairs,
     )
     moving = np.array(velocity, float).reshape(-1, 3)
@@ -241,10 +239,10 @@ def member_capsules(
 
 def end_corners(
     structure: Structure, of_member: Mapping[str, tuple[Piece, ...]]
-) -> Iterator[tuple[SpatialCapsule, set[str]]]:
-    """Corners of free end faces and tips of joints that move: small balls within them, and their members."""
+) -> Iterator[tuple[SpatialCapsule, set[str], bool]]:
+    """Small balls in corners of free end faces and tips of corners, their members, and whether free."""
     for node, members in structure.members_at.items():
-        if len(members) > 1 and structure.joints_at.get(node):
+        if len(members) > 2 or (len(members) == 2 and structure.joints_at.get(node)):
             continue
         axes = [leaving(structure, name, node) for name in members]
         there: list[tuple[SpatialCapsule, set[str]]] = []
@@ -257,7 +255,7 @@ def end_corners(
             if len(members) == 1:
                 points = _face_corners(outline, radius) @ across + radius * axes[i]
             else:
-                points = _tips(outline, radius, across, axes[i], axes[:i] + axes[i + 1 :])
+                points = _tips(outline, radius, across, axes[i], axes[1 - i])
             for place in np.asarray(structure.nodes[node], float) + points:
                 # members that move as one have the same tips at their mitre
                 near = (
@@ -270,7 +268,8 @@ def end_corners(
                     there.append((SpatialCapsule(body, place, place, radius), {name}))
                 else:
                     owners.add(name)
-        yield from there
+        for ball, of in there:
+            yield ball, of, len(members) == 1
 
 
 def _end_body(structure: Structure, pieces: tuple[Piece, ...], node: str) -> int:
@@ -279,26 +278,23 @@ def _end_body(structure: Structure, pieces: tuple[Piece, ...], node: str) -> int
     return next(piece.body for piece in (pieces if from_node else pieces[::-1]) if piece.end > piece.start)
 
 
-def _tips(outline: Floats, inset: float, across: Floats, axis: Floats, others: list[Floats]) -> Floats:
-    """Corners of a member's walls that lie beyond the node at a joint, from the node, (points, 3) [m].
+def _tips(outline: Floats, inset: float, across: Floats, axis: Floats, other: Floats) -> Floats:
+    """Corners of a member's walls beyond the node that another shares, from the node, (points, 3) [m].
 
-    Every line along the walls starts in the last of the planes that halve the angles to the other members, as
-    at a mitre, but not further beyond the node than it is from the member's axis: what shells have at rigid
-    joints.  The line that starts first is among them: three members may meet in the middle of a wall.
+    Every line along the walls starts in the plane that halves the angle, as at a mitre, but not further
+    beyond the node than it is from the member's axis: at acute angles shells have no mitre, but this outline.
     """
-    planes = [axis - other for other in others if float(axis @ other) < math.cos(NARROWEST)]
-    if not planes:
+    plane = axis - other
+    if float(axis @ other) > math.cos(NARROWEST):
         return np.zeros((0, 3))
 
     def starts(points: Floats) -> Floats:
         arms = points @ across
-        meeting = [-(arms @ plane) / float(axis @ plane) for plane in planes]
-        return np.asarray(np.maximum(np.max(meeting, axis=0), -np.linalg.norm(arms, axis=1)))
+        meeting = -(arms @ plane) / float(axis @ plane)
+        return np.asarray(np.maximum(meeting, -np.linalg.norm(arms, axis=1)))
 
-    along = np.arange(BETWEEN)[:, None, None] / BETWEEN
-    dense = (outline + along * (np.roll(outline, -1, axis=0) - outline)).reshape(-1, 2)
-    # of lines that start at the same place the first in this order, a corner
-    first = dense[int(np.rint(starts(dense) / inset).argmin())]
+    # the line that starts first may lie between the directions; of equal ones the first in this order
+    first = outline[int(np.rint(starts(outline) / inset).argmin())]
     points = np.vstack([_face_corners(outline, inset), _moved_in(first, outline, inset)])
     start = starts(points)
     kept = start < -LEAST_TIP * np.linalg.norm(points, axis=1)

@@ -16,7 +16,7 @@ def with_crushing(structure: Structure, touching: Touching) -> Touching:
 
     Capsules side by side in a section share it.  Of two members in contact the weaker one counts.  The squash
     load, area times yield stress, is an upper bound of what a wall carries under a contact; see
-    docs/theory/rigid_contact.md.  End faces and joints are round: the crushed end of a wall has no corners.
+    docs/theory/rigid_contact.md.  End faces and corners are round: the crushed end of a wall has no corners.
     """
     members = touching.members
     force = {

@@ -36,7 +36,7 @@ def at_corner(**parts):
     members = {"ab": member("a", "b", *parts.pop("hinges", ())), "bc": member("b", "c")}
     whole = structure(nodes=CORNER, members=members, sections={"tube": square}, supports={}, **parts)
     found = {}
-    for ball, of in end_corners(whole, link(whole).pieces):
+    for ball, of, _ in end_corners(whole, link(whole).pieces):
         place = ball.first - np.array(CORNER["b"])
         if np.linalg.norm(place) < 0.1:
             found.setdefault(ball.body, []).append((place, of))
