@@ -3,11 +3,13 @@
 A fixed obstacle is part of the ground.  One with a mass is a body that slides along its guide, a driven one a
 body whose every freedom is held and some are driven.  Members touch with capsules: segments with a radius.  A
 section wider than deep gets two of them side by side, so that its width and its depth are both right.  Planes
-are also touched by the corners of free end faces, since a face that tilts on a wall rolls about its rim.
+are also touched by the corners of free end faces, since a face that tilts on a wall rolls about its rim, and
+by the tips of corners, where the walls of two members that meet at an angle go on beyond the node.
 """
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -32,7 +34,9 @@ from crumple.multibody.bodies.assembly import Piece
 from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.bodies.sampled_functions import sampled_motion
 from crumple.numeric.arrays import Floats
-from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Structure
+from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Structure, gap
+from crumple.structure.hinges.corners import leaving
+from crumple.structure.hinges.joint_reach import NARROWEST
 
 LIGHT = 1e-3
 """Mass of a driven obstacle over that of the structure: its motion is given, so that the mass changes nothing
@@ -45,6 +49,9 @@ POINT = 1e-3
 """Radius of the corners of an end face, over that of the member's capsules."""
 DIRECTIONS = 8
 """Directions in which an end face has a corner: 4 different ones of a rectangle, 8 of a round tube."""
+LEAST_TIP = 0.1
+"""Least distance of a tip beyond its node, over that from the member's axis: at bends below 11 to 16 degrees
+the round ends of capsules reach as far, within 1 % of their radius."""
 ROUND = 1.1
 """Ratio of the sides of a section up to which one row of capsules represents it."""
 
@@ -64,9 +71,7 @@ class Touching:
     velocity
         Velocity at the start of every body after those of the linkage [m/s], (obstacle bodies, 3).
     members
-        Member of every capsule.
-    corners
-        Number of the last capsules that are corners of end faces.
+        Member of every capsule; further capsules are corners of end faces and tips of corners.
     """
 
     model: SpatialModel
@@ -74,7 +79,6 @@ class Touching:
     drives: tuple[str, ...]
     velocity: Floats
     members: tuple[str, ...] = ()
-    corners: int = 0
 
 
 def with_obstacles(
@@ -96,7 +100,7 @@ def with_obstacles(
     if not structure.obstacles and structure.member_contact is None:
         return Touching(model, {}, owners, np.zeros((0, 3)))
     capsules, member = member_capsules(structure, linkage.pieces)
-    corners, of_corner = end_faces(structure, linkage.pieces)
+    corners = list(end_corners(structure, linkage.pieces))
     bodies, joints, drives, names = list(model.bodies), list(model.joints), list(model.drives), list(owners)
     light = LIGHT * sum(body.mass for body in bodies)
     obstacles, velocity, joint = [], [], {}
@@ -112,10 +116,14 @@ def with_obstacles(
             joints.append(added)
             drives += driven
             names += [name] * len(driven)
-        reached = (*member, *of_corner) if isinstance(obstacle, PlaneObstacle) else member
-        touching = tuple(
-            i for i, owner in enumerate(reached) if obstacle.members is None or owner in obstacle.members
-        )
+        owners_of = [{name} for name in member]
+        if isinstance(obstacle, PlaneObstacle):
+            # what starts inside is met with the round ends of capsules, which are less far out
+            owners_of += [
+                of if free or float(gap(obstacle, ball.first)) > 0.0 else set() for ball, of, free in corners
+            ]
+        allowed = set(structure.members if obstacle.members is None else obstacle.members)
+        touching = tuple(i for i, of in enumerate(owners_of) if of & allowed)
         obstacles.append(_shape(obstacle, body, touching))
     contact = structure.member_contact
     pairs = SpatialContact()
@@ -129,11 +137,11 @@ def with_obstacles(
         joints=tuple(joints),
         drives=tuple(drives),
         obstacles=tuple(obstacles),
-        capsules=(*capsules, *corners),
+        capsules=(*capsules, *(ball for ball, *_ in corners)),
         contact=pairs,
     )
     moving = np.array(velocity, float).reshape(-1, 3)
-    return Touching(touching_model, joint, tuple(names), moving, (*member, *of_corner), len(corners))
+    return Touching(touching_model, joint, tuple(names), moving, tuple(member))
 
 
 def _shape(obstacle: Obstacle, body: int, touching: tuple[int, ...]) -> SpatialObstacle:
@@ -229,35 +237,79 @@ def member_capsules(
     return capsules, owner
 
 
-def end_faces(
+def end_corners(
     structure: Structure, of_member: Mapping[str, tuple[Piece, ...]]
-) -> tuple[list[SpatialCapsule], list[str]]:
-    """Corners of the free end faces of moving members, as small balls within them, and the member of each."""
-    ends = Counter(node for member in structure.members.values() for node in member.nodes)
-    balls, owner = [], []
-    for name, pieces in of_member.items():
-        frame, nodes = structure.frame_of(name), structure.members[name].nodes
-        outline = structure.section_of(name).outer_outline()
-        radius = POINT * capsule_rows(outline)[1]
-        for node, piece, station in zip(
-            nodes, (pieces[0], pieces[-1]), (radius, frame.length - radius), strict=True
-        ):
-            if ends[node] > 1 or piece.body == GROUND:
+) -> Iterator[tuple[SpatialCapsule, set[str], bool]]:
+    """Small balls in corners of free end faces and tips of corners, their members, and whether free."""
+    for node, members in structure.members_at.items():
+        if len(members) > 2 or (len(members) == 2 and structure.joints_at.get(node)):
+            continue
+        axes = [leaving(structure, name, node) for name in members]
+        there: list[tuple[SpatialCapsule, set[str]]] = []
+        for i, name in enumerate(members):
+            body = _end_body(structure, of_member[name], node)
+            if body == GROUND:
                 continue
-            for place in _face_corners(outline, radius):
-                centre = frame.position(station) + place @ frame.axes[1:]
-                balls.append(SpatialCapsule(piece.body, centre, centre, radius))
-                owner.append(name)
-    return balls, owner
+            outline, across = structure.section_of(name).outer_outline(), structure.frame_of(name).axes[1:]
+            radius = POINT * capsule_rows(outline)[1]
+            if len(members) == 1:
+                points = _face_corners(outline, radius) @ across + radius * axes[i]
+            else:
+                points = _tips(outline, radius, across, axes[i], axes[1 - i])
+            for place in np.asarray(structure.nodes[node], float) + points:
+                # members that move as one have the same tips at their mitre
+                near = (
+                    of
+                    for ball, of in there
+                    if ball.body == body and np.linalg.norm(ball.first - place) < radius
+                )
+                owners = next(near, None)
+                if owners is None:
+                    there.append((SpatialCapsule(body, place, place, radius), {name}))
+                else:
+                    owners.add(name)
+        for ball, of in there:
+            yield ball, of, len(members) == 1
+
+
+def _end_body(structure: Structure, pieces: tuple[Piece, ...], node: str) -> int:
+    """Body of a member's walls at a node; there are none between the node and a hinge that lies there."""
+    from_node = structure.members[pieces[0].member].nodes[0] == node
+    return next(piece.body for piece in (pieces if from_node else pieces[::-1]) if piece.end > piece.start)
+
+
+def _tips(outline: Floats, inset: float, across: Floats, axis: Floats, other: Floats) -> Floats:
+    """Corners of a member's walls beyond the node that another shares, from the node, (points, 3) [m].
+
+    Every line along the walls starts in the plane that halves the angle, as at a mitre, but not further
+    beyond the node than it is from the member's axis: at acute angles shells have no mitre, but this outline.
+    """
+    plane = axis - other
+    if float(axis @ other) > math.cos(NARROWEST):
+        return np.zeros((0, 3))
+
+    def starts(points: Floats) -> Floats:
+        arms = points @ across
+        meeting = -(arms @ plane) / float(axis @ plane)
+        return np.asarray(np.maximum(meeting, -np.linalg.norm(arms, axis=1)))
+
+    # the line that starts first may lie between the directions; of equal ones the first in this order
+    first = outline[int(np.rint(starts(outline) / inset).argmin())]
+    points = np.vstack([_face_corners(outline, inset), _moved_in(first, outline, inset)])
+    start = starts(points)
+    kept = start < -LEAST_TIP * np.linalg.norm(points, axis=1)
+    return np.asarray((points @ across + start[:, None] * axis)[kept])
 
 
 def _face_corners(outline: Floats, inset: float) -> Floats:
     """Points of an outline that are outermost in `DIRECTIONS`, moved in, (points, 2) [m]."""
     turns = 2.0 * np.pi * (np.arange(DIRECTIONS) + 0.5) / DIRECTIONS
     outwards = np.stack([np.cos(turns), np.sin(turns)], axis=1)
-    found = np.unique((outline @ outwards.T).argmax(axis=0))
+    return _moved_in(outline[np.unique((outline @ outwards.T).argmax(axis=0))], outline, inset)
+
+
+def _moved_in(points: Floats, outline: Floats, inset: float) -> Floats:
     middle = (outline.min(axis=0) + outline.max(axis=0)) / 2.0
-    points = outline[found]
     return np.asarray(points - inset * np.sign(points - middle))
 
 

@@ -16,9 +16,9 @@ def with_crushing(structure: Structure, touching: Touching) -> Touching:
 
     Capsules side by side in a section share it.  Of two members in contact the weaker one counts.  The squash
     load, area times yield stress, is an upper bound of what a wall carries under a contact; see
-    docs/theory/rigid_contact.md.  End faces are round: the crushed end of a wall has no corners.
+    docs/theory/rigid_contact.md.  End faces and corners are round: the crushed end of a wall has no corners.
     """
-    members = touching.members[: len(touching.members) - touching.corners]
+    members = touching.members
     force = {
         member: _squash_load(structure, member)
         / len(capsule_rows(structure.section_of(member).outer_outline())[0])
@@ -33,7 +33,7 @@ def with_crushing(structure: Structure, touching: Touching) -> Touching:
         for obstacle in touching.model.obstacles
     )
     model = replace(touching.model, capsules=capsules, obstacles=obstacles)
-    return replace(touching, model=model, members=members, corners=0)
+    return replace(touching, model=model)
 
 
 def crushed_contacts(

@@ -5,7 +5,7 @@ import pytest
 from tests.support.multibody.frames import member, structure
 
 from crumple.multibody.bodies.linkage import link
-from crumple.multibody.bodies.obstacle_bodies import member_capsules
+from crumple.multibody.bodies.obstacle_bodies import end_corners, member_capsules
 
 
 @pytest.mark.parametrize("segments", [None, 4, 32])
@@ -25,3 +25,42 @@ def test_capsules_of_a_free_member_end_at_its_ends_however_it_is_cut(segments):
     assert np.all(np.diff(along, axis=1) >= 0.0)
     rows = 2  # beside each other in a flat section
     assert np.sum(np.diff(along, axis=1)) == pytest.approx(rows * (frame.length - 2.002 * radius))
+
+
+CORNER = {"a": (0.0, 0.0, 0.0), "b": (0.3, 0.0, 0.0), "c": (0.3, 0.0, 0.3)}
+
+
+def at_corner(**parts):
+    """Tips of a mitred corner at b, by body, in a structure of two members of a square tube."""
+    square = {"type": "square_tube", "side": 0.05, "thickness": 0.002}
+    members = {"ab": member("a", "b", *parts.pop("hinges", ())), "bc": member("b", "c")}
+    whole = structure(nodes=CORNER, members=members, sections={"tube": square}, supports={}, **parts)
+    found = {}
+    for ball, of, _ in end_corners(whole, link(whole).pieces):
+        place = ball.first - np.array(CORNER["b"])
+        if np.linalg.norm(place) < 0.1:
+            found.setdefault(ball.body, []).append((place, of))
+    return found
+
+
+def test_members_that_move_as_one_share_the_tips_of_their_mitre():
+    (tips,) = at_corner().values()
+    assert [of for _, of in tips] == [{"ab", "bc"}] * 2
+    inner = 0.025 * (1.0 - 1e-3)
+    for place, side in zip(
+        sorted((place for place, _ in tips), key=lambda x: x[1]), (-1.0, 1.0), strict=True
+    ):
+        assert place == pytest.approx([inner, side * inner, -inner])
+
+
+@pytest.mark.parametrize("at", ["b", 0.28])
+def test_every_half_of_a_mitre_moves_with_its_own_member(at):
+    found = at_corner(hinges=[("h", at)])
+    owners = sorted(sorted(name for _, of in tips for name in of) for tips in found.values())
+    # the hinge within the first member leaves the whole mitre on one body
+    assert owners == ([["ab", "ab"], ["bc", "bc"]] if at == "b" else [["ab", "ab", "bc", "bc"]])
+
+
+def test_members_with_a_joint_at_their_node_have_no_tips():
+    pin = {"pin": {"type": "revolute", "node": "b", "member": "ab", "axis": (0.0, 1.0, 0.0)}}
+    assert not at_corner(joints=pin)
