@@ -14,7 +14,7 @@ from crumple.result import Caution
 from crumple.section import AXES, half_fold_length
 from crumple.structure import Structure, plastic_hinges
 from crumple.structure.hinges.asked import automatic_of, folds_at_ends
-from crumple.structure.hinges.struck_places import struck_places
+from crumple.structure.struck_places import struck_places
 
 
 def struck_cautions(structure: Structure, solved: Solved | None = None) -> Iterator[Caution]:

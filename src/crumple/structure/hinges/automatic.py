@@ -27,11 +27,11 @@ from crumple.structure.hinges.asked import FOLDS, automatic_of, folds_at_ends
 from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
 from crumple.structure.hinges.held_runs import held_runs
 from crumple.structure.hinges.joint_reach import joint_reach, strikes_joint
-from crumple.structure.hinges.struck_places import struck_places
 from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
 from crumple.structure.keys.hinge_axes import AxialSlip, HingeAxes
 from crumple.structure.keys.member import AutomaticHinges, Hinge
 from crumple.structure.parts import StructureParts
+from crumple.structure.struck_places import struck_places
 
 
 def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:

@@ -39,7 +39,7 @@ def test_which_members_bend(keys, duration, settings, expected):
 
 
 def test_members_bend_although_all_have_lists_besides_the_automatic_hinges_of_the_structure():
-    members = {"ab": member("a", "b", ("h", "a")), "bc": member("b", "c", ("k", "c"))}
+    members = {"ab": member("a", "b", ("h", "a")), "bc": member("b", "c", ("k", "b"))}
     listed = structure(NODES, members, supports=CLAMP)
     assert bending(listed, SHORT) == []
     assert bending(listed.model_copy(update={"hinges": AutomaticHinges()}), SHORT) == ["ab", "bc"]

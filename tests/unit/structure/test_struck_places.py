@@ -9,7 +9,7 @@ from tests.support.multibody.frames import structure
 
 from crumple.section import RectangularTube, fold_distance, half_fold_length
 from crumple.structure import hinge_places, plastic_hinges
-from crumple.structure.hinges.struck_places import struck_places
+from crumple.structure.struck_places import struck_places
 
 SIDE, RADIUS, HEIGHT = 0.04, 0.05, 0.3
 NODES = {

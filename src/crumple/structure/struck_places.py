@@ -27,11 +27,12 @@ import numpy as np
 
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import cross
-from crumple.structure.geometry import Frame
-from crumple.structure.hinges.joint_reach import NARROWEST, PLACES
+from crumple.structure.geometry import NARROWEST, Frame
 from crumple.structure.keys.obstacles import CylinderObstacle, Obstacle, PlaneObstacle, gap
 from crumple.structure.parts import StructureParts
 
+PLACES = np.linspace(0.0, 1.0, 11)
+"""Where on a member the distance from an obstacle is taken, over its length: both ends are among them."""
 TIMES = np.logspace(-5.0, 4.0, 91)
 """Times at which a prescribed motion is looked at for its direction [s]: from impacts to slow pushes."""
 LEAST = 1e-6
@@ -114,10 +115,15 @@ def _nearest(structure: StructureParts, obstacle: Obstacle, members: list[str]) 
     """Members nearest to an obstacle at the start; none to the edge of a plane, whose face may be nearer."""
     if isinstance(obstacle, PlaneObstacle) or not members:
         return
+    gaps = axis_gaps(structure, obstacle, members).min(axis=1)
+    yield from (name for name, own in zip(members, gaps, strict=True) if own <= gaps.min() + LEAST)
+
+
+def axis_gaps(structure: StructureParts, obstacle: Obstacle, members: list[str]) -> Floats:
+    """Distances of the axes of some members from an obstacle at the start [m], (members, places)."""
     frames = [structure.frame_of(name) for name in members]
     axes = np.array([[frame.position(share * frame.length) for share in PLACES] for frame in frames])
-    gaps = gap(obstacle, axes).min(axis=1)
-    yield from (name for name, own in zip(members, gaps, strict=True) if own <= gaps.min() + LEAST)
+    return gap(obstacle, axes)
 
 
 def _touches(structure: StructureParts, member: str, obstacle: Obstacle, path: Floats | None) -> float | None:
