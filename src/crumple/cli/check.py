@@ -70,14 +70,24 @@ def _is_study(file: Path) -> bool:
 
 
 def _multibody_notes(analysis: Analysis) -> Iterator[str]:
-    """Motions of the structure that are free, and constraints that are redundant."""
-    from crumple.multibody import infinitesimal, link, notes, stuck_drives, stuck_note, unheld_notes
+    """Motions that are free, constraints that are redundant, and members struck where they have no hinge."""
+    from crumple.multibody import (
+        infinitesimal,
+        link,
+        notes,
+        struck_cautions,
+        stuck_drives,
+        stuck_note,
+        unheld_notes,
+    )
     from crumple.structure import with_elastic_members
 
-    linkage = link(with_elastic_members(analysis.structure, analysis.multibody, analysis.duration))
+    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    linkage = link(structure)
     loose = unheld_notes(analysis.structure, linkage, analysis.stages)
     stuck = stuck_note(stuck_drives(analysis.structure, linkage))
     yield from filter(None, (*notes(linkage), infinitesimal(linkage), stuck, *loose))
+    yield from (f"Caution: {caution.text}" for caution in struck_cautions(structure))
 
 
 def _shell_notes(analysis: Analysis) -> Iterator[str]:

@@ -8,6 +8,7 @@ from crumple.multibody.bodies.dead_centres import dead_centres
 from crumple.multibody.bodies.linkage import Connection, Linkage, link
 from crumple.multibody.bodies.mobility import notes
 from crumple.multibody.checks.infinitesimal import infinitesimal
+from crumple.multibody.checks.struck import struck_cautions
 from crumple.multibody.checks.stuck_drives import stuck_drives, stuck_note
 from crumple.multibody.checks.unheld import unheld_notes
 from crumple.multibody.planar.mechanism import Link, Mechanism, lower
@@ -47,6 +48,7 @@ __all__ = [
     "solve_variants",
     "solver_of",
     "stepping_seconds",
+    "struck_cautions",
     "stuck_drives",
     "stuck_note",
     "tree_hinge",

@@ -15,6 +15,8 @@ Triple = tuple[float, float, float]
 
 NEARLY_PARALLEL = 1e-6
 """Sine of the angle between member and `up` below which the direction across the member is noise."""
+NARROWEST = math.radians(10.0)
+"""Angle between two members, or to a line, below which they lie along each other."""
 FLAT = 1e-6
 """Ratio of singular values of the node positions below which they count as in line or in a plane."""
 

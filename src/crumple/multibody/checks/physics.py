@@ -21,6 +21,7 @@ from crumple.multibody.bodies.rigid import lump_mass, piece_mass
 from crumple.multibody.checks.crushing import crushing_cautions
 from crumple.multibody.checks.names import named
 from crumple.multibody.checks.overloaded import overloaded_sections
+from crumple.multibody.checks.struck import struck_cautions
 from crumple.multibody.checks.torque import torques_without_twist
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import turned
@@ -72,6 +73,7 @@ def physics_cautions(structure: Structure, solved: Solved) -> tuple[Caution, ...
         *rebounds(structure, solved),
         *tensions(structure, solved),
         *crushing_cautions(structure, solved, struck=struck),
+        *struck_cautions(structure, solved),
         *overloaded_sections(structure, solved),
         *torques_without_twist(structure, solved),
         *fast_nodes(structure, solved, total),

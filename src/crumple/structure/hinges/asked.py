@@ -40,8 +40,8 @@ def where_automatic(structure: StructureParts, member: str) -> str | None:
 
 
 def any_automatic(structure: StructureParts) -> bool:
-    """Whether any member has automatic hinges."""
-    return structure.kept.once(
+    """Whether a member has automatic hinges, or the structure asks for them although all have lists."""
+    return structure.hinges is not None or structure.kept.once(
         "any automatic",
         "",
         lambda: any(automatic_of(structure, one) is not None for one in structure.members),

@@ -2,8 +2,9 @@
 
 Bending moments are largest where something holds, joins or loads a member, and masses, supports and joints
 all sit on nodes: so a candidate lies near each end of a member (`fold_distance`), unless nothing there
-can carry a moment.  Distributed inertia and long spans also bend members in between: `spacing` puts further
-candidates there.  A candidate that is never loaded to its capacity stays rigid, and changes nothing.
+can carry a moment.  Obstacles also strike members between their nodes: a candidate lies there (struck_places)
+if no other is within one fold.  Distributed inertia and long spans bend members in between: `spacing` puts
+further candidates there.  A candidate that is never loaded to its capacity stays rigid, and changes nothing.
 
 Members of a straight run between supports (held_runs), and elastic members of structures of which an
 obstacle strikes a rigid joint (joint_reach), also change their length at their hinges, unless the input says
@@ -30,6 +31,7 @@ from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
 from crumple.structure.keys.hinge_axes import AxialSlip, HingeAxes
 from crumple.structure.keys.member import AutomaticHinges, Hinge
 from crumple.structure.parts import StructureParts
+from crumple.structure.struck_places import struck_places
 
 
 def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
@@ -50,7 +52,7 @@ def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
 
 
 def _further(structure: StructureParts, member: str, given: tuple[Hinge, ...]) -> list[Hinge]:
-    """Candidates at the ends of an elastic member besides its list of hinges, where none of these is near.
+    """Candidates of an elastic member besides its list of hinges, where none of these is near.
 
     A hinge within one fold, two half lengths, of a candidate's place stands for the fold there.  A member
     that shortens at a hinge of its list also shortens wherever else it folds: bending takes away the peak of
@@ -140,7 +142,7 @@ def automatic_stations(
     axes
         Bending axes of the candidates: the longest of their folds counts.
     spacing
-        Largest distance between candidates [m]; None: only at the ends.
+        Largest distance between candidates [m]; None: only at the ends, and where obstacles strike.
     """
     section, length = structure.section_of(member), structure.frame_of(member).length
     half = max(half_fold_length(section, axis) for axis in axes)
@@ -156,7 +158,15 @@ def automatic_stations(
     between = np.linspace(first, last, number + 1)[1:-1]
     found = {f"{member}-{nodes[0]}": first} if loaded[0] else {}
     found |= {f"{member}-{i}": float(station) for i, station in enumerate(between, 1)}
-    return found | ({f"{member}-{nodes[1]}": last} if loaded[1] else {})
+    found |= {f"{member}-{nodes[1]}": last} if loaded[1] else {}
+    taken = [first, *between, last]
+    for place in struck_places(structure, member):
+        at = place.station
+        if first < at < last and all(abs(at - other) > 2.0 * half for other in taken):
+            name = f"{member}-{place.obstacle}"
+            found[f"{name}-struck" if name in found else name] = at
+            taken.append(at)
+    return dict(sorted(found.items(), key=lambda item: item[1]))
 
 
 def carries_moment(structure: StructureParts, member: str, node: str) -> bool:

@@ -50,8 +50,8 @@ KEPT = 1024
 def with_elastic_members(structure: Parts, settings: MultibodySettings, duration: float) -> Parts:
     """The structure with the members elastic that do not say otherwise, if the settings say so.
 
-    `auto` says so where any hinges are automatic, in runs of up to `IMPACT`: in longer ones vibration takes
-    most of the steps, and decays without effect.
+    `auto` says so where automatic hinges are asked for, in runs of up to `IMPACT`: in longer ones vibration
+    takes most of the steps, and decays without effect.
 
     Parameters
     ----------

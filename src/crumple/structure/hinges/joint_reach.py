@@ -18,16 +18,14 @@ import math
 import numpy as np
 
 from crumple.numeric.arrays import Floats
+from crumple.structure.geometry import NARROWEST
 from crumple.structure.hinges.corners import corners, is_whole, leaving
-from crumple.structure.keys.obstacles import Obstacle, gap
+from crumple.structure.keys.obstacles import Obstacle
 from crumple.structure.parts import StructureParts
+from crumple.structure.struck_places import PLACES, axis_gaps
 
-NARROWEST = math.radians(10.0)
-"""Angle between two members, or to a line, below which they lie along each other."""
 LARGEST_SHARE = 0.35
 """Share of a member that a joint takes at most."""
-PLACES = np.linspace(0.0, 1.0, 11)
-"""Where on a member the distance from an obstacle is taken, over its length: both ends are among them."""
 
 
 def joint_reach(structure: StructureParts, member: str, node: str) -> float:
@@ -77,9 +75,8 @@ def _nearest_is_joint(structure: StructureParts, obstacle: Obstacle) -> bool:
     names = [name for name in obstacle.members or structure.members if structure.has_line(name)]
     if not names:
         return False
-    frames = [structure.frame_of(name) for name in names]
-    axes = np.array([[frame.position(share * frame.length) for share in PLACES] for frame in frames])
-    which, place = np.unravel_index(np.argmin(gap(obstacle, axes)), axes.shape[:2])
+    gaps = axis_gaps(structure, obstacle, names)
+    which, place = np.unravel_index(np.argmin(gaps), gaps.shape)
     if PLACES[place] not in (0.0, 1.0):
         return False
     member = names[which]

@@ -83,8 +83,8 @@ class AutomaticHinges(HingeAxes):
     """
 
     spacing: PositiveLength | None = None
-    """Largest distance between candidates along a member; without it they lie at its ends alone, at the
-    distance of a fold from a rigid face."""
+    """Largest distance between candidates along a member; without it they lie at its ends, at the
+    distance of a fold from a rigid face, and where an obstacle strikes it in between."""
 
 
 def _automatic(given: Any) -> Any:
@@ -189,7 +189,7 @@ class Member(Spec):
     """Equal rigid bars with hinges between them; a plain number stands for `{number: ...}`."""
     hinges: GivenOrAutomatic | None = None
     """Further hinges, one by one; or `auto`: candidates wherever a fold can form. Without it an elastic
-    member has candidates too, and besides a list where this leaves its ends out; `[]`: none of its own."""
+    member has candidates too, also besides a list where this has none near; `[]`: none of its own."""
     elastic: Elastic | None = None
     """Whether it bends and yields along its length in the multibody model: `true` (6 segments), `false`, or a
     number of segments; without it as `analysis.multibody.members`."""

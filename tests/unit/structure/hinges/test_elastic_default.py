@@ -4,7 +4,7 @@ import pytest
 from tests.support.multibody.frames import CLAMP, member, structure
 
 from crumple.multibody import Run, solve_multibody
-from crumple.structure import MultibodySettings, with_elastic_members
+from crumple.structure import AutomaticHinges, MultibodySettings, with_elastic_members
 
 SHORT, LONG = 0.1, 2.0
 NODES = {"a": (0.0, 0.0, 0.0), "b": (1.0, 0.0, 0.0), "c": (1.0, 0.0, 1.0)}
@@ -36,6 +36,13 @@ def bending(whole, duration, **settings):
 )
 def test_which_members_bend(keys, duration, settings, expected):
     assert bending(frame(**keys), duration, **settings) == expected
+
+
+def test_members_bend_although_all_have_lists_besides_the_automatic_hinges_of_the_structure():
+    members = {"ab": member("a", "b", ("h", "a")), "bc": member("b", "c", ("k", "b"))}
+    listed = structure(NODES, members, supports=CLAMP)
+    assert bending(listed, SHORT) == []
+    assert bending(listed.model_copy(update={"hinges": AutomaticHinges()}), SHORT) == ["ab", "bc"]
 
 
 def test_a_rigid_member_does_not_bend():

@@ -1,0 +1,71 @@
+"""Members with hinges of the input's own, none of which is where an obstacle strikes between their nodes.
+
+They cannot fold there: rigid bars stop the obstacle at once.  Automatic hinges have a candidate there.  A
+hinge within one fold, two half lengths, stands for the fold, and so does what is at a node within one fold.
+Members without any hinge are meant to keep their shape.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from crumple.multibody.answer.solved import Solved
+from crumple.result import Caution
+from crumple.section import AXES, half_fold_length
+from crumple.structure import Structure, plastic_hinges
+from crumple.structure.hinges.asked import automatic_of, folds_at_ends
+from crumple.structure.struck_places import struck_places
+
+
+def struck_cautions(structure: Structure, solved: Solved | None = None) -> Iterator[Caution]:
+    """A caution for every place without a hinge at which a member lies in the path of an obstacle.
+
+    Parameters
+    ----------
+    structure
+        Sound.
+    solved
+        Its result, if there is one: obstacles that touched nothing are left out.
+    """
+    if not structure.obstacles:
+        return
+    touched = _touched(structure, solved)
+    stations: dict[str, list[float]] = {}
+    for hinge in plastic_hinges(structure):
+        stations.setdefault(hinge.member, []).append(hinge.station)
+    for member, own in stations.items():
+        if automatic_of(structure, member) is not None or folds_at_ends(structure, member):
+            continue
+        section, length = structure.section_of(member), structure.frame_of(member).length
+        fold = 2.0 * max(half_fold_length(section, axis) for axis in AXES)
+        rigid, first = structure.members[member].rigid_parts(length), structure.members[member].nodes[0]
+        for place in struck_places(structure, member):
+            at = place.station
+            apart = min(abs(at - station) for station in own)
+            if place.obstacle not in touched or min(apart, at, length - at) <= fold:
+                continue
+            if any(start <= at <= end for start, end in rigid):
+                continue
+            where = f"{at * 1e3:.4g} mm"
+            yield Caution(
+                "struck_between_hinges",
+                apart,
+                fold,
+                "m",
+                f"member {member}",
+                f"Member {member} is in the path of obstacle {place.obstacle}, {where} from node {first}, "
+                f"where it has no hinge: it cannot fold there. Give it a hinge at {where}, or "
+                "'hinges: auto', which puts one there.",
+            )
+
+
+def _touched(structure: Structure, solved: Solved | None) -> set[str]:
+    """Obstacles on which any force acted; all before a run."""
+    if solved is None:
+        return set(structure.obstacles)
+    force = {channel.name: channel.values for channel in solved.further}
+    return {
+        name
+        for name in structure.obstacles
+        if any(force[f"obstacle.{name}.force.{axis}"].any() for axis in "xyz")
+    }

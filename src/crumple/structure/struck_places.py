@@ -1,0 +1,177 @@
+"""Places between the nodes of a member at which an obstacle strikes it: a fold forms there.
+
+Until they touch, an obstacle moves relative to a member along a straight line, from its place c in a
+direction d.  With the member's line a + s x and a pole's axis c + u e, and n the unit vector along x cross e
+that points from the member to the pole, they touch after a travel
+
+    t = ((c - a).n - R)/(-d.n),     R: radius of the pole and reach of the section's outline along n,
+
+at s = ((c + t d - a) cross e).(x cross e)/|x cross e|^2, and at u alike, which must not be beyond the ends of
+the pole by more than its radius and the section's outline.  A ball is a pole of no length across its path
+and the member, and so is the end of a pole that moves along its axis.  The edge of a plane is a pole of
+radius 0, if -n lies between the plane's directions out of the solid.  Faces of planes strike nodes, or
+members along their length.  What glances off at less than 10 degrees is left out.
+
+The direction is that of the obstacle's initial or prescribed motion less the initial velocity of the
+structure, if this is a translation of all.  Otherwise, and if nothing moves at the start, it leads from the
+obstacle straight to the members that are nearest to it, and meets no others.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple.numeric.arrays import Floats
+from crumple.numeric.rotation import cross
+from crumple.structure.geometry import NARROWEST, Frame
+from crumple.structure.keys.obstacles import CylinderObstacle, Obstacle, PlaneObstacle, gap
+from crumple.structure.parts import StructureParts
+
+PLACES = np.linspace(0.0, 1.0, 11)
+"""Where on a member the distance from an obstacle is taken, over its length: both ends are among them."""
+TIMES = np.logspace(-5.0, 4.0, 91)
+"""Times at which a prescribed motion is looked at for its direction [s]: from impacts to slow pushes."""
+LEAST = 1e-6
+"""Displacement that gives a direction, and difference of distances of members that are equally near [m]."""
+
+
+@dataclass(frozen=True)
+class StruckPlace:
+    """Where an obstacle meets a member.
+
+    Attributes
+    ----------
+    obstacle
+        Its name.
+    station
+        Distance from the member's first node [m].
+    """
+
+    obstacle: str
+    station: float
+
+
+@dataclass(frozen=True)
+class _Core:
+    """Axis of an obstacle: from `start` to `end` from its centre; the normals of a plane at its edge."""
+
+    centre: Floats
+    axis: Floats
+    radius: float
+    start: float = -math.inf
+    end: float = math.inf
+    outwards: tuple[Floats, ...] = ()
+
+
+def struck_places(structure: StructureParts, member: str) -> tuple[StruckPlace, ...]:
+    """Places between the ends of a member's line in the paths of obstacles, in the order of the input."""
+    return structure.kept.once("struck places", "", lambda: _struck_places(structure)).get(member, ())
+
+
+def _struck_places(structure: StructureParts) -> Mapping[str, tuple[StruckPlace, ...]]:
+    found: dict[str, tuple[StruckPlace, ...]] = {}
+    for name, obstacle in structure.obstacles.items():
+        if isinstance(obstacle, PlaneObstacle) and obstacle.edge is None:
+            continue
+        members = [one for one in obstacle.members or structure.members if structure.has_line(one)]
+        path = _path(structure, obstacle)
+        for member in members if path is not None else _nearest(structure, obstacle, members):
+            station = _touches(structure, member, obstacle, path)
+            if station is not None and 0.0 < station < structure.frame_of(member).length:
+                found[member] = (*found.get(member, ()), StruckPlace(name, station))
+    return found
+
+
+def _path(structure: StructureParts, obstacle: Obstacle) -> Floats | None:
+    """Unit vector along which an obstacle moves relative to the structure, (3,); None if there is none."""
+    whole = all(
+        field.nodes is None and field.members is None and not field.rotation
+        for field in structure.initial_velocity
+    )
+    if obstacle.turning is not None or not whole:
+        return None
+    velocity = np.asarray(obstacle.velocity, float) - sum(
+        (np.asarray(field.translation, float) for field in structure.initial_velocity), np.zeros(3)
+    )
+    if not velocity.any():
+        velocity = _first_displacement(obstacle)
+    speed = float(np.linalg.norm(velocity))
+    return velocity / speed if speed > 0.0 else None
+
+
+def _first_displacement(obstacle: Obstacle) -> Floats:
+    """Prescribed displacement of an obstacle once there is any [m], (3,)."""
+    functions = (obstacle.motion.x, obstacle.motion.y, obstacle.motion.z)
+    moved = np.column_stack([np.zeros(len(TIMES)) if f is None else f(TIMES) for f in functions])
+    there = np.linalg.norm(moved, axis=1) > LEAST
+    return np.asarray(moved[int(np.argmax(there))] if there.any() else np.zeros(3))
+
+
+def _nearest(structure: StructureParts, obstacle: Obstacle, members: list[str]) -> Iterator[str]:
+    """Members nearest to an obstacle at the start; none to the edge of a plane, whose face may be nearer."""
+    if isinstance(obstacle, PlaneObstacle) or not members:
+        return
+    gaps = axis_gaps(structure, obstacle, members).min(axis=1)
+    yield from (name for name, own in zip(members, gaps, strict=True) if own <= gaps.min() + LEAST)
+
+
+def axis_gaps(structure: StructureParts, obstacle: Obstacle, members: list[str]) -> Floats:
+    """Distances of the axes of some members from an obstacle at the start [m], (members, places)."""
+    frames = [structure.frame_of(name) for name in members]
+    axes = np.array([[frame.position(share * frame.length) for share in PLACES] for frame in frames])
+    return gap(obstacle, axes)
+
+
+def _touches(structure: StructureParts, member: str, obstacle: Obstacle, path: Floats | None) -> float | None:
+    """Station on a member's line at which an obstacle touches it first [m]; None if it misses it."""
+    frame, outline = structure.frame_of(member), structure.section_of(member).outer_outline()
+    core = _core(obstacle, frame, path)
+    normal = cross(frame.x, core.axis)
+    sine = float(np.linalg.norm(normal))
+    if sine < math.sin(NARROWEST):
+        return None
+    apart = core.centre - frame.origin
+    towards = normal / sine * (1.0 if apart @ normal >= 0.0 else -1.0)
+    path = -towards if path is None else path
+    closing = -float(path @ towards)
+    if closing < math.sin(NARROWEST) or any(side @ towards > LEAST for side in core.outwards):
+        return None
+    travel = (float(apart @ towards) - core.radius - _reach(frame, outline, towards)) / closing
+    apart = apart + max(0.0, travel) * path
+    along = float(cross(apart, frame.x) @ normal) / sine**2
+    beside = core.radius + _reach(frame, outline, core.axis)
+    if not -beside <= along - core.start and along - core.end <= beside:
+        return None
+    return float(cross(apart, core.axis) @ normal) / sine**2
+
+
+def _core(obstacle: Obstacle, frame: Frame, path: Floats | None) -> _Core:
+    """Axis of an obstacle that strikes a member; that of a ball lies across its path and the member."""
+    centre, radius = np.asarray(obstacle.point, float), float(getattr(obstacle, "radius", 0.0))
+    if isinstance(obstacle, PlaneObstacle) and obstacle.edge is not None:
+        sides = (_unit(np.asarray(obstacle.normal)), _unit(np.asarray(obstacle.edge)))
+        return _Core(centre, cross(*sides), 0.0, outwards=sides)
+    if isinstance(obstacle, CylinderObstacle):
+        axis, length = _unit(np.asarray(obstacle.axis)), obstacle.length
+        if length is None:
+            return _Core(centre, axis, radius)
+        if path is None or abs(path @ axis) < math.cos(NARROWEST):
+            return _Core(centre, axis, radius, start=0.0, end=length)
+        # it strikes with its round end
+        centre = centre + (length if path @ axis > 0.0 else 0.0) * axis
+    across = cross(frame.x, centre - frame.origin if path is None else path)
+    return _Core(centre, _unit(across), radius, start=0.0, end=0.0)
+
+
+def _reach(frame: Frame, outline: Floats, direction: Floats) -> float:
+    """How far a section's outline reaches from the member's line in a direction [m]."""
+    return float((outline @ (frame.axes[1:] @ direction)).max())
+
+
+def _unit(vector: Floats) -> Floats:
+    size = float(np.linalg.norm(vector))
+    return np.asarray(vector / size if size > 0.0 else vector)
