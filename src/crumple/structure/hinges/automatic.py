@@ -5,9 +5,9 @@ all sit on nodes: so a candidate lies near each end of a member (`fold_distance`
 can carry a moment.  Distributed inertia and long spans also bend members in between: `spacing` puts further
 candidates there.  A candidate that is never loaded to its capacity stays rigid, and changes nothing.
 
-Members of a straight run between supports (held_runs), and elastic members of structures of which an
-obstacle strikes a rigid joint (joint_reach), also change their length at their hinges, unless the input says
-otherwise.
+Members of a straight run between supports (held_runs), braced members, and elastic members of structures of
+which an obstacle strikes a rigid joint (joint_reach), also change their length at their hinges, unless the input
+says otherwise.
 
 A corner whose law is stored has one hinge at its node in place of the candidates in its zone, and the
 branch of a T-joint one in the face on which it ends.
@@ -23,6 +23,7 @@ import numpy as np
 from crumple.section import Axis, fold_distance, half_fold_length
 from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import FOLDS, automatic_of, folds_at_ends
+from crumple.structure.hinges.braced import braced
 from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
 from crumple.structure.hinges.held_runs import held_runs
 from crumple.structure.hinges.joint_reach import joint_reach, strikes_joint
@@ -109,7 +110,9 @@ def lengthens(structure: StructureParts, member: str) -> bool:
     if not unsaid:
         return False
     elastic = bool(structure.members[member].elastic)
-    return member in held_runs(structure) or (elastic and strikes_joint(structure))
+    return member in held_runs(structure) or (
+        elastic and (strikes_joint(structure) or member in braced(structure))
+    )
 
 
 def twists(structure: StructureParts, member: str) -> bool:

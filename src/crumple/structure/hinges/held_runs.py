@@ -37,13 +37,13 @@ def _held_runs(structure: StructureParts) -> frozenset[str]:
 def _to_support(structure: StructureParts, member: str, node: str) -> tuple[list[str], bool]:
     """Further members in line from a member's end, up to a node held along them, and whether there is one."""
     line, last, passed = structure.frame_of(member).x, member, dict.fromkeys([member])
-    while _passes_on(structure, last, node):
+    while passes_on(structure, last, node):
         if _held(structure, node, line):
             return list(passed)[1:], True
         further = (
             name
             for name in structure.members_at.get(node, ())
-            if name not in passed and _in_line(structure, name, line) and _passes_on(structure, name, node)
+            if name not in passed and _in_line(structure, name, line) and passes_on(structure, name, node)
         )
         following = next(further, None)
         if following is None:
@@ -70,7 +70,7 @@ def _in_line(structure: StructureParts, member: str, line: Floats) -> bool:
     return float(abs(along @ line)) > 0.0 and float(np.linalg.norm(np.cross(along, line))) <= STRAIGHT
 
 
-def _passes_on(structure: StructureParts, member: str, node: str) -> bool:
+def passes_on(structure: StructureParts, member: str, node: str) -> bool:
     """Whether a member's end moves as its node does."""
     joints = (joint for joint in structure.joints_at.get(node, ()) if joint.member == member)
     return all(joint.type in KEEPS_LENGTH for joint in joints)
