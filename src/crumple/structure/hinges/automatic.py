@@ -5,9 +5,9 @@ all sit on nodes: so a candidate lies near each end of a member (`fold_distance`
 can carry a moment.  Distributed inertia and long spans also bend members in between: `spacing` puts further
 candidates there.  A candidate that is never loaded to its capacity stays rigid, and changes nothing.
 
-Members of a straight run between supports (held_runs), braced members, and elastic members of structures of
-which an obstacle strikes a rigid joint (joint_reach), also change their length at their hinges, unless the input
-says otherwise.
+Members of a straight run between supports (held_runs), braced members (braced), and elastic members of
+structures of which an obstacle strikes a rigid joint (joint_reach), also change their length at their hinges,
+unless the input says otherwise.
 
 A corner whose law is stored has one hinge at its node in place of the candidates in its zone, and the
 branch of a T-joint one in the face on which it ends.
@@ -109,10 +109,9 @@ def lengthens(structure: StructureParts, member: str) -> bool:
     unsaid = asked is not None and "axial" not in asked.model_fields_set
     if not unsaid:
         return False
-    elastic = bool(structure.members[member].elastic)
-    return member in held_runs(structure) or (
-        elastic and (strikes_joint(structure) or member in braced(structure))
-    )
+    if structure.members[member].elastic and strikes_joint(structure):
+        return True
+    return member in held_runs(structure) or member in braced(structure)
 
 
 def twists(structure: StructureParts, member: str) -> bool:

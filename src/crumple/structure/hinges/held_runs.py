@@ -9,12 +9,11 @@ from __future__ import annotations
 import numpy as np
 
 from crumple.numeric.arrays import Floats
+from crumple.structure.hinges.framework import passes_on
 from crumple.structure.parts import StructureParts
 
 STRAIGHT = 1e-6
 """Sine of the angle between members, or between a run and what is held, up to which they are in line."""
-KEEPS_LENGTH = ("spherical", "revolute", "universal")
-"""Joints that pass displacements on."""
 
 
 def held_runs(structure: StructureParts) -> frozenset[str]:
@@ -68,9 +67,3 @@ def _held(structure: StructureParts, node: str, line: Floats) -> bool:
 def _in_line(structure: StructureParts, member: str, line: Floats) -> bool:
     along = structure.frame_of(member).x if structure.has_line(member) else np.zeros(3)
     return float(abs(along @ line)) > 0.0 and float(np.linalg.norm(np.cross(along, line))) <= STRAIGHT
-
-
-def passes_on(structure: StructureParts, member: str, node: str) -> bool:
-    """Whether a member's end moves as its node does."""
-    joints = (joint for joint in structure.joints_at.get(node, ()) if joint.member == member)
-    return all(joint.type in KEEPS_LENGTH for joint in joints)
