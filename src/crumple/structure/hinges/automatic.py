@@ -23,10 +23,10 @@ import numpy as np
 from crumple.section import Axis, fold_distance, half_fold_length
 from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import FOLDS, automatic_of, folds_at_ends
-from crumple.structure.hinges.braced import braced
 from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
-from crumple.structure.hinges.held_runs import held_runs
 from crumple.structure.hinges.joint_reach import joint_reach, strikes_joint
+from crumple.structure.hinges.lengthening.braced import braced
+from crumple.structure.hinges.lengthening.held_runs import held_runs
 from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
 from crumple.structure.keys.hinge_axes import AxialSlip, HingeAxes
 from crumple.structure.keys.member import AutomaticHinges, Hinge

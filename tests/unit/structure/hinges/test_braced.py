@@ -4,9 +4,9 @@ import pytest
 from tests.support.multibody.frames import structure
 
 from crumple.structure import plastic_hinges
-from crumple.structure.hinges import framework
 from crumple.structure.hinges.automatic import lengthens
-from crumple.structure.hinges.braced import braced
+from crumple.structure.hinges.lengthening import framework
+from crumple.structure.hinges.lengthening.braced import braced
 
 PLAIN = {"section": "tube", "material": "steel"}
 FLAT = {

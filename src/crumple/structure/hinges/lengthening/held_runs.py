@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from crumple.numeric.arrays import Floats
-from crumple.structure.hinges.framework import passes_on
+from crumple.structure.hinges.lengthening.framework import passes_on
 from crumple.structure.parts import StructureParts
 
 STRAIGHT = 1e-6

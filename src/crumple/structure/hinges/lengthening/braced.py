@@ -19,7 +19,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from crumple.numeric.arrays import Floats
-from crumple.structure.hinges.framework import MOTIONS, STILL, framework_motions, passes_on, supported
+from crumple.structure.hinges.lengthening.framework import (
+    MOTIONS,
+    STILL,
+    framework_motions,
+    passes_on,
+    supported,
+)
 from crumple.structure.parts import StructureParts
 
 

@@ -34,7 +34,7 @@ STILL = 1e-5
 that of a node that nothing holds."""
 MOTIONS = 3
 """Random displacements: one suffices unless it happens to be across the motion that matters."""
-DENSE = 900
+DENSE = 600
 """Displacements up to which the equations are solved as full ones, without loading a sparse solver."""
 KEEPS_LENGTH = ("spherical", "revolute", "universal")
 """Joints that pass displacements on."""
