@@ -22,8 +22,6 @@ ROTATIONS = (0, 1, 2, 5, 10, 15, 20, 25, 30, 40, 50, 60)
 LOADS = ("bending", "torsion", "crush", "out-of-plane")
 SMALLEST, LARGEST = 0.0872, 1.0473
 """Plastic rotation up to which a law can be requested: 5 to 60 degrees [rad], with room for rounding."""
-STEEPEST = 2.3563
-"""Largest angle of a corner: 135 degrees [rad], with room for rounding."""
 
 
 def characterise(
@@ -232,11 +230,12 @@ def _direction(given: _Place) -> Direction:
 def _corner(angle: str | None) -> float | None:
     """Angle of a corner [rad]."""
     from crumple.errors import InputError, Problem
+    from crumple.hinge.corner.mitred_corner import LARGEST
     from crumple.units import parse_quantity
 
     corner = None if angle is None else parse_quantity(angle, "rad")
-    if corner is not None and not 0.0 < corner <= STEEPEST:
-        allowed, todo = "above 0 deg, at most 135 deg", "0 would be a straight member: leave --angle out"
+    if corner is not None and not 0.0 < corner <= LARGEST:
+        allowed, todo = "above 0 deg, at most 100 deg", "0 would be a straight member: leave --angle out"
         raise InputError(
             Problem("the angle of the corner is out of range", angle or "", allowed, todo, "--angle")
         )

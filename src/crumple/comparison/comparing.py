@@ -124,7 +124,7 @@ def _alike(candidate: Result, reference: Result) -> bool:
 def _crushes(
     candidate: Result, reference: Result, structure: Structure, hinges: Sequence[PlacedHinge], until: float
 ) -> tuple[CrushComparison, ...]:
-    """Every member that can shorten, in both results; not those that only a held run lets lengthen."""
+    """Every member that can shorten, in both results; not those that lengthen unasked, as in a held run."""
     members = [name for name in crushable(hinges) if not lengthens(structure, name)]
     if not members:
         return ()

@@ -45,7 +45,7 @@ def test_law_is_solved_once_and_kept(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("options", "what"),
     [
-        (["--angle", "180 deg"], "angle of the corner is out of range"),
+        (["--angle", "101 deg"], "angle of the corner is out of range"),
         (["--angle", "0 deg"], "angle of the corner is out of range"),
         (["--to", "2 deg"], "rotation is out of range"),
         (["--sense", "up"], "sense is unknown"),

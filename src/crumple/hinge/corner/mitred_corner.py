@@ -55,8 +55,9 @@ ROUNDING = 3.0
 """p of the transition from the start to the fold of a corner that closes [-]."""
 STIFFNESS = 0.34
 """r of the elastic stiffness [-]."""
-SMALLEST, LARGEST = math.radians(5.0), math.radians(100.0)
-"""Angles between the members: beyond the largest a mitre is longer than the section."""
+SMALLEST, LARGEST = math.radians(5.0) * (1.0 - 1e-9), math.radians(100.0) * (1.0 + 1e-9)
+"""Angles between the members, with room for rounding.  Beyond the largest a mitre is longer than the section;
+shells join such members rigidly, and automatic hinges have no corner there."""
 REACH = math.radians(40.0)
 """Rotation up to which the corners were solved by shells."""
 UNCERTAINTY = 0.25
@@ -138,7 +139,7 @@ class MitredCornerLaw:
         InputError
             If the section is not a rectangular tube, or the angle is outside 5 to 100 degrees.
         """
-        if not SMALLEST * (1.0 - 1e-9) <= angle <= LARGEST * (1.0 + 1e-9):
+        if not SMALLEST <= angle <= LARGEST:
             what, came = "no mitred corner has this angle", f"{math.degrees(angle):.4g} deg"
             todo = "use the law of the member, or one from shells"
             raise InputError(Problem(what, came, "5 to 100 deg", todo, "angle"))

@@ -139,7 +139,7 @@ class MitredCornerAcrossLaw:
             what, allowed = "no estimate of a corner out of its plane", "a rectangular tube"
             todo = "use the law of the member, or one from shells"
             raise InputError(Problem(what, section.title, allowed, todo, "section"))
-        if not SMALLEST * (1.0 - 1e-9) <= angle <= LARGEST * (1.0 + 1e-9):
+        if not SMALLEST <= angle <= LARGEST:
             what, came = "no estimate of a corner of this angle out of its plane", math.degrees(angle)
             todo = "use the law of the member, or one from shells"
             raise InputError(Problem(what, f"{came:.4g} deg", "5 to 100 deg", todo, "angle"))

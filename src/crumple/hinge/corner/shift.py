@@ -51,7 +51,7 @@ def corner_shift(section: Section, angle: float) -> Callable[[ArrayLike], Floats
     docs/theory/mitred_corner.md.  Derived here; constants fitted to corners solved by shells.  Verified in
     tests/verification/characterisation/test_shifted_corners.py.
     """
-    if not isinstance(section, RectangularTube) or angle > LARGEST * (1.0 + 1e-9):
+    if not isinstance(section, RectangularTube) or angle > LARGEST:
         return None
     wall = section.thickness
     turn = TURN * wall / math.sqrt((section.width - wall) * (section.depth - wall))

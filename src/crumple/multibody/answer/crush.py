@@ -16,7 +16,7 @@ from crumple.structure.hinges.automatic import lengthens
 def crush_of(structure: Structure, history: HingeHistory) -> CrushSummary | None:
     """Crushing figures of one hinge; None if it cannot shorten along its member.
 
-    One that only may lengthen, because its member is held at both ends, has them if it was crushed.
+    One that only may lengthen, because its member is held at both ends or braced, has them if it was crushed.
     """
     spatial = history.hinge.spatial
     if spatial is None or Freedom.AXIAL not in spatial.freedoms:

@@ -16,14 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crumple.errors import InputError, Problem
+from crumple.hinge.corner.mitred_corner import LARGEST
 from crumple.numeric.arrays import Floats
 from crumple.shell.mesh.contour import Contour
 from crumple.shell.mesh.end import End
 from crumple.shell.mesh.tees import Tee, tees_of, with_rows
 from crumple.structure import FREEDOMS, Structure
 
-SHARPEST_MITRE = np.radians(100.0)
-"""Change of direction up to which two members share a mitre: beyond it a mitre is longer than the section."""
 SAME_POINT = 1e-6
 """Distance over the section's size below which two contours' points are one."""
 NARROWEST_ANGLE = np.radians(10.0)
@@ -206,7 +205,7 @@ def _mitre(
     """Shared section of two members, or None where their contours do not meet."""
     x = [outgoing(structure, end) for end in ends]
     turn = np.arccos(np.clip(-float(x[0] @ x[1]), -1.0, 1.0))
-    if turn > SHARPEST_MITRE:
+    if turn > LARGEST:
         return None
     normal = (x[0] - x[1]) / np.linalg.norm(x[0] - x[1])
     slants, points = [], []

@@ -6,9 +6,9 @@ can carry a moment.  Obstacles also strike members between their nodes: a candid
 if no other is within one fold.  Distributed inertia and long spans bend members in between: `spacing` puts
 further candidates there.  A candidate that is never loaded to its capacity stays rigid, and changes nothing.
 
-Members of a straight run between supports (held_runs), and elastic members of structures of which an
-obstacle strikes a rigid joint (joint_reach), also change their length at their hinges, unless the input says
-otherwise.
+Members of a straight run between supports (held_runs), braced members (braced), and elastic members of
+structures of which an obstacle strikes a rigid joint (joint_reach), also change their length at their hinges,
+unless the input says otherwise.
 
 A corner whose law is stored has one hinge at its node in place of the candidates in its zone, and the
 branch of a T-joint one in the face on which it ends.
@@ -25,8 +25,9 @@ from crumple.section import Axis, fold_distance, half_fold_length
 from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import FOLDS, automatic_of, folds_at_ends
 from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
-from crumple.structure.hinges.held_runs import held_runs
 from crumple.structure.hinges.joint_reach import joint_reach, strikes_joint
+from crumple.structure.hinges.lengthening.braced import braced
+from crumple.structure.hinges.lengthening.held_runs import held_runs
 from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
 from crumple.structure.keys.hinge_axes import AxialSlip, HingeAxes
 from crumple.structure.keys.member import AutomaticHinges, Hinge
@@ -110,8 +111,9 @@ def lengthens(structure: StructureParts, member: str) -> bool:
     unsaid = asked is not None and "axial" not in asked.model_fields_set
     if not unsaid:
         return False
-    elastic = bool(structure.members[member].elastic)
-    return member in held_runs(structure) or (elastic and strikes_joint(structure))
+    if structure.members[member].elastic and strikes_joint(structure):
+        return True
+    return member in held_runs(structure) or member in braced(structure)
 
 
 def twists(structure: StructureParts, member: str) -> bool:

@@ -15,13 +15,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from crumple.hinge.corner.mitred_corner import LARGEST, SMALLEST
 from crumple.hinge.measured.place_hash import Direction, place_hash
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, half_fold_length
 from crumple.structure.parts import StructureParts
 
-LEAST, STEEPEST = math.radians(5.0), math.radians(135.0)
-"""Angles of corners that have a sub-model."""
 ALONG = 1e-4
 """Component of a unit vector below which it does not point along another."""
 ALIKE = 1e-6
@@ -134,7 +133,7 @@ def _corner(structure: StructureParts, node: str, members: list[str]) -> Corner 
     first, second = sorted(members, key=list(structure.members).index)
     arriving, onward = -leaving(structure, first, node), leaving(structure, second, node)
     angle = math.acos(float(np.clip(arriving @ onward, -1.0, 1.0)))
-    if angle < LEAST:
+    if angle < SMALLEST:
         return ""
     reason = next(_reasons(structure, node, (first, second), angle), None)
     if reason is not None:
@@ -161,8 +160,8 @@ def _reasons(structure: StructureParts, node: str, members: tuple[str, str], ang
     materials = [structure.material_of(name) for name in members]
     if any(joint.member in members for joint in structure.joints_at.get(node, ())):
         yield "the members are joined by a joint"
-    if angle > STEEPEST * (1.0 + 1e-9):
-        yield f"the angle is {math.degrees(angle):.0f} deg, above {math.degrees(STEEPEST):.0f} deg"
+    if angle > LARGEST:
+        yield f"the angle is {math.degrees(angle):.0f} deg, above {math.degrees(LARGEST):.0f} deg"
     if sections[0] != sections[1]:
         yield f"the sections {one.section} and {other.section} differ"
     if replace(materials[0], name="") != replace(materials[1], name=""):

@@ -12,6 +12,8 @@ from crumple.shell.mesh.joints import Kind
 from crumple.shell.mesh.mesh import mesh_of
 from crumple.shell.mesh.quality import areas, report_of
 from crumple.structure import Outputs, ShellSettings
+from crumple.structure.hinges.corners import corners
+from crumple.structure.hinges.joint_reach import joint_reach
 
 COARSE = ShellSettings(element_size=12e-3)
 
@@ -75,6 +77,17 @@ def test_knee_shares_the_nodes_of_a_mitre():
     # they lie in the plane that halves the right angle
     assert (shared[:, 0] - 0.5) == pytest.approx(-shared[:, 2], abs=1e-12)
     assert report_of(knee(), mesh).worst_aspect < 4.0
+
+
+@pytest.mark.parametrize(("angle", "mitred"), [(60.0, True), (100.0, True), (101.0, False), (130.0, False)])
+def test_automatic_hinges_and_shells_agree_which_corners_are_mitred(angle, mitred):
+    turn = np.radians(angle)
+    end = (0.5 + 0.5 * float(np.cos(turn)), 0.0, 0.5 * float(np.sin(turn)))
+    given = knee()
+    given = given.model_copy(update={"nodes": {**given.nodes, "c": end}})
+    assert (mesh_of(given, COARSE).joints["b"].kind is Kind.MITRED) is mitred
+    assert ("b" in corners(given)) is mitred
+    assert (joint_reach(given, "one", "b") == 0.0) is mitred
 
 
 def test_knee_with_a_mass_has_a_rigid_shared_section():

@@ -4,7 +4,7 @@ import pytest
 from tests.support.multibody.frames import member, structure
 
 from crumple.structure import plastic_hinges
-from crumple.structure.hinges.held_runs import held_runs
+from crumple.structure.hinges.lengthening.held_runs import held_runs
 
 LINE = {"a": (0.0, 0.0, 0.0), "b": (0.4, 0.0, 0.0), "c": (1.2, 0.0, 0.0)}
 RUN = {"ab": member("a", "b"), "bc": member("b", "c")}

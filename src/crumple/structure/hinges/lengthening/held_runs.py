@@ -9,12 +9,11 @@ from __future__ import annotations
 import numpy as np
 
 from crumple.numeric.arrays import Floats
+from crumple.structure.hinges.lengthening.framework import passes_on
 from crumple.structure.parts import StructureParts
 
 STRAIGHT = 1e-6
 """Sine of the angle between members, or between a run and what is held, up to which they are in line."""
-KEEPS_LENGTH = ("spherical", "revolute", "universal")
-"""Joints that pass displacements on."""
 
 
 def held_runs(structure: StructureParts) -> frozenset[str]:
@@ -37,13 +36,13 @@ def _held_runs(structure: StructureParts) -> frozenset[str]:
 def _to_support(structure: StructureParts, member: str, node: str) -> tuple[list[str], bool]:
     """Further members in line from a member's end, up to a node held along them, and whether there is one."""
     line, last, passed = structure.frame_of(member).x, member, dict.fromkeys([member])
-    while _passes_on(structure, last, node):
+    while passes_on(structure, last, node):
         if _held(structure, node, line):
             return list(passed)[1:], True
         further = (
             name
             for name in structure.members_at.get(node, ())
-            if name not in passed and _in_line(structure, name, line) and _passes_on(structure, name, node)
+            if name not in passed and _in_line(structure, name, line) and passes_on(structure, name, node)
         )
         following = next(further, None)
         if following is None:
@@ -68,9 +67,3 @@ def _held(structure: StructureParts, node: str, line: Floats) -> bool:
 def _in_line(structure: StructureParts, member: str, line: Floats) -> bool:
     along = structure.frame_of(member).x if structure.has_line(member) else np.zeros(3)
     return float(abs(along @ line)) > 0.0 and float(np.linalg.norm(np.cross(along, line))) <= STRAIGHT
-
-
-def _passes_on(structure: StructureParts, member: str, node: str) -> bool:
-    """Whether a member's end moves as its node does."""
-    joints = (joint for joint in structure.joints_at.get(node, ()) if joint.member == member)
-    return all(joint.type in KEEPS_LENGTH for joint in joints)

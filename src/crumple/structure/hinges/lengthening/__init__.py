@@ -1,0 +1,1 @@
+"""Which members must change their length for their hinges to open."""
