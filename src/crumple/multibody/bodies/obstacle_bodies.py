@@ -35,8 +35,8 @@ from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.bodies.sampled_functions import sampled_motion
 from crumple.numeric.arrays import Floats
 from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Structure, gap
+from crumple.structure.geometry import NARROWEST
 from crumple.structure.hinges.corners import leaving
-from crumple.structure.hinges.joint_reach import NARROWEST
 
 LIGHT = 1e-3
 """Mass of a driven obstacle over that of the structure: its motion is given, so that the mass changes nothing
