@@ -74,10 +74,10 @@ def test_pictures_after_an_early_end_are_reported():
     (message,) = [text for text in result.warnings if "no pictures at" in text]
     assert "no pictures at 1 ms, 1.9 ms." in message
     precise = MultibodySettings(accuracy=1e-10)
-    run = Run(0.05, 0.005, settings=precise, outputs=Outputs(pictures=(0.0, 0.049)))
+    run = Run(0.05, 0.005, settings=precise, outputs=Outputs(pictures=(0.0, 0.05)))
     shares = [0.0]
     stopped = solve_multibody(thrown(), run, shares.append, lambda: shares[-1] > 0.0)
     assert stopped.status is Status.CANCELLED
-    assert any("no pictures at 49 ms." in text for text in stopped.warnings)
+    assert any("no pictures at 50 ms." in text for text in stopped.warnings)
     whole = solve_multibody(thrown(), run)
     assert not [text for text in whole.warnings if "pictures" in text]
