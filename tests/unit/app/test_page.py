@@ -48,7 +48,7 @@ def _page(browser, place):
         browser.open("about:blank", 1400, 1000)
 
 
-def until(browser, condition, seconds=60.0):
+def until(browser, condition, seconds=240.0):
     """Wait for something to be true in the page."""
     end = time.monotonic() + seconds
     while not browser.evaluate(f"!!({condition})"):
