@@ -93,7 +93,7 @@ def _solved(rows: list[tuple[Floats, list[int]]], right: Floats) -> Floats:
             stiffness[np.ix_(places, places)] += np.outer(row, row)
         return np.asarray(np.linalg.solve(stiffness, right), np.float64)
     from scipy import sparse  # noqa: PLC0415  (takes a tenth of a second)
-    from scipy.sparse.linalg import splu  # noqa: PLC0415
+    from scipy.sparse.linalg import splu  # noqa: PLC0415  (the same)
 
     lengths = [len(places) for _, places in rows]
     index = (np.repeat(np.arange(len(rows)), lengths), np.concatenate([places for _, places in rows]))
