@@ -212,6 +212,9 @@ def test_typing_shows_mistakes_at_their_line_and_keys_that_fit(page):
     page.call("Input.insertText", text="e")
     until(page, "document.querySelectorAll('#problems button').length === 0")
     page.evaluate("crumpleApp.editor.go(crumpleApp.editor.view.state.doc.lines); 1")
+    # one frame scrolls, the next tells CodeMirror so, which then reads text typed before without its cursor
+    page.settle()
+    page.settle()
     page.call("Input.insertText", text="grav")
     until(page, "document.querySelector('.cm-tooltip-autocomplete')?.textContent.includes('gravity')")
 
