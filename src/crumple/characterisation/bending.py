@@ -10,7 +10,13 @@ import numpy as np
 from crumple.analysis import Analysis
 from crumple.characterisation.curve import LawCurve, law_curve
 from crumple.characterisation.resolution import NOMINAL, Resolution
-from crumple.characterisation.sub_model import StrongCornerError, corner_piece, is_mirrored, largest_side
+from crumple.characterisation.sub_model import (
+    Histories,
+    StrongCornerError,
+    corner_piece,
+    is_mirrored,
+    largest_side,
+)
 from crumple.errors import InputError, Problem
 from crumple.hinge.measured.place_hash import Load, place_hash
 from crumple.material import Material
@@ -24,7 +30,7 @@ STUB = 1.75
 KINK = math.radians(0.2)
 """Usual kink of a straight member [rad]."""
 OUTPUTS = 400
-"""Points in time at which a sub-model is measured."""
+"""Points in time at which a sub-model is measured, at most."""
 OVERSHOOT, ELASTIC_TURN = 1.15, math.radians(5.0)
 """End rotation: plastic rotation of the law times the one plus the other; the piece also bends elsewhere."""
 RISE = (0.05, 0.3)
@@ -141,8 +147,13 @@ class Bending:
 
     @property
     def duration(self) -> float:
-        """Time of the turn [s]."""
-        return self.resolution.duration(self.section, self.material, self.axis, self.length, self.turn)
+        """Longest time of the turn [s].
+
+        The first half of half a sine wave, whose end is twice as far, begins with the acceleration of half a
+        sine wave if it takes 1/sqrt(2) of its time, and so has the same share of kinetic energy.
+        """
+        half_wave = self.resolution.duration(self.section, self.material, self.axis, self.length, self.turn)
+        return half_wave / math.sqrt(2.0)
 
     def analysis(self) -> Analysis:
         """Input of the shell solver."""
@@ -169,7 +180,7 @@ class Bending:
         kink = self.sense * self.kink if self.angle is None else self.angle
         along, across = second_piece(kink, self.axis)
         held = [f"r{axis}" for axis in "xyz" if axis != self.axis]
-        turning = {"x0": 0.0, "h0": 0.0, "x1": duration, "h1": self.sense * self.turn}
+        turning = {"x0": 0.0, "h0": 0.0, "x1": 2.0 * duration, "h1": 2.0 * self.sense * self.turn}
         piece = {"section": "section", "material": "metal"}
         return Structure(
             materials={"metal": self.material},
@@ -209,11 +220,11 @@ class Bending:
         curve = law_curve(plastic, moment, self.largest)
         return curve if flexibility == 0.0 else curve.with_stiffness(1.0 / flexibility)
 
-    def histories(self, result: Result) -> tuple[Floats, Floats]:
+    def histories(self, result: Histories) -> tuple[Floats, Floats]:
         """Plastic rotation of the fold [rad] and moment [N m] at the times of the result."""
         return self._plastic(result)[:2]
 
-    def _plastic(self, result: Result) -> tuple[Floats, Floats, float]:
+    def _plastic(self, result: Histories) -> tuple[Floats, Floats, float]:
         """Plastic rotation, moment, and the flexibility of a corner's own that was taken off."""
         moment = self._moment(result)
         pieces = result["first"] + result["second"]
@@ -227,7 +238,7 @@ class Bending:
         """Nothing more."""
         return {}
 
-    def _moment(self, result: Result) -> Floats:
+    def _moment(self, result: Histories) -> Floats:
         """Moment in the middle [N m]: the mean of both ends, free of inertia to first order.
 
         The channels hold what the structure exerts on its supports.
@@ -247,6 +258,8 @@ def second_piece(angle: float, axis: Axis) -> tuple[Floats, Floats]:
 def elastic_flexibility(rotation: Floats, moment: Floats) -> float:
     """Rotation over moment in the elastic rise [rad/(N m)]: slope of a straight line fitted there."""
     peak = int(np.argmax(moment))
+    if moment[peak] <= 0.0:
+        return 0.0
     share = moment[: peak + 1] / moment[peak]
     rise = (share > RISE[0]) & (share < RISE[1])
     if np.count_nonzero(rise) < 2:

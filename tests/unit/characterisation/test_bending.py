@@ -50,6 +50,29 @@ def test_positive_rotation_about_the_axis_closes_a_corner(axis, sense):
     assert (after > before) == (sense > 0)
 
 
+def test_turn_begins_as_slowly_as_half_a_sine_wave_and_goes_on_at_full_speed():
+    model = Bending(TUBE, STEEL, sense=-1)
+    half_wave = model.resolution.duration(TUBE, STEEL, "y", model.length, model.turn)
+    motion = model.analysis().structure.supports["turned"].motion.ry
+    assert motion is not None
+    # cos(x) = 1 - x^2/2: at the start theta_e/2 (1 - cos(pi t/T)) turns as theta_e (pi t/T)^2/4
+    early = 1e-3 * half_wave
+    assert motion(early) == pytest.approx(-model.turn * (1e-3 * math.pi) ** 2 / 4.0, rel=1e-5)
+    assert motion(model.duration) == pytest.approx(-model.turn)
+    rates = np.abs(motion.derivative(np.linspace(0.0, model.duration, 50)))
+    assert rates[-1] == rates.max()
+
+
+def test_run_ends_where_its_law_does_which_is_that_of_the_whole_turn():
+    model = Bending(TUBE, STEEL, resolution=Resolution(2.0, 7.0))
+    done, whole = characterise(model), solve(model.analysis(), "shell")
+    turned = model.histories(done.result)[0]
+    assert turned[-1] >= model.largest > turned[-5]
+    assert done.result.time[-1] < 0.98 * whole.time[-1]
+    assert np.array_equal(done.curve.rotation, model.curve(whole).rotation)
+    assert np.array_equal(done.curve.moment, model.curve(whole).moment)
+
+
 def test_a_tube_is_its_mirror_image_and_a_hat_only_about_z():
     hat = Hat(width=0.060, depth=0.050, thickness=0.0015, flange=0.020)
     assert is_mirrored(TUBE, "y")
