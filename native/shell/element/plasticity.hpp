@@ -31,7 +31,18 @@ struct YieldLine {
 CRUMPLE_INLINE YieldLine yield_line(const Part& part, Real start, Real at, Real factor) {
     const double *e = part.table_strain, *s = part.table_stress;
     YieldLine line{all(s[0]), Real{}};
-    for (int i = 0; i + 1 < part.table_size; i++) {
+    double least = e[part.table_size - 1], largest = e[0];
+    for (int i = 0; i < lanes; i++) {
+        least = at[i] < least ? at[i] : least;
+        largest = at[i] > largest ? at[i] : largest;
+    }
+    // only the segments from that of the least strain to that of the largest one: tables have 80
+    int first = 0;
+    for (int beyond = part.table_size; beyond - first > 1;) {
+        const int middle = (first + beyond) / 2;
+        (e[middle] <= least ? first : beyond) = middle;
+    }
+    for (int i = first; i + 1 < part.table_size && e[i] <= largest; i++) {
         const double slope = (s[i + 1] - s[i]) / (e[i + 1] - e[i]);
         const Mask here = at >= e[i];
         line.value = here ? s[i] + slope * (start - e[i]) : line.value;

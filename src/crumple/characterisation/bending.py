@@ -10,7 +10,13 @@ import numpy as np
 from crumple.analysis import Analysis
 from crumple.characterisation.curve import LawCurve, law_curve
 from crumple.characterisation.resolution import NOMINAL, Resolution
-from crumple.characterisation.sub_model import StrongCornerError, corner_piece, is_mirrored, largest_side
+from crumple.characterisation.sub_model import (
+    Histories,
+    StrongCornerError,
+    corner_piece,
+    is_mirrored,
+    largest_side,
+)
 from crumple.errors import InputError, Problem
 from crumple.hinge.measured.place_hash import Load, place_hash
 from crumple.material import Material
@@ -24,9 +30,11 @@ STUB = 1.75
 KINK = math.radians(0.2)
 """Usual kink of a straight member [rad]."""
 OUTPUTS = 400
-"""Points in time at which a sub-model is measured."""
+"""Points in time at which a sub-model is measured, at most."""
 OVERSHOOT, ELASTIC_TURN = 1.15, math.radians(5.0)
 """End rotation: plastic rotation of the law times the one plus the other; the piece also bends elsewhere."""
+STARTING = 200
+"""Straight pieces of the first half of the turn; the speed changes by at most 0.8 % from one to the next."""
 RISE = (0.05, 0.3)
 """Shares of the peak moment between which the elastic stiffness is measured."""
 
@@ -141,7 +149,12 @@ class Bending:
 
     @property
     def duration(self) -> float:
-        """Time of the turn [s]."""
+        """Time up to the end rotation [s]; the run ends with its law."""
+        return (0.5 + 1.0 / math.pi) * self._half_wave
+
+    @property
+    def _half_wave(self) -> float:
+        """Time of half a sine wave up to the end rotation [s]."""
         return self.resolution.duration(self.section, self.material, self.axis, self.length, self.turn)
 
     def analysis(self) -> Analysis:
@@ -169,7 +182,7 @@ class Bending:
         kink = self.sense * self.kink if self.angle is None else self.angle
         along, across = second_piece(kink, self.axis)
         held = [f"r{axis}" for axis in "xyz" if axis != self.axis]
-        turning = {"x0": 0.0, "h0": 0.0, "x1": duration, "h1": self.sense * self.turn}
+        turning = started(self._half_wave, self.sense * self.turn, duration)
         piece = {"section": "section", "material": "metal"}
         return Structure(
             materials={"metal": self.material},
@@ -185,7 +198,7 @@ class Bending:
             },
             supports={
                 "held": {"node": "held", "fix": "all"},
-                "turned": {"node": "turned", "fix": held, "motion": {f"r{self.axis}": {"havsin": turning}}},
+                "turned": {"node": "turned", "fix": held, "motion": {f"r{self.axis}": turning}},
             },
         )
 
@@ -209,11 +222,11 @@ class Bending:
         curve = law_curve(plastic, moment, self.largest)
         return curve if flexibility == 0.0 else curve.with_stiffness(1.0 / flexibility)
 
-    def histories(self, result: Result) -> tuple[Floats, Floats]:
+    def histories(self, result: Histories) -> tuple[Floats, Floats]:
         """Plastic rotation of the fold [rad] and moment [N m] at the times of the result."""
         return self._plastic(result)[:2]
 
-    def _plastic(self, result: Result) -> tuple[Floats, Floats, float]:
+    def _plastic(self, result: Histories) -> tuple[Floats, Floats, float]:
         """Plastic rotation, moment, and the flexibility of a corner's own that was taken off."""
         moment = self._moment(result)
         pieces = result["first"] + result["second"]
@@ -227,13 +240,29 @@ class Bending:
         """Nothing more."""
         return {}
 
-    def _moment(self, result: Result) -> Floats:
+    def _moment(self, result: Histories) -> Floats:
         """Moment in the middle [N m]: the mean of both ends, free of inertia to first order.
 
         The channels hold what the structure exerts on its supports.
         """
         held, turned = (result[f"support.{name}.moment.{self.axis}"] for name in ("held", "turned"))
         return 0.5 * self.sense * (held - turned)
+
+
+def started(half_wave: float, height: float, end: float) -> dict[str, dict[str, list[float]]]:
+    """Half a sine wave up to its middle, where it is fastest, and then this speed.
+
+    Parameters
+    ----------
+    half_wave, height
+        Time [s] and height [rad] of half a sine wave.
+    end
+        Where it ends [s], after the middle.
+    """
+    rise = np.linspace(0.0, 0.5 * half_wave, STARTING + 1)
+    value = 0.5 * height * (1.0 - np.cos(math.pi * rise / half_wave))
+    last = 0.5 * height * (1.0 + math.pi * (end / half_wave - 0.5))
+    return {"table": {"time": [*rise.tolist(), end], "value": [*value.tolist(), last]}}
 
 
 def second_piece(angle: float, axis: Axis) -> tuple[Floats, Floats]:
@@ -247,6 +276,8 @@ def second_piece(angle: float, axis: Axis) -> tuple[Floats, Floats]:
 def elastic_flexibility(rotation: Floats, moment: Floats) -> float:
     """Rotation over moment in the elastic rise [rad/(N m)]: slope of a straight line fitted there."""
     peak = int(np.argmax(moment))
+    if moment[peak] <= 0.0:
+        return 0.0
     share = moment[: peak + 1] / moment[peak]
     rise = (share > RISE[0]) & (share < RISE[1])
     if np.count_nonzero(rise) < 2:

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import find_peaks
 
 from crumple.analysis import Analysis
 from crumple.characterisation.curve import LawCurve, law_curve
@@ -270,6 +269,8 @@ def fold_count(result: Result, thickness: float) -> int:
     Along each line of the mesh the crests of the wall's displacement are counted, outwards and inwards, that
     stand out by more than a few wall thicknesses; the median of the lines that have any.
     """
+    from scipy.signal import find_peaks  # noqa: PLC0415  (takes a second, which the other sub-models save)
+
     states = result.states
     assert states is not None
     counts = []

@@ -18,7 +18,7 @@ from crumple.analysis import Analysis
 from crumple.characterisation.bending import elastic_flexibility, second_piece
 from crumple.characterisation.curve import LawCurve, law_curve
 from crumple.characterisation.resolution import NOMINAL, Resolution
-from crumple.characterisation.sub_model import corner_piece, is_mirrored, largest_side
+from crumple.characterisation.sub_model import Histories, corner_piece, is_mirrored, largest_side
 from crumple.errors import InputError, Problem
 from crumple.hinge.measured.place_hash import ABOUT, CORNER, Direction, Load, place_hash
 from crumple.material import Material
@@ -251,7 +251,7 @@ class OutOfPlane:
         curve = law_curve(rotation - flexibility * moment, moment, self.largest)
         return curve if flexibility == 0.0 else curve.with_stiffness(1.0 / flexibility)
 
-    def histories(self, result: Result) -> tuple[Floats, Floats]:
+    def histories(self, result: Histories) -> tuple[Floats, Floats]:
         """Plastic rotation about the direction [rad] and moment [N m] at the times of the result."""
         rotation, moment = self._histories(result)
         return rotation - max(elastic_flexibility(rotation, moment), 0.0) * moment, moment
@@ -260,7 +260,7 @@ class OutOfPlane:
         """Strength of the pieces."""
         return {"members": f"yield at {self.strength:.4g} N m"}
 
-    def _histories(self, result: Result) -> tuple[Floats, Floats]:
+    def _histories(self, result: Histories) -> tuple[Floats, Floats]:
         """Rotation about the direction less that of straight elastic pieces, and mean moment of both ends."""
         held, turned = (result[f"support.{name}.moment.{self._driven}"] for name in ("held", "turned"))
         moment = 0.5 * (held - turned)

@@ -19,7 +19,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from crumple.characterisation.curve import LawCurve
-from crumple.characterisation.sub_model import Model, Solvable, SubModel
+from crumple.characterisation.sub_model import Histories, Model, Solvable, SubModel
 from crumple.hinge.rate import HingeRate
 from crumple.material import CowperSymonds, Material
 from crumple.numeric.arrays import Floats
@@ -33,12 +33,14 @@ LEAST = 1e-3
 
 @runtime_checkable
 class Turned(Solvable, Protocol):
-    """A sub-model that gives its histories."""
+    """A sub-model that gives its histories; its run ends where its law does, at the `largest` rotation."""
 
     @property
     def material(self) -> Material: ...
+    @property
+    def largest(self) -> float: ...
 
-    def histories(self, result: Result) -> tuple[Floats, Floats]:
+    def histories(self, result: Histories) -> tuple[Floats, Floats]:
         """Plastic rotation [rad] and moment [N m] at the times of the result."""
         ...
 

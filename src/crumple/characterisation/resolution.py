@@ -1,7 +1,8 @@
 """How finely and how slowly a sub-model is solved.
 
 With mass m, length L, end rotation theta and plastic moment M_p, the kinetic energy near the middle of the
-turn goes with m L^2 (theta/T)^2 and the plastic work with M_p theta.  So with the time of the turn
+turn goes with m L^2 (theta/T)^2 and the plastic work with M_p theta.  So with the time of a turn by half a
+sine wave
 
     T = slowness sqrt(m L^2 theta/M_p)
 
@@ -26,7 +27,7 @@ class Resolution:
     elements
         Elements along half a fold.
     slowness
-        Time of the turn over sqrt(m L^2 theta/M_p).
+        Time of a turn by half a sine wave over sqrt(m L^2 theta/M_p).
     """
 
     elements: float = 8.0
@@ -39,7 +40,7 @@ class Resolution:
     def duration(
         self, section: Section, material: Material, axis: Axis, length: float, rotation: float
     ) -> float:
-        """Time in which a piece of a length [m] is turned by an end rotation [rad]: T [s]."""
+        """Time in which half a sine wave turns a piece of a length [m] by an end rotation [rad]: T [s]."""
         mass = section.mass_per_length(material.density) * length
         moment = material.yield_stress * section.plastic_section_modulus(axis)
         return self.slowness * math.sqrt(mass * length**2 * rotation / moment)

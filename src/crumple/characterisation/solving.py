@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,7 +20,9 @@ from crumple.characterisation.sub_model import Model, Solvable, StrongCornerErro
 from crumple.errors import InputError, Problem, Status
 from crumple.hinge.measured.stored import StoredLaw
 from crumple.material import CowperSymonds
+from crumple.numeric.arrays import Floats
 from crumple.result import Result
+from crumple.shell import LongRun
 
 MOST_KINETIC = 0.02
 """Kinetic over internal energy at which the sub-model is solved again, more slowly."""
@@ -158,7 +160,12 @@ class _Solver:
             if self.progress is not None:
                 self.progress(what, share)
 
-        result = solve(one.analysis(), "shell", self.threads, report, self.cancel)
+        def enough(channels: Mapping[str, Floats]) -> bool:
+            """Whether the fold has turned up to the end of its law."""
+            return isinstance(one, Turned) and bool(one.histories(channels)[0].max() >= one.largest)
+
+        options = LongRun(enough=enough)
+        result = solve(one.analysis(), "shell", self.threads, report, self.cancel, long_run=options)
         if result.status is Status.CANCELLED:
             raise KeyboardInterrupt
         return result

@@ -22,6 +22,12 @@ class StrongCornerError(InputError):
     """A corner did not fold: its members did, beside it."""
 
 
+class Histories(Protocol):
+    """Channels by name: a result, or those of a run so far."""
+
+    def __getitem__(self, name: str, /) -> Floats: ...
+
+
 class Solvable(Protocol):
     """What shells solve slowly, and a curve is read from.
 

@@ -14,7 +14,7 @@ import numpy as np
 from crumple.analysis import Analysis
 from crumple.characterisation.curve import LawCurve, law_curve
 from crumple.characterisation.resolution import NOMINAL, Resolution
-from crumple.characterisation.sub_model import is_mirrored, largest_side
+from crumple.characterisation.sub_model import Histories, is_mirrored, largest_side
 from crumple.errors import InputError, Problem
 from crumple.hinge.measured.place_hash import Load, place_hash
 from crumple.material import Material
@@ -177,7 +177,7 @@ class Torsion:
         twist, torque = self.histories(result)
         return law_curve(twist, torque, self.largest)
 
-    def histories(self, result: Result) -> tuple[Floats, Floats]:
+    def histories(self, result: Histories) -> tuple[Floats, Floats]:
         """Plastic twist [rad] and torque [N m] at the times of the result."""
         held, turned = (result[f"support.{name}.moment.x"] for name in ("held", "turned"))
         torque = 0.5 * self.sense * (held - turned)

@@ -14,6 +14,7 @@ from crumple._core.shell.simulation import ShellState
 from crumple.errors import Status
 from crumple.numeric.arrays import Floats
 from crumple.result import StageSummary
+from crumple.shell.answer.histories import channels_of
 from crumple.shell.answer.record import Record, Sampler
 from crumple.shell.answer.shapes import shape_of
 from crumple.shell.checks import trust
@@ -38,6 +39,8 @@ SAVE_AT_END = 10.0
 """Wall time of a run [s] from which its end is saved too: drawing and further solves may follow."""
 REPORT_INTERVAL = 0.1
 """Wall time between two calls of what watches a run that is looked at more often [s]."""
+ENOUGH_EVERY = 4
+"""Outputs between two questions whether they are enough; the channels so far take some milliseconds."""
 SAME_TIME = 1e-9
 """Share of the duration below which two times are one."""
 
@@ -87,12 +90,16 @@ class LongRun:
         Called about twice a second.
     warn
         Called with a sentence as soon as a restart file cannot be written; the run continues.
+    enough
+        Called at every fourth output with the channels at the outputs so far; if it returns True, the run is
+        complete there, with a picture.
     """
 
     restart_from: Path | None = None
     restart_to: Path | None = None
     watch: Callable[[Moment], None] | None = None
     warn: Callable[[str], None] | None = None
+    enough: Callable[[Mapping[str, Floats]], bool] | None = None
 
 
 def output_times(run: ShellRun, begin: float, duration: float) -> Floats:
@@ -138,7 +145,7 @@ class Stepping:
         self.spent_before = self.first_time = 0.0
         self.saved = self.watched = self.reported = self.begin
         self.resumed: Saved | None = None
-        self.unsaved = ""
+        self.unsaved, self.done = "", False
         if self.long_run.restart_from is not None:
             self._resume(self.long_run.restart_from)
 
@@ -158,6 +165,8 @@ class Stepping:
             status, reason = self._run_stage(number)
             if not status.ok:
                 return status, reason
+            if self.done:
+                break
         # a run that goes on from its end has been saved there
         if self.seconds > SAVE_AT_END and self.resumed is None:
             self._save()
@@ -189,11 +198,12 @@ class Stepping:
                 return status, with_place(self.state.reason, self.case)
             if not self._note(self.state.time if why else float(at), bool(why)):
                 return Status.RESIDUAL_EXCEEDED, f"the energies grew without bound at {self.state.time:.4g} s"
-            if why:
+            if why or self.done:
                 break
         if stage.kind == "quasi-static":
             self.state.stop()
-        self.ended += (StageSummary(stage.name, begin, float(self.times[-1]), why or "its duration"),)
+        why = why or ("all that is needed" if self.done else "its duration")
+        self.ended += (StageSummary(stage.name, begin, float(self.times[-1]), why),)
         return Status.COMPLETE, ""
 
     def _enter(self, stage: Stage, begin: float, number: int) -> None:
@@ -250,10 +260,20 @@ class Stepping:
     def _note(self, at: float, shape: bool) -> bool:
         """Record the state; False when its energies are not meaningful."""
         self.record.add({"at": np.array(at), **self.sampler.sample(self.state)})
+        self.done = self._enough()
         near = np.abs(picture_times(self.run) - at) <= SAME_TIME * self.run.duration
-        if shape or near.any():
+        if shape or self.done or near.any():
             self.record.add_shape(shape_of(self.state, self.case.mesh))
         return trust.energy_residual(self.record) < RUNAWAY
+
+    def _enough(self) -> bool:
+        """Whether the caller has all that it needs."""
+        enough = self.long_run.enough
+        if enough is None or len(self.record) % ENOUGH_EVERY:
+            return False
+        noted = self.record["time"]
+        channels = channels_of(self.structure, self.sampler, self.record, self.run.outputs)
+        return enough({one.name: np.interp(self.times, noted, one.values) for one in channels})
 
     def _look(self, state: ShellState) -> None:
         """Report progress to the caller, and write the restart file at intervals."""

@@ -13,6 +13,7 @@ from crumple.characterisation.resolution import Resolution
 from crumple.characterisation.solving import energy_error
 from crumple.characterisation.sub_model import StrongCornerError, is_mirrored
 from crumple.errors import InputError
+from crumple.function.transition import havsin
 from crumple.hinge.measured.law_file import read_law, write_law
 from crumple.hinge.measured.library import by_place
 from crumple.material import Material
@@ -48,6 +49,28 @@ def test_positive_rotation_about_the_axis_closes_a_corner(axis, sense):
     before, after = (math.acos(v[0] / np.linalg.norm(v)) for v in (arm, moved))
     assert math.degrees(before) == pytest.approx(60.0)
     assert (after > before) == (sense > 0)
+
+
+def test_turn_is_half_a_sine_wave_up_to_its_middle_and_then_keeps_its_speed():
+    model = Bending(TUBE, STEEL, sense=-1)
+    half_wave = model.resolution.duration(TUBE, STEEL, "y", model.length, model.turn)
+    motion = model.analysis().structure.supports["turned"].motion.ry
+    assert motion is not None
+    early, late = np.linspace(0.0, 0.5, 37) * half_wave, np.linspace(0.5, 0.8, 20) * half_wave
+    sine = havsin(early, 0.0, 0.0, half_wave, -model.turn)
+    assert motion(early) == pytest.approx(sine, abs=1e-5 * model.turn)
+    assert motion.derivative(late) == pytest.approx(np.full(20, -0.5 * math.pi * model.turn / half_wave))
+    assert motion(model.duration) == pytest.approx(-model.turn)
+
+
+def test_run_ends_where_its_law_does_which_is_that_of_the_whole_turn():
+    model = Bending(TUBE, STEEL, resolution=Resolution(2.0, 7.0))
+    done, whole = characterise(model), solve(model.analysis(), "shell")
+    turned = model.histories(done.result)[0]
+    assert turned[-1] >= model.largest > turned[-5]
+    assert done.result.time[-1] < 0.99 * whole.time[-1]
+    assert np.array_equal(done.curve.rotation, model.curve(whole).rotation)
+    assert np.array_equal(done.curve.moment, model.curve(whole).moment)
 
 
 def test_a_tube_is_its_mirror_image_and_a_hat_only_about_z():

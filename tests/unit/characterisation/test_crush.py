@@ -71,7 +71,7 @@ def test_a_run_that_fails_where_folds_close_is_repeated_less_far(monkeypatch):
     class Failed(dict):
         status, reason = Status.INVERTED, "an element is inverted"
 
-    def failing(analysis, *others):
+    def failing(analysis, *others, **options):
         asked.append(analysis)
         return Failed({"node.pushed.displacement.x": np.array([0.0, -0.6 * model.length])})
 

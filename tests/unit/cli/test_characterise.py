@@ -35,7 +35,7 @@ def test_law_is_solved_once_and_kept(tmp_path, monkeypatch):
     (picture,) = folder.glob("*.svg")
     assert "<svg" in picture.read_text(encoding="utf-8")
 
-    monkeypatch.setattr(solving, "solve", lambda *_: pytest.fail("solved again"))
+    monkeypatch.setattr(solving, "solve", lambda *_, **__: pytest.fail("solved again"))
     again = invoke("--store", str(folder), "--to", "10 deg")
     assert again.exit_code == 0
     assert "Plastic rotation" in again.output

@@ -13,7 +13,7 @@ from crumple.shell import LongRun, ShellRun, lower, solve_shell
 from crumple.shell.answer.record import Record
 from crumple.shell.restart import read_restart, write_restart
 from crumple.shell.stepping import with_place
-from crumple.structure import Outputs, ShellSettings
+from crumple.structure import Outputs, ShellSettings, Stage
 
 COARSE = ShellSettings(element_size=24e-3)
 OUTPUTS = Outputs(
@@ -160,6 +160,28 @@ def test_pin_lets_the_end_turn_about_it():
 def test_threads_change_no_bit(result):
     again = solve_shell(thrown(), run(threads=2))
     assert all(np.array_equal(again[name], result[name]) for name in result.channels)
+
+
+def test_run_ends_with_a_picture_where_the_caller_has_enough(result):
+    asked = []
+
+    def enough(channels):
+        asked.append(len(channels["energy.kinetic"]))
+        return channels["bend"][-1] < result["bend"][10]
+
+    stopped = solve_shell(thrown(), run(), long_run=LongRun(enough=enough))
+    assert asked == [4, 8, 12]
+    assert stopped.status is Status.COMPLETE
+    assert all(np.array_equal(stopped[name], result[name][:12]) for name in ("bend", "energy.kinetic"))
+    assert stopped.states.times == pytest.approx([0.0, 2e-3, 2.2e-3], rel=3e-3)
+
+
+def test_stages_that_are_left_do_not_run_if_the_caller_has_enough():
+    stages = (Stage(name="first", duration=2e-3), Stage(name="second", duration=2e-3))
+    stopped = solve_shell(thrown(), run(stages=stages), long_run=LongRun(enough=lambda channels: True))
+    assert stopped.status is Status.COMPLETE
+    assert [(stage.name, stage.ended_by) for stage in stopped.stages] == [("first", "all that is needed")]
+    assert stopped.time[-1] == pytest.approx(6e-4)
 
 
 def test_cancelled_run_keeps_what_it_has_and_goes_on_with_the_same_bits(result, tmp_path):

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
 from crumple._core.shell.simulation import ShellState
 from crumple.numeric.arrays import Floats, Integers
-from crumple.shell.answer.sections import mean_spin, section_rotation
+from crumple.shell.answer.sections import mean_spin, section_frame, section_rotation
 from crumple.shell.mesh.mesh import Mesh
 from crumple.shell.model.bodies import body_numbers
 from crumple.shell.model.model import ShellCase
@@ -55,6 +56,13 @@ class Sampler:
         ends = [end for asked in outputs.distances.values() for end in (asked.start, asked.end)]
         return cls(case, tuple(dict.fromkeys([*outputs.nodes, *ends])), tuple(dict.fromkeys(rings)))
 
+    @cached_property
+    def _sections(self) -> list[tuple[Integers, Floats]]:
+        """Nodes of the sections that are followed, and their axes at the start."""
+        start = self.case.mesh.position
+        rings = [self.case.mesh.tubes[member].nodes[ring] for member, ring in self.rings]
+        return [(nodes, section_frame(start[nodes], start[nodes])) for nodes in rings]
+
     def sample(self, state: ShellState) -> dict[str, Floats]:
         """Histories now.
 
@@ -67,8 +75,7 @@ class Sampler:
         energies = state.energies
         cuts = [np.concatenate(state.cut(i)) for i in range(len(self.case.model.cuts))]
         rotations = [
-            section_rotation(mesh.position[nodes], position[nodes])
-            for nodes in (mesh.tubes[member].nodes[ring] for member, ring in self.rings)
+            section_rotation(mesh.position[nodes], position[nodes], frame) for nodes, frame in self._sections
         ]
         motions = [self._motion(state, name, position, velocity) for name in self.nodes]
         return {

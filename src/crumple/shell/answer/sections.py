@@ -38,9 +38,18 @@ def section_frame(start: Floats, now: Floats) -> Floats:
     return np.column_stack([normal, across, np.cross(normal, across)])
 
 
-def section_rotation(start: Floats, now: Floats) -> Floats:
-    """Rotation of a section from the start, (3, 3), by its best-fit planes."""
-    rotation: Floats = section_frame(start, now) @ section_frame(start, start).T
+def section_rotation(start: Floats, now: Floats, frame: Floats | None = None) -> Floats:
+    """Rotation of a section from the start, (3, 3), by its best-fit planes.
+
+    Parameters
+    ----------
+    start, now
+        As `section_frame` takes them.
+    frame
+        `section_frame(start, start)`, if it is known.
+    """
+    before = section_frame(start, start) if frame is None else frame
+    rotation: Floats = section_frame(start, now) @ before.T
     return rotation
 
 
