@@ -3,8 +3,10 @@
 Bending moments are largest where something holds, joins or loads a member, and masses, supports and joints
 all sit on nodes: so a candidate lies near each end of a member (`fold_distance`), unless nothing there
 can carry a moment.  Obstacles also strike members between their nodes: a candidate lies there (struck_places)
-if no other is within one fold.  Distributed inertia and long spans bend members in between: `spacing` puts
-further candidates there.  A candidate that is never loaded to its capacity stays rigid, and changes nothing.
+if no other is within one fold.  Braced members carry forces along their axis and buckle with a hinge between
+those at their ends: a candidate lies in their middle.  Distributed inertia and long spans bend members in
+between: `spacing` puts further candidates there.  A candidate that is never loaded to its capacity stays
+rigid, and changes nothing.
 
 Members of a straight run between supports (held_runs), braced members (braced), and elastic members of
 structures of which an obstacle strikes a rigid joint (joint_reach), also change their length at their hinges,
@@ -144,7 +146,8 @@ def automatic_stations(
     axes
         Bending axes of the candidates: the longest of their folds counts.
     spacing
-        Largest distance between candidates [m]; None: only at the ends, and where obstacles strike.
+        Largest distance between candidates [m]; None: only at the ends, in the middle of braced members, and
+        where obstacles strike.
     """
     section, length = structure.section_of(member), structure.frame_of(member).length
     half = max(half_fold_length(section, axis) for axis in axes)
@@ -157,6 +160,8 @@ def automatic_stations(
     inside = max(fold_distance(section, axis) for axis in axes)
     first, last = start + inside, end - inside
     number = 1 if spacing is None else max(1, math.ceil((last - first) / spacing * (1.0 - 1e-9)))
+    # a strut buckles with a hinge between those of its ends
+    number = max(2, number) if member in braced(structure) else number
     between = np.linspace(first, last, number + 1)[1:-1]
     found = {f"{member}-{nodes[0]}": first} if loaded[0] else {}
     found |= {f"{member}-{i}": float(station) for i, station in enumerate(between, 1)}

@@ -136,3 +136,23 @@ def test_automatic_hinges_of_braced_members_lengthen_unless_the_input_says_no(el
     found = ["AXIAL" in [c.freedom.name for c in h.spatial.components] for h in hinges if h.spatial]
     assert found
     assert all(one is lengthen for one in found)
+
+
+def places(whole, member):
+    return {h.name: h.station for h in plastic_hinges(whole) if h.member == member}
+
+
+def test_a_braced_member_can_buckle_in_its_middle():
+    whole = frame(TRIPOD, "a-t b-t c-t", "a b c")
+    first, middle, last = places(whole, "a-t").values()
+    assert middle == pytest.approx((first + last) / 2.0)
+    swaying = frame(FLAT, "a-b b-c c-d", "a d")
+    assert list(places(swaying, "a-b")) == ["a-b-a", "corner-b"]
+    # candidates that the input asks for in between do as well
+    asked = frame(TRIPOD, "a-t b-t c-t", "a b c", hinges={"spacing": 0.25})
+    assert list(places(asked, "a-t")) == ["a-t-a", "a-t-1", "a-t-2", "a-t-t"]
+
+
+def test_a_strut_between_balls_buckles_too():
+    balls = {f"j{n}": {"node": n, "member": "a-c", "type": "spherical"} for n in "ac"}
+    assert list(places(frame(FLAT, "a-b b-c c-d a-c", "a d", joints=balls), "a-c")) == ["a-c-1"]
