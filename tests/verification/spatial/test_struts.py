@@ -10,10 +10,10 @@ At 0.8 of Euler's force this is 4.9 times the deflection without P, and 1 % less
 deflection. The members are chains of twelve segments over each such length, which have the stiffness of the
 beam for end loads: tolerance 3 %. (With six the guided column is 5 % off.)
 
-A portal of square tubes 50x3 mm with a diagonal 30x2.5 mm (320 MPa), its knee of 120 kg and its beam thrown with
-6 m/s so that the diagonal is compressed: shells (4 elements along half a fold) move by 47.3, 46.7 and
-46.0 mm at the knees and between them. Tolerance 10 %, the target of the comparisons of both methods. Without a
-hinge in the middle of the diagonal it carries its squash load for ever, and they move by 29 mm.
+A portal of square tubes 50x3 mm with a diagonal 30x2.5 mm (320 MPa), its knee of 120 kg and its beam thrown
+with 6 m/s so that the diagonal is compressed: shells (4 elements along half a fold) move by 47.3, 46.7 and
+46.0 mm at the knees and between them. Tolerance 10 %, the target of the comparisons of both methods. Without
+a hinge in its middle the diagonal carries its squash load for ever, and they move by 29 mm.
 
 Kind: closed form; independent calculation.  Source: derived here; run here.
 """
