@@ -25,7 +25,9 @@ from crumple.hinge import (
     axial_law_types,
     build_axial_law,
 )
+from crumple.hinge.axial.axial_collapse import AxialCollapse
 from crumple.hinge.axial.axial_law import rate_factor_of
+from crumple.hinge.axial.circular import HALF_FOLD as CONCERTINA_FOLD
 from crumple.hinge.axial.circular import concertina_force, effective_distance
 from crumple.hinge.axial.square import Mode, mode_forces
 from crumple.hinge.axial.squash import FREE, HELD, effective_width
@@ -78,6 +80,29 @@ def test_superfolding_constants_belong_to_one_minimum(record_figure):
     record_figure("least force on a grid", forces.min(), COEFFICIENT, 1e-4, relative=True)
     record_figure("its rolling radius over h^(2/3) c^(1/3)", radii[place[0]], ROLLING_RADIUS, 0.003)
     record_figure("its half fold length over h^(1/3) c^(2/3)", folds[place[1]], HALF_FOLD, 0.003)
+
+
+def test_the_concertina_has_the_fold_of_least_force(record_figure):
+    # y = 2 R/h, H in h y^(1/2)
+    y = 20.0
+    folds = np.linspace(0.8, 1.1, 301)
+    long = folds * math.sqrt(y)
+    forces = math.pi**2 * y / long + 2.0 * math.pi + 2.0 * math.sqrt(3.0) * math.pi * long
+    place = int(np.argmin(forces))
+    record_figure("its half fold length over h y^(1/2)", float(folds[place]), CONCERTINA_FOLD, 0.002)
+    root = (float(forces[place]) - 2.0 * math.pi) / math.sqrt(y)
+    record_figure("its term with y^(1/2)", root, 20.79, 5e-3, relative=True)
+
+
+@pytest.mark.parametrize(
+    ("side", "wall", "stress", "trough"), [(45, 1.4, 300e6, 16e3), (60, 2.5, 250e6, 34e3)]
+)
+def test_the_first_trough_is_that_of_shells(side, wall, stress, trough, record_figure):
+    metal = Material("steel", 210e9, 0.3, 7850.0, stress)
+    tube = RectangularTube(side / 1e3, side / 1e3, wall / 1e3)
+    law = AxialCollapse.of(build_axial_law("square", tube, metal), 0.28, tension=1e6)
+    # the shells' mean forces are 7 % below and 11 % above the law's
+    record_figure(f"{side}x{wall} mm, first trough", law.after, trough, 0.15, "N", relative=True)
 
 
 @every_law

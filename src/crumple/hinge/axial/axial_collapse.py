@@ -1,21 +1,23 @@
 """Axial slip of a hinge: force against shortening of a column that folds, and yield in tension.
 
-Unknown: the force P(u) over the shortening u, from a peak P_0, a mean P_m over the stroke S, and the first
-fold's half length H:
+Unknown: the force P(u) over the shortening u, from a peak P_0, a mean P_m over the stroke S, and the half
+length H of a fold, which takes up d = 2 H S/l of a column of length l:
 
-    P = P_0 - (P_0 - P_1) u/u_1    0 <= u < u_1 = min(H, S P_m/P_0)
-    P = P_1                        u_1 <= u < S,      (P_0 + P_1) u_1/2 + P_1 (S - u_1) = P_m S
+    P = P_0 - (P_0 - P_1) u/u_1    0 <= u < u_1 = min(H, d P_m/P_0)
+    P = P_1                        u_1 <= u < d,      (P_0 + P_1) u_1/2 + P_1 (d - u_1) = P_m d
+    P = P_m                        d <= u < S;  from P_1 linearly over half of d - u_1, with d in its middle
     stop at u = S
 
-so that the energy over the stroke is that of the mean force, P_m S, whatever the peak; P_1 >= P_m/2.  Folds
-make the force swing about P_1; that is left out.  In tension the walls yield.  Limits: P_0 = P_m is a
-constant force.  Derived here; not valid for a column shorter than its fold, or one that buckles sideways.
+A fold takes the same work P_m d whatever its first force, so the first one pays for the peak with a trough;
+P_1 >= P_m/2.  Further folds make the force swing about P_m; that is left out.  Without H the fall takes 5 %
+of the stroke and d is the stroke.  In tension the walls yield.  Limits: P_0 = P_m is a constant force.
+Derived here; not valid for a column shorter than its fold, or one that buckles sideways.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
@@ -45,8 +47,8 @@ class AxialCollapse:
         S [m]; inf: never closed, the mean is held.
     tension
         Force in tension [N].
-    fall
-        u_1 [m].
+    fall, fold
+        u_1 and d [m].
     stop
         Stop of the closed folds, in shortening only; None without a stroke.
 
@@ -64,6 +66,7 @@ class AxialCollapse:
     stroke: float
     tension: float
     fall: float
+    fold: float
     stop: Stop | None = None
     rate: HingeRate | None = None
     source: Source = CHOSEN
@@ -81,6 +84,7 @@ class AxialCollapse:
         *,
         tension: float | None = None,
         fall: float | None = None,
+        fold: float = math.inf,
         closed_stiffness: float = 0.0,
     ) -> AxialCollapse:
         """Collapse with given forces.
@@ -92,7 +96,9 @@ class AxialCollapse:
         tension
             Force in tension [N]; the peak without it.
         fall
-            Half length of the first fold [m]; 5 % of the stroke without it.
+            Half length of a fold [m]; 5 % of the stroke without it.
+        fold
+            Shortening of the first fold [m], the stroke at most.
         closed_stiffness
             Spring of the closed folds [N/m]; 0: no stop.
 
@@ -120,7 +126,8 @@ class AxialCollapse:
         endless = not math.isfinite(stroke)
         first = 0.0 if endless else FIRST_FALL * stroke if fall is None else fall
         stop = Stop(stroke, closed_stiffness) if closed_stiffness > 0.0 and not endless else None
-        return cls(peak, mean, stroke, numbers["tension"], min(first, stroke * mean / peak), stop)
+        fold = min(fold, stroke)
+        return cls(peak, mean, stroke, numbers["tension"], min(first, fold * mean / peak), fold, stop)
 
     @classmethod
     def of(
@@ -133,40 +140,50 @@ class AxialCollapse:
         The rate factor of the law is defined for the impact speed; the current speed of shortening is used.
         If the mean force is above the peak (thick walls), the peak is set to it.
         """
-        mean = min(law.mean_crushing_force, law.peak_force)
+        mean, half = min(law.mean_crushing_force, law.peak_force), law.half_fold_length
         made = cls.given(
             law.peak_force,
             mean,
             law.effective_stroke * length,
             tension=tension,
-            fall=law.half_fold_length,
+            fall=half,
+            fold=math.inf if half is None else 2.0 * half * law.effective_stroke,
             closed_stiffness=closed_stiffness,
         )
         rate = None
         if law.rate is not None:
             rate = HingeRate(law.rate.metal.D / law.rate.shape, law.rate.metal.q)
         basis = Validity(math.inf, law.validity.basis, law.validity.warnings, law.validity.uncertainty)
-        return cls(made.peak, mean, made.stroke, tension, made.fall, made.stop, rate, law.source, basis)
+        return replace(made, rate=rate, source=law.source, validity=basis)
 
     @property
     def after(self) -> float:
         """P_1 [N]."""
         if self.fall == 0.0:
             return self.mean
-        return (self.mean * self.stroke - self.peak * self.fall / 2.0) / (self.stroke - self.fall / 2.0)
+        return (self.mean * self.fold - self.peak * self.fall / 2.0) / (self.fold - self.fall / 2.0)
+
+    @property
+    def points(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Shortening [m] and force [N] at the corners of the curve, which is constant beyond the last."""
+        if self.fall == 0.0:
+            return (0.0,), (self.after,)
+        if self.fold >= self.stroke:
+            return (0.0, self.fall), (self.peak, self.after)
+        half = (self.fold - self.fall) / 4.0
+        at = (0.0, self.fall, self.fold - half, self.fold + half)
+        return at, (self.peak, self.after, self.after, self.mean)
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
-        """Shortening at which the force has fallen to its second level."""
-        return (self.fall,) if sense < 0 and 0.0 < self.fall < math.pi else ()
+        """Shortening at which the slope of the force changes."""
+        return tuple(at for at in self.points[0] if 0.0 < at < math.pi) if sense < 0 else ()
 
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Force [N] at a slip [m]: sense -1 is shortening."""
         u = np.asarray(rotation, np.float64)
         if sense > 0:
             return np.full_like(u, self.tension)
-        if self.fall == 0.0:
-            return np.full_like(u, self.after)
-        return np.asarray(np.interp(u, [0.0, self.fall], [self.peak, self.after]), np.float64)
+        return np.asarray(np.interp(u, *self.points), np.float64)
 
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
         """Factor at a speed of slip [m/s]."""

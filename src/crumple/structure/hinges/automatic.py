@@ -3,12 +3,14 @@
 Bending moments are largest where something holds, joins or loads a member, and masses, supports and joints
 all sit on nodes: so a candidate lies near each end of a member (`fold_distance`), unless nothing there
 can carry a moment.  Obstacles also strike members between their nodes: a candidate lies there (struck_places)
-if no other is within one fold.  Distributed inertia and long spans bend members in between: `spacing` puts
-further candidates there.  A candidate that is never loaded to its capacity stays rigid, and changes nothing.
+if no other is within one fold.  Braced members carry forces along their axis and buckle with a hinge between
+those at their ends: a candidate lies in their middle.  Distributed inertia and long spans bend members in
+between: `spacing` puts further candidates there.  A candidate that is never loaded to its capacity stays
+rigid, and changes nothing.
 
 Members of a straight run between supports (held_runs), braced members (braced), and elastic members of
 structures of which an obstacle strikes a rigid joint (joint_reach), also change their length at their hinges,
-unless the input says otherwise.
+unless the input says otherwise.  Braced tubes fold by the crushing law of their section; others yield.
 
 A corner whose law is stored has one hinge at its node in place of the candidates in its zone, and the
 branch of a T-joint one in the face on which it ends.
@@ -26,6 +28,7 @@ from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import FOLDS, automatic_of, folds_at_ends
 from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
 from crumple.structure.hinges.joint_reach import joint_reach, strikes_joint
+from crumple.structure.hinges.law_choice import component_text
 from crumple.structure.hinges.lengthening.braced import braced
 from crumple.structure.hinges.lengthening.held_runs import held_runs
 from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
@@ -33,6 +36,9 @@ from crumple.structure.keys.hinge_axes import AxialSlip, HingeAxes
 from crumple.structure.keys.member import AutomaticHinges, Hinge
 from crumple.structure.parts import StructureParts
 from crumple.structure.struck_places import struck_places
+
+FOLDING = {"rectangular_tube": "superfolding", "circular_tube": "circular"}
+"""Laws of crushing by the kind of section; others have none that holds for any size."""
 
 
 def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
@@ -100,9 +106,20 @@ def _keys(
     elif asked.axes and "x" not in asked.axes and _twists_elastically(structure, member):
         keys["axes"] = (*asked.axes, "x")
     if lengthens(structure, member):
-        keys["axial"] = AxialSlip()
+        keys["axial"] = _slip(structure, member)
     axes = (keys["axis"],) if keys["axis"] else tuple(axis for axis in keys["axes"] if axis != "x")
     return keys, axes
+
+
+def _slip(structure: StructureParts, member: str) -> AxialSlip:
+    """How a member that lengthens unasked shortens: a braced one folds, as a column, others yield.
+
+    A stored law of folding is used in any case.
+    """
+    law = FOLDING.get(structure.section_of(member).kind)
+    if law is None or member not in braced(structure) or component_text(structure, member, "crush"):
+        return AxialSlip()
+    return AxialSlip(law=law)
 
 
 def lengthens(structure: StructureParts, member: str) -> bool:
@@ -144,7 +161,8 @@ def automatic_stations(
     axes
         Bending axes of the candidates: the longest of their folds counts.
     spacing
-        Largest distance between candidates [m]; None: only at the ends, and where obstacles strike.
+        Largest distance between candidates [m]; None: only at the ends, in the middle of braced members, and
+        where obstacles strike.
     """
     section, length = structure.section_of(member), structure.frame_of(member).length
     half = max(half_fold_length(section, axis) for axis in axes)
@@ -157,6 +175,8 @@ def automatic_stations(
     inside = max(fold_distance(section, axis) for axis in axes)
     first, last = start + inside, end - inside
     number = 1 if spacing is None else max(1, math.ceil((last - first) / spacing * (1.0 - 1e-9)))
+    # a strut buckles with a hinge between those of its ends
+    number = max(2, number) if member in braced(structure) else number
     between = np.linspace(first, last, number + 1)[1:-1]
     found = {f"{member}-{nodes[0]}": first} if loaded[0] else {}
     found |= {f"{member}-{i}": float(station) for i, station in enumerate(between, 1)}

@@ -24,11 +24,18 @@ from crumple.hinge import (
 )
 from crumple.hinge.record.sensitivity import capacity_sensitivity
 from crumple.material import Material
-from crumple.section import InteractionFit, RectangularTube, fitted_interaction, plastic_interaction
+from crumple.section import (
+    CircularTube,
+    InteractionFit,
+    RectangularTube,
+    fitted_interaction,
+    plastic_interaction,
+)
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3, density=7850.0, yield_stress=300e6)
 TUBE = RectangularTube(0.08, 0.06, 0.002)
 SQUARE = RectangularTube(0.06, 0.06, 0.002)
+ROUND = CircularTube(0.06, 0.002)
 INTERACTION = fitted_interaction(plastic_interaction(TUBE, STEEL))
 AXES = {Freedom.Y: "y", Freedom.Z: "z"}
 
@@ -156,6 +163,23 @@ def test_axial_collapse_keeps_the_energy_of_its_mean():
     assert law.moment_capacity(np.zeros(1), -1)[0] == pytest.approx(crushing.peak_force)
     assert (law.moment_capacity(u, 1) == 150e3).all()
     assert law.stop == Stop(law.stroke, 1e7)
+
+
+@pytest.mark.parametrize("name", ["square", "superfolding", "circular"])
+def test_every_fold_takes_the_same_work(name):
+    crushing = build_axial_law(name, ROUND if name == "circular" else SQUARE, STEEL)
+    law = AxialCollapse.of(crushing, 0.4, tension=150e3)
+    assert law.fold == pytest.approx(2.0 * crushing.half_fold_length * crushing.effective_stroke)
+    # the rise after the first fold has this shortening in its middle
+    end = law.points[0][-1]
+    u = np.linspace(0.0, end, 200_001)
+    work = trapezoid(law.moment_capacity(u, -1), u)
+    assert work == pytest.approx(law.mean * end, rel=1e-6)
+    assert law.mean / 2.0 <= law.after <= law.mean
+    assert law.moment_capacity(np.array([1.1 * end]), -1)[0] == law.mean
+    # a column of one fold at most never rises
+    short = AxialCollapse.of(crushing, crushing.half_fold_length, tension=150e3)
+    assert short.kinks(-1) == (short.fall,)
 
 
 def test_axial_collapse_limits():

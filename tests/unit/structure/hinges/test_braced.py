@@ -1,5 +1,6 @@
 """Braced members: their hinges cannot open unless some member changes its length."""
 
+import numpy as np
 import pytest
 from tests.support.multibody.frames import structure
 
@@ -136,3 +137,39 @@ def test_automatic_hinges_of_braced_members_lengthen_unless_the_input_says_no(el
     found = ["AXIAL" in [c.freedom.name for c in h.spatial.components] for h in hinges if h.spatial]
     assert found
     assert all(one is lengthen for one in found)
+
+
+def places(whole, member):
+    return {h.name: h.station for h in plastic_hinges(whole) if h.member == member}
+
+
+def test_a_braced_member_can_buckle_in_its_middle():
+    whole = frame(TRIPOD, "a-t b-t c-t", "a b c")
+    first, middle, last = places(whole, "a-t").values()
+    assert middle == pytest.approx((first + last) / 2.0)
+    swaying = frame(FLAT, "a-b b-c c-d", "a d")
+    assert list(places(swaying, "a-b")) == ["a-b-a", "corner-b"]
+    # candidates that the input asks for in between do as well
+    asked = frame(TRIPOD, "a-t b-t c-t", "a b c", hinges={"spacing": 0.25})
+    assert list(places(asked, "a-t")) == ["a-t-a", "a-t-1", "a-t-2", "a-t-t"]
+
+
+def test_braced_members_fold_as_columns_where_there_is_a_law():
+    def force(section, **parts):
+        whole = frame(TRIPOD, "a-t b-t c-t", "a b c", sections={"tube": section}, **parts)
+        first = next(h for h in plastic_hinges(whole) if h.member == "a-t")
+        (slip,) = (c.record for c in first.spatial.components if c.freedom.name == "AXIAL")
+        return slip.negative.moment
+
+    square = {"type": "square_tube", "side": 0.05, "thickness": 0.002}
+    for section in (square, {"type": "circular_tube", "diameter": 0.05, "thickness": 0.002}):
+        assert force(section).min() < 0.7 * force(section)[0]
+    hat = {"type": "channel", "width": 0.05, "depth": 0.04, "thickness": 0.002}
+    assert np.ptp(force(hat)) == 0.0
+    # what the input says is kept
+    assert np.ptp(force(square, hinges={"axes": ("y", "z"), "axial": True})) == 0.0
+
+
+def test_a_strut_between_balls_buckles_too():
+    balls = {f"j{n}": {"node": n, "member": "a-c", "type": "spherical"} for n in "ac"}
+    assert list(places(frame(FLAT, "a-b b-c c-d a-c", "a d", joints=balls), "a-c")) == ["a-c-1"]
