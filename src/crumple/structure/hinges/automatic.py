@@ -175,16 +175,17 @@ def automatic_stations(
     inside = max(fold_distance(section, axis) for axis in axes)
     first, last = start + inside, end - inside
     number = 1 if spacing is None else max(1, math.ceil((last - first) / spacing * (1.0 - 1e-9)))
-    # a strut buckles with a hinge between those of its ends
-    number = max(2, number) if member in braced(structure) else number
+    struck = [place for place in struck_places(structure, member) if first < place.station < last]
+    # a strut buckles with a hinge between those of its ends, which an obstacle places where it strikes
+    number = max(2, number) if member in braced(structure) and not struck else number
     between = np.linspace(first, last, number + 1)[1:-1]
     found = {f"{member}-{nodes[0]}": first} if loaded[0] else {}
     found |= {f"{member}-{i}": float(station) for i, station in enumerate(between, 1)}
     found |= {f"{member}-{nodes[1]}": last} if loaded[1] else {}
     taken = [first, *between, last]
-    for place in struck_places(structure, member):
+    for place in struck:
         at = place.station
-        if first < at < last and all(abs(at - other) > 2.0 * half for other in taken):
+        if all(abs(at - other) > 2.0 * half for other in taken):
             name = f"{member}-{place.obstacle}"
             found[f"{name}-struck" if name in found else name] = at
             taken.append(at)
