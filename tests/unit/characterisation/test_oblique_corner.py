@@ -103,6 +103,7 @@ def test_the_flexibility_is_that_of_both_planes():
     )
 
 
+@pytest.mark.slow
 def test_a_corner_states_the_errors_of_its_coupling():
     model = OutOfPlane(TUBE, STEEL, largest=math.radians(11.0), resolution=Resolution(3.0, 4.0))
     origin = dict(characterise(model, interaction=True).law.origin)

@@ -88,7 +88,10 @@ def limit_load(structure):
     return found.x[-1]
 
 
-@pytest.mark.parametrize(("form", "curve"), [("set-valued", AT_ONCE), ("elastic-plastic", LATER)])
+@pytest.mark.parametrize(
+    ("form", "curve"),
+    [("set-valued", AT_ONCE), pytest.param("elastic-plastic", LATER, marks=pytest.mark.slow)],
+)
 def test_a_pushed_corner_ends_at_the_limit_load(form, curve, record_figure):
     limit = limit_load(cube(form, curve, 1.0))
     stage = Stage(name="push", kind="quasi-static", duration=1.0)
