@@ -37,6 +37,7 @@ def table(folder):
     return list(csv.DictReader((folder / "study.csv").read_text(encoding="utf-8").splitlines()))
 
 
+@pytest.mark.slow
 def test_rows_are_those_of_their_base(tmp_path):
     study = LoadedStudy(written(tmp_path / "all", both(PLAIN, BEAM), {"layout": LAYOUT, "wall": WALL}))
     run_study(study, tmp_path / "all", 2)
