@@ -246,6 +246,7 @@ def _result(
         collapse=openings,
         collapse_threshold=threshold,
         stages=solved.stages,
+        crumpled_ends=solved.crumpled,
         yielded=_yielded(solved),
     )
 

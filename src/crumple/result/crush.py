@@ -37,6 +37,27 @@ class StretchSummary:
 
 
 @dataclass(frozen=True)
+class CrumpledEnd:
+    """Free end of a member that crumpled on a plane that it met obliquely.
+
+    Attributes
+    ----------
+    member, node, obstacle
+        Names.
+    depth
+        Largest depth [m].
+    energy
+        Dissipated by the crumpling; part of the energy of contact [J].
+    """
+
+    member: str
+    node: str
+    obstacle: str
+    depth: float
+    energy: float
+
+
+@dataclass(frozen=True)
 class CrushSummary:
     """Crushing of one hinge.
 

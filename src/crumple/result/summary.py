@@ -51,6 +51,7 @@ def summary(result: Result) -> dict[str, Any]:
         "stages": stages,
         "hinges": hinges,
         "outputs": outputs,
+        "crumpled_ends": [asdict(end) for end in result.crumpled_ends],
         "collapse": [asdict(opening) for opening in result.collapse],
         "collapse_threshold": result.collapse_threshold,
         "cautions": [

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from crumple.errors import Status
 from crumple.hinge.law_use import LawUse
 from crumple.result.caution import Caution
-from crumple.result.crush import CrushSummary, StretchSummary
+from crumple.result.crush import CrumpledEnd, CrushSummary, StretchSummary
 from crumple.result.format import FORMAT, former_names_note, present_name
 from crumple.result.nearby import LawRange, modes_of
 from crumple.result.result import (
@@ -179,6 +179,7 @@ def _write_rest(group: h5py.Group, result: Result, field_names: FieldNames) -> N
         "criteria": [asdict(criterion) for criterion in result.criteria],
         "scatter": None if result.scatter is None else asdict(result.scatter),
         "yielded": dict(result.yielded),
+        "crumpled_ends": [asdict(end) for end in result.crumpled_ends],
         "member_names": None if result.states is None else result.states.member_names,
         "fields": field_names,
     }
@@ -268,6 +269,7 @@ def read_vtkhdf(file: h5py.File) -> Result:
         modes=modes_of(text.get("modes")),
         criteria=judged_of(text.get("criteria")),
         scatter=scatter_of(text.get("scatter")),
+        crumpled_ends=tuple(CrumpledEnd(**end) for end in text.get("crumpled_ends", ())),
         yielded={
             member: tuple((float(station), float(energy)) for station, energy in places)
             for member, places in text.get("yielded", {}).items()

@@ -237,6 +237,8 @@ def _zones(result: Result, structure: Structure) -> dict[str, float]:
     for member, station, energy in hinge_work(result, structure):
         add(_zone(structure, member, station), energy)
         rest[member] -= energy
+    for end in result.crumpled_ends:
+        add(end.node, end.energy)
     for member, energy in rest.items():
         add(f"span of {member}", energy)
     return found

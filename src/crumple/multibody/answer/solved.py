@@ -11,7 +11,7 @@ import numpy as np
 from crumple._core.outcome import Outcome
 from crumple.multibody.answer.poses import Poses
 from crumple.numeric.arrays import Floats
-from crumple.result import Channel, StageSummary
+from crumple.result import Channel, CrumpledEnd, StageSummary
 from crumple.structure import PlacedHinge
 
 Poll = Callable[[float], bool]
@@ -103,6 +103,8 @@ class Solved:
         Name, start and end [s], and what ended it, of every stage.
     crushed
         Contacts whose walls were crushed; without any, contacts are rigid.
+    crumpled
+        Ends of members that crumpled.
     stepping_seconds
         Wall time of the stepping alone [s].
     """
@@ -127,6 +129,7 @@ class Solved:
     further: tuple[Channel, ...] = ()
     stages: tuple[StageSummary, ...] = ()
     crushed: tuple[CrushedContact, ...] = ()
+    crumpled: tuple[CrumpledEnd, ...] = ()
 
     @property
     def balance(self) -> Floats:

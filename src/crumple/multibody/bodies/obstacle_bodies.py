@@ -4,7 +4,8 @@ A fixed obstacle is part of the ground.  One with a mass is a body that slides a
 body whose every freedom is held and some are driven.  Members touch with capsules: segments with a radius.  A
 section wider than deep gets two of them side by side, so that its width and its depth are both right.  Planes
 are also touched by the corners of free end faces, since a face that tilts on a wall rolls about its rim, and
-by the tips of corners, where the walls of two members that meet at an angle go on beyond the node.
+by the tips of corners, where the walls of two members that meet at an angle go on beyond the node.  Ends
+that a plane meets obliquely crumple.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 import numpy as np
@@ -22,17 +23,15 @@ from crumple._core.spatial.model import (
     SpatialBody,
     SpatialCapsule,
     SpatialContact,
-    SpatialDrive,
-    SpatialJoint,
     SpatialModel,
     SpatialObstacle,
-    frame_of,
 )
 from crumple.cancelling import go_on
 from crumple.errors import InputError, Problem
 from crumple.multibody.bodies.assembly import Piece
+from crumple.multibody.bodies.crumpling_ends import CrumplingEnd, crumpling_ends
 from crumple.multibody.bodies.linkage import GROUND, Linkage
-from crumple.multibody.bodies.sampled_functions import sampled_motion
+from crumple.multibody.bodies.obstacle_motion import guided_or_driven
 from crumple.numeric.arrays import Floats
 from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Structure, gap
 from crumple.structure.geometry import NARROWEST
@@ -71,7 +70,10 @@ class Touching:
     velocity
         Velocity at the start of every body after those of the linkage [m/s], (obstacle bodies, 3).
     members
-        Member of every capsule; further capsules are corners of end faces and tips of corners.
+        Member of every capsule; further capsules are corners of end faces and tips of corners, and points of
+        ends that crumple.
+    points
+        Index of every point of an end that crumples, and its end.
     """
 
     model: SpatialModel
@@ -79,6 +81,7 @@ class Touching:
     drives: tuple[str, ...]
     velocity: Floats
     members: tuple[str, ...] = ()
+    points: Mapping[int, CrumplingEnd] = field(default_factory=dict)
 
 
 def with_obstacles(
@@ -100,7 +103,7 @@ def with_obstacles(
     if not structure.obstacles and structure.member_contact is None:
         return Touching(model, {}, owners, np.zeros((0, 3)))
     capsules, member = member_capsules(structure, linkage.pieces)
-    corners = list(end_corners(structure, linkage.pieces))
+    surface = _surface(structure, linkage, capsules, member)
     bodies, joints, drives, names = list(model.bodies), list(model.joints), list(model.drives), list(owners)
     light = LIGHT * sum(body.mass for body in bodies)
     obstacles, velocity, joint = [], [], {}
@@ -112,18 +115,12 @@ def with_obstacles(
             place = np.asarray(obstacle.point, float)
             bodies.append(SpatialBody(mass, mass * model.length**2 * np.eye(3), place))
             velocity.append(obstacle.velocity if obstacle.mass is not None else (0.0, 0.0, 0.0))
-            added, driven = _moved(obstacle, body, len(joints), duration)
+            added, driven = guided_or_driven(obstacle, body, len(joints), duration)
             joints.append(added)
             drives += driven
             names += [name] * len(driven)
-        owners_of = [{name} for name in member]
-        if isinstance(obstacle, PlaneObstacle):
-            # what starts inside is met with the round ends of capsules, which are less far out
-            owners_of += [
-                of if free or float(gap(obstacle, ball.first)) > 0.0 else set() for ball, of, free in corners
-            ]
         allowed = set(structure.members if obstacle.members is None else obstacle.members)
-        touching = tuple(i for i, of in enumerate(owners_of) if of & allowed)
+        touching = tuple(i for i, of in enumerate(surface.owners(name, obstacle)) if of & allowed)
         obstacles.append(_shape(obstacle, body, touching))
     contact = structure.member_contact
     pairs = SpatialContact()
@@ -137,11 +134,87 @@ def with_obstacles(
         joints=tuple(joints),
         drives=tuple(drives),
         obstacles=tuple(obstacles),
-        capsules=(*capsules, *(ball for ball, *_ in corners)),
+        capsules=surface.capsules,
         contact=pairs,
     )
     moving = np.array(velocity, float).reshape(-1, 3)
-    return Touching(touching_model, joint, tuple(names), moving, tuple(member))
+    return Touching(touching_model, joint, tuple(names), moving, surface.members, surface.points)
+
+
+@dataclass(frozen=True, eq=False)
+class _Surface:
+    """What can be touched of members, in the order of the model's capsules.
+
+    Attributes
+    ----------
+    whole, member
+        Capsules of members, and the member of each.
+    shortened
+        Capsules that replace one of these, an index, for the plane on which an end crumples.
+    corners
+        As `end_corners`.
+    faces
+        Points of ends that crumple.
+    """
+
+    whole: list[SpatialCapsule]
+    member: list[str]
+    shortened: list[tuple[CrumplingEnd, int, SpatialCapsule | None]]
+    corners: list[tuple[SpatialCapsule, set[str], str | None]]
+    faces: list[tuple[CrumplingEnd, SpatialCapsule]]
+
+    @property
+    def capsules(self) -> tuple[SpatialCapsule, ...]:
+        """All of them."""
+        rest = [capsule for *_, capsule in self.shortened if capsule is not None]
+        return (*self.whole, *rest, *(ball for ball, *_ in self.corners), *(ball for _, ball in self.faces))
+
+    @property
+    def members(self) -> tuple[str, ...]:
+        """Member of every capsule before the corners."""
+        return (*self.member, *(end.member for end, _, rest in self.shortened if rest is not None))
+
+    @property
+    def points(self) -> dict[int, CrumplingEnd]:
+        """Ends by the indices of their points."""
+        return dict(enumerate((end for end, _ in self.faces), len(self.members) + len(self.corners)))
+
+    def owners(self, name: str, obstacle: Obstacle) -> list[set[str]]:
+        """Members that an obstacle touches with every capsule."""
+        replaced = {index for end, index, _ in self.shortened if end.obstacle == name}
+        nodes = {end.node for end, _ in self.faces if end.obstacle == name}
+        found = [set() if index in replaced else {of} for index, of in enumerate(self.member)]
+        found += [_met(end, name) for end, _, rest in self.shortened if rest is not None]
+        if isinstance(obstacle, PlaneObstacle):
+            # what starts inside is met with the round ends of capsules, which are less far out
+            found += [
+                of if free not in nodes and (free or float(gap(obstacle, ball.first)) > 0.0) else set()
+                for ball, of, free in self.corners
+            ]
+            found += [_met(end, name) for end, _ in self.faces]
+        return found
+
+
+def _met(end: CrumplingEnd, obstacle: str) -> set[str]:
+    return {end.member} if end.obstacle == obstacle else set()
+
+
+def _surface(
+    structure: Structure, linkage: Linkage, capsules: list[SpatialCapsule], member: list[str]
+) -> _Surface:
+    ends = [
+        (end, body)
+        for end in crumpling_ends(structure)
+        if (body := _end_body(structure, linkage.pieces[end.member], end.node)) != GROUND
+    ]
+    shortened = [
+        (end, index, end.shortened(capsule))
+        for end, _ in ends
+        for index, capsule in enumerate(capsules)
+        if member[index] == end.member and end.reaches(capsule)
+    ]
+    faces = [(end, ball) for end, body in ends for ball in end.face(structure, body)]
+    return _Surface(capsules, member, shortened, list(end_corners(structure, linkage.pieces)), faces)
 
 
 def _shape(obstacle: Obstacle, body: int, touching: tuple[int, ...]) -> SpatialObstacle:
@@ -167,44 +240,6 @@ def _shape(obstacle: Obstacle, body: int, touching: tuple[int, ...]) -> SpatialO
         )
     assert isinstance(obstacle, SphereObstacle)
     return replace(plain, radius=obstacle.radius)
-
-
-def _moved(
-    obstacle: Obstacle, body: int, joint: int, duration: float
-) -> tuple[SpatialJoint, list[SpatialDrive]]:
-    """Joint that guides or drives an obstacle, and its drives."""
-    place = np.asarray(obstacle.point, float)
-    guide = obstacle.guide_direction
-    if guide is not None:
-        held = (False, True, True, True, True, True)
-        return SpatialJoint(GROUND, body, place, frame_of(guide), held), []
-    axes = np.eye(3)
-    if obstacle.turning is not None:
-        place, axes = np.asarray(obstacle.turning.about, float), frame_of(obstacle.turning.axis)
-    drives = []
-    times, rates = _travel(obstacle, duration)
-    for freedom, rate in enumerate(axes @ rates.T):
-        if np.any(rate != 0.0):
-            drives.append(SpatialDrive(joint, freedom, times, rate))
-    if obstacle.turning is not None:
-        turn_times, _, turn_rates = sampled_motion(obstacle.turning.angle, duration)
-        drives.append(SpatialDrive(joint, 3, turn_times, turn_rates))
-    return SpatialJoint(GROUND, body, place, axes, (True,) * 6), drives
-
-
-def _travel(obstacle: Obstacle, duration: float) -> tuple[Floats, Floats]:
-    """Times [s], (n,), and prescribed velocity in global axes [m/s], (n, 3)."""
-    if any(obstacle.velocity):
-        return np.array([0.0, duration]), np.tile(np.asarray(obstacle.velocity, float), (2, 1))
-    parts = []
-    for axis in "xyz":
-        function = getattr(obstacle.motion, axis)
-        times, _, rates = (
-            (np.zeros(1), None, np.zeros(1)) if function is None else sampled_motion(function, duration)
-        )
-        parts.append((times, rates))
-    union = np.unique(np.concatenate([times for times, _ in parts]))
-    return union, np.stack([np.interp(union, times, rates) for times, rates in parts], axis=1)
 
 
 def member_capsules(
@@ -239,8 +274,8 @@ def member_capsules(
 
 def end_corners(
     structure: Structure, of_member: Mapping[str, tuple[Piece, ...]]
-) -> Iterator[tuple[SpatialCapsule, set[str], bool]]:
-    """Small balls in corners of free end faces and tips of corners, their members, and whether free."""
+) -> Iterator[tuple[SpatialCapsule, set[str], str | None]]:
+    """Small balls in corners of free end faces and tips of corners, their members, and the node if free."""
     for node, members in structure.members_at.items():
         if len(members) > 2 or (len(members) == 2 and structure.joints_at.get(node)):
             continue
@@ -269,7 +304,7 @@ def end_corners(
                 else:
                     owners.add(name)
         for ball, of in there:
-            yield ball, of, len(members) == 1
+            yield ball, of, node if len(members) == 1 else None
 
 
 def _end_body(structure: Structure, pieces: tuple[Piece, ...], node: str) -> int:

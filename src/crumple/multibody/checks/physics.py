@@ -46,6 +46,8 @@ IMPACT = 0.1
 CRUSHED = 0.01
 """Depth to which walls are crushed at a contact over the smaller side of the section, above which a caution
 says so."""
+USED_UP = 0.95
+"""Depth to which an end crumpled over the largest side of its section, above which it cannot go on."""
 STRUCK = 0.5
 """The same share, above which the mean force of the impact is compared with the force that folds a member."""
 
@@ -81,6 +83,7 @@ def physics_cautions(structure: Structure, solved: Solved) -> tuple[Caution, ...
         *jammed_folds(solved),
         *closed_crush_zones(structure, solved),
         *crushed_walls(structure, solved),
+        *crumpled_ends(structure, solved),
     )
 
 
@@ -245,7 +248,8 @@ def impact_losses(solved: Solved, total: float) -> Iterator[Caution]:
 
 
 def _lost_in_impacts(solved: Solved) -> float:
-    return float(solved.energy.get("contact", np.zeros(1))[-1])
+    crumpled = sum(end.energy for end in solved.crumpled)
+    return float(solved.energy.get("contact", np.zeros(1))[-1]) - crumpled
 
 
 def jammed_folds(solved: Solved) -> Iterator[Caution]:
@@ -306,6 +310,23 @@ def crushed_walls(structure: Structure, solved: Solved) -> Iterator[Caution]:
     for member, contact in deepest.items():
         limit = CRUSHED * float(np.ptp(structure.section_of(member).outer_outline(), axis=0).min())
         yield Caution("crushed_contact", contact.depth, limit, "m", f"member {member}", text)
+
+
+def crumpled_ends(structure: Structure, solved: Solved) -> Iterator[Caution]:
+    """Ends that crumpled by all that they can: from there on their contact is rigid."""
+    for end in solved.crumpled:
+        limit = USED_UP * float(np.ptp(structure.section_of(end.member).outer_outline(), axis=0).max())
+        if end.depth > limit:
+            yield Caution(
+                "crumpled_end",
+                end.depth,
+                limit,
+                "m",
+                f"member {end.member}",
+                f"End {end.node} of member {end.member} crumpled by {format_quantity(end.depth, 'm', 3)} "
+                f"on obstacle {end.obstacle}, about the largest side of its section: from there on its "
+                "contact is rigid; a shell run shows how it goes on.",
+            )
 
 
 def _span(values: list[float]) -> str:

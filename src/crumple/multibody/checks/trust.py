@@ -8,6 +8,7 @@ import numpy as np
 
 from crumple.hinge import Form, Freedom, SofteningVariable
 from crumple.multibody.answer.solved import Solved, Solver
+from crumple.multibody.bodies.crumpling_ends import crumpling_ends
 from crumple.multibody.bodies.linkage import link
 from crumple.multibody.bodies.mobility import free_parts
 from crumple.multibody.checks.broken import broken_warnings
@@ -60,6 +61,11 @@ def assumptions(structure: Structure, solver: Solver) -> tuple[str, ...]:
         "Masses are rigid lumps.",
         PLANAR if solver.kernel == "tree" else SPATIAL,
         _contact(structure),
+        *(
+            f"End {end.node} of member {end.member} crumples on obstacle {end.obstacle} at "
+            f"{end.force / 1e3:.4g} kN when its whole face is touched."
+            for end in crumpling_ends(structure)
+        ),
         *free_parts(link(structure, solver.hinges)),
         *solver.notes,
     ]

@@ -6,7 +6,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from crumple.multibody.answer.solved import CrushedContact
+from crumple.multibody.bodies.crumpling_ends import CrumplingEnd
 from crumple.multibody.bodies.obstacle_bodies import Touching, capsule_rows
+from crumple.result import CrumpledEnd
 from crumple.section import plastic_interaction
 from crumple.structure import Structure
 
@@ -24,15 +26,19 @@ def with_crushing(structure: Structure, touching: Touching) -> Touching:
         / len(capsule_rows(structure.section_of(member).outer_outline())[0])
         for member in set(members)
     }
-    capsules = tuple(
+    capsules = [
         replace(capsule, crush_force=force[member])
         for capsule, member in zip(touching.model.capsules, members, strict=False)
-    )
+    ]
+    capsules += touching.model.capsules[len(members) :]
     obstacles = tuple(
-        replace(obstacle, capsules=tuple(i for i in obstacle.capsules or () if i < len(members)))
+        replace(
+            obstacle,
+            capsules=tuple(i for i in obstacle.capsules or () if i < len(members) or i in touching.points),
+        )
         for obstacle in touching.model.obstacles
     )
-    model = replace(touching.model, capsules=capsules, obstacles=obstacles)
+    model = replace(touching.model, capsules=tuple(capsules), obstacles=obstacles)
     return replace(touching, model=model)
 
 
@@ -50,6 +56,8 @@ def crushed_contacts(
     """
     obstacles = list(structure.obstacles)
     for obstacle, first, second, depth in crushed:
+        if second in touching.points:
+            continue
         member = touching.members[second]
         if obstacle >= 0:
             yield CrushedContact(
@@ -59,6 +67,20 @@ def crushed_contacts(
         other = touching.members[first]
         force = min(_squash_load(structure, name) for name in (member, other))
         yield CrushedContact(member, f"member {other}", depth, force)
+
+
+def crumpled_ends(
+    touching: Touching, crushed: Sequence[tuple[int, int, int, float]]
+) -> Iterator[CrumpledEnd]:
+    """Ends of members that crumpled, from the same."""
+    points: dict[CrumplingEnd, list[tuple[float, float]]] = {}
+    for _, _, second, depth in crushed:
+        if second in touching.points:
+            force = touching.model.capsules[second].crush_force
+            points.setdefault(touching.points[second], []).append((depth, depth * force))
+    for end, parts in points.items():
+        depth, energy = max(depth for depth, _ in parts), sum(energy for _, energy in parts)
+        yield CrumpledEnd(end.member, end.node, end.obstacle, depth, energy)
 
 
 def _squash_load(structure: Structure, member: str) -> float:

@@ -27,7 +27,7 @@ from crumple.multibody.checks.infinitesimal import dead_centre_notes
 from crumple.multibody.checks.stuck_drives import stuck_drives, stuck_note
 from crumple.multibody.run import Run, output_times, refuse_unbegun, step_bounds
 from crumple.multibody.spatial.case import added_motion, kernel_stage, recorded_hinges
-from crumple.multibody.spatial.crushing_contacts import crushed_contacts, with_crushing
+from crumple.multibody.spatial.crushing_contacts import crumpled_ends, crushed_contacts, with_crushing
 from crumple.multibody.spatial.model import kernel_hinges, spatial_model, support_drives
 from crumple.multibody.spatial.off_dead_centres import off_dead_centres, with_held_moments
 from crumple.multibody.spatial.stages import (
@@ -261,6 +261,7 @@ class SpatialSolver:
             further=() if ends_only else self._further(poses, record, stages),
             stages=tuple(stages) if self._run.stages else (),
             crushed=tuple(crushed_contacts(self._structure, self._touching, crushed)),
+            crumpled=tuple(crumpled_ends(self._touching, crushed)),
         )
 
     def _further(

@@ -9,7 +9,7 @@ from tests.support.structures import STEEL, cantilever, constant_law
 from crumple.errors import Status
 from crumple.multibody import Run, solve_multibody
 from crumple.multibody.checks import physics
-from crumple.result import Caution, sentences
+from crumple.result import Caution, CrumpledEnd, sentences
 from crumple.structure import MultibodySettings, Structure
 
 
@@ -156,11 +156,14 @@ def test_a_crash_box_that_bottoms_out_is_a_caution():
 
 def test_energy_lost_in_rigid_impacts_is_a_caution_from_a_tenth():
     energy = {"contact": np.array([0.0, 11.0])}
-    (found,) = physics.impact_losses(SimpleNamespace(energy=energy, crushed=()), 100.0)
+    (found,) = physics.impact_losses(SimpleNamespace(energy=energy, crushed=(), crumpled=()), 100.0)
     assert (found.code, found.value, found.limit) == ("impact_loss", 11.0, 10.0)
     assert "(11%)" in found.text
-    no_impact = SimpleNamespace(energy={"contact": np.array([0.0, 9.0])}, crushed=())
+    no_impact = SimpleNamespace(energy={"contact": np.array([0.0, 9.0])}, crushed=(), crumpled=())
     assert not list(physics.impact_losses(no_impact, 100.0))
+    # what crumples is not lost in an impact
+    end = CrumpledEnd("rail", "tip", "wall", 0.01, 2.0)
+    assert not list(physics.impact_losses(SimpleNamespace(energy=energy, crushed=(), crumpled=(end,)), 100.0))
 
 
 def test_a_violation_changes_the_status(monkeypatch):
