@@ -15,12 +15,12 @@ from crumple.cli.console.laws import Freeze, Laws, law_lines, range_lines, with_
 from crumple.numeric.ranking import largest_first
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from rich.table import Table
 
     from crumple.analysis import LoadedInput
-    from crumple.result import HingeSummary, Result
+    from crumple.result import CrumpledEnd, HingeSummary, Result
 
 MOST_HINGES = 20
 """Number of hinges in the table; the files contain all."""
@@ -234,6 +234,8 @@ def _show(result: Result, folder: Path, source: LoadedInput) -> None:
         console.print(_crush_table(crushing))
     if any(hinge.stretch is not None for hinge in result.hinges.values()):
         console.print(_stretch_table(result.hinges))
+    if result.crumpled_ends:
+        console.print(_crumpled_table(result.crumpled_ends))
     if max(len(bending), len(crushing)) > MOST_HINGES:
         console.print(
             f"At most {MOST_HINGES} of {len(result.hinges)} hinges, those with the largest absorbed energy"
@@ -301,6 +303,15 @@ def _stretch_table(summaries: Mapping[str, HingeSummary]) -> Table:
         ("Energy of tension", [stretch.energy for _, stretch in hinges], "J"),
     )
     return _table("Stretched hinge", [name for name, _ in hinges], columns)
+
+
+def _crumpled_table(ends: Sequence[CrumpledEnd]) -> Table:
+    """One row per free end that crumpled on a plane."""
+    columns = (
+        ("Depth", [end.depth for end in ends], "m"),
+        ("Energy absorbed", [end.energy for end in ends], "J"),
+    )
+    return _table("Crumpled end", [f"{end.node} on {end.obstacle}" for end in ends], columns)
 
 
 def _table(what: str, names: list[str], columns: tuple[tuple[str, list[Any], str], ...]) -> Table:

@@ -177,6 +177,7 @@ def _render(
         hinge_table=wording.hinge_table(result),
         crush_table=along.crush_table(result),
         stretch_table=along.stretch_table(result),
+        crumpled_table=along.crumpled_table(result),
         collapse_table=wording.collapse_table(result),
         stage_table=wording.stage_table(result),
         output_table=wording.output_table(result),

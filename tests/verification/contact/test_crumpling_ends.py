@@ -15,6 +15,8 @@ import pytest
 import crumple
 from crumple.hinge.registry import build_axial_law
 from crumple.multibody.bodies.crumpling_ends import OBLIQUE, crumpling_ends, points_around
+from crumple.report.wording.along import crumpled_table
+from crumple.result import read, write
 
 MODEL = """
 crumple: 1
@@ -135,3 +137,14 @@ def test_an_end_that_is_used_up_says_so():
     (caution,) = [caution for caution in result.cautions if caution.code == "crumpled_end"]
     assert caution.value > 0.95 * 0.05
     assert "End tip of member rail" in caution.text
+
+
+def test_results_list_what_crumpled(tmp_path):
+    """In files, on the page and in the summary."""
+    result = crumple.solve(thrown("rectangle", [-cos(0.3), 0.0, -sin(0.3)]))
+    write(result, tmp_path)
+    assert read(tmp_path).crumpled_ends == result.crumpled_ends
+    (end,) = result.crumpled_ends
+    ((name, member, obstacle, depth, _),) = crumpled_table(result).rows
+    assert (name, member, obstacle) == ("tip", "rail", "wall")
+    assert float(depth) == pytest.approx(end.depth * 1e3, rel=0.01)

@@ -1,4 +1,4 @@
-"""Tables of hinges that shortened or lengthened along their members."""
+"""Tables of hinges that shortened or lengthened along their members, and of ends that crumpled."""
 
 from __future__ import annotations
 
@@ -38,3 +38,17 @@ def stretch_table(result: Result) -> Table:
     heads = ("Hinge", f"Lengthening, {length_unit}", f"Peak tension, {peak_unit}", f"Energy, {energy_unit}")
     caption = "Hinges whose members were pulled longer. The energy is the work of the tension."
     return Table(caption, heads, list(zip(hinges, lengths, peaks, energies, strict=True)))
+
+
+def crumpled_table(result: Result) -> Table:
+    """Free ends of members that crumpled on planes."""
+    ends = result.crumpled_ends
+    depth_unit, depths = column([end.depth for end in ends], "m")
+    energy_unit, energies = column([end.energy for end in ends], "J")
+    heads = ("End", "Member", "Obstacle", f"Depth, {depth_unit}", f"Energy, {energy_unit}")
+    names = [(end.node, end.member, end.obstacle) for end in ends]
+    caption = (
+        "Free ends that crumpled where a plane met them obliquely. The energy is part of that of contact."
+    )
+    rows = [(*name, *cells) for name, *cells in zip(names, depths, energies, strict=True)]
+    return Table(caption, heads, rows, frozenset({1, 2}))
