@@ -16,6 +16,8 @@ import crumple
 from crumple.hinge.registry import build_axial_law
 from crumple.multibody.bodies.crumpling_ends import OBLIQUE, crumpling_ends, points_around
 from crumple.report.wording.along import crumpled_table
+from crumple.report.wording.answer import three_sentences
+from crumple.report.wording.wording import verdict
 from crumple.result import read, write
 
 MODEL = """
@@ -147,4 +149,5 @@ def test_results_list_what_crumpled(tmp_path):
     (end,) = result.crumpled_ends
     ((name, member, obstacle, depth, _),) = crumpled_table(result).rows
     assert (name, member, obstacle) == ("tip", "rail", "wall")
+    assert "crumpled end tip" in three_sentences(result, verdict(result, 1e-3, 1e-3))[0]
     assert float(depth) == pytest.approx(end.depth * 1e3, rel=0.01)

@@ -17,7 +17,8 @@ _NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 def three_sentences(result: Result, verdict: Verdict) -> list[str]:
     """What was absorbed and where; how far it went; whether it can be trusted."""
-    return [part for part in (_absorbed(result), _reached(result), " ".join(verdict.reasons)) if part]
+    absorbed = " ".join(part for part in (_absorbed(result), _crumpled(result)) if part)
+    return [part for part in (absorbed, _reached(result), " ".join(verdict.reasons)) if part]
 
 
 def one_mode(result: Result) -> list[str]:
@@ -38,6 +39,15 @@ def _absorbed(result: Result) -> str:
         return f"The structure absorbed {total}."
     share = percent(most.energy / sum(hinge.energy for hinge in result.hinges.values()))
     return f"The structure absorbed {total} in {len(result.hinges)} hinges, {share} of it in {name}."
+
+
+def _crumpled(result: Result) -> str:
+    ends = result.crumpled_ends
+    if not ends:
+        return ""
+    energy = format_quantity(sum(end.energy for end in ends), "J")
+    what = f"end {ends[0].node}" if len(ends) == 1 else f"{len(ends)} ends"
+    return f"A further {energy} crumpled {what} of members at obstacles."
 
 
 def _reached(result: Result) -> str:
