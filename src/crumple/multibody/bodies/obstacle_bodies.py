@@ -99,8 +99,15 @@ def with_obstacles(
     """
     if not structure.obstacles and structure.member_contact is None:
         return Touching(model, {}, owners, np.zeros((0, 3)))
-    capsules, member = member_capsules(structure, linkage.pieces)
+    moving, member = member_capsules(structure, linkage.pieces)
     corners = list(end_corners(structure, linkage.pieces))
+    first_corner = len(corners)
+    capsules = list(moving)
+    if any(obstacle.mass is not None for obstacle in structure.obstacles.values()):
+        # what is held stops nothing but a mass: other obstacles are held or driven themselves
+        held, owner = member_capsules(structure, pieces_by_length(linkage, fixed=True), held=True)
+        capsules, member = [*capsules, *held], [*member, *owner]
+        corners += end_corners(structure, linkage.pieces, held=True)
     bodies, joints, drives, names = list(model.bodies), list(model.joints), list(model.drives), list(owners)
     light = LIGHT * sum(body.mass for body in bodies)
     obstacles, velocity, joint = [], [], {}
@@ -116,11 +123,15 @@ def with_obstacles(
             joints.append(added)
             drives += driven
             names += [name] * len(driven)
-        owners_of = [{name} for name in member]
+        meets_held = obstacle.mass is not None
+        owners_of = [{of} if i < len(moving) or meets_held else set() for i, of in enumerate(member)]
         if isinstance(obstacle, PlaneObstacle):
             # what starts inside is met with the round ends of capsules, which are less far out
             owners_of += [
-                of if free or float(gap(obstacle, ball.first)) > 0.0 else set() for ball, of, free in corners
+                of
+                if (meets_held or i < first_corner) and (free or float(gap(obstacle, ball.first)) > 0.0)
+                else set()
+                for i, (ball, of, free) in enumerate(corners)
             ]
         allowed = set(structure.members if obstacle.members is None else obstacle.members)
         touching = tuple(i for i, of in enumerate(owners_of) if of & allowed)
@@ -129,7 +140,7 @@ def with_obstacles(
     pairs = SpatialContact()
     if contact is not None:
         pairs = SpatialContact(
-            tuple(touching_pairs(structure, capsules, member)), contact.friction, contact.restitution
+            tuple(touching_pairs(structure, moving, member)), contact.friction, contact.restitution
         )
     touching_model = replace(
         model,
@@ -140,8 +151,19 @@ def with_obstacles(
         capsules=(*capsules, *(ball for ball, *_ in corners)),
         contact=pairs,
     )
-    moving = np.array(velocity, float).reshape(-1, 3)
-    return Touching(touching_model, joint, tuple(names), moving, tuple(member))
+    speeds = np.array(velocity, float).reshape(-1, 3)
+    return Touching(touching_model, joint, tuple(names), speeds, tuple(member))
+
+
+def pieces_by_length(linkage: Linkage, *, fixed: bool) -> dict[str, tuple[Piece, ...]]:
+    """Pieces that keep their length, or those that fold along the member at a hinge at their ends."""
+    shortens = {
+        (c.hinge.member, c.hinge.station) for c in linkage.connections if c.hinge is not None and 0 in c.free
+    }
+    return {
+        name: tuple(p for p in of if fixed is not bool({(name, p.start), (name, p.end)} & shortens))
+        for name, of in linkage.pieces.items()
+    }
 
 
 def _shape(obstacle: Obstacle, body: int, touching: tuple[int, ...]) -> SpatialObstacle:
@@ -238,9 +260,12 @@ def member_capsules(
 
 
 def end_corners(
-    structure: Structure, of_member: Mapping[str, tuple[Piece, ...]]
+    structure: Structure, of_member: Mapping[str, tuple[Piece, ...]], *, held: bool = False
 ) -> Iterator[tuple[SpatialCapsule, set[str], bool]]:
-    """Small balls in corners of free end faces and tips of corners, their members, and whether free."""
+    """Small balls in corners of end faces and tips of corners that move, or that are held.
+
+    With each its members, and whether it belongs to a free end face, which moves.
+    """
     for node, members in structure.members_at.items():
         if len(members) > 2 or (len(members) == 2 and structure.joints_at.get(node)):
             continue
@@ -248,7 +273,7 @@ def end_corners(
         there: list[tuple[SpatialCapsule, set[str]]] = []
         for i, name in enumerate(members):
             body = _end_body(structure, of_member[name], node)
-            if body == GROUND:
+            if (body == GROUND) is not held:
                 continue
             outline, across = structure.section_of(name).outer_outline(), structure.frame_of(name).axes[1:]
             radius = POINT * capsule_rows(outline)[1]
@@ -269,7 +294,7 @@ def end_corners(
                 else:
                     owners.add(name)
         for ball, of in there:
-            yield ball, of, len(members) == 1
+            yield ball, of, len(members) == 1 and not held
 
 
 def _end_body(structure: Structure, pieces: tuple[Piece, ...], node: str) -> int:
