@@ -1,9 +1,9 @@
 """Warnings for moving obstacles that pass through held parts of members with which they have no contact.
 
 A held part is the ground, and a driven obstacle is given: no force between them could change anything.  Those
-with a mass are stopped by held parts, except those that fold along the member.  What hangs on the held part may
-then be pressed where it cannot give way, at the axis of its hinge.  Looked at is translation at the output
-times; planes with an edge and obstacles that turn are left out.
+with a mass are stopped by held parts, except those that fold along the member.  What hangs on the held part
+may then be pressed where it cannot give way, at the axis of its hinge.  Looked at is translation at the
+output times; planes with an edge and obstacles that turn are left out.
 """
 
 from __future__ import annotations
