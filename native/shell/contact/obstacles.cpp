@@ -62,6 +62,8 @@ void ObstacleContact::attach(const std::vector<RigidBody>& bodies, const std::ve
     bodies_ = &bodies;
     body_states_ = &states;
     body_of_.assign(sheets_.mass.size(), -1);
+    ground_.mass = 1.0;
+    ground_.held = 0x3fu;
     for (std::size_t b = 0; b < bodies.size(); b++) {
         double mass = 0.0, half = 0.0, walls = 0.0;
         for (Index n : bodies[b].nodes) {
@@ -77,6 +79,14 @@ void ObstacleContact::attach(const std::vector<RigidBody>& bodies, const std::ve
             half_[n] = half / walls;
         }
     }
+}
+
+int ObstacleContact::set_of(const Item& item) const {
+    constexpr unsigned translations = 7u;
+    const Obstacle& o = model_[item.obstacle];
+    const Index n = o.nodes[item.place];
+    if (body_of_[n] >= 0) return body_of_[n];
+    return o.mass > 0.0 && (sheets_.model.fixed[n] & translations) == translations ? int(bodies_->size()) : -1;
 }
 
 Vec3 ObstacleContact::in_frame(std::size_t o, Vec3 x) const {
@@ -146,42 +156,68 @@ void ObstacleContact::evaluate(const Motions& m, std::size_t i) {
     touch.normal = turn_[item.obstacle] * d.normal;
     touch.slip = velocity_of(m, n) - surface;
     touch.depth = depth;
-    if (body_of_[n] >= 0) return;
+    if (set_of(item) >= 0) return;
     const double mass = soft_[item.obstacle] * sheets_.mass[n];
     const Bond bond = bond_of(sheets_.model.contact, mass, sheets_.step, o.friction);
     touch.force = force_of(bond, depth, touch.normal, touch.slip, m.step, stick);
     touch.moment = cross(x - o.turn_about, touch.force);
 }
 
-void ObstacleContact::hold_bodies(const Motions& m) {
-    std::vector<std::vector<BodyTouch>> of(bodies_->size());
-    std::vector<double> touching(bodies_->size(), 0.0);  // wall mass of each set's nodes that touch
+std::vector<std::vector<BodyTouch>> ObstacleContact::touches_of_bodies(const Motions& m) const {
+    std::vector<std::vector<BodyTouch>> of(bodies_->size() + 1);
+    std::vector<double> touching(bodies_->size() + 1, 0.0);  // wall mass of each set's nodes that touch
     for (std::size_t i = 0; i < items_.size(); i++) {
-        const Index n = model_[items_[i].obstacle].nodes[items_[i].place];
-        if (touch_[i].active && body_of_[n] >= 0) touching[std::size_t(body_of_[n])] += mass_[n];
+        const int set = set_of(items_[i]);
+        if (touch_[i].active && set >= 0) touching[std::size_t(set)] += mass_[model_[items_[i].obstacle].nodes[items_[i].place]];
     }
     for (std::size_t i = 0; i < items_.size(); i++) {
         const Obstacle& o = model_[items_[i].obstacle];
         const Index n = o.nodes[items_[i].place];
-        if (!touch_[i].active || body_of_[n] < 0) continue;
-        const std::size_t b = std::size_t(body_of_[n]);
-        const double mass = (*bodies_)[b].mass;
+        const int set = set_of(items_[i]);
+        if (!touch_[i].active || set < 0) continue;
+        const std::size_t b = std::size_t(set);
         BodyTouch t{};
         t.item = i;
-        t.arm = position_of(m, n) - (*body_states_)[b].centre;
+        t.arm = position_of(m, n) - (b < bodies_->size() ? (*body_states_)[b].centre : Vec3{});
         t.normal = touch_[i].normal;
         t.slip = touch_[i].slip;
         t.depth = touch_[i].depth;
-        t.soft = o.mass > 0.0 ? o.mass / (o.mass + mass) : 1.0;
+        t.partner = -1;
+        t.guide = o.guide;
         t.damping = o.damping;
         t.friction = o.friction;
         t.share = mass_[n] / touching[b];
         t.stick = stick_[items_[i].obstacle][items_[i].place];
         of[b].push_back(t);
     }
+    return of;
+}
+
+void ObstacleContact::hold_bodies(const Motions& m) {
+    const double stiffness = sheets_.model.contact.stiffness / (sheets_.step * sheets_.step);
+    std::vector<std::vector<BodyTouch>> of = touches_of_bodies(m);
+    // sets that an obstacle presses at the same time have equal parts of its mass: its acceleration is then the mean of what they ask
+    std::vector<double> pressed(model_.size(), 0.0);
+    for (const auto& touches : of) {
+        std::vector<std::uint8_t> presses(model_.size(), 0);
+        for (const BodyTouch& t : touches) presses[items_[t.item].obstacle] |= wanted(t, stiffness) > 0.0;
+        for (std::size_t o = 0; o < model_.size(); o++) pressed[o] += presses[o];
+    }
     for (std::size_t b = 0; b < of.size(); b++) {
         if (of[b].empty()) continue;
-        hold((*bodies_)[b], (*body_states_)[b], sheets_.model.contact.stiffness / (sheets_.step * sheets_.step), m.step, of[b]);
+        std::vector<double> partners;
+        std::vector<int> place(model_.size(), -1);
+        for (BodyTouch& t : of[b]) {
+            const std::size_t o = items_[t.item].obstacle;
+            if (!(model_[o].mass > 0.0)) continue;
+            if (place[o] < 0) {
+                place[o] = int(partners.size());
+                partners.push_back(model_[o].mass / std::max(pressed[o], 1.0));
+            }
+            t.partner = place[o];
+        }
+        const bool moves = b < bodies_->size();
+        hold(moves ? (*bodies_)[b] : ground_, moves ? (*body_states_)[b] : RigidState{}, partners, stiffness, m.step, of[b]);
         for (const BodyTouch& t : of[b]) {
             const Obstacle& o = model_[items_[t.item].obstacle];
             stick_[items_[t.item].obstacle][items_[t.item].place] = t.stick;

@@ -69,7 +69,10 @@ private:
         bool active;
         Vec3 normal, slip;           // out of the obstacle; velocity relative to its surface [m/s]
     };
+    std::vector<std::vector<BodyTouch>> touches_of_bodies(const Motions& m) const;
     void hold_bodies(const Motions& m);
+    // rigid set of a contact's node; the last one for fixed nodes on an obstacle with a mass, and -1 for other nodes
+    int set_of(const Item& item) const;
     Vec3 in_frame(std::size_t o, Vec3 x) const;
     double acceleration(std::size_t o) const;            // of an obstacle with mass along its guide [m/s2]
 
@@ -84,6 +87,7 @@ private:
     std::vector<Vec3> searched_at_;
     const std::vector<RigidBody>* bodies_ = nullptr;
     const std::vector<RigidState>* body_states_ = nullptr;
+    RigidBody ground_;                                   // all fixed nodes: what gives way is the obstacle alone
     std::vector<std::int32_t> body_of_;                  // [node] rigid set, -1: none
     std::vector<double> mass_, half_;                    // [node] as in the sheets, and for nodes of rigid sets without elements
     std::vector<Item> items_;

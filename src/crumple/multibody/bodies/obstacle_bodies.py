@@ -1,58 +1,34 @@
 """Obstacles and members that can come into contact, for the spatial kernel.
 
 A fixed obstacle is part of the ground.  One with a mass is a body that slides along its guide, a driven one a
-body whose every freedom is held and some are driven.  Members touch with capsules: segments with a radius.  A
-section wider than deep gets two of them side by side, so that its width and its depth are both right.  Planes
-are also touched by the corners of free end faces, since a face that tilts on a wall rolls about its rim, and
-by the tips of corners, where the walls of two members that meet at an angle go on beyond the node.  Ends
-that a plane meets obliquely crumple.
+body whose every freedom is held and some are driven.  What they can touch of members is in `surface`.
 """
 
 from __future__ import annotations
 
-import math
-from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from itertools import combinations
 
 import numpy as np
 
 from crumple._core.spatial.model import (
     ObstacleKind,
     SpatialBody,
-    SpatialCapsule,
     SpatialContact,
     SpatialModel,
     SpatialObstacle,
 )
-from crumple.cancelling import go_on
-from crumple.errors import InputError, Problem
-from crumple.multibody.bodies.assembly import Piece
-from crumple.multibody.bodies.crumpling_ends import CrumplingEnd, crumpling_ends
+from crumple.multibody.bodies.capsules import member_capsules, touching_pairs
+from crumple.multibody.bodies.crumpling_ends import CrumplingEnd
 from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.bodies.obstacle_motion import guided_or_driven
+from crumple.multibody.bodies.surface import surface_of
 from crumple.numeric.arrays import Floats
-from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Structure, gap
-from crumple.structure.geometry import NARROWEST
-from crumple.structure.hinges.corners import leaving
+from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Structure
 
 LIGHT = 1e-3
 """Mass of a driven obstacle over that of the structure: its motion is given, so that the mass changes nothing
 but the work of its drive; far smaller ones would cost digits."""
-MOST_PAIRS = 1_000_000
-"""Pairs of bars that may touch each other; the kernel looks at each."""
-WITHIN = 1.001
-"""Distance of a capsule's last ball from a free end, over its radius: the corners of the face touch first."""
-POINT = 1e-3
-"""Radius of the corners of an end face, over that of the member's capsules."""
-DIRECTIONS = 8
-"""Directions in which an end face has a corner: 4 different ones of a rectangle, 8 of a round tube."""
-LEAST_TIP = 0.1
-"""Least distance of a tip beyond its node, over that from the member's axis: at bends below 11 to 16 degrees
-the round ends of capsules reach as far, within 1 % of their radius."""
-ROUND = 1.1
-"""Ratio of the sides of a section up to which one row of capsules represents it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,8 +78,8 @@ def with_obstacles(
     """
     if not structure.obstacles and structure.member_contact is None:
         return Touching(model, {}, owners, np.zeros((0, 3)))
-    capsules, member = member_capsules(structure, linkage.pieces)
-    surface = _surface(structure, linkage, capsules, member)
+    moving, member = member_capsules(structure, linkage.pieces)
+    surface = surface_of(structure, linkage, moving, member)
     bodies, joints, drives, names = list(model.bodies), list(model.joints), list(model.drives), list(owners)
     light = LIGHT * sum(body.mass for body in bodies)
     obstacles, velocity, joint = [], [], {}
@@ -126,7 +102,7 @@ def with_obstacles(
     pairs = SpatialContact()
     if contact is not None:
         pairs = SpatialContact(
-            tuple(touching_pairs(structure, capsules, member)), contact.friction, contact.restitution
+            tuple(touching_pairs(structure, moving, member)), contact.friction, contact.restitution
         )
     touching_model = replace(
         model,
@@ -137,84 +113,8 @@ def with_obstacles(
         capsules=surface.capsules,
         contact=pairs,
     )
-    moving = np.array(velocity, float).reshape(-1, 3)
-    return Touching(touching_model, joint, tuple(names), moving, surface.members, surface.points)
-
-
-@dataclass(frozen=True, eq=False)
-class _Surface:
-    """What can be touched of members, in the order of the model's capsules.
-
-    Attributes
-    ----------
-    whole, member
-        Capsules of members, and the member of each.
-    shortened
-        Capsules that replace one of these, an index, for the plane on which an end crumples.
-    corners
-        As `end_corners`.
-    faces
-        Points of ends that crumple.
-    """
-
-    whole: list[SpatialCapsule]
-    member: list[str]
-    shortened: list[tuple[CrumplingEnd, int, SpatialCapsule | None]]
-    corners: list[tuple[SpatialCapsule, set[str], str | None]]
-    faces: list[tuple[CrumplingEnd, SpatialCapsule]]
-
-    @property
-    def capsules(self) -> tuple[SpatialCapsule, ...]:
-        """All of them."""
-        rest = [capsule for *_, capsule in self.shortened if capsule is not None]
-        return (*self.whole, *rest, *(ball for ball, *_ in self.corners), *(ball for _, ball in self.faces))
-
-    @property
-    def members(self) -> tuple[str, ...]:
-        """Member of every capsule before the corners."""
-        return (*self.member, *(end.member for end, _, rest in self.shortened if rest is not None))
-
-    @property
-    def points(self) -> dict[int, CrumplingEnd]:
-        """Ends by the indices of their points."""
-        return dict(enumerate((end for end, _ in self.faces), len(self.members) + len(self.corners)))
-
-    def owners(self, name: str, obstacle: Obstacle) -> list[set[str]]:
-        """Members that an obstacle touches with every capsule."""
-        replaced = {index for end, index, _ in self.shortened if end.obstacle == name}
-        nodes = {end.node for end, _ in self.faces if end.obstacle == name}
-        found = [set() if index in replaced else {of} for index, of in enumerate(self.member)]
-        found += [_met(end, name) for end, _, rest in self.shortened if rest is not None]
-        if isinstance(obstacle, PlaneObstacle):
-            # what starts inside is met with the round ends of capsules, which are less far out
-            found += [
-                of if free not in nodes and (free or float(gap(obstacle, ball.first)) > 0.0) else set()
-                for ball, of, free in self.corners
-            ]
-            found += [_met(end, name) for end, _ in self.faces]
-        return found
-
-
-def _met(end: CrumplingEnd, obstacle: str) -> set[str]:
-    return {end.member} if end.obstacle == obstacle else set()
-
-
-def _surface(
-    structure: Structure, linkage: Linkage, capsules: list[SpatialCapsule], member: list[str]
-) -> _Surface:
-    ends = [
-        (end, body)
-        for end in crumpling_ends(structure)
-        if (body := _end_body(structure, linkage.pieces[end.member], end.node)) != GROUND
-    ]
-    shortened = [
-        (end, index, end.shortened(capsule))
-        for end, _ in ends
-        for index, capsule in enumerate(capsules)
-        if member[index] == end.member and end.reaches(capsule)
-    ]
-    faces = [(end, ball) for end, body in ends for ball in end.face(structure, body)]
-    return _Surface(capsules, member, shortened, list(end_corners(structure, linkage.pieces)), faces)
+    speeds = np.array(velocity, float).reshape(-1, 3)
+    return Touching(touching_model, joint, tuple(names), speeds, surface.members, surface.points)
 
 
 def _shape(obstacle: Obstacle, body: int, touching: tuple[int, ...]) -> SpatialObstacle:
@@ -240,142 +140,6 @@ def _shape(obstacle: Obstacle, body: int, touching: tuple[int, ...]) -> SpatialO
         )
     assert isinstance(obstacle, SphereObstacle)
     return replace(plain, radius=obstacle.radius)
-
-
-def member_capsules(
-    structure: Structure, of_member: Mapping[str, tuple[Piece, ...]], *, held: bool = False
-) -> tuple[list[SpatialCapsule], list[str]]:
-    """Capsules of all pieces that move, or of all that are held, and the member of each."""
-    ends = Counter(node for member in structure.members.values() for node in member.nodes)
-    capsules, owner = [], []
-    for name, pieces in of_member.items():
-        frame, nodes = structure.frame_of(name), structure.members[name].nodes
-        places, radius = capsule_rows(structure.section_of(name).outer_outline())
-        # the round end of a capsule lies within a free end of the member, and rounds a corner
-        inset = radius if held else WITHIN * radius
-        first, last = (inset if ends[node] == 1 else 0.0 for node in nodes)
-        spine = (first, frame.length - last)
-        if spine[0] > spine[1]:
-            spine = (frame.length / 2.0, frame.length / 2.0)
-        for piece in pieces:
-            start, end = max(piece.start, spine[0]), min(piece.end, spine[1])
-            if (piece.body == GROUND) is not held or start > end:
-                continue
-            for place in places:
-                shift = place @ frame.axes[1:]
-                capsules.append(
-                    SpatialCapsule(
-                        piece.body, frame.position(start) + shift, frame.position(end) + shift, radius
-                    )
-                )
-                owner.append(name)
-    return capsules, owner
-
-
-def end_corners(
-    structure: Structure, of_member: Mapping[str, tuple[Piece, ...]]
-) -> Iterator[tuple[SpatialCapsule, set[str], str | None]]:
-    """Small balls in corners of free end faces and tips of corners, their members, and the node if free."""
-    for node, members in structure.members_at.items():
-        if len(members) > 2 or (len(members) == 2 and structure.joints_at.get(node)):
-            continue
-        axes = [leaving(structure, name, node) for name in members]
-        there: list[tuple[SpatialCapsule, set[str]]] = []
-        for i, name in enumerate(members):
-            body = _end_body(structure, of_member[name], node)
-            if body == GROUND:
-                continue
-            outline, across = structure.section_of(name).outer_outline(), structure.frame_of(name).axes[1:]
-            radius = POINT * capsule_rows(outline)[1]
-            if len(members) == 1:
-                points = _face_corners(outline, radius) @ across + radius * axes[i]
-            else:
-                points = _tips(outline, radius, across, axes[i], axes[1 - i])
-            for place in np.asarray(structure.nodes[node], float) + points:
-                # members that move as one have the same tips at their mitre
-                near = (
-                    of
-                    for ball, of in there
-                    if ball.body == body and np.linalg.norm(ball.first - place) < radius
-                )
-                owners = next(near, None)
-                if owners is None:
-                    there.append((SpatialCapsule(body, place, place, radius), {name}))
-                else:
-                    owners.add(name)
-        for ball, of in there:
-            yield ball, of, node if len(members) == 1 else None
-
-
-def _end_body(structure: Structure, pieces: tuple[Piece, ...], node: str) -> int:
-    """Body of a member's walls at a node; there are none between the node and a hinge that lies there."""
-    from_node = structure.members[pieces[0].member].nodes[0] == node
-    return next(piece.body for piece in (pieces if from_node else pieces[::-1]) if piece.end > piece.start)
-
-
-def _tips(outline: Floats, inset: float, across: Floats, axis: Floats, other: Floats) -> Floats:
-    """Corners of a member's walls beyond the node that another shares, from the node, (points, 3) [m].
-
-    Every line along the walls starts in the plane that halves the angle, as at a mitre, but not further
-    beyond the node than it is from the member's axis: at acute angles shells have no mitre, but this outline.
-    """
-    plane = axis - other
-    if float(axis @ other) > math.cos(NARROWEST):
-        return np.zeros((0, 3))
-
-    def starts(points: Floats) -> Floats:
-        arms = points @ across
-        meeting = -(arms @ plane) / float(axis @ plane)
-        return np.asarray(np.maximum(meeting, -np.linalg.norm(arms, axis=1)))
-
-    # the line that starts first may lie between the directions; of equal ones the first in this order
-    first = outline[int(np.rint(starts(outline) / inset).argmin())]
-    points = np.vstack([_face_corners(outline, inset), _moved_in(first, outline, inset)])
-    start = starts(points)
-    kept = start < -LEAST_TIP * np.linalg.norm(points, axis=1)
-    return np.asarray((points @ across + start[:, None] * axis)[kept])
-
-
-def _face_corners(outline: Floats, inset: float) -> Floats:
-    """Points of an outline that are outermost in `DIRECTIONS`, moved in, (points, 2) [m]."""
-    turns = 2.0 * np.pi * (np.arange(DIRECTIONS) + 0.5) / DIRECTIONS
-    outwards = np.stack([np.cos(turns), np.sin(turns)], axis=1)
-    return _moved_in(outline[np.unique((outline @ outwards.T).argmax(axis=0))], outline, inset)
-
-
-def _moved_in(points: Floats, outline: Floats, inset: float) -> Floats:
-    middle = (outline.min(axis=0) + outline.max(axis=0)) / 2.0
-    return np.asarray(points - inset * np.sign(points - middle))
-
-
-def capsule_rows(outline: Floats) -> tuple[Floats, float]:
-    """Places of a member's capsules in its section [m], (rows, 2), and their radius [m]."""
-    low, high = outline.min(axis=0), outline.max(axis=0)
-    centre, size = (low + high) / 2.0, high - low
-    radius = float(size.min()) / 2.0
-    if size.max() <= ROUND * size.min():
-        return centre[None, :], float(size.mean()) / 2.0
-    apart = np.zeros(2)
-    apart[int(size.argmax())] = float(size.max()) / 2.0 - radius
-    return np.array([centre - apart, centre + apart]), radius
-
-
-def touching_pairs(
-    structure: Structure, capsules: list[SpatialCapsule], member: list[str]
-) -> Iterator[tuple[int, int]]:
-    """Pairs of capsules that can come into contact: of members without a common node, on different bodies."""
-    if len(capsules) * (len(capsules) - 1) // 2 > MOST_PAIRS:
-        what, allowed = (
-            f"{len(capsules)} bars are too many to touch each other",
-            f"at most {MOST_PAIRS} pairs",
-        )
-        todo = "leave 'member_contact' out, or describe the structure by fewer bars"
-        raise InputError(Problem(what, "", allowed, todo, "member_contact"))
-    nodes = {name: set(spec.nodes) for name, spec in structure.members.items()}
-    for i, j in combinations(range(len(capsules)), 2):
-        go_on()
-        if capsules[i].body != capsules[j].body and not nodes[member[i]] & nodes[member[j]]:
-            yield i, j
 
 
 def _unit(direction: tuple[float, float, float]) -> Floats:

@@ -1,8 +1,9 @@
-"""Warnings for moving obstacles that pass through held parts of members, which have no contact.
+"""Warnings for moving obstacles that pass through held parts of members with which they have no contact.
 
-A held part is the ground, and a driven obstacle is given: no force between them could change anything.  What
-hangs on the held part may then be pressed where it cannot give way, at the axis of its hinge.  Looked at is
-translation at the output times; planes with an edge and obstacles that turn are left out.
+A held part is the ground, and a driven obstacle is given: no force between them could change anything.  Those
+with a mass are stopped by held parts, except those that fold along the member.  What hangs on the held part
+may then be pressed where it cannot give way, at the axis of its hinge.  Looked at is translation at the
+output times; planes with an edge and obstacles that turn are left out.
 """
 
 from __future__ import annotations
@@ -12,7 +13,8 @@ import numpy as np
 from crumple._core.outcome import Outcome
 from crumple._core.spatial.model import SpatialCapsule
 from crumple.multibody.answer.solved import Solved
-from crumple.multibody.bodies.obstacle_bodies import member_capsules
+from crumple.multibody.bodies.capsules import member_capsules, pieces_by_length
+from crumple.multibody.bodies.linkage import link
 from crumple.multibody.checks.overlap import segment_distance
 from crumple.numeric.arrays import Floats
 from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Structure
@@ -33,14 +35,17 @@ def held_part_warnings(structure: Structure, solved: Solved) -> list[str]:
     deepest = np.full(len(solved.time), -DEPTH)
     if ended:
         deepest[last] = DEPTH
-    capsules, owner = member_capsules(structure, solved.poses.pieces, held=True)
+    all_parts = member_capsules(structure, solved.poses.pieces, held=True)
+    folding = pieces_by_length(link(structure), fixed=False)
+    passed_by_masses = member_capsules(structure, folding, held=True)
     for name, obstacle in structure.obstacles.items():
         if f"obstacle.{name}.displacement.x" not in channels or obstacle.turning is not None:
             continue
         travel = np.stack([channels[f"obstacle.{name}.displacement.{axis}"] for axis in "xyz"], axis=1)
         force = np.stack([channels[f"obstacle.{name}.force.{axis}"] for axis in "xyz"], axis=1)
         met: dict[str, int] = {}  # output at which it is first inside a member's held part
-        for capsule, member in zip(capsules, owner, strict=True):
+        parts_met = all_parts if obstacle.mass is None else passed_by_masses
+        for capsule, member in zip(*parts_met, strict=True):
             if obstacle.members is not None and member not in obstacle.members:
                 continue
             gaps = _gaps(obstacle, travel, capsule)

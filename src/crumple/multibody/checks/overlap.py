@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from crumple.multibody.bodies.capsules import member_capsules, touching_pairs
 from crumple.multibody.bodies.linkage import link
-from crumple.multibody.bodies.obstacle_bodies import member_capsules, touching_pairs
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import cross
 from crumple.structure import Structure

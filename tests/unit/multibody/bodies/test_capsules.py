@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from tests.support.multibody.frames import member, structure
 
+from crumple.multibody.bodies.capsules import end_corners, member_capsules
 from crumple.multibody.bodies.linkage import link
-from crumple.multibody.bodies.obstacle_bodies import end_corners, member_capsules
 
 
 @pytest.mark.parametrize("segments", [None, 4, 32])

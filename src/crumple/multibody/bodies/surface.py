@@ -1,0 +1,106 @@
+"""What of a structure obstacles can touch: capsules, corners, and the faces of ends that crumple."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from crumple._core.spatial.model import SpatialCapsule
+from crumple.multibody.bodies.capsules import end_body, end_corners, member_capsules, pieces_by_length
+from crumple.multibody.bodies.crumpling_ends import CrumplingEnd, crumpling_ends
+from crumple.multibody.bodies.linkage import GROUND, Linkage
+from crumple.structure import Obstacle, PlaneObstacle, Structure, gap
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """What can be touched of members, in the order of the model's capsules.
+
+    Attributes
+    ----------
+    whole, member
+        Capsules of members, and the member of each.
+    shortened
+        Capsules that replace one of these, an index, for the plane on which an end crumples.
+    corners
+        As `end_corners`.
+    faces
+        Points of ends that crumple.
+    """
+
+    whole: list[SpatialCapsule]
+    member: list[str]
+    shortened: list[tuple[CrumplingEnd, int, SpatialCapsule | None]]
+    corners: list[tuple[SpatialCapsule, set[str], str | None]]
+    faces: list[tuple[CrumplingEnd, SpatialCapsule]]
+
+    @property
+    def capsules(self) -> tuple[SpatialCapsule, ...]:
+        """All of them."""
+        rest = [capsule for *_, capsule in self.shortened if capsule is not None]
+        return (*self.whole, *rest, *(ball for ball, *_ in self.corners), *(ball for _, ball in self.faces))
+
+    @property
+    def members(self) -> tuple[str, ...]:
+        """Member of every capsule before the corners."""
+        return (*self.member, *(end.member for end, _, rest in self.shortened if rest is not None))
+
+    @property
+    def points(self) -> dict[int, CrumplingEnd]:
+        """Ends by the indices of their points."""
+        return dict(enumerate((end for end, _ in self.faces), len(self.members) + len(self.corners)))
+
+    def owners(self, name: str, obstacle: Obstacle) -> list[set[str]]:
+        """Members that an obstacle touches with every capsule; what is held stops nothing but a mass."""
+        replaced = {index for end, index, _ in self.shortened if end.obstacle == name}
+        nodes = {end.node for end, _ in self.faces if end.obstacle == name}
+        found = [
+            {of} if index not in replaced and _meets(capsule, obstacle) else set()
+            for index, (capsule, of) in enumerate(zip(self.whole, self.member, strict=True))
+        ]
+        found += [_of(end, name) for end, _, rest in self.shortened if rest is not None]
+        if isinstance(obstacle, PlaneObstacle):
+            # what starts inside is met with the round ends of capsules, which are less far out
+            found += [
+                of
+                if free not in nodes
+                and _meets(ball, obstacle)
+                and (free or float(gap(obstacle, ball.first)) > 0.0)
+                else set()
+                for ball, of, free in self.corners
+            ]
+            found += [_of(end, name) for end, _ in self.faces]
+        return found
+
+
+def _meets(capsule: SpatialCapsule, obstacle: Obstacle) -> bool:
+    return capsule.body != GROUND or obstacle.mass is not None
+
+
+def _of(end: CrumplingEnd, obstacle: str) -> set[str]:
+    return {end.member} if end.obstacle == obstacle else set()
+
+
+def surface_of(
+    structure: Structure, linkage: Linkage, moving: list[SpatialCapsule], member: list[str]
+) -> Surface:
+    """What obstacles can touch; `moving` and `member` are the capsules of all pieces that move."""
+    capsules, owners = list(moving), list(member)
+    corners = list(end_corners(structure, linkage.pieces))
+    if any(obstacle.mass is not None for obstacle in structure.obstacles.values()):
+        # other obstacles are held or driven themselves
+        held, owner = member_capsules(structure, pieces_by_length(linkage, fixed=True), held=True)
+        capsules, owners = capsules + held, owners + owner
+        corners += end_corners(structure, linkage.pieces, held=True)
+    ends = [
+        (end, body)
+        for end in crumpling_ends(structure)
+        if (body := end_body(structure, linkage.pieces[end.member], end.node)) != GROUND
+    ]
+    shortened = [
+        (end, index, end.shortened(capsule))
+        for end, _ in ends
+        for index, capsule in enumerate(moving)
+        if member[index] == end.member and end.reaches(capsule)
+    ]
+    faces = [(end, ball) for end, body in ends for ball in end.face(structure, body)]
+    return Surface(capsules, owners, shortened, corners, faces)
