@@ -22,6 +22,7 @@ from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges.asked import any_automatic
 from crumple.structure.hinges.elastic_members import with_elastic_members
 from crumple.structure.hinges.hinges import PlacedHinge, placed_hinges, plastic_hinges, shares_left_out
+from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.law_use import law_uses, used_texts, with_used_laws
 from crumple.structure.hinges.places import HingePlace, hinge_places, member_hinge_places
 from crumple.structure.keys.joint import Joint
@@ -106,6 +107,7 @@ __all__ = [
     "gap",
     "hinge_places",
     "history_problems",
+    "joint_reach",
     "law_uses",
     "member_hinge_places",
     "output_problems",

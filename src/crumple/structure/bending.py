@@ -98,9 +98,9 @@ def _obstacle_across(
 ) -> Iterator[tuple[str, float]]:
     """Share of an obstacle's push out of a plane, by key.
 
-    Its force acts across its surface and, with friction, along the relative motion.  The surfaces of planes whose
-    normals are in the plane, of poles across the plane that reach through the structure, and of poles and balls
-    whose axis or centre is in the plane are symmetric to it, so that they push in the plane.
+    Its force acts across its surface and, with friction, along the relative motion.  The surfaces of planes
+    whose normals are in the plane, of poles across the plane that reach through the structure, and of poles
+    and balls whose axis or centre is in the plane are symmetric to it, so that they push in the plane.
     """
     height = float((np.asarray(obstacle.point) - structure.nodes[_any_node(structure)]) @ normal)
     endless = isinstance(obstacle, PlaneObstacle) or getattr(obstacle, "length", 1.0) is None

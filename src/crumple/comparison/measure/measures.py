@@ -22,6 +22,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from crumple.comparison.measure.contacts import dissipated_at, hinge_work, impulse
+from crumple.comparison.measure.rings import rotations
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import rotation_vector
 from crumple.result import Result, States
@@ -300,12 +301,7 @@ def _ring(states: States, member: str, place: tuple[float, float], folds: list[f
     points = np.flatnonzero(own & (np.abs(states.station - nearest) < 1e-8))
     start = states.points[points]
     now = start + states.displacement[:, points]
-    scatter = np.einsum("pi,tpj->tij", start - start.mean(axis=0), now - now.mean(axis=1)[:, None])
-    u, _, vt = np.linalg.svd(scatter)
-    v = np.swapaxes(vt, 1, 2)
-    flip = np.linalg.det(v @ np.swapaxes(u, 1, 2))
-    v[:, :, 2] *= flip[:, None]
-    return np.asarray(v @ np.swapaxes(u, 1, 2))
+    return rotations(start, now)
 
 
 def _opening(states: States, vectors: Floats) -> float | None:
