@@ -50,6 +50,7 @@ from crumple.structure.schema.mapping import FrozenMapping
 from crumple.structure.settings.multibody_settings import MultibodySettings
 from crumple.structure.settings.shell_settings import FinePlace, ShellSettings
 from crumple.structure.settings.stored_laws import StoredLaws
+from crumple.structure.struck_places import struck_places
 from crumple.structure.structure import Structure
 
 __all__ = [
@@ -118,6 +119,7 @@ __all__ = [
     "shares_left_out",
     "shell_problems",
     "stage_problems",
+    "struck_places",
     "used_texts",
     "value_at",
     "with_elastic_members",

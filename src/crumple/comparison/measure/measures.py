@@ -2,7 +2,8 @@
 
 Everything but energies and forces is read off the stored shapes.  A node's *zone* reaches along each of its
 members by `REACH` of the section's largest side, at most `PART` of the member; what is left of a member is
-its *span*.
+its *span*.  A border that would cut through the fold where an obstacle strikes the member between its nodes
+lies half a fold away from it, on the side on which it was.
 
 - Extent: largest change of each requested distance, else largest displacement of each requested node.
 - Rotation of a joint: that of the ring of wall points at the border of its zone in each further member,
@@ -27,7 +28,8 @@ from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import rotation_vector
 from crumple.result import Result, States
 from crumple.result.filters import cfc
-from crumple.structure import Structure, plastic_hinges
+from crumple.section import AXES, half_fold_length
+from crumple.structure import Structure, plastic_hinges, struck_places
 
 REACH = 2.0
 """Reach of a zone along a member, over the largest side of its section: folds at corners lie within it."""
@@ -211,10 +213,21 @@ def _mean(time: Floats, force: Floats, rest: float) -> float:
 
 def _borders(structure: Structure, member: str) -> tuple[float, float]:
     """Stations at which the zones of a member's nodes end [m]."""
-    length = structure.frame_of(member).length
-    side = float(np.ptp(structure.section_of(member).outline(), axis=0).max())
+    length, section = structure.frame_of(member).length, structure.section_of(member)
+    side = float(np.ptp(section.outline(), axis=0).max())
     reach = min(REACH * side, PART * length)
-    return reach, length - reach
+    places = struck_places(structure, member)
+    half = max(half_fold_length(section, axis) for axis in AXES) if places else 0.0
+    low, high = reach, length - reach
+    for place in places:
+        low, high = (_beside(border, place.station, half) for border in (low, high))
+    return low, high
+
+
+def _beside(border: float, fold: float, half: float) -> float:
+    """A border at least half a fold away from the middle of a fold, on the side on which it was [m]."""
+    apart = border - fold
+    return border if abs(apart) >= half else fold + float(np.copysign(half, apart))
 
 
 def _zone(structure: Structure, member: str, station: float) -> str:
