@@ -72,6 +72,9 @@ class Measures:
         Processor time of the solve [s]; 0: not measured.
     paths
         `SAMPLES` values of each extent at equal intervals [m].
+    shortened
+        Largest decrease of the distance between the first and the last ring of each member [m]; empty in
+        stored figures from before it was measured.
     """
 
     status: str
@@ -87,6 +90,7 @@ class Measures:
     energy: dict[str, float] = field(default_factory=dict)
     seconds: float = 0.0
     paths: dict[str, list[float]] = field(default_factory=dict)
+    shortened: dict[str, float] = field(default_factory=dict)
 
     @property
     def complete(self) -> bool:
@@ -140,6 +144,7 @@ def measure(result: Result, structure: Structure, seconds: float = 0.0) -> Measu
         energy=_energy(result),
         seconds=round(seconds, 3),
         paths={name: _path(result.time, values) for name, values in extents.items()},
+        shortened={name: _shortened(result.states, name) for name in structure.members},
     )
 
 
@@ -292,6 +297,16 @@ def _rotations(states: States, structure: Structure) -> dict[str, Floats]:
             continue
         found |= {f"{node}, {m} to {ends[0][0]}": _between(rings[ends[0]], rings[m, e]) for m, e in ends[1:]}
     return found
+
+
+def _shortened(states: States, member: str) -> float:
+    """Largest decrease of the distance between a member's outer rings over all states [m]."""
+    own = np.flatnonzero(states.member == states.member_names.index(member))
+    station = states.station[own]
+    first, last = (own[np.abs(station - end) < 1e-8] for end in (station.min(), station.max()))
+    start = states.points[last].mean(axis=0) - states.points[first].mean(axis=0)
+    moved = states.displacement[:, last].mean(axis=1) - states.displacement[:, first].mean(axis=1)
+    return float(np.linalg.norm(start) - np.linalg.norm(start + moved, axis=1).min())
 
 
 def _between(first: Floats, second: Floats) -> Floats:
