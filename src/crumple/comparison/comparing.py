@@ -111,8 +111,8 @@ def _figures(candidate: Result, reference: Result, structure: Structure) -> Mapp
     """What engineers decide on, if both runs are whole and long alike and their shapes are known."""
     if not _alike(candidate, reference) or not all(measurable(result) for result in (candidate, reference)):
         return {}
-    own, wanted = (with_joined_zones(measure(one, structure), structure) for one in (candidate, reference))
-    return figures_of(own, wanted)
+    own, wanted = (measure(one, structure) for one in (candidate, reference))
+    return figures_of(with_joined_zones(own, structure, wanted), with_joined_zones(wanted, structure, wanted))
 
 
 def _alike(candidate: Result, reference: Result) -> bool:

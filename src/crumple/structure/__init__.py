@@ -22,6 +22,7 @@ from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges.asked import any_automatic
 from crumple.structure.hinges.elastic_members import with_elastic_members
 from crumple.structure.hinges.hinges import PlacedHinge, placed_hinges, plastic_hinges, shares_left_out
+from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.law_use import law_uses, used_texts, with_used_laws
 from crumple.structure.hinges.places import HingePlace, hinge_places, member_hinge_places
 from crumple.structure.keys.joint import Joint
@@ -49,6 +50,7 @@ from crumple.structure.schema.mapping import FrozenMapping
 from crumple.structure.settings.multibody_settings import MultibodySettings
 from crumple.structure.settings.shell_settings import FinePlace, ShellSettings
 from crumple.structure.settings.stored_laws import StoredLaws
+from crumple.structure.struck_places import struck_places
 from crumple.structure.structure import Structure
 
 __all__ = [
@@ -106,6 +108,7 @@ __all__ = [
     "gap",
     "hinge_places",
     "history_problems",
+    "joint_reach",
     "law_uses",
     "member_hinge_places",
     "output_problems",
@@ -116,6 +119,7 @@ __all__ = [
     "shares_left_out",
     "shell_problems",
     "stage_problems",
+    "struck_places",
     "used_texts",
     "value_at",
     "with_elastic_members",

@@ -13,6 +13,7 @@ import numpy as np
 
 from crumple.numeric.arrays import Floats
 from crumple.structure.geometry import FLAT
+from crumple.structure.keys.obstacles import CylinderObstacle, Obstacle, PlaneObstacle
 from crumple.structure.parts import StructureParts
 
 PLANAR = ("planar", "")
@@ -38,7 +39,7 @@ def bending_axis(structure: StructureParts, member: str) -> Literal["y", "z"]:
 
 
 def planar(structure: StructureParts) -> bool:
-    """Whether a structure lies in a plane and has no motion or load normal to it."""
+    """Whether a structure lies in a plane, with no motion, load or obstacle that pushes out of it."""
     normal = structure.bending_normal
     return normal is not None and structure.kept.once(
         *PLANAR, lambda: across_plane(structure, np.asarray(normal)) is None
@@ -46,7 +47,7 @@ def planar(structure: StructureParts) -> bool:
 
 
 def across_plane(structure: StructureParts, normal: Floats) -> str | None:
-    """Path of the first input with motion or load normal to a plane; None if all is in the plane.
+    """Path of the first input that moves or pushes out of a plane; None if all is in the plane.
 
     Parameters
     ----------
@@ -59,15 +60,13 @@ def across_plane(structure: StructureParts, normal: Floats) -> str | None:
 
 
 def _parts_across(structure: StructureParts, normal: Floats) -> Iterator[tuple[str, float]]:
-    """Share of every velocity, impulse, force and driven motion that leads out of a plane, by its path."""
+    """Share of all velocities, impulses, forces, driven motions and obstacles out of a plane, by path."""
 
     def along(vector: Iterable[float]) -> float:
-        given = np.asarray(tuple(vector), float)
-        return abs(float(given @ normal)) / (float(np.linalg.norm(given)) or 1.0)
+        return _along(vector, normal)
 
     def aside(vector: Iterable[float]) -> float:
-        given = np.asarray(tuple(vector), float)
-        return float(np.linalg.norm(np.cross(given, normal))) / (float(np.linalg.norm(given)) or 1.0)
+        return _aside(vector, normal)
 
     for i, field in enumerate(structure.initial_velocity):
         yield f"initial_velocity[{i}]", along(field.translation)
@@ -89,3 +88,67 @@ def _parts_across(structure: StructureParts, normal: Floats) -> Iterator[tuple[s
         size = float(np.linalg.norm(mass.offset))
         yield f"masses.{name}.offset", along(mass.offset) if size > 0.0 else 0.0
     yield "gravity", along(structure.gravity)
+    for name, obstacle in structure.obstacles.items():
+        for key, part in _obstacle_across(structure, obstacle, normal):
+            yield f"obstacles.{name}.{key}", part
+
+
+def _obstacle_across(
+    structure: StructureParts, obstacle: Obstacle, normal: Floats
+) -> Iterator[tuple[str, float]]:
+    """Share of an obstacle's push out of a plane, by key.
+
+    Its force acts across its surface and, with friction, along the relative motion.  The surfaces of planes
+    whose normals are in the plane, of poles across the plane that reach through the structure, and of poles
+    and balls whose axis or centre is in the plane are symmetric to it, so that they push in the plane.
+    """
+    height = float((np.asarray(obstacle.point) - structure.nodes[_any_node(structure)]) @ normal)
+    endless = isinstance(obstacle, PlaneObstacle) or getattr(obstacle, "length", 1.0) is None
+    if isinstance(obstacle, PlaneObstacle):
+        yield "normal", _along(obstacle.normal, normal)
+        yield "edge", _along(obstacle.edge or (0.0, 0.0, 0.0), normal)
+    elif isinstance(obstacle, CylinderObstacle):
+        across = _aside(obstacle.axis, normal)
+        yield "axis", min(across, _along(obstacle.axis, normal))
+        if across > 0.5:
+            yield "point", abs(height) / obstacle.radius
+        elif obstacle.length is not None:
+            yield "length", _uncovered(structure, height, float(np.dot(obstacle.axis, normal)), obstacle)
+    else:
+        yield "point", abs(height) / float(getattr(obstacle, "radius", 1.0))
+    # a surface without end along the normal of the plane drags the structure along by friction only
+    if obstacle.friction > 0.0 or not endless:
+        guide = obstacle.guide_direction
+        yield "velocity", _along(obstacle.velocity if guide is None else guide, normal)
+        for axis, unit in zip("xyz", np.eye(3), strict=True):
+            if getattr(obstacle.motion, axis) is not None:
+                yield "motion", _along(unit, normal)
+    if obstacle.turning is not None:
+        yield "turning", _aside(obstacle.turning.axis, normal)
+
+
+def _uncovered(structure: StructureParts, height: float, sense: float, pole: CylinderObstacle) -> float:
+    """How far from symmetric to the plane a pole across it is [-]; 0 if it reaches through the sections."""
+    assert pole.length is not None
+    reach = max(
+        float(np.linalg.norm(structure.section_of(m).outline(), axis=1).max()) for m in structure.members
+    )
+    low, high = sorted((height, height + float(np.copysign(pole.length, sense))))
+    return 0.0 if low <= -reach and high >= reach else abs(low + high) / pole.length
+
+
+def _any_node(structure: StructureParts) -> str:
+    """A node of a member: all are in the plane."""
+    return next(iter(structure.members.values())).nodes[0]
+
+
+def _along(vector: Iterable[float], normal: Floats) -> float:
+    """Share of a vector along a unit vector [-]; 0 of a zero vector."""
+    given = np.asarray(tuple(vector), float)
+    return abs(float(given @ normal)) / (float(np.linalg.norm(given)) or 1.0)
+
+
+def _aside(vector: Iterable[float], normal: Floats) -> float:
+    """Share of a vector at right angles to a unit vector [-]; 0 of a zero vector."""
+    given = np.asarray(tuple(vector), float)
+    return float(np.linalg.norm(np.cross(given, normal))) / (float(np.linalg.norm(given)) or 1.0)

@@ -5,6 +5,9 @@
   side of the obstacle in any stored shape.
 - Dissipation at the contact: plastic work of wall elements, or energy of hinges, whose place on the member's
   axis at the start lies within one side of a place of contact; and the energies of contact and friction.
+- Struck joints: members that meet at a rigid joint fold outside of it, and shells have no walls in it.  Where
+  its outline or a station within its reach touches, the places of contact are its faces: what lies within the
+  reach and one side along each of its members counts.
 
 Energies of contact and friction are those of the whole model: where several obstacles press, or members touch
 members, they cannot be divided, and are left out.  The place of an obstacle that turns is not followed.  Of
@@ -18,9 +21,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from crumple.comparison.measure.rings import carried
 from crumple.numeric.arrays import Floats
 from crumple.result import Result, States
-from crumple.structure import Structure, gap, plastic_hinges
+from crumple.shell.mesh.cut_ends import outline_starts
+from crumple.structure import Structure, gap, joint_reach, plastic_hinges
 
 TOUCHES = 0.1
 """Distance from an obstacle over the largest side of the section up to which a wall point touches it: shells
@@ -28,6 +33,8 @@ keep half a wall away, and capsules round the corners of a section off."""
 LITTLE = 0.03
 """Share of the energy put in by which a dissipation at a contact may always differ, and up to which energy
 may be without a place."""
+SAMPLES = 4
+"""Points along the lines of a joint's outline, which are about as long as the section is wide."""
 TAKEN = ("energy.contact", "energy.friction")
 
 
@@ -57,17 +64,23 @@ def dissipated_at(
     frames = {member: structure.frame_of(member) for member in structure.members}
     places = np.array([frames[member].position(station) for member, station, _ in work]).reshape(-1, 3)
     energies = np.array([energy for *_, energy in work])
+    members = np.array([member for member, *_ in work])
     room = LITTLE * float(result["energy.kinetic"][0] + np.abs(result["energy.external_work"]).max())
     found = {}
+    ends = _joint_ends(structure)
     for name in pressing:
         if structure.obstacles[name].turning is not None:
             continue
         near = np.zeros(len(work), dtype=bool)
         touching = list(_contacts(result, structure, name))
-        if _without_place(result, {member for member, *_ in touching}, work) > room:
+        faces = list(_struck_faces(result, structure, name, ends, touching))
+        if _without_place(result, {member for member, *_ in (*touching, *faces)}, work) > room:
             continue
-        for _, place, side in touching:
-            near |= np.linalg.norm(places - place, axis=1) <= side
+        for member, station, side in touching:
+            near |= np.linalg.norm(places - frames[member].position(station), axis=1) <= side
+        for member, node, reach in faces:
+            from_node = np.linalg.norm(places - np.asarray(structure.nodes[node]), axis=1)
+            near |= (members == member) & (from_node <= reach)
         found[name] = float(energies[near].sum()) + taken
     return found
 
@@ -80,21 +93,100 @@ def _without_place(result: Result, members: set[str], work: list[tuple[str, floa
     return sum(found) - known if found and result.fidelity != "shell" else 0.0
 
 
-def _contacts(result: Result, structure: Structure, obstacle: str) -> Iterator[tuple[str, Floats, float]]:
-    """Members that touch an obstacle, the place on their axis at the start, side of their section [m]."""
+def _contacts(result: Result, structure: Structure, obstacle: str) -> Iterator[tuple[str, float, float]]:
+    """Members that touch an obstacle, station at which they do, side of their section [m]."""
     states = result.states
     assert states is not None
-    solid = structure.obstacles[obstacle]
-    only, shapes = solid.members, zip(states.displacement, _travel(result, states, obstacle), strict=True)
-    least = np.min([gap(solid, states.points + moved - by) for moved, by in shapes], axis=0)
+    only = structure.obstacles[obstacle].members
+    least = _least_gaps(result, structure, obstacle, states.points + states.displacement)
     for m, member in enumerate(states.member_names):
         if only is not None and member not in only:
             continue
-        side = float(np.ptp(structure.section_of(member).outline(), axis=0).max())
+        side = _side(structure, member)
         touching = (states.member == m) & (least <= TOUCHES * side)
-        frame = structure.frame_of(member)
         for station in np.unique(states.station[touching].round(9)):
-            yield member, frame.position(float(station)), side
+            yield member, float(station), side
+
+
+def _struck_faces(
+    result: Result,
+    structure: Structure,
+    obstacle: str,
+    ends: dict[str, list[tuple[str, float]]],
+    touching: list[tuple[str, float, float]],
+) -> Iterator[tuple[str, str, float]]:
+    """Member, node, and distance from it that counts [m], of all ends of the joints that an obstacle strikes.
+
+    `ends`: members and their reach [m], by node; `touching`: stations of members that touch.
+    """
+    only = structure.obstacles[obstacle].members
+    for node, joined in ends.items():
+        own = [(member, reach) for member, reach in joined if only is None or member in only]
+        struck = any(
+            member == one and _from_node(structure, member, node, station) <= reach
+            for member, station, _ in touching
+            for one, reach in own
+        ) or any(
+            _least_gaps(result, structure, obstacle, _outline(result, structure, member, node, joined)).min()
+            <= TOUCHES * _side(structure, member)
+            for member, _ in own
+        )
+        if struck:
+            yield from ((member, node, reach + _side(structure, member)) for member, reach in joined)
+
+
+def _joint_ends(structure: Structure) -> dict[str, list[tuple[str, float]]]:
+    """Members that meet at each rigid joint, and its reach along them [m]."""
+    found: dict[str, list[tuple[str, float]]] = {}
+    for member, spec in structure.members.items():
+        for node in spec.nodes:
+            reach = joint_reach(structure, member, node)
+            if reach > 0.0:
+                found.setdefault(node, []).append((member, reach))
+    return found
+
+
+def _outline(
+    result: Result, structure: Structure, member: str, node: str, joined: list[tuple[str, float]]
+) -> Floats:
+    """Points of a member's outline between a joint's node and its first ring in all states [m], (n, m, 3)."""
+    states = result.states
+    assert states is not None
+    own = np.flatnonzero(states.member == states.member_names.index(member))
+    away = _from_node(structure, member, node, states.station[own])
+    ring = own[away <= away.min() + 1e-9]
+    axis = _outgoing(structure, member, node)
+    others = [_outgoing(structure, other, node) for other, _ in joined if other != member]
+    start, base = states.points[ring], np.asarray(structure.nodes[node])
+    beside = start - base - np.outer((start - base) @ axis, axis)
+    first = outline_starts(beside, axis, others)
+    along = first + (float(away.min()) - first) * np.linspace(0.0, 1.0, SAMPLES)[:, None]
+    points = (base + along[..., None] * axis + beside).reshape(-1, 3)
+    return carried(start, start + states.displacement[:, ring], points)
+
+
+def _from_node(structure: Structure, member: str, node: str, station: Floats | float) -> Floats:
+    """Distance of stations of a member from one of its nodes [m]."""
+    first = structure.members[member].nodes[0] == node
+    return np.asarray(station if first else structure.frame_of(member).length - station)
+
+
+def _outgoing(structure: Structure, member: str, node: str) -> Floats:
+    """Unit vector from one of its nodes into a member, (3,)."""
+    along = structure.frame_of(member).x
+    return along if structure.members[member].nodes[0] == node else -along
+
+
+def _side(structure: Structure, member: str) -> float:
+    """Largest side of a member's section [m]."""
+    return float(np.ptp(structure.section_of(member).outline(), axis=0).max())
+
+
+def _least_gaps(result: Result, structure: Structure, obstacle: str, shapes: Floats) -> Floats:
+    """Least distance of points from an obstacle over all states [m], (n,); shapes: (n_states, n, 3)."""
+    assert result.states is not None
+    moved = shapes - _travel(result, result.states, obstacle)[:, None]
+    return np.asarray(gap(structure.obstacles[obstacle], moved).min(axis=0))
 
 
 def _travel(result: Result, states: States, obstacle: str) -> Floats:

@@ -2,7 +2,8 @@
 
 Everything but energies and forces is read off the stored shapes.  A node's *zone* reaches along each of its
 members by `REACH` of the section's largest side, at most `PART` of the member; what is left of a member is
-its *span*.
+its *span*.  A border that would cut through the fold where an obstacle strikes the member between its nodes
+lies half a fold away from it, on the side on which it was.
 
 - Extent: largest change of each requested distance, else largest displacement of each requested node.
 - Rotation of a joint: that of the ring of wall points at the border of its zone in each further member,
@@ -22,11 +23,13 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from crumple.comparison.measure.contacts import dissipated_at, hinge_work, impulse
+from crumple.comparison.measure.rings import rotations
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import rotation_vector
 from crumple.result import Result, States
 from crumple.result.filters import cfc
-from crumple.structure import Structure, plastic_hinges
+from crumple.section import AXES, half_fold_length
+from crumple.structure import Structure, plastic_hinges, struck_places
 
 REACH = 2.0
 """Reach of a zone along a member, over the largest side of its section: folds at corners lie within it."""
@@ -69,6 +72,9 @@ class Measures:
         Processor time of the solve [s]; 0: not measured.
     paths
         `SAMPLES` values of each extent at equal intervals [m].
+    shortened
+        Largest decrease of the distance between the first and the last ring of each member [m]; empty in
+        stored figures from before it was measured.
     """
 
     status: str
@@ -84,6 +90,7 @@ class Measures:
     energy: dict[str, float] = field(default_factory=dict)
     seconds: float = 0.0
     paths: dict[str, list[float]] = field(default_factory=dict)
+    shortened: dict[str, float] = field(default_factory=dict)
 
     @property
     def complete(self) -> bool:
@@ -137,6 +144,7 @@ def measure(result: Result, structure: Structure, seconds: float = 0.0) -> Measu
         energy=_energy(result),
         seconds=round(seconds, 3),
         paths={name: _path(result.time, values) for name, values in extents.items()},
+        shortened={name: _shortened(result.states, name) for name in structure.members},
     )
 
 
@@ -210,10 +218,21 @@ def _mean(time: Floats, force: Floats, rest: float) -> float:
 
 def _borders(structure: Structure, member: str) -> tuple[float, float]:
     """Stations at which the zones of a member's nodes end [m]."""
-    length = structure.frame_of(member).length
-    side = float(np.ptp(structure.section_of(member).outline(), axis=0).max())
+    length, section = structure.frame_of(member).length, structure.section_of(member)
+    side = float(np.ptp(section.outline(), axis=0).max())
     reach = min(REACH * side, PART * length)
-    return reach, length - reach
+    places = struck_places(structure, member)
+    half = max(half_fold_length(section, axis) for axis in AXES) if places else 0.0
+    low, high = reach, length - reach
+    for place in places:
+        low, high = (_beside(border, place.station, half) for border in (low, high))
+    return low, high
+
+
+def _beside(border: float, fold: float, half: float) -> float:
+    """A border at least half a fold away from the middle of a fold, on the side on which it was [m]."""
+    apart = border - fold
+    return border if abs(apart) >= half else fold + float(np.copysign(half, apart))
 
 
 def _zone(structure: Structure, member: str, station: float) -> str:
@@ -282,6 +301,16 @@ def _rotations(states: States, structure: Structure) -> dict[str, Floats]:
     return found
 
 
+def _shortened(states: States, member: str) -> float:
+    """Largest decrease of the distance between a member's outer rings over all states [m]."""
+    own = np.flatnonzero(states.member == states.member_names.index(member))
+    station = states.station[own]
+    first, last = (own[np.abs(station - end) < 1e-8] for end in (station.min(), station.max()))
+    start = states.points[last].mean(axis=0) - states.points[first].mean(axis=0)
+    moved = states.displacement[:, last].mean(axis=1) - states.displacement[:, first].mean(axis=1)
+    return float(np.linalg.norm(start) - np.linalg.norm(start + moved, axis=1).min())
+
+
 def _between(first: Floats, second: Floats) -> Floats:
     """Rotation vectors of the second relative to the first, in the axes of the first, (n, 3)."""
     return rotation_vector(np.swapaxes(first, 1, 2) @ second)
@@ -302,12 +331,7 @@ def _ring(states: States, member: str, place: tuple[float, float], folds: list[f
     points = np.flatnonzero(own & (np.abs(states.station - nearest) < 1e-8))
     start = states.points[points]
     now = start + states.displacement[:, points]
-    scatter = np.einsum("pi,tpj->tij", start - start.mean(axis=0), now - now.mean(axis=1)[:, None])
-    u, _, vt = np.linalg.svd(scatter)
-    v = np.swapaxes(vt, 1, 2)
-    flip = np.linalg.det(v @ np.swapaxes(u, 1, 2))
-    v[:, :, 2] *= flip[:, None]
-    return np.asarray(v @ np.swapaxes(u, 1, 2))
+    return rotations(start, now)
 
 
 def _opening(states: States, vectors: Floats) -> float | None:

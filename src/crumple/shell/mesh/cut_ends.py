@@ -62,7 +62,7 @@ def cut_ends_of(
         axes = [outgoing(structure, end) for end in joint.ends]
         for i, (end, cut) in enumerate(zip(joint.ends, joint.cut, strict=True)):
             ring = contours[end.member].points @ structure.frame_of(end.member).axes[1:]
-            start = _starts(ring, axes[i], axes[:i] + axes[i + 1 :])
+            start = outline_starts(ring, axes[i], axes[:i] + axes[i + 1 :])
             steps = math.ceil((cut - float(start.min())) / size)
             along = start + (cut - start) * (np.arange(steps) / steps)[:, None]
             points = np.asarray(structure.nodes[joint.node]) + along[..., None] * axes[i] + ring
@@ -72,8 +72,16 @@ def cut_ends_of(
     return tuple(ends), positions
 
 
-def _starts(ring: Floats, axis: Floats, others: list[Floats]) -> Floats:
-    """Distances from the node at which the lines of the contour points start [m], (n,)."""
+def outline_starts(ring: Floats, axis: Floats, others: list[Floats]) -> Floats:
+    """Distances from the node at which the lines of the contour points start [m], (n,).
+
+    Parameters
+    ----------
+    ring
+        Contour points relative to the member's axis [m], (n, 3).
+    axis, others
+        Unit vectors from the node into the member, and into the others, (3,) each.
+    """
     planes = [axis - other for other in others]
     meeting = [-(ring @ plane) / float(axis @ plane) for plane in planes]
     return np.asarray(np.maximum(np.max(meeting, axis=0), -np.linalg.norm(ring, axis=1)))

@@ -1,5 +1,6 @@
 """Contacts of obstacles in a comparison: impulse, where they touch, what is dissipated there, and targets."""
 
+from copy import copy
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -14,7 +15,7 @@ from crumple.comparison.measure.decisive import figures_of
 from crumple.comparison.measure.measures import Measures, measure
 from crumple.multibody import Run, solve_multibody
 from crumple.report.wording.comparison_wording import contact_table
-from crumple.structure import Outputs, Structure
+from crumple.structure import Outputs, Structure, joint_reach
 
 LAW = {"type": "constant", "moment": 1000.0}
 POLE = {
@@ -105,10 +106,9 @@ def test_of_two_that_press_neither_is_given_what_contact_takes(one):
 def test_only_members_that_may_touch_count_and_turning_obstacles_do_not(one):
     structure, result = one
     elsewhere = structure.obstacles["pole"].model_copy(update={"members": ("other",)})
-    apart = SimpleNamespace(
-        obstacles={"pole": elsewhere}, member_contact=None, members=structure.members,
-        frame_of=structure.frame_of, section_of=structure.section_of,
-    )  # fmt: skip
+    # unchecked: there is no other member
+    apart = copy(structure)
+    apart.__dict__["obstacles"] = {"pole": elsewhere}
     found = dissipated_at(result, apart, {"pole": 60.0}, hinge_work(result, structure))
     taken = result["energy.contact"][-1] + result["energy.friction"][-1]
     assert found["pole"] == pytest.approx(taken)
@@ -181,3 +181,40 @@ def test_the_page_and_the_command_show_both_values_and_what_is_beyond_its_target
         "Obstacle pole, dissipation at contact: 200 J (multibody), 200 J (shell)",
     ]
     assert not contact_table(SimpleNamespace(**(vars(shown) | {"figures": {}}))).rows
+
+
+def test_a_struck_joint_counts_alike_with_and_without_rings_in_it():
+    """Shells have no walls where a joint cuts its members back; the obstacle strikes the outline there."""
+    tube = {"type": "square_tube", "side": 0.04, "thickness": 2e-3}
+    nodes = {"a": (-0.4, 0.0, 0.0), "b": (0.0, 0.4, 0.0), "c": (0.0, 0.0, -0.4), "m": (0.0, 0.0, 0.0)}
+    plane = {"type": "plane", "point": (0.05, -0.05, 0.05), "normal": (-1.0, 1.0, -1.0), "mass": 50.0}
+    tripod = Structure(
+        materials={"steel": STEEL},
+        sections={"tube": tube},
+        nodes=nodes,
+        members={
+            n: {
+                "nodes": (n, "m"),
+                "section": "tube",
+                "material": "steel",
+                "hinges": [{"name": f"h{n}", "at": 0.345, "axes": ("y", "z", "x"), "axial": True}],
+            }
+            for n in "abc"
+        },
+        supports={n: {"node": n, "fix": "all"} for n in "ab"},
+        obstacles={"wall": plane | {"velocity": (-3.0, 3.0, -3.0)}},
+    )
+    result = solved(tripod)
+    states = result.states
+    kept = states.station < 0.4 - joint_reach(tripod, "a", "m") - 1e-6
+    walls = SimpleNamespace(
+        times=states.times, member_names=states.member_names, points=states.points[kept],
+        displacement=states.displacement[:, kept], member=states.member[kept], station=states.station[kept],
+    )  # fmt: skip
+    whole = at_contact(result, tripod, {"wall": 60.0})
+    hinges = sum(float(result[f"hinge.h{n}.energy"][-1]) for n in "abc")
+    taken = result["energy.contact"][-1] + result["energy.friction"][-1]
+    assert hinges > 0.0
+    assert whole["wall"] == pytest.approx(hinges + taken)
+    shells = replace(result, fidelity="shell", states=walls)
+    assert dissipated_at(shells, tripod, {"wall": 60.0}, hinge_work(result, tripod)) == whole

@@ -24,16 +24,16 @@ def chain(first, second, third=None):
 
 
 def test_the_zones_of_a_member_that_folds_along_its_axis_are_one():
-    assert joined_zones(chain(None, None)) == {}
+    assert joined_zones(chain(None, None), {}) == {}
     # walls that yield along the member without folding do so where the hinge is
-    assert joined_zones(chain(True, None)) == {}
-    assert joined_zones(chain(FOLDS, None)) == dict.fromkeys(("a", "b", "span of ab"), "all of ab")
+    assert joined_zones(chain(True, None), {}) == {}
+    assert joined_zones(chain(FOLDS, None), {}) == dict.fromkeys(("a", "b", "span of ab"), "all of ab")
 
 
 def test_members_that_share_a_node_are_one_zone_and_others_are_not():
     both = dict.fromkeys(("a", "b", "c", "span of ab", "span of bc"), "all of ab and bc")
-    assert joined_zones(chain(FOLDS, FOLDS)) == both
-    ends = joined_zones(chain(FOLDS, None, FOLDS))
+    assert joined_zones(chain(FOLDS, FOLDS), {}) == both
+    ends = joined_zones(chain(FOLDS, None, FOLDS), {})
     assert set(ends.values()) == {"all of ab", "all of cd"}
 
 
@@ -41,9 +41,21 @@ def test_energies_are_added_and_joining_twice_changes_nothing():
     measures = Measures(
         "complete", zones={"a": 1.0, "span of ab": 2.0, "b": 4.0, "span of bc": 8.0, "c": 16.0}
     )
-    once = with_joined_zones(measures, chain(FOLDS, None))
+    once = with_joined_zones(measures, chain(FOLDS, None), measures)
     assert once.zones == {"all of ab": 7.0, "span of bc": 8.0, "c": 16.0}
-    assert with_joined_zones(once, chain(FOLDS, None)) == once
+    assert with_joined_zones(once, chain(FOLDS, None), measures) == once
+
+
+def test_braced_members_are_one_zone_only_if_the_reference_shortens_them():
+    nodes = {"a": (1.0, 0.0, 0.0), "b": (-0.5, 0.9, 0.0), "c": (-0.5, -0.9, 0.0), "m": (0.0, 0.0, 0.1)}
+    members = {n: {"nodes": (n, "m"), "section": "tube", "material": "steel"} for n in "abc"}
+    supports = {n: {"node": n, "fix": "all"} for n in "abc"}
+    tripod = structure(nodes, members, supports=supports, hinges="auto")
+    # what was not measured counts as folded
+    assert set(joined_zones(tripod, {}).values()) == {"all of a and b and c"}
+    assert joined_zones(tripod, dict.fromkeys("abc", 0.002)) == {}
+    folded = joined_zones(tripod, {"a": 0.1, "b": 0.002, "c": 0.002})
+    assert folded == dict.fromkeys(("a", "m", "span of a"), "all of a")
 
 
 @pytest.mark.parametrize("kernel", ["tree", "spatial"])
