@@ -37,6 +37,9 @@ from crumple.structure.keys.member import AutomaticHinges, Hinge
 from crumple.structure.parts import StructureParts
 from crumple.structure.struck_places import struck_places
 
+ASIDE = 0.1
+"""Distance of a hinge from the place where an obstacle with friction strikes, over half a fold length: just
+there both pieces would touch it at one point, which leaves the friction of each undetermined."""
 FOLDING = {"rectangular_tube": "superfolding", "circular_tube": "circular"}
 """Laws of crushing by the kind of section; others have none that holds for any size."""
 
@@ -184,7 +187,8 @@ def automatic_stations(
     found |= {f"{member}-{nodes[1]}": last} if loaded[1] else {}
     taken = [first, *between, last]
     for place in struck:
-        at = place.station
+        rubs = structure.obstacles[place.obstacle].friction > 0.0
+        at = place.station + (ASIDE * half if rubs else 0.0)
         if all(abs(at - other) > 2.0 * half for other in taken):
             name = f"{member}-{place.obstacle}"
             found[f"{name}-struck" if name in found else name] = at
