@@ -51,9 +51,10 @@ SECTIONS = {
 }
 
 
-def thrown(section, normal):
+def thrown(section, normal, change=("", "")):
     """A rail in front of a plane that its face is just to touch."""
     text = MODEL.replace("SECTION", SECTIONS.get(section, section)).replace("NORMAL", f"{list(normal)}")
+    text = text.replace(*change)
     plain = crumple.loads(text.replace("POINT", "[1 m, 0 m, 0 m]"))
     structure = plain.structure
     outline = structure.section_of("rail").outer_outline() @ structure.frame_of("rail").axes[1:]
@@ -127,6 +128,12 @@ def test_square_ends_and_closed_ends_do_not():
         }
     )
     assert not list(crumpling_ends(plate))
+    for change in (
+        ("material: steel}\nmasses", "material: steel, rigid: true}\nmasses"),
+        ("material: steel}\nmasses", "material: steel, rigid: [{start: 350 mm, end: 400 mm}]}\nmasses"),
+        ("supports:", "loads: [{node: tip, force: {x: -1 N}}]\nsupports:"),
+    ):
+        assert not list(crumpling_ends(thrown("rectangle", oblique, change).structure)), change
 
 
 def test_an_end_that_is_used_up_says_so():

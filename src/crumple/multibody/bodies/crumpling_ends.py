@@ -94,15 +94,14 @@ def crumpling_ends(structure: Structure) -> Iterator[CrumplingEnd]:
     The corner of a face that a plane meets squarely carries the whole section at once.  A face counts as
     oblique if its first point is ahead of its last one, along the member, by a wall's thickness at least.
     """
-    held = {support.node for support in structure.supports.values()}
-    filled = held | {mass.node for mass in structure.masses.values()} | set(structure.joints_at)
+    closed = structure.loaded_nodes | set(structure.joints_at)
     for name, plane in structure.obstacles.items():
         if not isinstance(plane, PlaneObstacle):
             continue
         normal = np.asarray(plane.normal, float) / np.linalg.norm(plane.normal)
         for node, members in structure.members_at.items():
             met = plane.members is None or members[0] in plane.members
-            if len(members) > 1 or not met or node in filled:
+            if len(members) > 1 or not met or node in closed or _rigid(structure, members[0], node):
                 continue
             if structure.section_of(members[0]).kind not in OBLIQUE:
                 continue
@@ -112,6 +111,13 @@ def crumpling_ends(structure: Structure) -> Iterator[CrumplingEnd]:
             outline = section.outer_outline() @ structure.frame_of(end.member).axes[1:]
             if along >= STEEPEST and float(np.ptp(outline @ normal)) / along >= section.thickness:
                 yield end
+
+
+def _rigid(structure: Structure, member: str, node: str) -> bool:
+    """Whether a member does not deform at its end."""
+    length = structure.frame_of(member).length
+    station = 0.0 if structure.members[member].nodes[0] == node else length
+    return any(start <= station <= end for start, end in structure.members[member].rigid_parts(length))
 
 
 def _end(structure: Structure, obstacle: str, member: str, node: str) -> CrumplingEnd:
