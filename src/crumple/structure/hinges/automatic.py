@@ -10,7 +10,8 @@ rigid, and changes nothing.
 
 Members of a straight run between supports (held_runs), braced members (braced), and elastic members of
 structures of which an obstacle strikes a rigid joint (joint_reach), also change their length at their hinges,
-unless the input says otherwise.  Braced tubes fold by the crushing law of their section; others yield.
+unless the input says otherwise.  Tubes of the last two kinds fold by the crushing law of their section; others
+yield.
 
 A corner whose law is stored has one hinge at its node in place of the candidates in its zone, and the
 branch of a T-joint one in the face on which it ends.
@@ -115,12 +116,13 @@ def _keys(
 
 
 def _slip(structure: StructureParts, member: str) -> AxialSlip:
-    """How a member that lengthens unasked shortens: a braced one folds, as a column, others yield.
+    """How a member that lengthens unasked shortens: compressed tubes fold, as columns, others yield.
 
-    A stored law of folding is used in any case.
+    Held runs mostly stretch, and yield.  A stored law of folding is used in any case.
     """
     law = FOLDING.get(structure.section_of(member).kind)
-    if law is None or member not in braced(structure) or component_text(structure, member, "crush"):
+    folds = _behind_struck_joint(structure, member) or member in braced(structure)
+    if law is None or not folds or component_text(structure, member, "crush"):
         return AxialSlip()
     return AxialSlip(law=law)
 
@@ -131,9 +133,13 @@ def lengthens(structure: StructureParts, member: str) -> bool:
     unsaid = asked is not None and "axial" not in asked.model_fields_set
     if not unsaid:
         return False
-    if structure.members[member].elastic and strikes_joint(structure):
+    if _behind_struck_joint(structure, member):
         return True
     return member in held_runs(structure) or member in braced(structure)
+
+
+def _behind_struck_joint(structure: StructureParts, member: str) -> bool:
+    return bool(structure.members[member].elastic) and strikes_joint(structure)
 
 
 def twists(structure: StructureParts, member: str) -> bool:
