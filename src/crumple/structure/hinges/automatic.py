@@ -10,8 +10,8 @@ rigid, and changes nothing.
 
 Members of a straight run between supports (held_runs), braced members (braced), and elastic members of
 structures of which an obstacle strikes a rigid joint (joint_reach), also change their length at their hinges,
-unless the input says otherwise.  Tubes of the last two kinds fold by the crushing law of their section; others
-yield.
+unless the input says otherwise.  Tubes of the last two kinds fold by the crushing law of their section; all
+others yield.
 
 A corner whose law is stored has one hinge at its node in place of the candidates in its zone, and the
 branch of a T-joint one in the face on which it ends.
