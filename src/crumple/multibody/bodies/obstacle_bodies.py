@@ -22,6 +22,7 @@ from crumple.multibody.bodies.capsules import member_capsules, touching_pairs
 from crumple.multibody.bodies.crumpling_ends import CrumplingEnd
 from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.bodies.obstacle_motion import guided_or_driven
+from crumple.multibody.bodies.shared_ends import ends_met
 from crumple.multibody.bodies.surface import surface_of
 from crumple.numeric.arrays import Floats
 from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Structure
@@ -97,7 +98,8 @@ def with_obstacles(
             names += [name] * len(driven)
         allowed = set(structure.members if obstacle.members is None else obstacle.members)
         touching = tuple(i for i, of in enumerate(surface.owners(name, obstacle)) if of & allowed)
-        obstacles.append(_shape(obstacle, body, touching))
+        met = ends_met(linkage, surface.capsules, touching)
+        obstacles.append(replace(_shape(obstacle, body, touching), ends=met))
     contact = structure.member_contact
     pairs = SpatialContact()
     if contact is not None:
