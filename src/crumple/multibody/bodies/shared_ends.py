@@ -35,11 +35,11 @@ def ends_met(
     at: dict[Place, list[tuple[float, int, int]]] = defaultdict(list)
     for k, index in enumerate(touching):
         capsule = capsules[index]
-        for side, place in ((FIRST, capsule.first), (SECOND, capsule.second)):
-            at[_place(place)].append((-capsule.radius, k, side))
+        for side, end in ((FIRST, capsule.first), (SECOND, capsule.second)):
+            at[_place(end)].append((-capsule.radius, k, side))
     met = [0] * len(touching)
     for place, ends in at.items():
-        joined: dict[int, int] = together[place]
+        joined = together.get(place, {})
         seen: set[int] = set()
         for _, k, side in sorted(ends):
             body = capsules[touching[k]].body
