@@ -12,6 +12,9 @@ constexpr int full_step_limit = 32, full_step_limit_before_path = 12, full_step_
 // Limit of Newton iterations for each width of the ramps before the time step is shortened: a fixed number and some per hinge, because
 // in the worst case (an impulse on the end of a long chain) hinges lock and release one at a time.
 constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
+// Newton steps that are taken as they are found before line searches begin: the first satisfies the held rows, and a line search leads to
+// one kink of friction and yielding after the other, which further ones pass at once.
+constexpr int first_full_steps = 5;
 constexpr double flat_enough = 0.1;  // slope of the potential at which a line search ends, over that at its start
 constexpr double narrowing = 1e-1;  // factor between successive widths of the ramps, starting at the largest rate
 // Relative tolerance of a law's impulse; piecewise linear laws reach rounding, curved ones converge to this.  With widened ramps
@@ -162,9 +165,8 @@ bool NewtonSolver::descend(int limit, bool full_steps) {
         }
         if (full_steps) {
             take_full_step();
-        } else if (iteration == 0 || slope <= 0) {
-            // the first step is taken in full: it satisfies the held rows
-            take();
+        } else if (iteration < first_full_steps || slope <= 0) {
+            take_whole_step();
         } else {
             const double a = search(slope);
             for (size_t i = 0; i < p_.velocity.size(); i++) p_.velocity[i] = p_.velocity[i] + a * (next_[i] - p_.velocity[i]);
@@ -194,6 +196,12 @@ bool NewtonSolver::reverses(size_t link) {
     p_.seen_rate(link, &p_.w_next[first], after);
     for (int k = 0; k < p_.system.links()[link].laws; k++) along += before[k] * after[k];
     return along < 0;
+}
+
+// Takes a step as it is found; contacts that would reverse their slip stick first.
+void NewtonSolver::take_whole_step() {
+    for (size_t i = 0; i < p_.contacts.size(); i++) stop_reversing(contact_link(i));
+    take();
 }
 
 // Sets the tangential rates of a contact that would reverse its slip to zero first.

@@ -54,6 +54,7 @@ private:
     void take_full_step();
     bool reverses(size_t link);
     void stop_reversing(size_t link);
+    void take_whole_step();
     double search(double slope_end);
     bool settled(double& slope);
     void read_unknowns(size_t link, const double* x, double* w, double* impulse) const;
