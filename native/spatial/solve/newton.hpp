@@ -45,7 +45,7 @@ private:
     int most_iterations() const;
     bool narrow_ramps();
     void widen(double width, bool& narrowest);
-    bool descend(int limit, bool full_steps);
+    bool descend(int limit, bool full_steps, int found = 0);
     void solve_once();
     void take();
     void tangent_of(size_t link, double* offset, double* tangent);
@@ -54,7 +54,6 @@ private:
     void take_full_step();
     bool reverses(size_t link);
     void stop_reversing(size_t link);
-    void take_whole_step();
     double search(double slope_end);
     bool settled(double& slope);
     void read_unknowns(size_t link, const double* x, double* w, double* impulse) const;

@@ -8,7 +8,7 @@ between them is not determined, and which of them slides is decided by rounding.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -25,13 +25,12 @@ Place = tuple[int, int, int]
 
 
 def ends_met(
-    linkage: Linkage, capsules: Sequence[SpatialCapsule], touching: tuple[int, ...]
+    together: Mapping[Place, Mapping[int, int]], capsules: Sequence[SpatialCapsule], touching: tuple[int, ...]
 ) -> tuple[int, ...]:
     """Ends of capsules that an obstacle meets: `FIRST`, `SECOND`, `BOTH` or 0, for each of `touching`.
 
-    Of ends that stay together the largest counts, of equal ones the first.
+    Of ends that stay together, by `bodies_together`, the largest counts, of equal ones the first.
     """
-    together = _together(linkage)
     at: dict[Place, list[tuple[float, int, int]]] = defaultdict(list)
     for k, index in enumerate(touching):
         capsule = capsules[index]
@@ -50,11 +49,22 @@ def ends_met(
     return tuple(met)
 
 
-def _together(linkage: Linkage) -> dict[Place, dict[int, int]]:
-    """Bodies whose points at a place stay together, by place: one of them stands for all."""
+def bodies_together(linkage: Linkage, *, folding: bool) -> dict[Place, dict[int, int]]:
+    """Bodies whose points at a place stay together, by place: one of them stands for all.
+
+    Parameters
+    ----------
+    linkage
+        Bodies and connections.
+    folding
+        Whether pieces on both sides of a hinge that folds along their member count.  They slide into each
+        other, and what one leaves the other covers: a plane, which rests on the ends of capsules alone, meets
+        no other point then.
+    """
     found: dict[Place, dict[int, int]] = defaultdict(dict)
     for connection in linkage.connections:
-        if GROUND in (connection.first, connection.second) or not _keeps(connection):
+        ground = GROUND in (connection.first, connection.second)
+        if ground or not (not _slips(connection) or (folding and _folds(linkage, connection))):
             continue
         of = found[_place(connection.position)]
         first, second = (of.get(body, body) for body in (connection.first, connection.second))
@@ -65,13 +75,17 @@ def _together(linkage: Linkage) -> dict[Place, dict[int, int]]:
     return found
 
 
-def _keeps(connection: Connection) -> bool:
-    """Whether both sides keep a common point.
+def _slips(connection: Connection) -> set[int]:
+    """Directions in which points on both sides part."""
+    return {freedom for freedom in connection.free if freedom < ROTATIONS}
 
-    A hinge within a member that folds along it counts: what one piece leaves the other covers.
-    """
-    slips = {freedom for freedom in connection.free if freedom < ROTATIONS}
-    return not slips or (slips == {0} and connection.hinge is not None)
+
+def _folds(linkage: Linkage, connection: Connection) -> bool:
+    """Whether it is a hinge between the ends of a member that folds along it."""
+    if connection.hinge is None or _slips(connection) != {0}:
+        return False
+    pieces = linkage.pieces[connection.hinge.member]
+    return pieces[0].start < connection.hinge.station < pieces[-1].end
 
 
 def _place(position: Floats) -> Place:

@@ -8,19 +8,19 @@ from tests.support.multibody.frames import member, structure
 
 from crumple.multibody.bodies.capsules import member_capsules
 from crumple.multibody.bodies.linkage import link
-from crumple.multibody.bodies.shared_ends import BOTH, FIRST, SECOND, ends_met
+from crumple.multibody.bodies.shared_ends import BOTH, FIRST, SECOND, bodies_together, ends_met
 
 SQUARE = {"type": "square_tube", "side": 0.05, "thickness": 0.002}
 THIN = {"type": "square_tube", "side": 0.03, "thickness": 0.002}
 LINE = {"a": (0.0, 0.0, 0.0), "b": (0.5, 0.0, 0.0), "c": (0.5, 0.5, 0.0)}
 
 
-def met(whole, touching=None):
+def met(whole, touching=None, *, plane=True):
     """How often an obstacle meets every place [mm], and the capsules with the ends it meets."""
     linkage = link(whole)
     capsules, _ = member_capsules(whole, linkage.pieces)
     chosen = tuple(range(len(capsules))) if touching is None else touching
-    ends = ends_met(linkage, capsules, chosen)
+    ends = ends_met(bodies_together(linkage, folding=plane), capsules, chosen)
     places = Counter()
     for index, of in zip(chosen, ends, strict=True):
         for side, place in ((FIRST, capsules[index].first), (SECOND, capsules[index].second)):
@@ -72,3 +72,11 @@ def test_a_joint_that_slides_has_two_ends(joint, count):
     whole = frame(hinges=(), joints={"j": {"node": "b", "member": "bc", **joint}})
     places, _, _ = met(whole)
     assert places[(500, 0, 0)] == count
+
+
+@pytest.mark.parametrize(("at", "plane", "count"), [(0.2, True, 1), (0.2, False, 2), (0.5, True, 2)])
+def test_pieces_beside_a_fold_part_but_a_plane_meets_one(at, plane, count):
+    """Within a member what one piece leaves the other covers; at a node the other member stays behind."""
+    whole = frame(hinges=(("h", at, {"axes": ("y", "z"), "axial": True}),))
+    places, _, _ = met(whole, plane=plane)
+    assert places[(round(1e3 * at), 0, 0)] == count
