@@ -170,6 +170,9 @@ void add_contact(Model& model, const nb::dict& d) {
             obstacle.capsules = entry<std::vector<int>>(o, "capsules");
         }
         for (const int c : obstacle.capsules) require(c >= 0 && c < capsules, "an obstacle names an unknown capsule");
+        obstacle.ends.assign(obstacle.capsules.size(), both_ends);
+        if (!o["ends"].is_none()) obstacle.ends = entry<std::vector<int>>(o, "ends");
+        require(obstacle.ends.size() == obstacle.capsules.size(), "an obstacle has ends for each of its capsules");
         contact.obstacles.push_back(obstacle);
     }
     for (nb::handle h : entry<nb::list>(d, "pairs")) {

@@ -49,7 +49,9 @@ Contacts::Contacts(const ContactModel& model) : model_(model), placed_(model.cap
     for (const Obstacle& o : model.obstacles) rubs = rubs || o.law.friction > 0;
     rows_ = rubs ? 3 : 1;
     for (size_t o = 0; o < model.obstacles.size(); o++) {
-        for (const int c : model.obstacles[o].capsules) pairs_.push_back({static_cast<int>(o), -1, c});
+        for (size_t c = 0; c < model.obstacles[o].capsules.size(); c++) {
+            pairs_.push_back({static_cast<int>(o), -1, model.obstacles[o].capsules[c], model.obstacles[o].ends[c]});
+        }
     }
     obstacle_pairs_ = pairs_.size();
     for (const CapsulePair& p : model.pairs) pairs_.push_back({-1, std::min(p.first, p.second), std::max(p.first, p.second)});
@@ -69,6 +71,13 @@ Solid Contacts::solid_at(const Pair& pair, const std::vector<Pose>& pose) const 
     return s;
 }
 
+// Points of contact of a pair, without the ends that the obstacle meets at another capsule; their number.
+int Contacts::points(const Pair& pair, const Solid& solid, const Segment& segment, Touch* touch) const {
+    const int n = touches(solid, segment, touch);
+    if (pair.ends == both_ends) return n;
+    return static_cast<int>(std::remove_if(touch, touch + n, [&](const Touch& t) { return t.slot < 2 && !(pair.ends >> t.slot & 1); }) - touch);
+}
+
 void Contacts::begin(const std::vector<bool>& present, const std::vector<Pose>& pose) {
     for (Pair& pair : pairs_) {
         if (pair.obstacle >= 0) {
@@ -85,7 +94,7 @@ void Contacts::appear(Pair& pair, const std::vector<Pose>& pose) {
     Touch touch[most_touches];
     const Solid solid = solid_at(pair, pose);
     const Segment segment = placed(model_.capsules[at(pair.capsule)], pose);
-    const int n = touches(solid, segment, touch);
+    const int n = points(pair, solid, segment, touch);
     for (int k = 0; k < n; k++) pair.offset = std::min(pair.offset, touch[k].gap);
     const double radii = solid.radius + segment.radius;
     if (pair.obstacle < 0 && pair.offset + radii < joined * radii) pair.present = false;
@@ -109,7 +118,7 @@ void Contacts::sweep(double margin) {
             const int b = order_[j];
             if (low(b, 1) > high(a, 1) + margin || low(a, 1) > high(b, 1) + margin) continue;
             if (low(b, 2) > high(a, 2) + margin || low(a, 2) > high(b, 2) + margin) continue;
-            const Pair wanted{-1, std::min(a, b), std::max(a, b)};
+            const Pair wanted{-1, std::min(a, b), std::max(a, b), both_ends};
             const auto found = std::lower_bound(first, pairs_.end(), wanted, in_order);
             if (found == pairs_.end() || in_order(wanted, *found) || !found->present) continue;
             near_.push_back(static_cast<size_t>(found - pairs_.begin()));
@@ -179,7 +188,7 @@ bool Contacts::overlooked(const std::vector<Pose>& pose, const ContactState& sta
         const Solid solid = pair.obstacle < 0 ? as_solid(now[at(pair.solid)]) : solid_at(pair, pose);
         if (least_gap(solid, segment) - closed > -closed_gap_) return false;
         Touch touch[most_touches];
-        const int n = touches(solid, segment, touch);
+        const int n = points(pair, solid, segment, touch);
         double known = 0, unknown = 0;
         for (int k = 0; k < n; k++) {
             const bool is_known = among(active_, static_cast<int64_t>(p) * most_touches + touch[k].slot);
@@ -202,7 +211,7 @@ void Contacts::find(size_t p, const std::vector<Pose>& pose, double reach, doubl
     const Solid solid = pair.obstacle < 0 ? as_solid(placed_[at(pair.solid)]) : solid_at(pair, pose);
     if (least_gap(solid, segment) - offset > kept * reach) return;
     Touch touch[most_touches];
-    const int n = touches(solid, segment, touch);
+    const int n = points(pair, solid, segment, touch);
     for (int k = 0; k < n; k++) {
         const double gap = touch[k].gap - offset;
         const int64_t key = static_cast<int64_t>(p) * most_touches + touch[k].slot;
@@ -227,7 +236,7 @@ void Contacts::locate(size_t i, const std::vector<Pose>& pose, Row* out, double*
     const Active& c = active_[i];
     const Pair& pair = pairs_[c.pair];
     Touch touch[most_touches];
-    const int n = touches(solid_at(pair, pose), placed(model_.capsules[at(pair.capsule)], pose), touch);
+    const int n = points(pair, solid_at(pair, pose), placed(model_.capsules[at(pair.capsule)], pose), touch);
     const int slot = static_cast<int>(c.key % most_touches);
     Vec3 axes[3] = {c.normal, c.tangent, {}}, point = c.point;
     *gap = c.gap;

@@ -30,7 +30,10 @@ struct Obstacle {
     Solid solid;
     ContactLaw law;
     std::vector<int> capsules;  // capsules that can have contact with it
+    std::vector<int> ends;      // ends of each that it meets: bits of the slots 0 and 1 of touches
 };
+
+constexpr int both_ends = 3;
 
 struct CapsulePair {
     int first, second;
@@ -139,6 +142,7 @@ private:
     struct Pair {
         int obstacle;               // -1: contact between two capsules
         int solid, capsule;         // indices of capsules
+        int ends = both_ends;       // of the capsule that the obstacle meets
         double offset = 0;          // initial gap if the pair overlapped when it first appeared
         bool present = true, seen = false;
     };
@@ -155,6 +159,7 @@ private:
         return a.solid != b.solid ? a.solid < b.solid : a.capsule < b.capsule;
     }
     Solid solid_at(const Pair& pair, const std::vector<Pose>& pose) const;
+    int points(const Pair& pair, const Solid& solid, const Segment& segment, Touch* touch) const;
     const ContactLaw& law(const Active& c) const {
         const int obstacle = pairs_[c.pair].obstacle;
         return obstacle < 0 ? model_.between : model_.obstacles[static_cast<size_t>(obstacle)].law;

@@ -12,6 +12,9 @@ constexpr int full_step_limit = 32, full_step_limit_before_path = 12, full_step_
 // Limit of Newton iterations for each width of the ramps before the time step is shortened: a fixed number and some per hinge, because
 // in the worst case (an impulse on the end of a long chain) hinges lock and release one at a time.
 constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
+// Newton steps that are taken as they are found before line searches begin, with ramps of their own width: a line search leads to one
+// kink of friction and yielding after the other, which such steps pass at once.
+constexpr int first_found_steps = 5;
 constexpr double flat_enough = 0.1;  // slope of the potential at which a line search ends, over that at its start
 constexpr double narrowing = 1e-1;  // factor between successive widths of the ramps, starting at the largest rate
 // Relative tolerance of a law's impulse; piecewise linear laws reach rounding, curved ones converge to this.  With widened ramps
@@ -95,7 +98,7 @@ bool NewtonSolver::solve_laws() {
     if (p_.stage.quasi_static) return narrow_ramps();
     if (!path_.exists() || p_.contacts.size() > 0) {
         const int limit = !p_.all_set_valued ? most_iterations() : full_steps_ ? full_step_limit : full_step_limit_after_cycle;
-        if (descend(limit, p_.all_set_valued)) return true;
+        if (descend(limit, p_.all_set_valued, first_found_steps)) return true;
         full_steps_ = false;
     } else {
         if (full_steps_ && descend(full_step_limit_before_path, p_.all_set_valued)) return true;
@@ -149,8 +152,9 @@ void NewtonSolver::widen(double width, bool& narrowest) {
     }
 }
 
-// Newton iterations, either with full steps (not guaranteed to converge) or with exact line search on the potential (descent).
-bool NewtonSolver::descend(int limit, bool full_steps) {
+// Newton iterations, either with full steps (not guaranteed to converge) or with exact line search on the potential (descent) after a
+// number of steps that are taken as they are found.
+bool NewtonSolver::descend(int limit, bool full_steps, int found) {
     for (int iteration = 0; iteration < limit && solves_ < last_solve_; iteration++) {
         solve_once();
         double slope = 0;
@@ -162,6 +166,9 @@ bool NewtonSolver::descend(int limit, bool full_steps) {
         }
         if (full_steps) {
             take_full_step();
+        } else if (iteration < found) {
+            for (size_t i = 0; i < p_.contacts.size(); i++) stop_reversing(contact_link(i));
+            take();
         } else if (iteration == 0 || slope <= 0) {
             // the first step is taken in full: it satisfies the held rows
             take();

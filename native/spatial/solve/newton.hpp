@@ -45,7 +45,7 @@ private:
     int most_iterations() const;
     bool narrow_ramps();
     void widen(double width, bool& narrowest);
-    bool descend(int limit, bool full_steps);
+    bool descend(int limit, bool full_steps, int found = 0);
     void solve_once();
     void take();
     void tangent_of(size_t link, double* offset, double* tangent);

@@ -4,6 +4,7 @@ Kind: closed form.  Source: derived here.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -53,6 +54,26 @@ def test_oblique_impact_of_a_rod(degrees, restitution, record_figure):
     record_figure(f"velocity after, {name}", record.velocity[1, 0, 5], impulse / mass - speed, 1e-4, "m/s")
     record_figure(f"spin after, {name}", record.velocity[1, 0, 1], -x * impulse / inertia, 1e-3, "rad/s")
     assert record.residual < MAX_RESIDUAL
+
+
+@pytest.mark.parametrize(("end", "sign"), [(1, 1.0), (2, -1.0)])
+def test_an_end_that_another_capsule_stands_for_meets_nothing(end, sign, record_figure):
+    """A flat rod that a plane meets at one end alone: impulse v/(1/m + (l/2)^2/I) there."""
+    speed, mass, radius = 3.0, 4.0, 0.05
+    first, second = np.array([0.0, 0.0, radius + 0.03]), np.array([1.0, 0.0, radius + 0.03])
+    body = rod(first, second, mass=mass)
+    floor = replace(plane(), capsules=(0,), ends=(end,))
+    motion = [[0, 0, 0, 0, 0, -speed]]
+    record = simulation([body], [rod_shape(0, first, second)], [floor], motion, NO_GRAVITY).run(
+        np.array([0.0, 0.012])
+    )
+    inertia = body.inertia[1, 1]
+    impulse = speed / (1 / mass + 0.25 / inertia)
+    name = f"end {end}"
+    record_figure(f"velocity after, {name}", record.velocity[1, 0, 5], impulse / mass - speed, 1e-4, "m/s")
+    record_figure(
+        f"spin after, {name}", record.velocity[1, 0, 1], sign * 0.5 * impulse / inertia, 1e-3, "rad/s"
+    )
 
 
 def test_impact_that_reverses_the_slip(record_figure):

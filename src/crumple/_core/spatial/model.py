@@ -235,6 +235,9 @@ class SpatialObstacle:
         Coefficients.
     capsules
         Indices of the capsules that may touch it; None: all that are not on its own body.
+    ends
+        Ends of these capsules that it meets, 1 for the first, 2 for the second, 3 for both, 0 for none; None:
+        both of all.
     """
 
     kind: ObstacleKind
@@ -247,6 +250,7 @@ class SpatialObstacle:
     friction: float = 0.0
     restitution: float = 0.0
     capsules: tuple[int, ...] | None = None
+    ends: tuple[int, ...] | None = None
 
 
 @dataclass(frozen=True, eq=False)

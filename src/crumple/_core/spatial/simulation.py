@@ -363,6 +363,7 @@ def _obstacle(obstacle: SpatialObstacle) -> dict[str, Any]:
         "friction": obstacle.friction,
         "restitution": obstacle.restitution,
         "capsules": None if obstacle.capsules is None else list(obstacle.capsules),
+        "ends": None if obstacle.ends is None else list(obstacle.ends),
     }
 
 

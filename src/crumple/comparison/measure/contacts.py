@@ -26,6 +26,7 @@ from crumple.numeric.arrays import Floats
 from crumple.result import Result, States
 from crumple.shell.mesh.cut_ends import outline_starts
 from crumple.structure import Structure, gap, joint_reach, plastic_hinges
+from crumple.structure.hinges.corners import leaving
 
 TOUCHES = 0.1
 """Distance from an obstacle over the largest side of the section up to which a wall point touches it: shells
@@ -155,8 +156,8 @@ def _outline(
     own = np.flatnonzero(states.member == states.member_names.index(member))
     away = _from_node(structure, member, node, states.station[own])
     ring = own[away <= away.min() + 1e-9]
-    axis = _outgoing(structure, member, node)
-    others = [_outgoing(structure, other, node) for other, _ in joined if other != member]
+    axis = leaving(structure, member, node)
+    others = [leaving(structure, other, node) for other, _ in joined if other != member]
     start, base = states.points[ring], np.asarray(structure.nodes[node])
     beside = start - base - np.outer((start - base) @ axis, axis)
     first = outline_starts(beside, axis, others)
@@ -169,12 +170,6 @@ def _from_node(structure: Structure, member: str, node: str, station: Floats | f
     """Distance of stations of a member from one of its nodes [m]."""
     first = structure.members[member].nodes[0] == node
     return np.asarray(station if first else structure.frame_of(member).length - station)
-
-
-def _outgoing(structure: Structure, member: str, node: str) -> Floats:
-    """Unit vector from one of its nodes into a member, (3,)."""
-    along = structure.frame_of(member).x
-    return along if structure.members[member].nodes[0] == node else -along
 
 
 def _side(structure: Structure, member: str) -> float:

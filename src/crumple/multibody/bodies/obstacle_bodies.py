@@ -22,6 +22,7 @@ from crumple.multibody.bodies.capsules import member_capsules, touching_pairs
 from crumple.multibody.bodies.crumpling_ends import CrumplingEnd
 from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.bodies.obstacle_motion import guided_or_driven
+from crumple.multibody.bodies.shared_ends import bodies_together, ends_met
 from crumple.multibody.bodies.surface import surface_of
 from crumple.numeric.arrays import Floats
 from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Structure
@@ -80,6 +81,7 @@ def with_obstacles(
         return Touching(model, {}, owners, np.zeros((0, 3)))
     moving, member = member_capsules(structure, linkage.pieces)
     surface = surface_of(structure, linkage, moving, member)
+    together = {plane: bodies_together(linkage, folding=plane) for plane in (False, True)}
     bodies, joints, drives, names = list(model.bodies), list(model.joints), list(model.drives), list(owners)
     light = LIGHT * sum(body.mass for body in bodies)
     obstacles, velocity, joint = [], [], {}
@@ -97,7 +99,8 @@ def with_obstacles(
             names += [name] * len(driven)
         allowed = set(structure.members if obstacle.members is None else obstacle.members)
         touching = tuple(i for i, of in enumerate(surface.owners(name, obstacle)) if of & allowed)
-        obstacles.append(_shape(obstacle, body, touching))
+        met = ends_met(together[isinstance(obstacle, PlaneObstacle)], surface.capsules, touching)
+        obstacles.append(replace(_shape(obstacle, body, touching), ends=met))
     contact = structure.member_contact
     pairs = SpatialContact()
     if contact is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from crumple._core.spatial.model import SpatialObstacle
 from crumple.multibody.answer.solved import CrushedContact
 from crumple.multibody.bodies.capsules import capsule_rows
 from crumple.multibody.bodies.crumpling_ends import CrumplingEnd
@@ -32,13 +33,14 @@ def with_crushing(structure: Structure, touching: Touching) -> Touching:
         for capsule, member in zip(touching.model.capsules, members, strict=False)
     ]
     capsules += touching.model.capsules[len(members) :]
-    obstacles = tuple(
-        replace(
-            obstacle,
-            capsules=tuple(i for i in obstacle.capsules or () if i < len(members) or i in touching.points),
-        )
-        for obstacle in touching.model.obstacles
-    )
+
+    def without_corners(obstacle: SpatialObstacle) -> SpatialObstacle:
+        met = obstacle.capsules or ()
+        kept = [k for k, i in enumerate(met) if i < len(members) or i in touching.points]
+        ends = None if obstacle.ends is None else tuple(obstacle.ends[k] for k in kept)
+        return replace(obstacle, capsules=tuple(met[k] for k in kept), ends=ends)
+
+    obstacles = tuple(without_corners(obstacle) for obstacle in touching.model.obstacles)
     model = replace(touching.model, capsules=tuple(capsules), obstacles=obstacles)
     return replace(touching, model=model)
 

@@ -21,12 +21,15 @@ from tests.support.multibody.space_models import (
 from crumple._core.outcome import Outcome
 from crumple._core.spatial.model import (
     GROUND,
+    ObstacleKind,
     SpatialBody,
+    SpatialCapsule,
     SpatialDrive,
     SpatialHinge,
     SpatialJoint,
     SpatialLoad,
     SpatialModel,
+    SpatialObstacle,
     cylindrical,
     fixed,
     planar,
@@ -209,6 +212,18 @@ BODY = bar((0, 0, 0), X)
                 (BODY,), (spherical(GROUND, 0, X),), drives=(SpatialDrive(0, 4, np.zeros(1), np.zeros(1)),)
             ),
             "held",
+        ),
+        (
+            SpatialModel(
+                (BODY,),
+                capsules=(SpatialCapsule(0, np.zeros(3), np.array(X), 0.1),),
+                obstacles=(
+                    SpatialObstacle(
+                        ObstacleKind.PLANE, GROUND, -np.array(X), np.array(X), capsules=(0,), ends=(1, 2)
+                    ),
+                ),
+            ),
+            "ends for each of its capsules",
         ),
     ],
 )

@@ -1,0 +1,93 @@
+"""Ends of capsules that share their place: an obstacle meets one of them.
+
+Pieces of a member on both sides of a hinge, and members that meet rigidly at a node, end in balls about the
+same point, which move as one.  A contact at each would be the same contact again: how the force divides
+between them is not determined, and which of them slides is decided by rounding.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from crumple._core.spatial.model import SpatialCapsule
+from crumple.multibody.bodies.linkage import GROUND, Connection, Linkage
+from crumple.numeric.arrays import Floats
+
+SAME = 1e-7
+"""Distance [m] below which places are the same."""
+FIRST, SECOND, BOTH = 1, 2, 3
+ROTATIONS = 3
+"""First of the freedoms that are rotations."""
+Place = tuple[int, int, int]
+
+
+def ends_met(
+    together: Mapping[Place, Mapping[int, int]], capsules: Sequence[SpatialCapsule], touching: tuple[int, ...]
+) -> tuple[int, ...]:
+    """Ends of capsules that an obstacle meets: `FIRST`, `SECOND`, `BOTH` or 0, for each of `touching`.
+
+    Of ends that stay together, by `bodies_together`, the largest counts, of equal ones the first.
+    """
+    at: dict[Place, list[tuple[float, int, int]]] = defaultdict(list)
+    for k, index in enumerate(touching):
+        capsule = capsules[index]
+        for side, end in ((FIRST, capsule.first), (SECOND, capsule.second)):
+            at[_place(end)].append((-capsule.radius, k, side))
+    met = [0] * len(touching)
+    for place, ends in at.items():
+        joined = together.get(place, {})
+        seen: set[int] = set()
+        for _, k, side in sorted(ends):
+            body = capsules[touching[k]].body
+            group = joined.get(body, body)
+            if group not in seen:
+                seen.add(group)
+                met[k] |= side
+    return tuple(met)
+
+
+def bodies_together(linkage: Linkage, *, folding: bool) -> dict[Place, dict[int, int]]:
+    """Bodies whose points at a place stay together, by place: one of them stands for all.
+
+    Parameters
+    ----------
+    linkage
+        Bodies and connections.
+    folding
+        Whether pieces on both sides of a hinge that folds along their member count.  They slide into each
+        other, and what one leaves the other covers: a plane, which rests on the ends of capsules alone, meets
+        no other point then.
+    """
+    found: dict[Place, dict[int, int]] = defaultdict(dict)
+    for connection in linkage.connections:
+        ground = GROUND in (connection.first, connection.second)
+        if ground or not (not _slips(connection) or (folding and _folds(linkage, connection))):
+            continue
+        of = found[_place(connection.position)]
+        first, second = (of.get(body, body) for body in (connection.first, connection.second))
+        of[connection.first], of[connection.second] = first, first
+        for body, stands in of.items():
+            if stands == second:
+                of[body] = first
+    return found
+
+
+def _slips(connection: Connection) -> set[int]:
+    """Directions in which points on both sides part."""
+    return {freedom for freedom in connection.free if freedom < ROTATIONS}
+
+
+def _folds(linkage: Linkage, connection: Connection) -> bool:
+    """Whether it is a hinge between the ends of a member that folds along it."""
+    if connection.hinge is None or _slips(connection) != {0}:
+        return False
+    pieces = linkage.pieces[connection.hinge.member]
+    return pieces[0].start < connection.hinge.station < pieces[-1].end
+
+
+def _place(position: Floats) -> Place:
+    x, y, z = np.rint(np.asarray(position) / SAME).astype(int).tolist()
+    return x, y, z
