@@ -168,12 +168,24 @@ def law_of(case, section, axis="y"):
 
 
 def every(cases):
-    """Run a property over laws and many sections."""
+    """Run a property over laws and many sections.
+
+    All properties are asked of the same laws, which are then built once; `make verify` asks each property
+    of laws of its own too.
+    """
 
     def over(function):
-        # one seed: all properties are asked of the same laws, which are then built once
-        drawn = seed(0)(settings(max_examples=25)(given(tubes, shares, st.sampled_from([1, -1]))(function)))
-        return pytest.mark.parametrize("case", cases, ids=lambda case: f"{case[0]}-{case[1]}")(drawn)
+        shared, own = (
+            settings(max_examples=25)(given(tubes, shares, st.sampled_from([1, -1]))(function)) for _ in "12"
+        )
+        asked = {"shared": seed(0)(shared), "own": own}
+
+        @pytest.mark.parametrize("laws", ["shared", pytest.param("own", marks=pytest.mark.slow)])
+        @pytest.mark.parametrize("case", cases, ids=lambda case: f"{case[0]}-{case[1]}")
+        def test(case, laws):
+            asked[laws](case)
+
+        return test
 
     return over
 

@@ -63,8 +63,9 @@ def test_the_best_layout_is_found_and_verified_with_its_own_input(tmp_path):
     }
     bases = [tmp_path / path.name for path in (PLAIN, BEAM, POST)]
     for path, base in zip((PLAIN, BEAM, POST), bases, strict=True):
-        text = path.read_text(encoding="utf-8").replace("multibody: {", "multibody: {accuracy: 1e-2, ")
-        base.write_text(text, encoding="utf-8")
+        text = path.read_text(encoding="utf-8")
+        assert "multibody: {" in text
+        base.write_text(text.replace("multibody: {", "multibody: {accuracy: 1e-2, "), encoding="utf-8")
     file = written(tmp_path, both(*bases), variables, "{type: grid}", more)
     _, answer = run_study(LoadedStudy(file), tmp_path)
     assert answer.rows == answer.complete == 4
