@@ -61,7 +61,12 @@ def test_the_best_layout_is_found_and_verified_with_its_own_input(tmp_path):
         "layout": "{path: base, values: [plain, strong_beam]}",
         "wall": WALL.replace("}", ", steps: 2}"),
     }
-    file = written(tmp_path, both(PLAIN, BEAM, POST), variables, "{type: grid}", more)
+    bases = [tmp_path / path.name for path in (PLAIN, BEAM, POST)]
+    for path, base in zip((PLAIN, BEAM, POST), bases, strict=True):
+        text = path.read_text(encoding="utf-8")
+        assert "multibody: {" in text
+        base.write_text(text.replace("multibody: {", "multibody: {accuracy: 1e-2, "), encoding="utf-8")
+    file = written(tmp_path, both(*bases), variables, "{type: grid}", more)
     _, answer = run_study(LoadedStudy(file), tmp_path)
     assert answer.rows == answer.complete == 4
     assert answer.best["variables"] == {"layout": "strong_beam", "wall": 0.002}
