@@ -13,10 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.law import HingeLaw, SofteningVariable, Source, Validity
+from crumple.hinge.inside import LawInside
+from crumple.hinge.law import HingeLaw, Validity
 from crumple.hinge.options import choice
-from crumple.hinge.rate import HingeRate
-from crumple.hinge.stop import Stop
 from crumple.numeric.arrays import Floats
 
 
@@ -49,8 +48,10 @@ class Band:
 
 
 @dataclass(frozen=True)
-class ScaledLaw:
+class ScaledLaw(LawInside):
     """A law whose capacity is multiplied by a constant; all other properties are those of the law.
+
+    The scatter of strength does not affect its stiffness.
 
     Attributes
     ----------
@@ -62,7 +63,6 @@ class ScaledLaw:
         Reason of the factor, for the title.
     """
 
-    law: HingeLaw
     factor: float
     reason: str = "scaled"
 
@@ -72,66 +72,18 @@ class ScaledLaw:
             raise InputError(Problem(what, f"{self.factor:g}", "> 0", todo, "factor"))
 
     @property
-    def name(self) -> str:
-        """Key of the law inside."""
-        return self.law.name
-
-    @property
     def title(self) -> str:
         """One line for people."""
         return f"{self.law.title}, {self.reason} (times {self.factor:.3g})"
-
-    @property
-    def source(self) -> Source:
-        """Source of the law inside."""
-        return self.law.source
-
-    @property
-    def softening_variable(self) -> SofteningVariable:
-        """Variable of the law inside."""
-        return self.law.softening_variable
-
-    @property
-    def elastic_stiffness(self) -> float | None:
-        """Stiffness of the law inside [N m/rad]: the scatter of strength does not affect it."""
-        return self.law.elastic_stiffness
-
-    @property
-    def jamming_angle(self) -> float | None:
-        """Jamming angle of the law inside [rad]."""
-        return self.law.jamming_angle
 
     @property
     def validity(self) -> Validity:
         """Range of the law inside, without the band: this is one edge of it."""
         return replace(self.law.validity, uncertainty=None)
 
-    @property
-    def rate(self) -> HingeRate | None:
-        """Rate law of the law inside."""
-        return self.law.rate
-
-    @property
-    def stop(self) -> Stop | None:
-        """Stop of the law inside."""
-        return self.law.stop
-
-    @property
-    def symmetric(self) -> bool:
-        """Whether both senses have one curve."""
-        return self.law.symmetric
-
-    def kinks(self, sense: int = 1) -> tuple[float, ...]:
-        """Kinks of the law inside [rad]."""
-        return self.law.kinks(sense)
-
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Capacity [N m] at a rotation [rad]."""
         return self.factor * self.law.moment_capacity(rotation, sense)
-
-    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
-        """Factor on the capacity at a rotation rate [rad/s]."""
-        return self.law.rate_factor(rotation_rate)
 
 
 def band_of(law: HingeLaw, uncertainty: float | None = None) -> Band:

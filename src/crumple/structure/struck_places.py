@@ -41,7 +41,7 @@ LEAST = 1e-6
 
 @dataclass(frozen=True)
 class StruckPlace:
-    """Where an obstacle meets a member.
+    """Where an obstacle meets a member; ends count within `LEAST`.
 
     Attributes
     ----------
@@ -67,9 +67,19 @@ class _Core:
     outwards: tuple[Floats, ...] = ()
 
 
-def struck_places(structure: StructureParts, member: str) -> tuple[StruckPlace, ...]:
-    """Places between the ends of a member's line in the paths of obstacles, in the order of the input."""
-    return structure.kept.once("struck places", "", lambda: _struck_places(structure)).get(member, ())
+def struck_places(structure: StructureParts, member: str, ends: bool = False) -> tuple[StruckPlace, ...]:
+    """Places of a member's line in the paths of obstacles, in the order of the input.
+
+    Parameters
+    ----------
+    structure, member
+        What is struck.
+    ends
+        Whether the ends of the line count too.
+    """
+    found = structure.kept.once("struck places", "", lambda: _struck_places(structure)).get(member, ())
+    length = structure.frame_of(member).length if found else 0.0
+    return tuple(place for place in found if ends or LEAST < place.station < length - LEAST)
 
 
 def _struck_places(structure: StructureParts) -> Mapping[str, tuple[StruckPlace, ...]]:
@@ -81,7 +91,7 @@ def _struck_places(structure: StructureParts) -> Mapping[str, tuple[StruckPlace,
         path = _path(structure, obstacle)
         for member in members if path is not None else _nearest(structure, obstacle, members):
             station = _touches(structure, member, obstacle, path)
-            if station is not None and 0.0 < station < structure.frame_of(member).length:
+            if station is not None and -LEAST <= station <= structure.frame_of(member).length + LEAST:
                 found[member] = (*found.get(member, ()), StruckPlace(name, station))
     return found
 

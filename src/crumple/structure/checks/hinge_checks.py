@@ -11,7 +11,8 @@ from itertools import pairwise, product
 from crumple.errors import InputError, Problem
 from crumple.hinge.registry import BENDING
 from crumple.structure.hinges.hinges import spatial_record_of
-from crumple.structure.hinges.places import HingePlace, alike_law, holds_rotation, law_of, member_hinge_places
+from crumple.structure.hinges.places import HingePlace, alike_law, law_of, member_hinge_places
+from crumple.structure.hinges.runs.ends import holds_rotation
 from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import Names, outside
 

@@ -20,30 +20,23 @@ branch of a T-joint one in the face on which it ends.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
 from typing import Any
 
-import numpy as np
-
-from crumple.section import Axis, fold_distance, half_fold_length
+from crumple.section import Axis, half_fold_length
 from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import FOLDS, automatic_of, folds_at_ends
 from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
-from crumple.structure.hinges.joint_reach import joint_reach, strikes_joint
+from crumple.structure.hinges.joint_reach import strikes_joint
 from crumple.structure.hinges.law_choice import component_text
 from crumple.structure.hinges.lengthening.braced import braced
 from crumple.structure.hinges.lengthening.held_runs import held_runs
-from crumple.structure.hinges.straight_runs import StraightRun, straight_run
+from crumple.structure.hinges.runs.candidates import Strike, candidates_on
+from crumple.structure.hinges.runs.straight_runs import straight_run
 from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
 from crumple.structure.keys.hinge_axes import AxialSlip, HingeAxes
 from crumple.structure.keys.member import AutomaticHinges, Hinge
 from crumple.structure.parts import StructureParts
-from crumple.structure.struck_places import struck_places
 
-ASIDE = 0.1
-"""Distance of a hinge from the place where an obstacle with friction strikes, over half a fold length: just
-there both pieces would touch it at one point, which leaves the friction of each undetermined."""
 FOLDING = {"rectangular_tube": "superfolding", "circular_tube": "circular"}
 """Laws of crushing by the kind of section; others have none that holds for any size."""
 
@@ -177,79 +170,17 @@ def automatic_stations(
         where obstacles strike.
     """
     run = straight_run(structure, member)
-    kept = structure.kept.once(
-        "run stations",
-        (next(iter(run.stretches)), axes, spacing),
-        lambda: _on_run(structure, run, axes, spacing),
-    )
-    own = {name: station for name, (on, station) in kept.items() if on == member}
+    own = {
+        one.name: one.station for one in candidates_on(structure, run, axes, spacing) if one.member == member
+    }
     return dict(sorted(own.items(), key=lambda item: item[1]))
 
 
-def _on_run(
-    structure: StructureParts, run: StraightRun, axes: tuple[Axis, ...], spacing: float | None
-) -> dict[str, tuple[str, float]]:
-    """Candidates on a straight run by name: member, and distance from its first node [m]."""
-    names = list(run.stretches)
-    ends = names[0], names[-1]
-    section = structure.section_of(ends[0])
-    half = max(half_fold_length(section, axis) for axis in axes)
-    loaded = [carries_moment(structure, *one) for one in zip(ends, run.nodes, strict=True)]
-    reach = [joint_reach(structure, *one) for one in zip(ends, run.nodes, strict=True)]
-    start, end = reach[0], run.length - reach[1]
-    found: dict[str, tuple[str, float]] = {}
-
-    def put(name: str, along: float) -> None:
-        member = run.member_at(along)
-        name = f"{member}-{name}"
-        name = f"{name}-struck" if name in found else name
-        found[name] = member, run.stretches[member].station(along)
-
-    # a run that is shorter than two folds has room for one
-    if 4.0 * half >= end - start:
-        if any(loaded):
-            put("1", (start + end) / 2.0)
-        return found
-    inside = max(fold_distance(section, axis) for axis in axes)
-    first, last = start + inside, end - inside
-    struck = [(place, at) for place, at in _struck(structure, run, half) if first < at < last]
-    number = 1 if spacing is None else max(1, math.ceil((last - first) / spacing * (1.0 - 1e-9)))
-    # a strut buckles with a hinge between those of its ends, which an obstacle places where it strikes
-    number = max(2, number) if not struck and not braced(structure).isdisjoint(run.stretches) else number
-    between = np.linspace(first, last, number + 1)[1:-1]
-    for node, at, carries in zip(run.nodes, (first, last), loaded, strict=True):
-        if carries:
-            put(node, at)
-    for i, at in enumerate(between, 1):
-        put(str(i), float(at))
-    taken = [first, *between, last]
-    nodes = [(node, at - ASIDE * half) for node, at in run.between.items()]
-    for name, at in (*struck, *nodes):
-        if all(abs(at - other) > 2.0 * half for other in taken):
-            put(name, at)
-            taken.append(at)
-    return found
-
-
-def _struck(structure: StructureParts, run: StraightRun, half: float) -> Iterator[tuple[str, float]]:
-    """Obstacles that strike a run, and where [m]; beside that place where they rub."""
-    for member, stretch in run.stretches.items():
-        for place in struck_places(structure, member):
-            rubs = structure.obstacles[place.obstacle].friction > 0.0
-            yield place.obstacle, stretch.along(place.station + (ASIDE * half if rubs else 0.0))
-
-
-def carries_moment(structure: StructureParts, member: str, node: str) -> bool:
-    """Whether anything at a member's end can take a bending moment: another member, a support, an inertia."""
-    mine = structure.joints_at.get(node, ())
-    if any(joint.member == member and joint.type == "spherical" for joint in mine):
-        return False
-    freed = {joint.member for joint in mine if joint.type == "spherical"}
-    others = any(name != member and name not in freed for name in structure.members_at.get(node, ()))
-    turned = any(
-        freedom[0] == "r"
-        for _, support in structure.supports_at.get(node, ())
-        for freedom in (*support.held, *support.driven)
-    )
-    inertia = any(any(mass.rotary_inertia) or any(mass.offset) for mass in structure.masses_at.get(node, ()))
-    return others or turned or inertia
+def strike_at(structure: StructureParts, member: str, name: str) -> Strike | None:
+    """How an obstacle strikes a member at one of its candidates; None where none does."""
+    asked = automatic_of(structure, member)
+    if asked is None:
+        return None
+    run, (_, axes) = straight_run(structure, member), _keys(structure, member, asked)
+    found = candidates_on(structure, run, axes, asked.spacing)
+    return next((one.strike for one in found if (one.member, one.name) == (member, name)), None)

@@ -11,16 +11,16 @@ from dataclasses import dataclass
 from crumple import hinge
 from crumple.hinge import HingeLaw
 from crumple.material import Material
-from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section, fold_distance
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges.asked import where_automatic
 from crumple.structure.hinges.automatic import hinges_of
 from crumple.structure.hinges.law_choice import automatic_law, chosen_law, plain_law
+from crumple.structure.hinges.runs.ends import holds_rotation
+from crumple.structure.hinges.struck_folds import with_strike
 from crumple.structure.keys.hinge_axes import HingeAxes
 from crumple.structure.keys.law import LawKeys, LawReference
 from crumple.structure.keys.member import Hinge
-from crumple.structure.keys.motion import FREEDOMS
 from crumple.structure.parts import StructureParts
 from crumple.structure.remembered import remembered
 
@@ -28,8 +28,6 @@ PLAIN = HingeAxes()
 """A hinge that bends about one axis, the one across the plane of bending."""
 MADE = 1024
 """Laws, and records, that a process keeps: far more than any structure has."""
-SAME_DIRECTION = 1e-9
-"""Component of a unit vector below which it does not point along an axis."""
 
 
 @dataclass(frozen=True)
@@ -113,14 +111,6 @@ def hinge_station(structure: StructureParts, member: str, given: Hinge) -> float
     return offset if given.at == spec.nodes[0] else structure.frame_of(member).length - offset
 
 
-def holds_rotation(structure: StructureParts, node: str, direction: Floats) -> bool:
-    """Whether supports hold or drive the rotation of a node about a direction."""
-    supports = structure.supports_at.get(node, ())
-    held = {freedom for _, support in supports for freedom in (*support.held, *support.driven)}
-    needed = (FREEDOMS[3 + i] for i in range(3) if abs(direction[i]) > SAME_DIRECTION)
-    return all(freedom in held for freedom in needed)
-
-
 def law_spec(structure: StructureParts, place: HingePlace) -> LawKeys:
     """Law that a hinge refers to: the one it names, else a stored one, a formula, or an estimate.
 
@@ -162,11 +152,9 @@ def law_of(structure: StructureParts, place: HingePlace) -> HingeLaw:
         section, material = structure.section_of(place.member), structure.material_of(place.member)
         return _law(section, material, place.axis, law_spec(structure, place))
 
-    return (
-        build()
-        if (alike := alike_law(structure, place)) is None
-        else structure.kept.once("law", alike, build)
-    )
+    alike = alike_law(structure, place)
+    law = build() if alike is None else structure.kept.once("law", alike, build)
+    return with_strike(structure, place.member, place.name, place.law, law)
 
 
 def alike_law(structure: StructureParts, place: HingePlace) -> tuple[str, str, Axis, str] | None:

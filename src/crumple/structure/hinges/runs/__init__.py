@@ -1,0 +1,1 @@
+"""Straight runs of members, and candidates for folds on them."""

@@ -1,0 +1,129 @@
+"""Candidates for folds on straight runs, and what strikes them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple.section import Axis, fold_distance, half_fold_length
+from crumple.structure.hinges.joint_reach import joint_reach
+from crumple.structure.hinges.lengthening.braced import braced
+from crumple.structure.hinges.runs.ends import carries_moment, passes_moment
+from crumple.structure.hinges.runs.straight_runs import StraightRun
+from crumple.structure.parts import StructureParts
+from crumple.structure.struck_places import struck_places
+
+ASIDE = 0.1
+"""Distance of a hinge from the place where an obstacle with friction strikes, over half a fold length: just
+there both pieces would touch it at one point, which leaves the friction of each undetermined."""
+
+
+@dataclass(frozen=True)
+class Strike:
+    """An obstacle that strikes a run at a candidate.
+
+    Attributes
+    ----------
+    spans
+        Distances to what holds the run on both sides [m].
+    held
+        Whether the run carries a moment there.
+    """
+
+    spans: tuple[float, float]
+    held: tuple[bool, bool]
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A candidate for a fold.
+
+    Attributes
+    ----------
+    member, name
+        Its member, and its own name.
+    station
+        Distance from the member's first node [m].
+    strike
+        What strikes it, if anything does.
+    """
+
+    member: str
+    name: str
+    station: float
+    strike: Strike | None = None
+
+
+def candidates_on(
+    structure: StructureParts, run: StraightRun, axes: tuple[Axis, ...], spacing: float | None
+) -> list[Candidate]:
+    """Candidates on a straight run.
+
+    Parameters
+    ----------
+    structure, run
+        Its members must have nodes that exist and are apart.
+    axes
+        Bending axes of the candidates: the longest of their folds counts.
+    spacing
+        Largest distance between candidates [m]; None: only at the ends, at nodes, in the middle of braced
+        members, and where obstacles strike.
+    """
+    key = next(iter(run.stretches)), axes, spacing
+    return structure.kept.once("run", key, lambda: list(_candidates(structure, run, axes, spacing)))
+
+
+def _candidates(
+    structure: StructureParts, run: StraightRun, axes: tuple[Axis, ...], spacing: float | None
+) -> Iterator[Candidate]:
+    names = list(run.stretches)
+    section = structure.section_of(names[0])
+    half = max(half_fold_length(section, axis) for axis in axes)
+    ends = list(zip((names[0], names[-1]), run.nodes, strict=True))
+    first_held, last_held = (carries_moment(structure, *one) for one in ends)
+    start, end = joint_reach(structure, *ends[0]), run.length - joint_reach(structure, *ends[1])
+    # a run that is shorter than two folds has room for one
+    if 4.0 * half >= end - start:
+        if first_held or last_held:
+            yield _candidate(run, "1", (start + end) / 2.0)
+        return
+    inside = max(fold_distance(section, axis) for axis in axes)
+    first, last = start + inside, end - inside
+    struck = [(name, at) for name, at in _struck(structure, run, half, ends=False) if first < at < last]
+    struck = [(f"{name}-struck" if name in (*run.nodes, *run.between) else name, at) for name, at in struck]
+    number = 1 if spacing is None else max(1, math.ceil((last - first) / spacing * (1.0 - 1e-9)))
+    # a strut buckles with a hinge between those of its ends, which an obstacle places where it strikes
+    number = max(2, number) if not struck and not braced(structure).isdisjoint(run.stretches) else number
+    between = np.linspace(first, last, number + 1)[1:-1].tolist()
+    if first_held:
+        yield _candidate(run, run.nodes[0], first)
+    if last_held:
+        yield _candidate(run, run.nodes[1], last)
+    taken, inner = [first, last], [(str(i), at) for i, at in enumerate(between, 1)]
+    beside = [(node, at - ASIDE * half) for node, at in run.between.items()]
+    held = passes_moment(structure, *ends[0], axes), passes_moment(structure, *ends[1], axes)
+    pressed = [at for _, at in _struck(structure, run, half, ends=True)]
+    for name, at in (*inner, *struck, *beside):
+        if (name, at) in inner or all(abs(at - other) > 2.0 * half for other in taken):
+            taken.append(at)
+            strikes = any(abs(at - place) <= half for place in pressed)
+            strike = Strike((at - start, end - at), held) if strikes else None
+            yield _candidate(run, name, at, strike)
+
+
+def _candidate(run: StraightRun, name: str, along: float, strike: Strike | None = None) -> Candidate:
+    member = run.member_at(along)
+    return Candidate(member, f"{member}-{name}", run.stretches[member].station(along), strike)
+
+
+def _struck(
+    structure: StructureParts, run: StraightRun, half: float, *, ends: bool
+) -> Iterator[tuple[str, float]]:
+    """Obstacles that strike a run, and where [m]: beside it where they rub.  `ends`: also at nodes."""
+    for member, stretch in run.stretches.items():
+        for place in struck_places(structure, member, ends):
+            rubs = structure.obstacles[place.obstacle].friction > 0.0
+            yield place.obstacle, stretch.along(place.station + (ASIDE * half if rubs else 0.0))
