@@ -15,8 +15,11 @@ from crumple._core.spatial.model import (
     ObstacleKind,
     SpatialBody,
     SpatialContact,
+    SpatialHinge,
+    SpatialJoint,
     SpatialModel,
     SpatialObstacle,
+    frame_of,
 )
 from crumple.multibody.bodies.capsules import member_capsules, touching_pairs
 from crumple.multibody.bodies.crumpling_ends import CrumplingEnd
@@ -85,6 +88,7 @@ def with_obstacles(
     bodies, joints, drives, names = list(model.bodies), list(model.joints), list(model.drives), list(owners)
     light = LIGHT * sum(body.mass for body in bodies)
     obstacles, velocity, joint = [], [], {}
+    carriers, faces = [], []
     for name, obstacle in structure.obstacles.items():
         body = GROUND
         if obstacle.mass is not None or obstacle.driven:
@@ -97,6 +101,18 @@ def with_obstacles(
             joints.append(added)
             drives += driven
             names += [name] * len(driven)
+            face = face_of(structure, name)
+            if face is not None and obstacle.guide_direction is not None:
+                carriers.append(SpatialObstacle(ObstacleKind.SPHERE, body, place, capsules=()))
+                # the face lies before the mass, and moves back against its guide
+                held = (False, True, True, True, True, True)
+                share = FACE * mass
+                bodies[body] = SpatialBody(mass - share, bodies[body].inertia, place)
+                bodies.append(SpatialBody(share, share * model.length**2 * np.eye(3), place))
+                velocity.append(velocity[-1])
+                joints.append(SpatialJoint(body, body + 1, place, frame_of(obstacle.guide_direction), held))
+                faces.append(replace(face, joint=len(joints) - 1))
+                body += 1
         allowed = set(structure.members if obstacle.members is None else obstacle.members)
         touching = tuple(i for i, of in enumerate(surface.owners(name, obstacle)) if of & allowed)
         met = ends_met(together[isinstance(obstacle, PlaneObstacle)], surface.capsules, touching)
@@ -112,12 +128,31 @@ def with_obstacles(
         bodies=tuple(bodies),
         joints=tuple(joints),
         drives=tuple(drives),
-        obstacles=tuple(obstacles),
+        obstacles=(*obstacles, *carriers),
+        hinges=(*model.hinges, *faces),
         capsules=surface.capsules,
         contact=pairs,
     )
     speeds = np.array(velocity, float).reshape(-1, 3)
     return Touching(touching_model, joint, tuple(names), speeds, surface.members, surface.points)
+
+
+FACE = 0.005
+
+
+def face_of(structure, name):
+    from crumple.structure.hinges.runs.straight_runs import straight_run
+    from crumple.structure.hinges.struck_folds import dents
+    from crumple._core.spatial.model import SpatialComponent
+    by_run = {next(iter(straight_run(structure, m).stretches)): d for m, d in dents(structure, name).items()}
+    if not by_run:
+        return None
+    deepest = min(d.deepest for d in by_run.values())
+    depth = deepest * np.linspace(0.0, 1.0, 41) ** 2
+    force = sum(d.force + d.root * np.sqrt(np.maximum(depth, 1e-5)) for d in by_run.values())
+    depth, force = np.append(depth, deepest + 1e-5), np.append(force, 50.0 * force[-1])
+    rigid = (np.zeros(1), np.array([100.0 * force[0] + 10.0 * force[-2]]))
+    return SpatialHinge(-1, (SpatialComponent(0, positive=rigid, negative=(depth, force)),))
 
 
 def _shape(obstacle: Obstacle, body: int, touching: tuple[int, ...]) -> SpatialObstacle:

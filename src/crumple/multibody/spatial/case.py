@@ -165,7 +165,7 @@ def recorded_hinges(linkage: Linkage, model: SpatialModel) -> tuple[RecordedHing
     connections = (connection for connection in linkage.connections if connection.hinge is not None)
     return tuple(
         RecordedHinge(connection.hinge, connection.free, first)
-        for connection, first in zip(connections, model.component_offsets[:-1], strict=True)
+        for connection, first in zip(connections, model.component_offsets[:-1], strict=False)
         if connection.hinge is not None
     )
 

@@ -107,7 +107,8 @@ class SpatialSolver:
         """See `Solver`; bodies, contacts, dead centres and what the runs so far needed are shared."""
         other = copy(self)
         other.linkage = with_laws(self.linkage, hinges)
-        model = replace(self._model, hinges=kernel_hinges(other.linkage))
+        own = kernel_hinges(other.linkage)
+        model = replace(self._model, hinges=(*own, *self._model.hinges[len(own) :]))
         other._model, other._touching = model, replace(self._touching, model=model)
         other._touch(aside=self._aside, crushing=self._crushing)
         other._steps, other._guide, other._lead = None, None, self._guide

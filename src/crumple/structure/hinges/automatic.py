@@ -20,6 +20,7 @@ branch of a T-joint one in the face on which it ends.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from crumple.section import Axis, half_fold_length
@@ -176,11 +177,11 @@ def automatic_stations(
     return dict(sorted(own.items(), key=lambda item: item[1]))
 
 
-def strike_at(structure: StructureParts, member: str, name: str) -> Strike | None:
-    """How an obstacle strikes a member at one of its candidates; None where none does."""
+def strikes_on(structure: StructureParts, member: str) -> Mapping[str, Strike]:
+    """What strikes a member's straight run at its candidates, by their names."""
     asked = automatic_of(structure, member)
-    if asked is None:
-        return None
+    if asked is None or not structure.obstacles:
+        return {}
     run, (_, axes) = straight_run(structure, member), _keys(structure, member, asked)
     found = candidates_on(structure, run, axes, asked.spacing)
-    return next((one.strike for one in found if (one.member, one.name) == (member, name)), None)
+    return {one.name: one.strike for one in found if one.strike is not None}

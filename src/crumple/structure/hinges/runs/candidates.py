@@ -23,16 +23,19 @@ there both pieces would touch it at one point, which leaves the friction of each
 
 @dataclass(frozen=True)
 class Strike:
-    """An obstacle that strikes a run at a candidate.
+    """Obstacles that strike a run at a candidate.
 
     Attributes
     ----------
+    obstacles
+        Their names.
     spans
         Distances to what holds the run on both sides [m].
     held
         Whether the run carries a moment there.
     """
 
+    obstacles: tuple[str, ...]
     spans: tuple[float, float]
     held: tuple[bool, bool]
 
@@ -105,12 +108,12 @@ def _candidates(
     taken, inner = [first, last], [(str(i), at) for i, at in enumerate(between, 1)]
     beside = [(node, at - ASIDE * half) for node, at in run.between.items()]
     held = passes_moment(structure, *ends[0], axes), passes_moment(structure, *ends[1], axes)
-    pressed = [at for _, at in _struck(structure, run, half, ends=True)]
+    pressed = list(_struck(structure, run, half, ends=True))
     for name, at in (*inner, *struck, *beside):
         if (name, at) in inner or all(abs(at - other) > 2.0 * half for other in taken):
             taken.append(at)
-            strikes = any(abs(at - place) <= half for place in pressed)
-            strike = Strike((at - start, end - at), held) if strikes else None
+            strikes = tuple(obstacle for obstacle, place in pressed if abs(at - place) <= half)
+            strike = Strike(strikes, (at - start, end - at), held) if strikes else None
             yield _candidate(run, name, at, strike)
 
 
