@@ -149,7 +149,7 @@ def face_of(structure, name):
         return None
     deepest = min(d.deepest for d in by_run.values())
     depth = deepest * np.linspace(0.0, 1.0, 41) ** 2
-    force = sum(d.force + d.root * np.sqrt(np.maximum(depth, 1e-5)) for d in by_run.values())
+    force = sum(d.force * np.interp(depth / d.deepest, [0.0, .05, .1, .2, .3, .4, .5, 1], np.array([31, 31, 27, 25.5, 34, 39, 40, 40]) / 27.0) + d.root * np.sqrt(np.maximum(depth, 1e-5)) for d in by_run.values())
     depth, force = np.append(depth, deepest + 1e-5), np.append(force, 50.0 * force[-1])
     rigid = (np.zeros(1), np.array([100.0 * force[0] + 10.0 * force[-2]]))
     return SpatialHinge(-1, (SpatialComponent(0, positive=rigid, negative=(depth, force)),))
