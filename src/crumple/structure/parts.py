@@ -91,7 +91,7 @@ class StructureParts(Spec):
     def with_elastic(self, members: Mapping[str, Member]) -> Self:
         """Copy with members that differ in nothing but in `elastic`, checked like any other part."""
         parts = {name: getattr(self, name) for name in self.key_names}
-        changed = self.model_construct(**{**parts, "members": FrozenMapping(members)})
+        changed = type(self).model_construct(**{**parts, "members": FrozenMapping(members)})
         # a cached property: as if the copy itself had been asked
         changed.__dict__["kept"] = self.kept.shared(OF_ANY_STIFFNESS)
         return changed
