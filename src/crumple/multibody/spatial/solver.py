@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, MutableMapping
 from copy import copy
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from crumple._core.outcome import Outcome
 from crumple._core.records import joined
+from crumple._core.spatial.model import SpatialHinge
 from crumple._core.spatial.simulation import SpatialRecord, SpatialSimulation
 from crumple.errors import InputError, Problem
 from crumple.multibody.answer.forces import check_sections, force_channels, section_force_channels
@@ -84,6 +86,8 @@ class SpatialSolver:
         self._model, self._dead_centres = touching.model, dead_centres(self.linkage)
         self._touching = touching
         self._touch(aside=False, crushing=False)
+        # hinges with other laws: the changed capacities are two sets in several patterns
+        self._changed: MutableMapping[PlacedHinge, SpatialHinge] = WeakKeyDictionary()
         # steps of the run with outputs, of the one that estimates its error, and those that guide this model
         self._steps: Any = None
         self._guide: Any = None
@@ -108,7 +112,7 @@ class SpatialSolver:
         """See `Solver`; bodies, contacts, dead centres and what the runs so far needed are shared."""
         other = copy(self)
         other.linkage = with_laws(self.linkage, hinges)
-        model = replace(self._model, hinges=kernel_hinges(other.linkage))
+        model = replace(self._model, hinges=kernel_hinges(other.linkage, self._changed))
         other._model, other._touching = model, replace(self._touching, model=model)
         other._touch(aside=self._aside, crushing=self._crushing)
         other._steps, other._guide, other._lead = None, None, self._guide
