@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Self, TypeVar
 
 import numpy as np
+from pydantic import BaseModel
 
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
@@ -90,8 +91,8 @@ class StructureParts(Spec):
 
     def with_elastic(self, members: Mapping[str, Member]) -> Self:
         """Copy with members that differ in nothing but in `elastic`, checked like any other part."""
-        parts = {name: getattr(self, name) for name in self.key_names}
-        changed = type(self).model_construct(**{**parts, "members": FrozenMapping(members)})
+        # pydantic's own copy, with what was worked out of nodes and supports
+        changed = BaseModel.model_copy(self, update={"members": FrozenMapping(members)})
         # a cached property: as if the copy itself had been asked
         changed.__dict__["kept"] = self.kept.shared(OF_ANY_STIFFNESS)
         return changed
