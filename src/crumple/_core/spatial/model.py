@@ -127,10 +127,10 @@ class SpatialComponent(HingeConstants):
     shift: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
     shift_like: int = -1
 
-    def constants(self) -> dict[str, Any]:
-        """See `HingeConstants`."""
+    def component(self) -> dict[str, Any]:
+        """The constants and the freedom in the form that the kernel takes."""
         rotation, share = self.shift
-        return super().constants() | {
+        return self.constants() | {
             "freedom": self.freedom,
             "shift_rotation": as_list(rotation),
             "shift_share": as_list(share),
@@ -189,7 +189,7 @@ class SpatialHinge:
             "form": self.form,
             "softening": self.softening,
             "fracture": self.fracture,
-            "components": [component.constants() for component in self.components],
+            "components": [component.component() for component in self.components],
             "coupling": int(surface.coupling),
             "rows": as_list(np.asarray(surface.rows, float).reshape(-1)),
             "power": surface.power,
