@@ -94,17 +94,14 @@ def _straight_runs(structure: StructureParts) -> Mapping[str, StraightRun]:
 
 def _onwards(structure: StructureParts, member: str, node: str) -> tuple[list[str], str]:
     """Further members of a run beyond a node, and the node at which it ends."""
-    found = [member]
+    last, found = member, {member: None}
     while True:
-        further = [name for name in structure.members_at[node] if name != found[-1]]
-        if (
-            len(further) != 1
-            or further[0] in found
-            or not _is_one_tube(structure, node, found[-1], further[0])
-        ):
-            return found[1:], node
-        found.append(further[0])
-        first, second = structure.members[further[0]].nodes
+        further = [name for name in structure.members_at[node] if name != last]
+        if len(further) != 1 or further[0] in found or not _is_one_tube(structure, node, last, further[0]):
+            return list(found)[1:], node
+        last = further[0]
+        found[last] = None
+        first, second = structure.members[last].nodes
         node = second if node == first else first
 
 
