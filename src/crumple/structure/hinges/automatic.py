@@ -21,6 +21,8 @@ branch of a T-joint one in the face on which it ends.
 from __future__ import annotations
 
 import math
+from bisect import bisect
+from collections import defaultdict
 from collections.abc import Iterator
 from typing import Any
 
@@ -182,14 +184,13 @@ def automatic_stations(
         (next(iter(run.stretches)), axes, spacing),
         lambda: _on_run(structure, run, axes, spacing),
     )
-    own = {name: station for name, (on, station) in kept.items() if on == member}
-    return dict(sorted(own.items(), key=lambda item: item[1]))
+    return dict(sorted(kept.get(member, {}).items(), key=lambda item: item[1]))
 
 
 def _on_run(
     structure: StructureParts, run: StraightRun, axes: tuple[Axis, ...], spacing: float | None
-) -> dict[str, tuple[str, float]]:
-    """Candidates on a straight run by name: member, and distance from its first node [m]."""
+) -> dict[str, dict[str, float]]:
+    """Candidates on a straight run by member and name: distance from the member's first node [m]."""
     names = list(run.stretches)
     ends = names[0], names[-1]
     section = structure.section_of(ends[0])
@@ -197,13 +198,13 @@ def _on_run(
     loaded = [carries_moment(structure, *one) for one in zip(ends, run.nodes, strict=True)]
     reach = [joint_reach(structure, *one) for one in zip(ends, run.nodes, strict=True)]
     start, end = reach[0], run.length - reach[1]
-    found: dict[str, tuple[str, float]] = {}
+    found: dict[str, dict[str, float]] = defaultdict(dict)
 
     def put(name: str, along: float) -> None:
         member = run.member_at(along)
         name = f"{member}-{name}"
-        name = f"{name}-struck" if name in found else name
-        found[name] = member, run.stretches[member].station(along)
+        name = f"{name}-struck" if name in found[member] else name
+        found[member][name] = run.stretches[member].station(along)
 
     # a run that is shorter than two folds has room for one
     if 4.0 * half >= end - start:
@@ -222,12 +223,13 @@ def _on_run(
             put(node, at)
     for i, at in enumerate(between, 1):
         put(str(i), float(at))
-    taken = [first, *between, last]
+    taken = [first, *between.tolist(), last]
     nodes = [(node, at - ASIDE * half) for node, at in run.between.items()]
     for name, at in (*struck, *nodes):
-        if all(abs(at - other) > 2.0 * half for other in taken):
+        before = bisect(taken, at)
+        if all(abs(at - other) > 2.0 * half for other in taken[max(before - 1, 0) : before + 1]):
             put(name, at)
-            taken.append(at)
+            taken.insert(before, at)
     return found
 
 

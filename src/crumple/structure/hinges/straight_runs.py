@@ -6,6 +6,7 @@ takes before it softens, and with it the work of two folds where the shells have
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -66,8 +67,7 @@ class StraightRun:
 
     def member_at(self, along: float) -> str:
         """Member at a distance from the start [m]; at a node the one before."""
-        ends = ((name, one.start + one.length) for name, one in self.stretches.items())
-        return next((name for name, end in ends if along <= end), list(self.stretches)[-1])
+        return list(self.stretches)[bisect_left(list(self.between.values()), along)]
 
 
 def straight_run(structure: StructureParts, member: str) -> StraightRun:
