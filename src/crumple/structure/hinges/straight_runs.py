@@ -84,21 +84,22 @@ def _straight_runs(structure: StructureParts) -> Mapping[str, StraightRun]:
     for member, spec in structure.members.items():
         if member in found or not structure.has_line(member):
             continue
-        before, first = _onwards(structure, member, spec.nodes[0])
-        after, last = _onwards(structure, member, spec.nodes[1])
+        before, first = _onwards(structure, [member], spec.nodes[0])
+        # a ring of small kinks is all before
+        after, last = _onwards(structure, [*reversed(before), member], spec.nodes[1])
         names = [*reversed(before), member, *after]
         run = _run(structure, names, (first, last))
         found |= dict.fromkeys(run.stretches, run)
     return found
 
 
-def _onwards(structure: StructureParts, member: str, node: str) -> tuple[list[str], str]:
-    """Further members of a run beyond a node, and the node at which it ends."""
-    last, found = member, {member: None}
+def _onwards(structure: StructureParts, so_far: list[str], node: str) -> tuple[list[str], str]:
+    """Further members of a run beyond a node at the end of its last one, and the node at which it ends."""
+    last, found = so_far[-1], dict.fromkeys(so_far)
     while True:
         further = [name for name in structure.members_at[node] if name != last]
         if len(further) != 1 or further[0] in found or not _is_one_tube(structure, node, last, further[0]):
-            return list(found)[1:], node
+            return list(found)[len(so_far) :], node
         last = further[0]
         found[last] = None
         first, second = structure.members[last].nodes
