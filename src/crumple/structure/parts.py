@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
-from typing import Self, TypeVar, cast
+from typing import Self, TypeVar
 
 import numpy as np
 from pydantic import BaseModel
@@ -95,7 +95,7 @@ class StructureParts(Spec):
         changed = BaseModel.model_copy(self, update={"members": FrozenMapping(members)})
         # a cached property: as if the copy itself had been asked
         changed.__dict__["kept"] = self.kept.shared(OF_ANY_STIFFNESS)
-        return cast(Self, changed)
+        return changed
 
     def section_of(self, member: str) -> Section:
         """Cross-section of a member."""
