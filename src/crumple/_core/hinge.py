@@ -31,10 +31,10 @@ class HingeConstants:
     def constants(self) -> dict[str, Any]:
         """The constants in the form that the kernels take."""
         return {
-            "positive_rotation": _list(self.positive[0]),
-            "positive_moment": _list(self.positive[1]),
-            "negative_rotation": _list(self.negative[0]),
-            "negative_moment": _list(self.negative[1]),
+            "positive_rotation": as_list(self.positive[0]),
+            "positive_moment": as_list(self.positive[1]),
+            "negative_rotation": as_list(self.negative[0]),
+            "negative_moment": as_list(self.negative[1]),
             "elastic_stiffness": self.elastic_stiffness,
             "regularisation_rate": self.regularisation_rate,
             "rate_reference": self.rate_reference,
@@ -45,6 +45,7 @@ class HingeConstants:
         }
 
 
-def _list(values: Floats) -> list[Any]:
+def as_list(values: Floats) -> list[Any]:
+    """An array as the kernels take it."""
     plain: list[Any] = np.asarray(values, float).tolist()
     return plain

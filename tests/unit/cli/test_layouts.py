@@ -21,7 +21,9 @@ def _files(tmp_path):
 
 def test_layouts_are_solved_and_tabled(run_command, files, tmp_path):
     code, out, err = run_command("layouts", *files[:2], "--out", tmp_path / "out", "--title", "Walls")
-    assert (code, err) == (0, "")
+    # where it takes long, it says how far it is
+    told = [line for line in err.splitlines() if not line.startswith("solving:")]
+    assert (code, told) == (0, [])
     assert "thin" in out
     assert "thick" in out
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")

@@ -176,7 +176,8 @@ def every(cases):
 
     def over(function):
         shared, own = (
-            settings(max_examples=25)(given(tubes, shares, st.sampled_from([1, -1]))(function)) for _ in "12"
+            settings(max_examples=number)(given(tubes, shares, st.sampled_from([1, -1]))(function))
+            for number in (15, 25)
         )
         asked = {"shared": seed(0)(shared), "own": own}
 

@@ -11,11 +11,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from enum import IntEnum
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crumple._core.hinge import HingeConstants
+from crumple._core.hinge import HingeConstants, as_list
 from crumple.numeric.arrays import Floats
 
 GROUND = -1
@@ -125,6 +127,16 @@ class SpatialComponent(HingeConstants):
     shift: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
     shift_like: int = -1
 
+    def component(self) -> dict[str, Any]:
+        """The constants and the freedom in the form that the kernel takes."""
+        rotation, share = self.shift
+        return self.constants() | {
+            "freedom": self.freedom,
+            "shift_rotation": as_list(rotation),
+            "shift_share": as_list(share),
+            "shift_like": self.shift_like,
+        }
+
 
 class Coupling(IntEnum):
     """How the components of a hinge share their capacity; native/spatial/hinge/surface.hpp."""
@@ -167,6 +179,28 @@ class SpatialHinge:
     form: int = 0
     softening: int = 0
     fracture: float = math.inf
+
+    @cached_property
+    def constants(self) -> dict[str, Any]:
+        """The constants in the form that the kernel takes; runs of one model share them."""
+        surface = self.surface
+        return {
+            "joint": self.joint,
+            "form": self.form,
+            "softening": self.softening,
+            "fracture": self.fracture,
+            "components": [component.component() for component in self.components],
+            "coupling": int(surface.coupling),
+            "rows": as_list(np.asarray(surface.rows, float).reshape(-1)),
+            "power": surface.power,
+            "torque_power": surface.torque_power,
+            "torsion": surface.torsion,
+            "arm": surface.arm,
+            "arm_gains": [gain for gain, _ in surface.gains],
+            "arm_gain_shares": [share for _, share in surface.gains],
+            "growth_rotation": as_list(surface.growth[0]),
+            "growth_share": as_list(surface.growth[1]),
+        }
 
 
 @dataclass(frozen=True, eq=False)

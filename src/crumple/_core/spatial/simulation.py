@@ -11,12 +11,11 @@ from typing import Any
 import numpy as np
 
 from crumple._core import _kernels
+from crumple._core.hinge import as_list
 from crumple._core.outcome import Outcome
 from crumple._core.records import ComponentRecord, EnergyRecord, HingeEnergyRecord, HingeSummary, named
 from crumple._core.spatial.model import (
-    SpatialComponent,
     SpatialDrive,
-    SpatialHinge,
     SpatialJoint,
     SpatialLoad,
     SpatialModel,
@@ -269,14 +268,14 @@ def as_dict(model: SpatialModel) -> dict[str, Any]:
         "inertia": _stack([body.inertia for body in model.bodies], (3, 3)),
         "centre": _stack([body.centre for body in model.bodies], (3,)),
         "joints": [_joint(joint) for joint in model.joints],
-        "hinges": [_hinge(hinge) for hinge in model.hinges],
+        "hinges": [hinge.constants for hinge in model.hinges],
         "loads": [_load(load) for load in model.loads],
         "springs": [
             (
                 s.first,
                 s.second,
-                _list(s.first_point),
-                _list(s.second_point),
+                as_list(s.first_point),
+                as_list(s.second_point),
                 s.stiffness,
                 s.free_length,
                 s.damping,
@@ -286,7 +285,7 @@ def as_dict(model: SpatialModel) -> dict[str, Any]:
         "drives": [_drive(drive) for drive in model.drives],
         "obstacles": [_obstacle(obstacle) for obstacle in model.obstacles],
         "capsules": [
-            (c.body, _list(c.first), _list(c.second), c.radius, c.crush_force) for c in model.capsules
+            (c.body, as_list(c.first), as_list(c.second), c.radius, c.crush_force) for c in model.capsules
         ],
         "pairs": [list(pair) for pair in model.contact.pairs],
         "contact": (model.contact.friction, model.contact.restitution),
@@ -297,67 +296,31 @@ def as_dict(model: SpatialModel) -> dict[str, Any]:
     }
 
 
-def _list(values: Floats) -> list[Any]:
-    plain: list[Any] = np.asarray(values, float).tolist()
-    return plain
-
-
 def _stack(rows: list[Floats], shape: tuple[int, ...]) -> Floats:
     return np.ascontiguousarray(rows, float).reshape((len(rows), *shape))
 
 
 def _joint(joint: SpatialJoint) -> tuple[Any, ...]:
-    axes = _list(np.asarray(joint.axes, float).reshape(9))
-    return (joint.first, joint.second, _list(joint.position), axes, list(joint.held), joint.cross)
-
-
-def _hinge(hinge: SpatialHinge) -> dict[str, Any]:
-    surface = hinge.surface
-    return {
-        "joint": hinge.joint,
-        "form": hinge.form,
-        "softening": hinge.softening,
-        "fracture": hinge.fracture,
-        "components": [_component(component) for component in hinge.components],
-        "coupling": int(surface.coupling),
-        "rows": _list(np.asarray(surface.rows, float).reshape(-1)),
-        "power": surface.power,
-        "torque_power": surface.torque_power,
-        "torsion": surface.torsion,
-        "arm": surface.arm,
-        "arm_gains": [gain for gain, _ in surface.gains],
-        "arm_gain_shares": [share for _, share in surface.gains],
-        "growth_rotation": _list(surface.growth[0]),
-        "growth_share": _list(surface.growth[1]),
-    }
-
-
-def _component(component: SpatialComponent) -> dict[str, Any]:
-    rotation, share = component.shift
-    shift = {
-        "shift_rotation": _list(rotation),
-        "shift_share": _list(share),
-        "shift_like": component.shift_like,
-    }
-    return {"freedom": component.freedom} | shift | component.constants()
+    axes = as_list(np.asarray(joint.axes, float).reshape(9))
+    return (joint.first, joint.second, as_list(joint.position), axes, list(joint.held), joint.cross)
 
 
 def _load(load: SpatialLoad) -> tuple[Any, ...]:
     arrays = (load.point, load.force, load.moment, load.times, load.values)
-    return (load.body, *(_list(values) for values in arrays))
+    return (load.body, *(as_list(values) for values in arrays))
 
 
 def _drive(drive: SpatialDrive) -> tuple[Any, ...]:
-    return (drive.joint, drive.freedom, _list(drive.times), _list(drive.rates), drive.start)
+    return (drive.joint, drive.freedom, as_list(drive.times), as_list(drive.rates), drive.start)
 
 
 def _obstacle(obstacle: SpatialObstacle) -> dict[str, Any]:
     return {
         "kind": int(obstacle.kind),
         "body": obstacle.body,
-        "point": _list(obstacle.point),
-        "direction": _list(obstacle.direction),
-        "edge": _list(obstacle.edge),
+        "point": as_list(obstacle.point),
+        "direction": as_list(obstacle.direction),
+        "edge": as_list(obstacle.edge),
         "radius": obstacle.radius,
         "length": obstacle.length,
         "friction": obstacle.friction,
@@ -369,4 +332,4 @@ def _obstacle(obstacle: SpatialObstacle) -> dict[str, Any]:
 
 def as_until(until: SpatialUntil) -> tuple[Any, ...]:
     points = np.zeros((2, 3)) if until.points is None else until.points
-    return (int(until.kind), until.value, until.index, until.freedom, list(until.bodies), _list(points))
+    return (int(until.kind), until.value, until.index, until.freedom, list(until.bodies), as_list(points))

@@ -22,6 +22,7 @@ from crumple.multibody.answer.poses import SpatialHistory, SpatialPoses
 from crumple.multibody.answer.solved import Solved
 from crumple.multibody.bodies.linkage import Linkage
 from crumple.multibody.checks.names import named
+from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import turned
 from crumple.result import Caution
 from crumple.section import (
@@ -56,11 +57,12 @@ def overloaded_sections(structure: Structure, solved: Solved) -> Iterator[Cautio
     if not isinstance(poses, SpatialPoses) or poses.rows < 2:
         return
     found: dict[str, float] = {}
+    hinges = np.array([hinge.position for hinge in poses.linkage.hinges]).reshape(-1, 3)
     for member, spec in structure.members.items():
         if spec.rigid is not False:
             continue
         for node in spec.nodes:
-            if not _has_hinge(structure, poses.linkage, member, node):
+            if not _has_hinge(structure, hinges, member, node):
                 use = _use(structure, poses, member, node)
                 if use > USED:
                     found[member] = max(use, found.get(member, 0.0))
@@ -76,12 +78,12 @@ def overloaded_sections(structure: Structure, solved: Solved) -> Iterator[Cautio
             yield Caution("overloaded_section", use, USED, "1", f"member {member}", text)
 
 
-def _has_hinge(structure: Structure, linkage: Linkage, member: str, node: str) -> bool:
-    """Whether a hinge stands for a fold at a member's end."""
+def _has_hinge(structure: Structure, hinges: Floats, member: str, node: str) -> bool:
+    """Whether one of the hinges, at places (hinges, 3), stands for a fold at a member's end."""
     section, place = structure.section_of(member), np.asarray(structure.nodes[node], float)
     side = float(np.ptp(section.outer_outline(), axis=0).max())
     near = side + 2.0 * max(half_fold_length(section, axis) for axis in AXES)
-    return any(float(np.linalg.norm(hinge.position - place)) <= near for hinge in linkage.hinges)
+    return bool(np.any(np.linalg.norm(hinges - place, axis=1) <= near))
 
 
 def _use(structure: Structure, poses: SpatialHistory, member: str, node: str) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, MutableMapping
 from dataclasses import replace
 
 import numpy as np
@@ -26,7 +26,7 @@ from crumple.multibody.bodies.actions import applied_loads, driven_freedoms
 from crumple.multibody.bodies.hinge_constants import FORMS, SOFTENING, hinge_constants
 from crumple.multibody.bodies.linkage import Connection, Linkage
 from crumple.multibody.bodies.sampled_functions import breaks_of
-from crumple.structure import FREEDOMS, Structure
+from crumple.structure import FREEDOMS, PlacedHinge, Structure
 
 COUPLINGS = {
     Coupling.NONE: SurfaceCoupling.NONE,
@@ -65,13 +65,15 @@ def spatial_model(
     )
 
 
-def kernel_hinges(linkage: Linkage) -> tuple[SpatialHinge, ...]:
-    """Hinges of the kernel's model."""
-    return tuple(
-        _hinge(i, connection)
-        for i, connection in enumerate(linkage.connections)
-        if connection.hinge is not None
-    )
+def kernel_hinges(
+    linkage: Linkage, made: MutableMapping[PlacedHinge, SpatialHinge] | None = None
+) -> tuple[SpatialHinge, ...]:
+    """Hinges of the kernel's model; those that a linkage with the same connections `made` are taken."""
+    kept: MutableMapping[PlacedHinge, SpatialHinge] = {} if made is None else made
+    for i, connection in enumerate(linkage.connections):
+        if connection.hinge is not None and connection.hinge not in kept:
+            kept[connection.hinge] = _hinge(i, connection)
+    return tuple(kept[hinge] for hinge in linkage.hinges)
 
 
 def support_drives(

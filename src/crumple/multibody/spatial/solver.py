@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, MutableMapping
 from copy import copy
 from dataclasses import replace
+from functools import cached_property
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from crumple._core.outcome import Outcome
 from crumple._core.records import joined
+from crumple._core.spatial.model import SpatialHinge
 from crumple._core.spatial.simulation import SpatialRecord, SpatialSimulation
 from crumple.errors import InputError, Problem
 from crumple.multibody.answer.forces import check_sections, force_channels, section_force_channels
@@ -83,6 +86,8 @@ class SpatialSolver:
         self._model, self._dead_centres = touching.model, dead_centres(self.linkage)
         self._touching = touching
         self._touch(aside=False, crushing=False)
+        # hinges with other laws: the changed capacities are two sets in several patterns
+        self._changed: MutableMapping[PlacedHinge, SpatialHinge] = WeakKeyDictionary()
         # steps of the run with outputs, of the one that estimates its error, and those that guide this model
         self._steps: Any = None
         self._guide: Any = None
@@ -107,7 +112,7 @@ class SpatialSolver:
         """See `Solver`; bodies, contacts, dead centres and what the runs so far needed are shared."""
         other = copy(self)
         other.linkage = with_laws(self.linkage, hinges)
-        own = kernel_hinges(other.linkage)
+        own = kernel_hinges(other.linkage, self._changed)
         model = replace(self._model, hinges=(*own, *self._model.hinges[len(own) :]))
         other._model, other._touching = model, replace(self._touching, model=model)
         other._touch(aside=self._aside, crushing=self._crushing)
@@ -219,9 +224,17 @@ class SpatialSolver:
             obstacles=lowered.obstacles,
             until=lowered.until,
         )
-        now = None if before is None else Placed(before.centre[-1], before.rotation[-1])
-        velocity, impulse, energy = added_motion(*parts, now, first=before is None)
+        if before is None:
+            velocity, impulse, energy = self._start
+        else:
+            now = Placed(before.centre[-1], before.rotation[-1])
+            velocity, impulse, energy = added_motion(*parts, now, first=False)
         return energy, simulation.set_motion(velocity, impulse)
+
+    @cached_property
+    def _start(self) -> tuple[Floats, Floats, float]:
+        """What the first stage adds, the same in every run."""
+        return added_motion(self._structure, self.linkage, self._touching, self._stages[0], first=True)
 
     def _solved(
         self,

@@ -171,9 +171,8 @@ def automatic_stations(
         where obstacles strike.
     """
     run = straight_run(structure, member)
-    own = {
-        one.name: one.station for one in candidates_on(structure, run, axes, spacing) if one.member == member
-    }
+    found = candidates_on(structure, run, axes, spacing).get(member, [])
+    own = {one.name: one.station for one in found}
     return dict(sorted(own.items(), key=lambda item: item[1]))
 
 
@@ -183,5 +182,5 @@ def strikes_on(structure: StructureParts, member: str) -> Mapping[str, Strike]:
     if asked is None or not structure.obstacles:
         return {}
     run, (_, axes) = straight_run(structure, member), _keys(structure, member, asked)
-    found = candidates_on(structure, run, axes, asked.spacing)
+    found = candidates_on(structure, run, axes, asked.spacing).get(member, [])
     return {one.name: one.strike for one in found if one.strike is not None}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -131,7 +132,7 @@ def _placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
         places = by_member[member]
         if not places and not spec.elastic:
             continue
-        shares, about = member_shares(structure, member, places, free(member))
+        shares, about = _shares(structure, member, free)
         own = []
         for place, share in zip(places, shares, strict=True):
             go_on()
@@ -156,10 +157,19 @@ def shares_left_out(structure: StructureParts) -> dict[str, dict[Axis, AxisShare
     free = moment_free_ends(structure)
     found: dict[str, dict[Axis, AxisShares]] = {}
     for member in structure.members:
-        places = member_hinge_places(structure, member)
-        about = member_shares(structure, member, places, free(member))[1] if places else {}
+        about = _shares(structure, member, free)[1] if member_hinge_places(structure, member) else {}
         found[member] = {axis: shares for axis, shares in about.items() if shares.rigid}
     return found
+
+
+def _shares(
+    structure: StructureParts, member: str, free: Callable[[str], tuple[bool, bool]]
+) -> tuple[list[HingeShares], dict[Axis, AxisShares]]:
+    """See `member_shares`; `free`: which ends of members carry no moment."""
+    places = member_hinge_places(structure, member)
+    return structure.kept.once(
+        "shares", member, lambda: member_shares(structure, member, places, free(member))
+    )
 
 
 def elastic_joints(

@@ -1,5 +1,6 @@
 """Members in line that are one tube have one candidate at a node between them."""
 
+import math
 from itertools import pairwise
 
 import pytest
@@ -79,3 +80,15 @@ ENDED = {
 def test_what_else_is_at_a_node_ends_the_run(case):
     parts = ENDED[case] | ({"supports": CLAMP} if case == "a corner" else {})
     assert list(straight_run(line(**parts), "ab").stretches) == ["ab"]
+
+
+def test_a_ring_of_small_kinks_is_one_run():
+    number = 90
+    turns = [2.0 * math.pi * i / number for i in range(number)]
+    nodes = {f"n{i}": (math.cos(turn), 0.0, math.sin(turn)) for i, turn in enumerate(turns)}
+    members = {f"m{i}": member(f"n{i}", f"n{(i + 1) % number}") | {"hinges": ()} for i in range(number)}
+    whole = structure(nodes, members, hinges="auto", supports={})
+    run = straight_run(whole, "m7")
+    assert set(run.stretches) == set(members)
+    assert run.length == pytest.approx(2.0 * number * math.sin(math.pi / number))
+    assert all(0.0 < place.station < 0.07 for place in hinge_places(whole))

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from bisect import bisect
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,8 +64,8 @@ class Candidate:
 
 def candidates_on(
     structure: StructureParts, run: StraightRun, axes: tuple[Axis, ...], spacing: float | None
-) -> list[Candidate]:
-    """Candidates on a straight run.
+) -> Mapping[str, list[Candidate]]:
+    """Candidates on a straight run, by their members.
 
     Parameters
     ----------
@@ -75,8 +77,14 @@ def candidates_on(
         Largest distance between candidates [m]; None: only at the ends, at nodes, in the middle of braced
         members, and where obstacles strike.
     """
-    key = next(iter(run.stretches)), axes, spacing
-    return structure.kept.once("run", key, lambda: list(_candidates(structure, run, axes, spacing)))
+
+    def find() -> Mapping[str, list[Candidate]]:
+        found = defaultdict(list)
+        for one in _candidates(structure, run, axes, spacing):
+            found[one.member].append(one)
+        return found
+
+    return structure.kept.once("run", (next(iter(run.stretches)), axes, spacing), find)
 
 
 def _candidates(
@@ -105,13 +113,17 @@ def _candidates(
         yield _candidate(run, run.nodes[0], first)
     if last_held:
         yield _candidate(run, run.nodes[1], last)
-    taken, inner = [first, last], [(str(i), at) for i, at in enumerate(between, 1)]
+    inner = [(str(i), at) for i, at in enumerate(between, 1)]
+    taken = [first, *between, last]
     beside = [(node, at - ASIDE * half) for node, at in run.between.items()]
     held = passes_moment(structure, *ends[0], axes), passes_moment(structure, *ends[1], axes)
     pressed = list(_struck(structure, run, half, ends=True))
     for name, at in (*inner, *struck, *beside):
-        if (name, at) in inner or all(abs(at - other) > 2.0 * half for other in taken):
-            taken.append(at)
+        before = bisect(taken, at)
+        apart = all(abs(at - other) > 2.0 * half for other in taken[max(before - 1, 0) : before + 1])
+        if apart or (name, at) in inner:
+            if apart:
+                taken.insert(before, at)
             strikes = tuple(obstacle for obstacle, place in pressed if abs(at - place) <= half)
             strike = Strike(strikes, (at - start, end - at), held) if strikes else None
             yield _candidate(run, name, at, strike)

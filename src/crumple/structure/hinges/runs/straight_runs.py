@@ -6,6 +6,7 @@ takes before it softens, and with it the work of two folds where the shells have
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -66,8 +67,7 @@ class StraightRun:
 
     def member_at(self, along: float) -> str:
         """Member at a distance from the start [m]; at a node the one before."""
-        ends = ((name, one.start + one.length) for name, one in self.stretches.items())
-        return next((name for name, end in ends if along <= end), list(self.stretches)[-1])
+        return list(self.stretches)[bisect_left(list(self.between.values()), along)]
 
 
 def straight_run(structure: StructureParts, member: str) -> StraightRun:
@@ -84,27 +84,25 @@ def _straight_runs(structure: StructureParts) -> Mapping[str, StraightRun]:
     for member, spec in structure.members.items():
         if member in found or not structure.has_line(member):
             continue
-        before, first = _onwards(structure, member, spec.nodes[0])
-        after, last = _onwards(structure, member, spec.nodes[1])
+        before, first = _onwards(structure, [member], spec.nodes[0])
+        # a ring of small kinks is all before
+        after, last = _onwards(structure, [*reversed(before), member], spec.nodes[1])
         names = [*reversed(before), member, *after]
         run = _run(structure, names, (first, last))
         found |= dict.fromkeys(run.stretches, run)
     return found
 
 
-def _onwards(structure: StructureParts, member: str, node: str) -> tuple[list[str], str]:
-    """Further members of a run beyond a node, and the node at which it ends."""
-    found = [member]
+def _onwards(structure: StructureParts, so_far: list[str], node: str) -> tuple[list[str], str]:
+    """Further members of a run beyond a node at the end of its last one, and the node at which it ends."""
+    last, found = so_far[-1], dict.fromkeys(so_far)
     while True:
-        further = [name for name in structure.members_at[node] if name != found[-1]]
-        if (
-            len(further) != 1
-            or further[0] in found
-            or not _is_one_tube(structure, node, found[-1], further[0])
-        ):
-            return found[1:], node
-        found.append(further[0])
-        first, second = structure.members[further[0]].nodes
+        further = [name for name in structure.members_at[node] if name != last]
+        if len(further) != 1 or further[0] in found or not _is_one_tube(structure, node, last, further[0]):
+            return list(found)[len(so_far) :], node
+        last = further[0]
+        found[last] = None
+        first, second = structure.members[last].nodes
         node = second if node == first else first
 
 
