@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from crumple.analysis import LoadedInput
-    from crumple.result import CrumpledEnd, HingeSummary, Result
+    from crumple.result import CrumpledEnd, DentedWall, HingeSummary, Result
 
 MOST_HINGES = 20
 """Number of hinges in the table; the files contain all."""
@@ -236,6 +236,8 @@ def _show(result: Result, folder: Path, source: LoadedInput) -> None:
         console.print(_stretch_table(result.hinges))
     if result.crumpled_ends:
         console.print(_crumpled_table(result.crumpled_ends))
+    if result.dents:
+        console.print(_dent_table(result.dents))
     if max(len(bending), len(crushing)) > MOST_HINGES:
         console.print(
             f"At most {MOST_HINGES} of {len(result.hinges)} hinges, those with the largest absorbed energy"
@@ -312,6 +314,15 @@ def _crumpled_table(ends: Sequence[CrumpledEnd]) -> Table:
         ("Energy absorbed", [end.energy for end in ends], "J"),
     )
     return _table("Crumpled end", [f"{end.node} on {end.obstacle}" for end in ends], columns)
+
+
+def _dent_table(dents: Sequence[DentedWall]) -> Table:
+    """One row per dent in the wall of a tube."""
+    columns = (
+        ("Depth", [dent.depth for dent in dents], "m"),
+        ("Energy absorbed", [dent.energy for dent in dents], "J"),
+    )
+    return _table("Dent", [f"{dent.member} under {dent.obstacle}" for dent in dents], columns)
 
 
 def _table(what: str, names: list[str], columns: tuple[tuple[str, list[Any], str], ...]) -> Table:

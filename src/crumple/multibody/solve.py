@@ -12,6 +12,7 @@ from crumple.cancelling import asking
 from crumple.errors import CancelledError, InputError, Problem, Status
 from crumple.hinge import Form
 from crumple.multibody.answer.crush import with_crush
+from crumple.multibody.answer.dents import dent_channels, dented_walls, wall_motions
 from crumple.multibody.answer.histories import (
     clearance_channels,
     distance_channels,
@@ -206,14 +207,16 @@ def _result(
     if status.ok and any(caution.violation for caution in cautions):
         status = Status.IMPOSSIBLE
         reason = " ".join(sentences(caution for caution in cautions if caution.violation))
+    walls = wall_motions(solved.dents)
     wanted = [
-        *node_channels(structure, solved.poses, run.outputs.nodes, solved.time),
+        *node_channels(structure, solved.poses, run.outputs.nodes, solved.time, walls),
         *section_channels(structure, solved.poses, run.outputs),
-        *distance_channels(structure, solved.poses, run.outputs),
+        *distance_channels(structure, solved.poses, run.outputs, walls),
         *clearance_channels(structure, solved.poses, run.outputs),
     ]
     channels = [
-        *hinge_channels(solved.hinges, solved.spread),
+        *hinge_channels(solved.hinges, solved.spread, solved.dents),
+        *dent_channels(solved.dents),
         *energy_channels(solved),
         *gravity_channels(structure, solved.poses),
     ]
@@ -247,6 +250,7 @@ def _result(
         collapse_threshold=threshold,
         stages=solved.stages,
         crumpled_ends=solved.crumpled,
+        dents=dented_walls(solved.dents),
         yielded=_yielded(solved),
     )
 

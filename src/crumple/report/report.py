@@ -178,6 +178,7 @@ def _render(
         crush_table=along.crush_table(result),
         stretch_table=along.stretch_table(result),
         crumpled_table=along.crumpled_table(result),
+        dent_table=along.dent_table(result),
         collapse_table=wording.collapse_table(result),
         stage_table=wording.stage_table(result),
         output_table=wording.output_table(result),

@@ -1,7 +1,7 @@
 """Results: the data of a run, filters, and storage."""
 
 from crumple.result.caution import Caution, sentences
-from crumple.result.crush import CrumpledEnd, CrushSummary, crush_summary
+from crumple.result.crush import CrumpledEnd, CrushSummary, DentedWall, crush_summary
 from crumple.result.filters import ChannelClass, Standard, cfc
 from crumple.result.nearby import LawRange, Mode, Modes
 from crumple.result.pictures import missing_pictures
@@ -24,6 +24,7 @@ __all__ = [
     "ChannelClass",
     "CrumpledEnd",
     "CrushSummary",
+    "DentedWall",
     "HingeSummary",
     "LawRange",
     "Mode",

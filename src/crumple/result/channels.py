@@ -132,6 +132,9 @@ KINDS = (
         "MS, S",
     ),
     Kind("obstacle.NAME.velocity.xyz", "m/s", "velocity of this displacement", "MS, S"),
+    Kind(
+        "obstacle.NAME.dent", "m", "depth of the dents that it presses into tubes; where it dents any", "MS"
+    ),
     Kind("weld.NAME.failed", "1", "fraction of the spot welds of an entry that have failed", "S"),
     Kind(
         "weld.NAME.normal_force",

@@ -58,6 +58,29 @@ class CrumpledEnd:
 
 
 @dataclass(frozen=True)
+class DentedWall:
+    """Dent that an obstacle pressed into the wall of a tube.
+
+    Attributes
+    ----------
+    member, station
+        Where: distance from the member's first node [m].
+    obstacle
+        What pressed it.
+    depth
+        Largest depth [m].
+    energy
+        Dissipated by it; part of the energy of its member [J].
+    """
+
+    member: str
+    station: float
+    obstacle: str
+    depth: float
+    energy: float
+
+
+@dataclass(frozen=True)
 class CrushSummary:
     """Crushing of one hinge.
 

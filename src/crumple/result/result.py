@@ -14,7 +14,7 @@ from crumple.errors import InputError, Problem, Status
 from crumple.hinge.law_use import LawUse
 from crumple.numeric.arrays import Floats, Integers
 from crumple.result.caution import Caution
-from crumple.result.crush import BENT, CrumpledEnd, CrushSummary, StretchSummary
+from crumple.result.crush import BENT, CrumpledEnd, CrushSummary, DentedWall, StretchSummary
 from crumple.result.nearby import LawRange, Modes
 from crumple.result.scatter import Judged, Scatter
 from crumple.result.tables import imported_pandas
@@ -257,6 +257,8 @@ class Result:
     """Modes of collapse that appear beside this one, if they were looked for."""
     crumpled_ends: tuple[CrumpledEnd, ...] = ()
     """Free ends of members that crumpled on planes, in the multibody model."""
+    dents: tuple[DentedWall, ...] = ()
+    """Dents that obstacles pressed into walls, in the multibody model."""
     criteria: tuple[Judged, ...] = ()
     """Criteria of the input and the values of the run."""
     yielded: Mapping[str, tuple[tuple[float, float], ...]] = field(default_factory=dict)

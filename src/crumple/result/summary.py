@@ -52,6 +52,7 @@ def summary(result: Result) -> dict[str, Any]:
         "hinges": hinges,
         "outputs": outputs,
         "crumpled_ends": [asdict(end) for end in result.crumpled_ends],
+        "dents": [asdict(dent) for dent in result.dents],
         "collapse": [asdict(opening) for opening in result.collapse],
         "collapse_threshold": result.collapse_threshold,
         "cautions": [

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from crumple.errors import Status
 from crumple.hinge.law_use import LawUse
 from crumple.result.caution import Caution
-from crumple.result.crush import CrumpledEnd, CrushSummary, StretchSummary
+from crumple.result.crush import CrumpledEnd, CrushSummary, DentedWall, StretchSummary
 from crumple.result.format import FORMAT, former_names_note, present_name
 from crumple.result.nearby import LawRange, modes_of
 from crumple.result.result import (
@@ -180,6 +180,7 @@ def _write_rest(group: h5py.Group, result: Result, field_names: FieldNames) -> N
         "scatter": None if result.scatter is None else asdict(result.scatter),
         "yielded": dict(result.yielded),
         "crumpled_ends": [asdict(end) for end in result.crumpled_ends],
+        "dents": [asdict(dent) for dent in result.dents],
         "member_names": None if result.states is None else result.states.member_names,
         "fields": field_names,
     }
@@ -270,6 +271,7 @@ def read_vtkhdf(file: h5py.File) -> Result:
         criteria=judged_of(text.get("criteria")),
         scatter=scatter_of(text.get("scatter")),
         crumpled_ends=tuple(CrumpledEnd(**end) for end in text.get("crumpled_ends", ())),
+        dents=tuple(DentedWall(**dent) for dent in text.get("dents", ())),
         yielded={
             member: tuple((float(station), float(energy)) for station, energy in places)
             for member, places in text.get("yielded", {}).items()

@@ -25,6 +25,7 @@ from crumple.structure.hinges.hinges import PlacedHinge, placed_hinges, plastic_
 from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.law_use import law_uses, used_texts, with_used_laws
 from crumple.structure.hinges.places import HingePlace, hinge_places, member_hinge_places
+from crumple.structure.hinges.struck_folds import DentedTube, dented_tubes
 from crumple.structure.keys.joint import Joint
 from crumple.structure.keys.law import LawKeys, Regularisation, Stops
 from crumple.structure.keys.load import ForceComponents, Load, Mass, MomentComponents, NodalImpulse
@@ -58,6 +59,7 @@ __all__ = [
     "AutomaticHinges",
     "Bars",
     "CylinderObstacle",
+    "DentedTube",
     "Distance",
     "Filter",
     "FinePlace",
@@ -104,6 +106,7 @@ __all__ = [
     "across_plane",
     "any_automatic",
     "changed",
+    "dented_tubes",
     "frame_of",
     "gap",
     "hinge_places",

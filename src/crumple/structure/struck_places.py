@@ -49,10 +49,19 @@ class StruckPlace:
         Its name.
     station
         Distance from the member's first node [m].
+    travel
+        By how far the obstacle moves, relative to the member, before they touch [m].
+    outwards
+        Unit vector across the member from it to the obstacle, (3,).
+    sine
+        Of the angle between the member and the axis of the obstacle there.
     """
 
     obstacle: str
     station: float
+    travel: float
+    outwards: tuple[float, ...]
+    sine: float
 
 
 @dataclass(frozen=True)
@@ -90,9 +99,9 @@ def _struck_places(structure: StructureParts) -> Mapping[str, tuple[StruckPlace,
         members = [one for one in obstacle.members or structure.members if structure.has_line(one)]
         path = _path(structure, obstacle)
         for member in members if path is not None else _nearest(structure, obstacle, members):
-            station = _touches(structure, member, obstacle, path)
-            if station is not None and -LEAST <= station <= structure.frame_of(member).length + LEAST:
-                found[member] = (*found.get(member, ()), StruckPlace(name, station))
+            place = _touches(structure, member, name, path)
+            if place is not None and -LEAST <= place.station <= structure.frame_of(member).length + LEAST:
+                found[member] = (*found.get(member, ()), place)
     return found
 
 
@@ -136,10 +145,12 @@ def axis_gaps(structure: StructureParts, obstacle: Obstacle, members: list[str])
     return gap(obstacle, axes)
 
 
-def _touches(structure: StructureParts, member: str, obstacle: Obstacle, path: Floats | None) -> float | None:
-    """Station on a member's line at which an obstacle touches it first [m]; None if it misses it."""
+def _touches(
+    structure: StructureParts, member: str, obstacle: str, path: Floats | None
+) -> StruckPlace | None:
+    """Where an obstacle touches a member's line first, also beyond its ends; None if it misses it."""
     frame, outline = structure.frame_of(member), structure.section_of(member).outer_outline()
-    core = _core(obstacle, frame, path)
+    core = _core(structure.obstacles[obstacle], frame, path)
     normal = cross(frame.x, core.axis)
     sine = float(np.linalg.norm(normal))
     if sine < math.sin(NARROWEST):
@@ -151,12 +162,14 @@ def _touches(structure: StructureParts, member: str, obstacle: Obstacle, path: F
     if closing < math.sin(NARROWEST) or any(side @ towards > LEAST for side in core.outwards):
         return None
     travel = (float(apart @ towards) - core.radius - _reach(frame, outline, towards)) / closing
-    apart = apart + max(0.0, travel) * path
+    travel = max(0.0, travel)
+    apart = apart + travel * path
     along = float(cross(apart, frame.x) @ normal) / sine**2
     beside = core.radius + _reach(frame, outline, core.axis)
     if not -beside <= along - core.start and along - core.end <= beside:
         return None
-    return float(cross(apart, core.axis) @ normal) / sine**2
+    station = float(cross(apart, core.axis) @ normal) / sine**2
+    return StruckPlace(obstacle, station, travel, tuple(towards.tolist()), sine)
 
 
 def _core(obstacle: Obstacle, frame: Frame, path: Floats | None) -> _Core:

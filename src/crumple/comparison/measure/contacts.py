@@ -193,9 +193,10 @@ def _travel(result: Result, states: States, obstacle: str) -> Floats:
 
 
 def hinge_work(result: Result, structure: Structure) -> list[tuple[str, float, float]]:
-    """Member, station [m] and energy [J] of every hinge of a multibody run, and of what yielded between."""
+    """Member, station [m] and energy [J] of hinges and dents of a multibody run, and of what yielded between."""
     hinges = [
         (hinge.member, hinge.station, float(result[f"hinge.{hinge.name}.energy"][-1]))
         for hinge in plastic_hinges(structure)
     ]
-    return hinges + [(member, *place) for member, own in result.yielded.items() for place in own]
+    dents = [(dent.member, dent.station, dent.energy) for dent in result.dents]
+    return hinges + dents + [(member, *place) for member, own in result.yielded.items() for place in own]

@@ -19,7 +19,7 @@ from crumple.comparison.measure.motion import HingeMotion, Measured, bends_two_w
 from crumple.section import AXES, half_fold_length
 from crumple.structure import PlacedHinge, Structure
 from crumple.structure.hinges.corner_laws import corner_laws, corner_name
-from crumple.structure.hinges.straight_runs import straight_run
+from crumple.structure.hinges.runs.straight_runs import straight_run
 
 SUMMED = ("rotation", "rotation_rate", "plastic_rotation")
 """Histories whose values add up with the sense of the other member's axis; plastic work adds up without."""

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any, Protocol
 
 from crumple._core.records import HingeSummary
+from crumple.multibody.answer.dents import DentHistory, wall_motions
 from crumple.multibody.answer.hinge_histories import RecordedHinge, Rows, hinge_columns, ledger
 from crumple.multibody.answer.histories import (
     clearance_channels,
@@ -51,6 +52,9 @@ class Ended(Protocol):
     def end_poses(self, ends: Any) -> Poses:
         """Final positions of the bodies; rows are independent runs."""
 
+    def dents(self, rows: Rows) -> Sequence[DentHistory]:
+        """Dents that obstacles pressed into walls."""
+
 
 def end_quantities(case: Ended, ends: Ends, outputs: Outputs) -> dict[str, Floats]:
     """Named final quantities of runs that share a case, (n,) each."""
@@ -78,13 +82,16 @@ def placed_quantities(
     """Requested outputs of nodes, sections, distances and clearances of runs that share a case, (n,) each."""
     if not (outputs.nodes or outputs.section_rotations or outputs.distances or outputs.clearances):
         return {}
-    structure, poses = case.structure, case.end_poses(ends)
+    structure, poses, walls = case.structure, case.end_poses(ends), wall_motions(case.dents(ends))
     found = {
         channel.name: channel.values
         for name in outputs.nodes
-        for channel in node_motion(structure, poses, name)
+        for channel in node_motion(structure, poses, name, walls.get(name))
         if channel.name.split(".")[2] in of_nodes
     }
-    for channels in (section_channels, distance_channels, clearance_channels):
-        found |= {channel.name: channel.values for channel in channels(structure, poses, outputs)}
-    return found
+    further = (
+        *section_channels(structure, poses, outputs),
+        *distance_channels(structure, poses, outputs, walls),
+        *clearance_channels(structure, poses, outputs),
+    )
+    return found | {channel.name: channel.values for channel in further}

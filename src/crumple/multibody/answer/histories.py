@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 import numpy as np
 
 from crumple.hinge.law_use import LawUse
+from crumple.multibody.answer.dents import DentHistory, WallMotion
 from crumple.multibody.answer.poses import Poses, piece_at
 from crumple.multibody.answer.solved import HingeHistory, Solved
 from crumple.multibody.bodies.rigid import lump_mass, piece_mass
@@ -19,14 +20,18 @@ from crumple.structure.bending import bending_axis
 
 
 def hinge_channels(
-    hinges: Iterable[HingeHistory], spread: Mapping[tuple[str, float], Floats]
+    hinges: Iterable[HingeHistory],
+    spread: Mapping[tuple[str, float], Floats],
+    dents: Iterable[DentHistory],
 ) -> Iterator[Channel]:
     """Rotation, rates, moment, capacity and energy of every hinge, and the energy of every member.
 
-    `spread`: what elastic members dissipated between their hinges [J], by member and station [m].
+    `spread`: what elastic members dissipated between their hinges [J], by member and station [m]; `dents`: in
+    their walls.
     """
     by_member: dict[str, Floats] = {}
-    for (member, _), energy in spread.items():
+    between = [(member, energy) for (member, _), energy in spread.items()]
+    for member, energy in (*between, *((dent.tube.member, dent.energy) for dent in dents)):
         by_member[member] = by_member.get(member, 0.0) + energy
     for history in hinges:
         member = history.hinge.member
@@ -43,20 +48,29 @@ def energy_channels(solved: Solved) -> Iterator[Channel]:
 
 
 def node_channels(
-    structure: Structure, poses: Poses, nodes: Sequence[str], time: Floats
+    structure: Structure,
+    poses: Poses,
+    nodes: Sequence[str],
+    time: Floats,
+    walls: Mapping[str, WallMotion],
 ) -> Iterator[Channel]:
-    """Displacement, velocity, mean acceleration between outputs, and rotation of nodes, in global axes."""
+    """Displacement, velocity, mean acceleration between outputs, and rotation of nodes, in global axes.
+
+    `walls`: motion of the walls at nodes in dents.  The place of a node is the mean of its section's walls.
+    """
     for name in nodes:
-        yield from node_motion(structure, poses, name, time)
+        yield from node_motion(structure, poses, name, walls.get(name), time)
 
 
 def node_motion(
-    structure: Structure, poses: Poses, name: str, time: Floats | None = None
+    structure: Structure, poses: Poses, name: str, walls: WallMotion | None, time: Floats | None = None
 ) -> Iterator[Channel]:
     """The same for one node; without acceleration if the rows have no `time`, (n,)."""
     body = poses.node_body[name]
     start = np.asarray(structure.nodes[name], float)
     place, velocity = poses.place(body, start)
+    if walls is not None:
+        place, velocity = place + walls[0], velocity + walls[1]
     rotation, rate = poses.rotation(body)
     fields = {"displacement": place - start, "velocity": velocity}
     if time is not None:
@@ -81,12 +95,17 @@ def section_channels(structure: Structure, poses: Poses, outputs: Outputs) -> It
         yield Channel(name, "rad", sign * (turned @ poses.normal))
 
 
-def distance_channels(structure: Structure, poses: Poses, outputs: Outputs) -> Iterator[Channel]:
-    """Change of the distance between two nodes; negative if they approach each other."""
+def distance_channels(
+    structure: Structure, poses: Poses, outputs: Outputs, walls: Mapping[str, WallMotion]
+) -> Iterator[Channel]:
+    """Change of the distance between two nodes; negative if they approach each other.  `walls`: as for nodes."""
     for name, asked in outputs.distances.items():
-        ends = [np.asarray(structure.nodes[node], float) for node in (asked.start, asked.end)]
-        nodes = zip((asked.start, asked.end), ends, strict=True)
-        places = [poses.place(poses.node_body[node], point)[0] for node, point in nodes]
+        nodes = asked.start, asked.end
+        ends = [np.asarray(structure.nodes[node], float) for node in nodes]
+        places = [
+            poses.place(poses.node_body[node], point)[0] + (walls[node][0] if node in walls else 0.0)
+            for node, point in zip(nodes, ends, strict=True)
+        ]
         before = float(np.linalg.norm(ends[1] - ends[0]))
         yield Channel(name, "m", np.linalg.norm(places[1] - places[0], axis=1) - before)
 

@@ -9,6 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from crumple._core.outcome import Outcome
+from crumple.multibody.answer.dents import DentHistory
 from crumple.multibody.answer.poses import Poses
 from crumple.numeric.arrays import Floats
 from crumple.result import Channel, CrumpledEnd, StageSummary
@@ -105,6 +106,8 @@ class Solved:
         Contacts whose walls were crushed; without any, contacts are rigid.
     crumpled
         Ends of members that crumpled.
+    dents
+        Dents that obstacles pressed into walls.
     stepping_seconds
         Wall time of the stepping alone [s].
     """
@@ -130,6 +133,7 @@ class Solved:
     stages: tuple[StageSummary, ...] = ()
     crushed: tuple[CrushedContact, ...] = ()
     crumpled: tuple[CrumpledEnd, ...] = ()
+    dents: tuple[DentHistory, ...] = ()
 
     @property
     def balance(self) -> Floats:

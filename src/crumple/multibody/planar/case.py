@@ -10,6 +10,7 @@ import numpy as np
 from crumple._core.planar.batch import TreeEnds
 from crumple._core.planar.simulation import TreeModel
 from crumple.errors import InputError
+from crumple.multibody.answer.dents import DentHistory
 from crumple.multibody.answer.hinge_histories import RecordedHinge
 from crumple.multibody.answer.poses import TreePoses
 from crumple.multibody.bodies.initial_motion import InitialMotion
@@ -36,6 +37,10 @@ class PlanarCase:
     def kernel_case(self) -> TreeModel:
         """See `Case`."""
         return self.model
+
+    def dents(self, rows: object) -> tuple[DentHistory, ...]:
+        """See `Case`: obstacles are in space."""
+        return ()
 
     @cached_property
     def hinges(self) -> tuple[RecordedHinge, ...]:

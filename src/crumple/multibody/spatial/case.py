@@ -11,12 +11,13 @@ import numpy as np
 from crumple._core.spatial.batch import SpatialEndValues, SpatialStage, StagedModel
 from crumple._core.spatial.model import SpatialModel
 from crumple.errors import InputError, Problem
-from crumple.multibody.answer.hinge_histories import RecordedHinge
+from crumple.multibody.answer.dents import DentHistory, dent_histories
+from crumple.multibody.answer.hinge_histories import RecordedHinge, Rows
 from crumple.multibody.answer.poses import SpatialEndPoses
 from crumple.multibody.bodies.dead_centres import dead_centres
 from crumple.multibody.bodies.initial_motion import Placed, spatial_initial_motion
 from crumple.multibody.bodies.linkage import Linkage, check_inertia, link
-from crumple.multibody.bodies.obstacle_bodies import Touching, with_obstacles
+from crumple.multibody.bodies.obstacles.bodies import Touching, with_obstacles
 from crumple.multibody.run import Run
 from crumple.multibody.spatial.model import spatial_model, support_drives
 from crumple.multibody.spatial.off_dead_centres import off_dead_centres
@@ -60,6 +61,10 @@ class SpatialCase:
     def hinges(self) -> tuple[RecordedHinge, ...]:
         """See `Case`."""
         return recorded_hinges(self.linkage, self.model)
+
+    def dents(self, rows: Rows) -> tuple[DentHistory, ...]:
+        """See `Case`."""
+        return recorded_dents(self.touching, rows)
 
     @property
     def touched(self) -> bool:
@@ -161,13 +166,19 @@ class SpatialCase:
 
 
 def recorded_hinges(linkage: Linkage, model: SpatialModel) -> tuple[RecordedHinge, ...]:
-    """Hinges in the kernel's order."""
-    connections = (connection for connection in linkage.connections if connection.hinge is not None)
+    """Hinges of members in the kernel's order; slips of faces follow them."""
+    hinges = [(connection.hinge, connection.free) for connection in linkage.connections]
+    placed = [(hinge, free) for hinge, free in hinges if hinge is not None]
+    columns = model.component_offsets[: len(placed)]
     return tuple(
-        RecordedHinge(connection.hinge, connection.free, first)
-        for connection, first in zip(connections, model.component_offsets[:-1], strict=False)
-        if connection.hinge is not None
+        RecordedHinge(hinge, free, first) for (hinge, free), first in zip(placed, columns, strict=True)
     )
+
+
+def recorded_dents(touching: Touching, rows: Rows) -> tuple[DentHistory, ...]:
+    """Dents of all tubes."""
+    columns = tuple(touching.model.component_offsets)
+    return tuple(dent_histories(touching.faces, columns, rows.hinge, rows.hinge_energy))
 
 
 def spatial_case(structure: Structure, run: Run) -> SpatialCase:

@@ -9,7 +9,7 @@ from crumple._core.spatial.model import SpatialObstacle
 from crumple.multibody.answer.solved import CrushedContact
 from crumple.multibody.bodies.capsules import capsule_rows
 from crumple.multibody.bodies.crumpling_ends import CrumplingEnd
-from crumple.multibody.bodies.obstacle_bodies import Touching
+from crumple.multibody.bodies.obstacles.bodies import Touching
 from crumple.result import CrumpledEnd
 from crumple.section import plastic_interaction
 from crumple.structure import Structure

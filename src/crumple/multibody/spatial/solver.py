@@ -25,11 +25,11 @@ from crumple.multibody.bodies.dead_centres import dead_centres
 from crumple.multibody.bodies.initial_motion import Placed
 from crumple.multibody.bodies.linkage import check_inertia, described, link, with_laws
 from crumple.multibody.bodies.mobility import free_parts
-from crumple.multibody.bodies.obstacle_bodies import with_obstacles
+from crumple.multibody.bodies.obstacles.bodies import with_obstacles
 from crumple.multibody.checks.infinitesimal import dead_centre_notes
 from crumple.multibody.checks.stuck_drives import stuck_drives, stuck_note
 from crumple.multibody.run import Run, output_times, refuse_unbegun, step_bounds
-from crumple.multibody.spatial.case import added_motion, kernel_stage, recorded_hinges
+from crumple.multibody.spatial.case import added_motion, kernel_stage, recorded_dents, recorded_hinges
 from crumple.multibody.spatial.crushing_contacts import crumpled_ends, crushed_contacts, with_crushing
 from crumple.multibody.spatial.model import kernel_hinges, spatial_model, support_drives
 from crumple.multibody.spatial.off_dead_centres import off_dead_centres, with_held_moments
@@ -276,6 +276,7 @@ class SpatialSolver:
             stages=tuple(stages) if self._run.stages else (),
             crushed=tuple(crushed_contacts(self._structure, self._touching, crushed)),
             crumpled=tuple(crumpled_ends(self._touching, crushed)),
+            dents=recorded_dents(self._touching, record),
         )
 
     def _further(

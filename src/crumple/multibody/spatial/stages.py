@@ -12,7 +12,7 @@ from crumple._core.spatial.simulation import Until as Quantity
 from crumple.errors import InputError, Problem
 from crumple.multibody.bodies.linkage import Linkage
 from crumple.multibody.bodies.mobility import floating_members, named_members
-from crumple.multibody.bodies.obstacle_bodies import Touching
+from crumple.multibody.bodies.obstacles.bodies import Touching
 from crumple.multibody.run import Run
 from crumple.structure import FREEDOMS, Stage, Structure, Until
 from crumple.text.names import listed

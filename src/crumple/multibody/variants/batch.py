@@ -159,7 +159,7 @@ class Batch(ABC):
             bodies, velocity, impulse = base.kernel_arrays(raw, about[case_of])
         velocity[..., : base.own_bodies, :] *= _along(values.get("initial_velocity", one), velocity.ndim)
         impulse *= _along(values.get("impulses", one), impulse.ndim)
-        scale = np.ones((count, len(base.hinges)))
+        scale = np.ones((count, len(base.model.hinges)))
         for k, recorded in enumerate(base.hinges):
             scale[:, k] = values.get(f"hinges.{recorded.hinge.name}.capacity", 1.0)
         loads = np.ones((count, len(base.model.loads))) * values.get("loads", one)[:, None]

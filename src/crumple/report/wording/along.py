@@ -1,4 +1,4 @@
-"""Tables of hinges that shortened or lengthened along their members, and of ends that crumpled."""
+"""Tables of hinges that shortened or lengthened along their members, of ends that crumpled, and of dents."""
 
 from __future__ import annotations
 
@@ -52,3 +52,22 @@ def crumpled_table(result: Result) -> Table:
     )
     rows = [(*name, *cells) for name, *cells in zip(names, depths, energies, strict=True)]
     return Table(caption, heads, rows, frozenset({1, 2}))
+
+
+def dent_table(result: Result) -> Table:
+    """Dents that obstacles pressed into walls."""
+    dents = result.dents
+    place_unit, places = column([dent.station for dent in dents], "m")
+    depth_unit, depths = column([dent.depth for dent in dents], "m")
+    energy_unit, energies = column([dent.energy for dent in dents], "J")
+    heads = (
+        "Member",
+        f"Place, {place_unit}",
+        "Obstacle",
+        f"Depth, {depth_unit}",
+        f"Energy, {energy_unit}",
+    )
+    caption = "Dents under obstacles. Their energy is part of that of the member."
+    names, obstacles = [dent.member for dent in dents], [dent.obstacle for dent in dents]
+    rows = list(zip(names, places, obstacles, depths, energies, strict=True))
+    return Table(caption, heads, rows, frozenset({2}))

@@ -17,7 +17,7 @@ _NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 def three_sentences(result: Result, verdict: Verdict) -> list[str]:
     """What was absorbed and where; how far it went; whether it can be trusted."""
-    absorbed = " ".join(part for part in (_absorbed(result), _crumpled(result)) if part)
+    absorbed = " ".join(part for part in (_absorbed(result), _dented(result), _crumpled(result)) if part)
     return [part for part in (absorbed, _reached(result), " ".join(verdict.reasons)) if part]
 
 
@@ -39,6 +39,16 @@ def _absorbed(result: Result) -> str:
         return f"The structure absorbed {total}."
     share = percent(most.energy / sum(hinge.energy for hinge in result.hinges.values()))
     return f"The structure absorbed {total} in {len(result.hinges)} hinges, {share} of it in {name}."
+
+
+def _dented(result: Result) -> str:
+    dents = result.dents
+    if not dents:
+        return ""
+    energy = format_quantity(sum(dent.energy for dent in dents), "J")
+    depth = format_quantity(max(dent.depth for dent in dents), "m", 3)
+    what = f"A dent in {dents[0].member}" if len(dents) == 1 else f"{len(dents)} dents"
+    return f"{what} of up to {depth} took {energy} of it."
 
 
 def _crumpled(result: Result) -> str:

@@ -1,19 +1,36 @@
 """Tubes that obstacles strike between their ends: laws of their folds there, and dents of their walls.
 
-Theory in `crumple.hinge.bending.struck`.
+Laws in `crumple.hinge.bending.struck` and `crumple.hinge.dent`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
 
 from crumple.hinge import HingeLaw
-from crumple.hinge.bending.struck import Dent, StruckLaw, dent_of, left_in_bending
-from crumple.section import CircularTube, RectangularTube
+from crumple.hinge.bending.struck import StruckLaw
+from crumple.hinge.dent import Dent, dent_of, left_in_bending
+from crumple.numeric.arrays import Floats
+from crumple.section import AXES, CircularTube, RectangularTube, half_fold_length
 from crumple.structure.hinges.automatic import strikes_on
 from crumple.structure.hinges.law_choice import automatic_law
+from crumple.structure.hinges.runs.straight_runs import straight_run
 from crumple.structure.keys.law import LawReference
+from crumple.structure.keys.obstacles import CylinderObstacle, SphereObstacle
 from crumple.structure.parts import StructureParts
+from crumple.structure.struck_places import StruckPlace, struck_places
+
+TOGETHER = 1e-3
+"""Difference of the travels of an obstacle to tubes that it strikes at the same time [m]."""
+ACROSS = math.sin(math.radians(60.0))
+"""Least sine of the angle between a tube and a pole that dents it."""
+SQUARE = math.cos(math.radians(20.0))
+"""Least cosine of the angle between a force and the normal of the wall that it dents, and of those between
+the forces of one obstacle on several tubes."""
 
 
 def with_strike(
@@ -34,6 +51,8 @@ def with_strike(
     strike = strikes_on(structure, member).get(name)
     if strike is None or automatic_law(structure, reference) is None:
         return law
+    if not any(structure.obstacles[obstacle].dents for obstacle in strike.obstacles):
+        return law
     if isinstance(section, RectangularTube):
         return StruckLaw(law)
     moment = float(law.moment_capacity(0.0))
@@ -42,12 +61,103 @@ def with_strike(
     )
 
 
-def dents(structure: StructureParts, obstacle: str) -> Mapping[str, Dent]:
-    """Members whose wall an obstacle dents, and how: tubes that it strikes at an automatic hinge."""
-    return {
-        member: dent_of(section, structure.material_of(member))
+@dataclass(frozen=True, eq=False)
+class DentedTube:
+    """A tube in which an obstacle presses a dent.
+
+    Attributes
+    ----------
+    member, station
+        Where [m].
+    nodes
+        Nodes in the dent, between the ends of its straight run.
+    outwards
+        Unit vector from it to the obstacle, (3,).
+    dent
+        Its law.
+    """
+
+    member: str
+    station: float
+    nodes: tuple[str, ...]
+    outwards: Floats
+    dent: Dent
+
+
+def dented_tubes(structure: StructureParts, obstacle: str) -> tuple[DentedTube, ...]:
+    """Tubes that an obstacle dents: all that it strikes first and at the same time, or none.
+
+    Parameters
+    ----------
+    structure, obstacle
+        The obstacle's name.
+    """
+    return structure.kept.once("dented", obstacle, lambda: _dented_tubes(structure, obstacle))
+
+
+def _dented_tubes(structure: StructureParts, obstacle: str) -> tuple[DentedTube, ...]:
+    spec = structure.obstacles[obstacle]
+    if not spec.dents or not isinstance(spec, CylinderObstacle | SphereObstacle):
+        return ()
+    struck = list(_struck_first(structure, obstacle))
+    tubes = [_dented(structure, member, place) for member, place in struck]
+    found = tuple(tube for tube in tubes if tube is not None)
+    if not found or len(found) < len(tubes):
+        return ()
+    mean = np.sum([tube.outwards for tube in found], axis=0)
+    mean = mean / np.linalg.norm(mean)
+    return found if all(float(tube.outwards @ mean) >= SQUARE for tube in found) else ()
+
+
+def _struck_first(structure: StructureParts, obstacle: str) -> Iterator[tuple[str, StruckPlace]]:
+    """Members that an obstacle strikes first, one for each straight run."""
+    places = {
+        member: place
         for member in structure.members
         if structure.has_line(member)
-        and isinstance(section := structure.section_of(member), CircularTube | RectangularTube)
-        and any(obstacle in strike.obstacles for strike in strikes_on(structure, member).values())
+        for place in struck_places(structure, member, ends=True)
+        if place.obstacle == obstacle
     }
+    first = min((place.travel for place in places.values()), default=0.0)
+    runs = set()
+    for member, place in places.items():
+        run = next(iter(straight_run(structure, member).stretches))
+        if place.travel <= first + TOGETHER and run not in runs:
+            runs.add(run)
+            yield member, place
+
+
+def _dented(structure: StructureParts, member: str, place: StruckPlace) -> DentedTube | None:
+    """Dent of a struck member; None if there is no law for it."""
+    section = structure.section_of(member)
+    outwards = np.asarray(place.outwards)
+    if not isinstance(section, CircularTube | RectangularTube) or place.sine < ACROSS:
+        return None
+    if isinstance(section, CircularTube):
+        depth = section.diameter
+    else:
+        across = np.abs(structure.frame_of(member).axes[1:] @ outwards)
+        if isinstance(structure.obstacles[place.obstacle], SphereObstacle) or across.max() < SQUARE:
+            return None
+        depth = float(np.ptp(section.outer_outline(), axis=0)[int(np.argmax(across))])
+    if not _folds_there(structure, member, place.obstacle):
+        return None
+    dent = dent_of(section, structure.material_of(member), depth)
+    return DentedTube(member, place.station, _nodes_in(structure, member, place.station), outwards, dent)
+
+
+def _nodes_in(structure: StructureParts, member: str, station: float) -> tuple[str, ...]:
+    """Nodes between the ends of a straight run at most half a fold from a station of a member."""
+    run, section = straight_run(structure, member), structure.section_of(member)
+    half = max(half_fold_length(section, axis) for axis in AXES)
+    along = run.stretches[member].along(station)
+    return tuple(node for node, at in run.between.items() if abs(at - along) <= half)
+
+
+def _folds_there(structure: StructureParts, member: str, obstacle: str) -> bool:
+    """Whether a straight run has an automatic hinge where an obstacle strikes it."""
+    return any(
+        obstacle in strike.obstacles
+        for other in straight_run(structure, member).stretches
+        for strike in strikes_on(structure, other).values()
+    )

@@ -74,6 +74,9 @@ class Obstacle(Spec):
     """Prescribed displacement of the obstacle."""
     turning: Turning | None = None
     """Driven rotation, after the displacements of `motion`."""
+    dents: bool = True
+    """Whether a pole or ball dents the walls of tubes that it strikes between their ends, where rigid bodies
+    or elastic members stand for them; in shells walls always dent."""
 
     @property
     def driven(self) -> bool:

@@ -1,7 +1,8 @@
 """Obstacles and members that can come into contact, for the spatial kernel.
 
 A fixed obstacle is part of the ground.  One with a mass is a body that slides along its guide, a driven one a
-body whose every freedom is held and some are driven.  What they can touch of members is in `surface`.
+body whose every freedom is held and some are driven.  What dents walls has a face besides, see `faces`.  What
+they can touch of members is in `surface`.
 """
 
 from __future__ import annotations
@@ -15,24 +16,33 @@ from crumple._core.spatial.model import (
     ObstacleKind,
     SpatialBody,
     SpatialContact,
-    SpatialHinge,
+    SpatialDrive,
     SpatialJoint,
     SpatialModel,
     SpatialObstacle,
-    frame_of,
 )
 from crumple.multibody.bodies.capsules import member_capsules, touching_pairs
 from crumple.multibody.bodies.crumpling_ends import CrumplingEnd
 from crumple.multibody.bodies.linkage import GROUND, Linkage
-from crumple.multibody.bodies.obstacle_motion import guided_or_driven
+from crumple.multibody.bodies.obstacles.faces import Face, face_of
+from crumple.multibody.bodies.obstacles.motion import guided_or_driven
 from crumple.multibody.bodies.shared_ends import bodies_together, ends_met
 from crumple.multibody.bodies.surface import surface_of
 from crumple.numeric.arrays import Floats
-from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Structure
+from crumple.structure import (
+    CylinderObstacle,
+    DentedTube,
+    Obstacle,
+    PlaneObstacle,
+    SphereObstacle,
+    Structure,
+    dented_tubes,
+)
 
 LIGHT = 1e-3
-"""Mass of a driven obstacle over that of the structure: its motion is given, so that the mass changes nothing
-but the work of its drive; far smaller ones would cost digits."""
+"""Mass of a driven obstacle, or of a face, over that of the structure.  The motion of a driven one is given, so
+that its mass changes nothing but the work of its drive; far smaller ones would cost digits."""
+Velocity = tuple[float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +64,8 @@ class Touching:
         ends that crumple.
     points
         Index of every point of an end that crumples, and its end.
+    faces
+        Faces of obstacles that dent walls; their slips are the last hinges of the model.
     """
 
     model: SpatialModel
@@ -62,6 +74,7 @@ class Touching:
     velocity: Floats
     members: tuple[str, ...] = ()
     points: Mapping[int, CrumplingEnd] = field(default_factory=dict)
+    faces: tuple[Face, ...] = ()
 
 
 def with_obstacles(
@@ -85,34 +98,13 @@ def with_obstacles(
     moving, member = member_capsules(structure, linkage.pieces)
     surface = surface_of(structure, linkage, moving, member)
     together = {plane: bodies_together(linkage, folding=plane) for plane in (False, True)}
-    bodies, joints, drives, names = list(model.bodies), list(model.joints), list(model.drives), list(owners)
-    light = LIGHT * sum(body.mass for body in bodies)
-    obstacles, velocity, joint = [], [], {}
-    carriers, faces = [], []
+    added = _Added(model)
+    obstacles = []
     for name, obstacle in structure.obstacles.items():
-        body = GROUND
-        if obstacle.mass is not None or obstacle.driven:
-            body, joint[name] = len(bodies), len(joints)
-            mass = obstacle.mass or light
-            place = np.asarray(obstacle.point, float)
-            bodies.append(SpatialBody(mass, mass * model.length**2 * np.eye(3), place))
-            velocity.append(obstacle.velocity if obstacle.mass is not None else (0.0, 0.0, 0.0))
-            added, driven = guided_or_driven(obstacle, body, len(joints), duration)
-            joints.append(added)
-            drives += driven
-            names += [name] * len(driven)
-            face = face_of(structure, name)
-            if face is not None and obstacle.guide_direction is not None:
-                carriers.append(SpatialObstacle(ObstacleKind.SPHERE, body, place, capsules=()))
-                # the face lies before the mass, and moves back against its guide
-                held = (False, True, True, True, True, True)
-                share = FACE * mass
-                bodies[body] = SpatialBody(mass - share, bodies[body].inertia, place)
-                bodies.append(SpatialBody(share, share * model.length**2 * np.eye(3), place))
-                velocity.append(velocity[-1])
-                joints.append(SpatialJoint(body, body + 1, place, frame_of(obstacle.guide_direction), held))
-                faces.append(replace(face, joint=len(joints) - 1))
-                body += 1
+        body = added.obstacle(name, obstacle, duration)
+        tubes = dented_tubes(structure, name)
+        if tubes:
+            body = added.face(name, obstacle, tubes, body)
         allowed = set(structure.members if obstacle.members is None else obstacle.members)
         touching = tuple(i for i, of in enumerate(surface.owners(name, obstacle)) if of & allowed)
         met = ends_met(together[isinstance(obstacle, PlaneObstacle)], surface.capsules, touching)
@@ -125,34 +117,69 @@ def with_obstacles(
         )
     touching_model = replace(
         model,
-        bodies=tuple(bodies),
-        joints=tuple(joints),
-        drives=tuple(drives),
-        obstacles=(*obstacles, *carriers),
-        hinges=(*model.hinges, *faces),
+        bodies=(*model.bodies, *added.bodies),
+        joints=(*model.joints, *added.joints),
+        drives=(*model.drives, *added.drives),
+        obstacles=(*obstacles, *added.masses),
+        hinges=(*model.hinges, *(face.slip for face in added.faces)),
         capsules=surface.capsules,
         contact=pairs,
     )
-    speeds = np.array(velocity, float).reshape(-1, 3)
-    return Touching(touching_model, joint, tuple(names), speeds, surface.members, surface.points)
+    return Touching(
+        touching_model,
+        added.joint,
+        (*owners, *added.owners),
+        np.array(added.velocity, float).reshape(-1, 3),
+        surface.members,
+        surface.points,
+        tuple(added.faces),
+    )
 
 
-FACE = 0.005
+class _Added:
+    """Bodies, joints and drives of obstacles, each counted on from those of the model."""
 
+    def __init__(self, model: SpatialModel) -> None:
+        self._model = model
+        self._light = LIGHT * sum(body.mass for body in model.bodies)
+        self.bodies: list[SpatialBody] = []
+        self.velocity: list[Velocity] = []
+        self.joints: list[SpatialJoint] = []
+        self.joint: dict[str, int] = {}
+        self.drives: list[SpatialDrive] = []
+        self.owners: list[str] = []
+        self.faces: list[Face] = []
+        self.masses: list[SpatialObstacle] = []
 
-def face_of(structure, name):
-    from crumple.structure.hinges.runs.straight_runs import straight_run
-    from crumple.structure.hinges.struck_folds import dents
-    from crumple._core.spatial.model import SpatialComponent
-    by_run = {next(iter(straight_run(structure, m).stretches)): d for m, d in dents(structure, name).items()}
-    if not by_run:
-        return None
-    deepest = min(d.deepest for d in by_run.values())
-    depth = deepest * np.linspace(0.0, 1.0, 41) ** 2
-    force = sum(d.force * np.interp(depth / d.deepest, [0.0, .05, .1, .2, .3, .4, .5, 1], np.array([31, 31, 27, 25.5, 34, 39, 40, 40]) / 27.0) + d.root * np.sqrt(np.maximum(depth, 1e-5)) for d in by_run.values())
-    depth, force = np.append(depth, deepest + 1e-5), np.append(force, 50.0 * force[-1])
-    rigid = (np.zeros(1), np.array([100.0 * force[0] + 10.0 * force[-2]]))
-    return SpatialHinge(-1, (SpatialComponent(0, positive=rigid, negative=(depth, force)),))
+    def obstacle(self, name: str, obstacle: Obstacle, duration: float) -> int:
+        """Add an obstacle that moves; its body, or the ground."""
+        if obstacle.mass is None and not obstacle.driven:
+            return GROUND
+        body = self._body(obstacle, obstacle.mass or self._light)
+        joint = self.joint[name] = len(self._model.joints) + len(self.joints)
+        added, drives = guided_or_driven(obstacle, body, joint, duration)
+        self.joints.append(added)
+        self.drives += drives
+        self.owners += [name] * len(drives)
+        return body
+
+    def face(self, name: str, obstacle: Obstacle, tubes: tuple[DentedTube, ...], mass: int) -> int:
+        """Add the face of an obstacle, whose mass then meets nothing itself; the body of the face."""
+        place = np.asarray(obstacle.point, float)
+        self.masses.append(SpatialObstacle(ObstacleKind.SPHERE, mass, place, capsules=()))
+        hinge = len(self._model.hinges) + len(self.faces)
+        joint = len(self._model.joints) + len(self.joints)
+        face = face_of(name, tubes, hinge, joint)
+        body = self._body(obstacle, self._light)
+        self.joints.append(face.guide(mass, body, place))
+        self.faces.append(face)
+        return body
+
+    def _body(self, obstacle: Obstacle, mass: float) -> int:
+        inertia = mass * self._model.length**2 * np.eye(3)
+        self.bodies.append(SpatialBody(mass, inertia, np.asarray(obstacle.point, float)))
+        self.velocity.append(obstacle.velocity if obstacle.mass is not None else (0.0, 0.0, 0.0))
+        return len(self._model.bodies) + len(self.bodies) - 1
 
 
 def _shape(obstacle: Obstacle, body: int, touching: tuple[int, ...]) -> SpatialObstacle:

@@ -1,0 +1,164 @@
+"""Dents that an obstacle presses into the wall of a tube.
+
+Unknown: the force F on a pole or ball across a tube over the depth d of the dent, and the share of the
+plastic moment M_p that the dented section keeps.  s is the flow stress, t the wall.
+
+Round tube of mean radius R:
+
+    F = 4 s t^1.5 sqrt(2 pi d/3)
+
+Where a chord replaces the arc 2 beta that is dented, and carries nothing,
+
+    m(d) = cos(beta/2) - sin(beta)/2,    cos(beta) = 1 - d/R
+
+of M_p are left; and the middle line moves by (R/pi) (sin(beta) - beta cos(beta)) in the mean.  Pole and beam
+carry the same force, so the dent grows until F = m M_p a + b, with a, b from the spans of the tube and the
+moments at their ends.
+
+Rectangular tube of width b and depth h along the force, under a pole:
+
+    F = f(d/h) s t^2
+
+with f the mean of shells of four tubes on a rigid floor (`CRUSHED`).  The middle line moves by
+d (b + h/2)/(2 (b + h)) in the mean, if the upper half of the webs shortens evenly.  A ball meets the middle
+of a wall, which gives way at far smaller forces: it has no law here.
+
+Range, sources and comparison with shells: docs/theory/dents.md.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple.material import Material
+from crumple.numeric.arrays import Floats
+from crumple.section import CircularTube, RectangularTube
+
+CRUSHED = (
+    (0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5),
+    (27.0, 27.0, 30.0, 27.0, 26.0, 34.0, 40.0, 40.0),
+)
+"""Depth of a dent in a rectangular tube over its own depth, and force over flow stress and wall squared."""
+SAMPLES = 41
+"""Depths at which a force is given; they lie closer where it rises like a root."""
+SHALLOWEST = 1e-5
+"""Depth up to which a force is constant [m]: roots begin at zero."""
+JAMMED, JAMS_WITHIN = 50.0, 1e-2
+"""Factor on the force where walls meet, and in what share of the deepest dent they do."""
+HALVINGS = 60
+
+
+@dataclass(frozen=True, eq=False)
+class Dent:
+    """Force of a dent over its depth, straight between points, (n,).
+
+    Attributes
+    ----------
+    depth, force
+        [m], [N]; from the deepest dent on, walls meet.
+    moves
+        Mean displacement of the walls of the section at each depth [m].
+    """
+
+    depth: Floats
+    force: Floats
+    moves: Floats
+
+    def at(self, depth: Floats) -> Floats:
+        """Force [N] at some depths [m]."""
+        return np.interp(depth, self.depth, self.force)
+
+    def absorbed(self, depth: Floats) -> Floats:
+        """Work [J] up to some depths [m], not beyond the last point."""
+        work = np.append(0.0, np.cumsum(np.diff(self.depth) * (self.force[1:] + self.force[:-1]) / 2.0))
+        piece = np.clip(np.searchsorted(self.depth, depth) - 1, 0, self.depth.size - 2)
+        into = depth - self.depth[piece]
+        return np.asarray(work[piece] + into * (self.force[piece] + self.at(depth)) / 2.0)
+
+
+def dent_of(section: CircularTube | RectangularTube, material: Material, depth: float) -> Dent:
+    """Dent of a tube.
+
+    Parameters
+    ----------
+    section, material
+        Of the tube.
+    depth
+        Of the section along the force [m].
+    """
+    stress, wall = material.flow_stress, section.thickness
+    deepest = depth - 2.0 * wall
+    depths = deepest * np.linspace(0.0, 1.0, SAMPLES) ** 2
+    if isinstance(section, CircularTube):
+        forces = dent_force(np.maximum(depths, SHALLOWEST), wall, stress)
+        moves = round_walls_move(depths, (depth - wall) / 2.0)
+    else:
+        width = section.width + section.depth - depth
+        forces = stress * wall**2 * np.interp(depths / depth, *CRUSHED)
+        moves = depths * (width + depth / 2.0) / (2.0 * (width + depth))
+    return Dent(
+        np.append(depths, (1.0 + JAMS_WITHIN) * deepest),
+        np.append(forces, JAMMED * forces[-1]),
+        np.append(moves, moves[-1]),
+    )
+
+
+def dent_force(depth: Floats, thickness: float, stress: float) -> Floats:
+    """Force of dents of some depths [m] in a round tube with a wall [m] and a flow stress [Pa]; [N]."""
+    return 4.0 * stress * thickness * np.sqrt(2.0 * np.pi * thickness * depth / 3.0)
+
+
+def left_by_dent(depth: float, radius: float) -> float:
+    """Share of the plastic moment of a round tube that a dent leaves.
+
+    Parameters
+    ----------
+    depth, radius
+        Of the dent, and mean radius of the tube [m]; the depth is at most the radius.
+    """
+    half_arc = math.acos(1.0 - depth / radius)
+    return math.cos(half_arc / 2.0) - math.sin(half_arc) / 2.0
+
+
+def round_walls_move(depth: Floats, radius: float) -> Floats:
+    """Mean displacement [m] of the middle line of a round tube of a mean radius [m] with dents [m]."""
+    cosine = 1.0 - np.minimum(depth / radius, 2.0)
+    half_arc = np.arccos(cosine)
+    return np.asarray(radius / np.pi * (np.sin(half_arc) - half_arc * cosine))
+
+
+def left_in_bending(
+    moment: float, diameter: float, thickness: float, spans: tuple[float, float], held: tuple[bool, bool]
+) -> float:
+    """Share of the plastic moment that is left where a force dents and bends a round tube.
+
+    Parameters
+    ----------
+    moment
+        Its plastic moment M_p [N m].
+    diameter, thickness
+        Of the tube [m].
+    spans
+        Distances of the force from what holds the tube on both sides [m].
+    held
+        Whether the tube carries its moment there.
+
+    Returns
+    -------
+    float
+        That of a dent as deep as the radius, if the tube bends no earlier.
+    """
+    radius = (diameter - thickness) / 2.0
+    stress = moment / (4.0 * radius**2 * thickness)
+    here = sum(1.0 / span for span in spans)
+    there = sum(carries / span for carries, span in zip(held, spans, strict=True))
+    low, high = 0.0, radius
+    for _ in range(HALVINGS):
+        depth = (low + high) / 2.0
+        bends = moment * (left_by_dent(depth, radius) * here + there)
+        dented = float(dent_force(np.asarray(depth), thickness, stress))
+        low, high = (low, depth) if dented > bends else (depth, high)
+    return left_by_dent(high, radius)

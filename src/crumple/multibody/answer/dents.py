@@ -1,0 +1,94 @@
+"""Histories of the dents that obstacles press into walls, from the kernel's records."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple._core.records import ComponentRecord, HingeEnergyRecord
+from crumple.multibody.bodies.obstacles.faces import Face
+from crumple.numeric.arrays import Floats
+from crumple.result import Channel, DentedWall
+from crumple.result.channels import channel
+from crumple.structure import DentedTube
+
+
+@dataclass(frozen=True, eq=False)
+class DentHistory:
+    """Dent of one tube.
+
+    Attributes
+    ----------
+    obstacle, tube
+        What presses it, and what gives way.
+    depth, rate, energy
+        [m], [m/s], [J], (n,) each.
+    """
+
+    obstacle: str
+    tube: DentedTube
+    depth: Floats
+    rate: Floats
+    energy: Floats
+
+
+WallMotion = tuple[Floats, Floats]
+"""Mean displacement [m] and velocity [m/s] of the walls of a section, beside the motion of its member, (n, 3)."""
+
+
+def dent_histories(
+    faces: Iterable[Face], columns: tuple[int, ...], hinge: ComponentRecord, energy: HingeEnergyRecord
+) -> Iterator[DentHistory]:
+    """Dents of all tubes.
+
+    Parameters
+    ----------
+    faces, columns
+        Faces of obstacles, and the first column of every hinge of their model.
+    hinge, energy
+        Records of the hinges.
+    """
+    for face in faces:
+        depth, rate = (values[:, columns[face.hinge]] for values in (hinge.rotation, hinge.rate))
+        absorbed = [tube.dent.absorbed(np.maximum.accumulate(depth)) for tube in face.tubes]
+        total = np.sum(absorbed, axis=0)
+        of_face = energy.dissipated[:, face.hinge]
+        for tube, own in zip(face.tubes, absorbed, strict=True):
+            share = np.divide(own, total, out=np.zeros_like(own), where=total > 0.0)
+            yield DentHistory(face.obstacle, tube, depth, rate, share * of_face)
+
+
+def dent_channels(dents: Iterable[DentHistory]) -> Iterator[Channel]:
+    """Depth of the dents of every obstacle; tubes under one obstacle have one depth."""
+    yield from {
+        dent.obstacle: channel(f"obstacle.{dent.obstacle}.dent", dent.depth) for dent in dents
+    }.values()
+
+
+def wall_motions(dents: Iterable[DentHistory]) -> Mapping[str, WallMotion]:
+    """Motion of the walls at nodes that lie in a dent, by node."""
+    found = {}
+    for dent in dents:
+        inwards, law = -dent.tube.outwards, dent.tube.dent
+        slope = np.gradient(law.moves, law.depth)
+        moved = np.interp(dent.depth, law.depth, law.moves)
+        speed = np.interp(dent.depth, law.depth, slope) * dent.rate
+        for node in dent.tube.nodes:
+            found[node] = np.outer(moved, inwards), np.outer(speed, inwards)
+    return found
+
+
+def dented_walls(dents: Iterable[DentHistory]) -> tuple[DentedWall, ...]:
+    """Dents as listed in results."""
+    return tuple(
+        DentedWall(
+            dent.tube.member,
+            dent.tube.station,
+            dent.obstacle,
+            float(dent.depth.max(initial=0.0)),
+            float(dent.energy[-1]) if dent.energy.size else 0.0,
+        )
+        for dent in dents
+    )

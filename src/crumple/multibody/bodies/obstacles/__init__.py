@@ -1,0 +1,1 @@
+"""Obstacles of a structure as bodies of the spatial kernel."""
