@@ -166,7 +166,7 @@ def _touches(
     apart = apart + travel * path
     along = float(cross(apart, frame.x) @ normal) / sine**2
     beside = core.radius + _reach(frame, outline, core.axis)
-    if not -beside <= along - core.start and along - core.end <= beside:
+    if along < core.start - beside or along > core.end + beside:
         return None
     station = float(cross(apart, core.axis) @ normal) / sine**2
     return StruckPlace(obstacle, station, travel, tuple(towards.tolist()), sine)

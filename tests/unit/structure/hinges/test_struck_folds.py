@@ -1,0 +1,115 @@
+"""Which tubes an obstacle dents, and what that makes of the laws of their folds."""
+
+import pytest
+
+from crumple import loads
+from crumple.hinge.bending.struck import StruckLaw
+from crumple.structure import dented_tubes, plastic_hinges
+
+TEXT = """
+crumple: 1
+materials:
+  steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}
+sections:
+  round: {type: circular_tube, diameter: 60 mm, thickness: 2 mm}
+  square: {type: square_tube, side: 60 mm, thickness: 2 mm}
+  open: {type: channel, width: 60 mm, depth: 60 mm, thickness: 2 mm}
+nodes:
+  left: [0 m, 0 m, 0 m]
+  right: [800 mm, 0 m, 0 m]
+  low: [0 m, 0 m, -400 mm]
+  beyond: [0 m, 300 mm, LOWER mm]
+  far: [800 mm, 300 mm, LOWER mm]
+members:
+  beam: {nodes: [left, right], section: SECTION, material: steel}
+  post: {nodes: [low, left], section: round, material: steel}
+  other: {nodes: [beyond, far], section: round, material: steel}
+hinges: auto
+supports:
+  foot: {node: low, fix: all}
+  end: {node: right, fix: all}
+  one: {node: beyond, fix: all}
+  two: {node: far, fix: all}
+obstacles: {pole: {OBSTACLE, mass: 20 kg, velocity: [0 m/s, 0 m/s, -5 m/s], guide: [0, 0, -1]}}
+analysis: {duration: 10 ms}
+"""
+POLE = (
+    "type: cylinder, point: [400 mm, 0 m, HEIGHT mm], axis: [0, 1, 0], radius: 50 mm, members: [beam, post]"
+)
+BALL = "type: sphere, point: [400 mm, 0 m, HEIGHT mm], radius: 50 mm"
+HIGH = POLE.replace("HEIGHT", "90")
+
+
+def structure_of(section="round", obstacle=HIGH, change=("", "")):
+    text = TEXT.replace("SECTION", section).replace("OBSTACLE", obstacle)
+    return loads(text.replace(*change).replace("LOWER", "0")).structure
+
+
+def dented(structure):
+    return [tube.member for tube in dented_tubes(structure, "pole")]
+
+
+@pytest.mark.parametrize(
+    ("section", "obstacle", "expected"),
+    [
+        ("round", HIGH, ["beam"]),
+        ("square", HIGH, ["beam"]),
+        ("square, roll: 15 deg", HIGH, ["beam"]),
+        # on an edge between two walls, and on what is no tube
+        ("square, roll: 45 deg", HIGH, []),
+        ("open", HIGH, []),
+        ("round", BALL.replace("HEIGHT", "90"), ["beam"]),
+        # in the middle of a flat wall
+        ("square", BALL.replace("HEIGHT", "90"), []),
+        ("round", HIGH + ", dents: false", []),
+        # nearly along the tube
+        ("round", HIGH.replace("[0, 1, 0]", "[2, 1, 0]"), []),
+        # on the corner, where nothing folds
+        ("round", HIGH.replace("point: [400 mm", "point: [0 mm"), []),
+        # at the end, which has no fold under the pole
+        ("round", HIGH.replace("point: [400 mm", "point: [780 mm"), []),
+        # on both beams at once
+        ("round", HIGH.replace("members: [beam, post]", "members: [beam, other]"), ["beam", "other"]),
+        # at once with a beam that it does not dent
+        ("open", HIGH.replace("members: [beam, post]", "members: [beam, other]"), []),
+    ],
+)
+def test_what_is_dented(section, obstacle, expected):
+    assert dented(structure_of(section, obstacle)) == expected
+
+
+def test_what_is_struck_later_does_not_count():
+    """The other beam lies 20 mm lower."""
+    both = HIGH.replace("members: [beam, post]", "members: [beam, other]")
+    assert dented(structure_of("round", both, ("LOWER", "-20"))) == ["beam"]
+
+
+def test_the_edge_of_a_plane_dents_nothing():
+    edge = (
+        "type: plane, point: [400 mm, 0 m, 40 mm], normal: [0.5, 0, -1], edge: [-1, 0, -0.5], members: [beam]"
+    )
+    assert dented(structure_of("round", edge)) == []
+
+
+def test_hinges_given_by_hand_are_left_alone():
+    plain = "section: round, material: steel}\n  post"
+    by_hand = plain.replace("}", ", hinges: [{name: mine, at: 400 mm, axis: y}]}")
+    structure = structure_of("round", HIGH, (plain, by_hand))
+    assert dented(structure) == []
+    assert not any(isinstance(hinge.law, StruckLaw) for hinge in plastic_hinges(structure))
+
+
+@pytest.mark.parametrize(("section", "left"), [("round", True), ("square", False)])
+def test_laws_of_the_struck_fold(section, left):
+    found = {hinge.name: hinge.law for hinge in plastic_hinges(structure_of(section))}
+    struck = [name for name, law in found.items() if isinstance(law, StruckLaw)]
+    assert struck == ["beam-pole"]
+    share = found["beam-pole"].left
+    assert (share is not None and 0.2 < share < 1.0) == left
+
+
+def test_a_law_that_the_input_names_stays():
+    named = ("hinges: auto", "hinges: {law: {type: constant, moment: 2 kN*m}}")
+    structure = structure_of("round", HIGH, named)
+    assert dented(structure) == ["beam"]
+    assert not any(isinstance(hinge.law, StruckLaw) for hinge in plastic_hinges(structure))
