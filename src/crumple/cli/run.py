@@ -15,7 +15,7 @@ from crumple.cli.console.laws import Freeze, Laws, law_lines, range_lines, with_
 from crumple.numeric.ranking import largest_first
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from rich.table import Table
 
@@ -228,16 +228,8 @@ def _show(result: Result, folder: Path, source: LoadedInput) -> None:
         console.print(Text(f"Caution: {caution}", style="bold yellow"))
     bending = {name: hinge for name, hinge in result.hinges.items() if hinge.bends}
     crushing = {name: hinge for name, hinge in result.hinges.items() if hinge.crush is not None}
-    if bending:
-        console.print(_hinge_table(bending))
-    if crushing:
-        console.print(_crush_table(crushing))
-    if any(hinge.stretch is not None for hinge in result.hinges.values()):
-        console.print(_stretch_table(result.hinges))
-    if result.crumpled_ends:
-        console.print(_crumpled_table(result.crumpled_ends))
-    if result.dents:
-        console.print(_dent_table(result.dents))
+    for table in _tables(result, bending, crushing):
+        console.print(table)
     if max(len(bending), len(crushing)) > MOST_HINGES:
         console.print(
             f"At most {MOST_HINGES} of {len(result.hinges)} hinges, those with the largest absorbed energy"
@@ -305,6 +297,22 @@ def _stretch_table(summaries: Mapping[str, HingeSummary]) -> Table:
         ("Energy of tension", [stretch.energy for _, stretch in hinges], "J"),
     )
     return _table("Stretched hinge", [name for name, _ in hinges], columns)
+
+
+def _tables(
+    result: Result, bending: dict[str, HingeSummary], crushing: dict[str, HingeSummary]
+) -> Iterator[Table]:
+    """Tables of hinges that bend, are crushed or stretched, of crumpled ends, and of dents; none is empty."""
+    if bending:
+        yield _hinge_table(bending)
+    if crushing:
+        yield _crush_table(crushing)
+    if any(hinge.stretch is not None for hinge in result.hinges.values()):
+        yield _stretch_table(result.hinges)
+    if result.crumpled_ends:
+        yield _crumpled_table(result.crumpled_ends)
+    if result.dents:
+        yield _dent_table(result.dents)
 
 
 def _crumpled_table(ends: Sequence[CrumpledEnd]) -> Table:

@@ -17,9 +17,9 @@ moments at their ends.
 
 Rectangular tube of width b and depth h along the force, under a pole:
 
-    F = f(d/h) s t^2
+    F = min(0.15 E t d, f(d/h) s t^2)
 
-with f the mean of shells of four tubes on a rigid floor (`CRUSHED`).  The middle line moves by
+with the rise and f of shells of four tubes on a rigid floor (`RISE`, `CRUSHED`).  The middle line moves by
 d (b + h/2)/(2 (b + h)) in the mean, if the upper half of the webs shortens evenly.  A ball meets the middle
 of a wall, which gives way at far smaller forces: it has no law here.
 
@@ -38,10 +38,12 @@ from crumple.numeric.arrays import Floats
 from crumple.section import CircularTube, RectangularTube
 
 CRUSHED = (
-    (0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5),
-    (27.0, 27.0, 30.0, 27.0, 26.0, 34.0, 40.0, 40.0),
+    (0.0, 0.02, 0.03, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5),
+    (27.0, 27.0, 31.0, 30.0, 27.0, 26.0, 34.0, 40.0, 40.0),
 )
 """Depth of a dent in a rectangular tube over its own depth, and force over flow stress and wall squared."""
+RISE = 0.15
+"""Force of its first rise over Young's modulus, wall and depth."""
 SAMPLES = 41
 """Depths at which a force is given; they lie closer where it rises like a root."""
 SHALLOWEST = 1e-5
@@ -97,7 +99,9 @@ def dent_of(section: CircularTube | RectangularTube, material: Material, depth: 
         moves = round_walls_move(depths, (depth - wall) / 2.0)
     else:
         width = section.width + section.depth - depth
-        forces = stress * wall**2 * np.interp(depths / depth, *CRUSHED)
+        folds = stress * wall**2 * np.interp(depths / depth, *CRUSHED)
+        rises = RISE * material.youngs_modulus * wall * np.maximum(depths, SHALLOWEST)
+        forces = np.minimum(rises, folds)
         moves = depths * (width + depth / 2.0) / (2.0 * (width + depth))
     return Dent(
         np.append(depths, (1.0 + JAMS_WITHIN) * deepest),

@@ -15,13 +15,13 @@ import numpy as np
 import pytest
 
 import crumple
-from crumple.hinge.dent import CRUSHED
+from crumple.hinge.dent import CRUSHED, RISE
 from crumple.report.wording.along import dent_table
 from crumple.report.wording.answer import three_sentences
 from crumple.report.wording.wording import verdict
 from crumple.result import read, write
 
-STRESS, WALL, MASS, SPEED = 350e6, 2e-3, 20.0, 6.0
+YOUNG, STRESS, WALL, MASS, SPEED = 210e9, 350e6, 2e-3, 20.0, 6.0
 BLOW = MASS * SPEED**2 / 2.0
 TEXT = """
 crumple: 1
@@ -59,7 +59,7 @@ def square_depth(work):
     """The same in the square tube."""
     depths, forces = 60e-3 * np.array(CRUSHED[0]), STRESS * WALL**2 * np.array(CRUSHED[1])
     fine = np.linspace(0.0, depths[-1], 20001)
-    force = np.interp(fine, depths, forces)
+    force = np.minimum(np.interp(fine, depths, forces), RISE * YOUNG * WALL * fine)
     taken = np.concatenate([[0.0], np.cumsum((force[1:] + force[:-1]) / 2.0 * np.diff(fine))])
     return float(np.interp(work, taken, fine))
 

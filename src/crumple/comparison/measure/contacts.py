@@ -193,7 +193,7 @@ def _travel(result: Result, states: States, obstacle: str) -> Floats:
 
 
 def hinge_work(result: Result, structure: Structure) -> list[tuple[str, float, float]]:
-    """Member, station [m] and energy [J] of hinges and dents of a multibody run, and of what yielded between."""
+    """Member, station [m] and energy [J] of hinges, dents, and what yielded between, in a multibody run."""
     hinges = [
         (hinge.member, hinge.station, float(result[f"hinge.{hinge.name}.energy"][-1]))
         for hinge in plastic_hinges(structure)

@@ -35,7 +35,7 @@ class DentHistory:
 
 
 WallMotion = tuple[Floats, Floats]
-"""Mean displacement [m] and velocity [m/s] of the walls of a section, beside the motion of its member, (n, 3)."""
+"""Mean displacement [m] and velocity [m/s] of the walls of a section relative to its member, (n, 3)."""
 
 
 def dent_histories(

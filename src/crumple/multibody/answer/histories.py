@@ -98,7 +98,7 @@ def section_channels(structure: Structure, poses: Poses, outputs: Outputs) -> It
 def distance_channels(
     structure: Structure, poses: Poses, outputs: Outputs, walls: Mapping[str, WallMotion]
 ) -> Iterator[Channel]:
-    """Change of the distance between two nodes; negative if they approach each other.  `walls`: as for nodes."""
+    """Change of the distance between two nodes, negative if they approach.  `walls`: as for nodes."""
     for name, asked in outputs.distances.items():
         nodes = asked.start, asked.end
         ends = [np.asarray(structure.nodes[node], float) for node in nodes]

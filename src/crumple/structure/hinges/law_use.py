@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from crumple.errors import InputError
 from crumple.hinge import HingeLaw, HingeRecord
-from crumple.hinge.bending.struck import StruckLaw
+from crumple.hinge.bending.dented import DentedLaw
 from crumple.hinge.law_use import INPUT, LawUse, Origin
 from crumple.hinge.measured.library import place_of
 from crumple.hinge.measured.place_hash import LENGTH, content_hash
@@ -100,7 +100,7 @@ def law_use(structure: StructureParts, place: HingePlace, law: HingeLaw, record:
 
 def stored_text_of(structure: StructureParts, place: HingePlace, law: HingeLaw) -> str | None:
     """Text of the stored law that a hinge has; None if its law is not from the store."""
-    law = law.law if isinstance(law, StruckLaw) else law
+    law = law.law if isinstance(law, DentedLaw) else law
     if structure.laws is None or not isinstance(law, StoredLaw) or is_named_law(structure, place):
         return None
     own = place_of(law)

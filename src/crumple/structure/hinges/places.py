@@ -17,7 +17,7 @@ from crumple.structure.hinges.asked import where_automatic
 from crumple.structure.hinges.automatic import hinges_of
 from crumple.structure.hinges.law_choice import automatic_law, chosen_law, plain_law
 from crumple.structure.hinges.runs.ends import holds_rotation
-from crumple.structure.hinges.struck_folds import with_strike
+from crumple.structure.hinges.struck_folds import with_dent
 from crumple.structure.keys.hinge_axes import HingeAxes
 from crumple.structure.keys.law import LawKeys, LawReference
 from crumple.structure.keys.member import Hinge
@@ -154,7 +154,7 @@ def law_of(structure: StructureParts, place: HingePlace) -> HingeLaw:
 
     alike = alike_law(structure, place)
     law = build() if alike is None else structure.kept.once("law", alike, build)
-    return with_strike(structure, place.member, place.name, place.law, law)
+    return with_dent(structure, place.member, place.name, place.law, law)
 
 
 def alike_law(structure: StructureParts, place: HingePlace) -> tuple[str, str, Axis, str] | None:

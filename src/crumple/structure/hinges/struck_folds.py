@@ -1,6 +1,6 @@
 """Tubes that obstacles strike between their ends: laws of their folds there, and dents of their walls.
 
-Laws in `crumple.hinge.bending.struck` and `crumple.hinge.dent`.
+Laws in `crumple.hinge.bending.dented` and `crumple.hinge.dent`.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from crumple.hinge import HingeLaw
-from crumple.hinge.bending.struck import StruckLaw
+from crumple.hinge.bending.dented import DentedLaw
 from crumple.hinge.dent import Dent, dent_of, left_in_bending
 from crumple.numeric.arrays import Floats
 from crumple.section import AXES, CircularTube, RectangularTube, half_fold_length
@@ -33,10 +33,10 @@ SQUARE = math.cos(math.radians(20.0))
 the forces of one obstacle on several tubes."""
 
 
-def with_strike(
+def with_dent(
     structure: StructureParts, member: str, name: str, reference: LawReference | None, law: HingeLaw
 ) -> HingeLaw:
-    """Law of a hinge, changed if it is an automatic one of a tube where an obstacle strikes.
+    """Law of a hinge, lowered if it is an automatic one of a round tube where an obstacle dents it.
 
     Parameters
     ----------
@@ -46,19 +46,18 @@ def with_strike(
         What the input says of its law, which it may name itself; and the law.
     """
     section = structure.section_of(member)
-    if not structure.obstacles or not isinstance(section, CircularTube | RectangularTube):
+    if not structure.obstacles or not isinstance(section, CircularTube):
         return law
     strike = strikes_on(structure, member).get(name)
     if strike is None or automatic_law(structure, reference) is None:
         return law
-    if not any(structure.obstacles[obstacle].dents for obstacle in strike.obstacles):
+    run = straight_run(structure, member).stretches
+    dents = (tube for obstacle in strike.obstacles for tube in dented_tubes(structure, obstacle))
+    if not any(tube.member in run for tube in dents):
         return law
-    if isinstance(section, RectangularTube):
-        return StruckLaw(law)
     moment = float(law.moment_capacity(0.0))
-    return StruckLaw(
-        law, left_in_bending(moment, section.diameter, section.thickness, strike.spans, strike.held)
-    )
+    left = left_in_bending(moment, section.diameter, section.thickness, strike.spans, strike.held)
+    return DentedLaw(law, left)
 
 
 @dataclass(frozen=True, eq=False)

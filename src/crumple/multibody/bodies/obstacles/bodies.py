@@ -40,9 +40,10 @@ from crumple.structure import (
 )
 
 LIGHT = 1e-3
-"""Mass of a driven obstacle, or of a face, over that of the structure.  The motion of a driven one is given, so
-that its mass changes nothing but the work of its drive; far smaller ones would cost digits."""
+"""Mass of a driven obstacle, or of a face, over that of the structure.  The motion of a driven one is given,
+so that its mass changes nothing but the work of its drive; far smaller ones would cost digits."""
 Velocity = tuple[float, float, float]
+"""[m/s]."""
 
 
 @dataclass(frozen=True, eq=False)
