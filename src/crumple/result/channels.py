@@ -82,8 +82,12 @@ KINDS = (
     ),
     Kind("hinge.NAME.slip.x.force", "N", "axial force of the hinge, positive in tension", "MS"),
     Kind("hinge.NAME.slip.x.capacity", "N", "largest axial force that the law allows at present", "MS"),
-    Kind("member.NAME.energy", "J", "energy absorbed by all hinges of a member", "M"),
-    Kind("node.NAME.displacement.xyz", "m", "displacement from the start position, global axes"),
+    Kind("member.NAME.energy", "J", "energy absorbed by all hinges of a member, and dents in its walls", "M"),
+    Kind(
+        "node.NAME.displacement.xyz",
+        "m",
+        "displacement from the start position, global axes; in a dent with the mean of the walls",
+    ),
     Kind("node.NAME.velocity.xyz", "m/s", "velocity, global axes"),
     Kind(
         "node.NAME.acceleration.xyz",

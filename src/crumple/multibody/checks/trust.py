@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from crumple.multibody.checks.names import named
 from crumple.multibody.checks.overlap import overlap_warnings
 from crumple.multibody.checks.physics import energy_put_in
 from crumple.result import HingeSummary
-from crumple.structure import PlacedHinge, Structure
+from crumple.structure import PlacedHinge, Structure, dented_tubes
 from crumple.text.names import listed
 
 LOST_SHARE = 1e-3
@@ -66,6 +67,7 @@ def assumptions(structure: Structure, solver: Solver) -> tuple[str, ...]:
             f"{end.force / 1e3:.4g} kN when its whole face is touched."
             for end in crumpling_ends(structure)
         ),
+        *_dents(structure),
         *free_parts(link(structure, solver.hinges)),
         *solver.notes,
     ]
@@ -126,6 +128,16 @@ def _contact(structure: Structure) -> str:
     return (
         f"Contact is rigid, of {' and of '.join(touching)}, and there is no other but the hinges' own stops."
     )
+
+
+def _dents(structure: Structure) -> Iterator[str]:
+    for name in structure.obstacles:
+        members = [tube.member for tube in dented_tubes(structure, name)]
+        if members:
+            yield (
+                f"Obstacle {name} dents {named('member', members)}; the force over the depth is known within "
+                "some 20 %, and other members that it meets also push its face back."
+            )
 
 
 def warnings(
