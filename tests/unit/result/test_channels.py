@@ -61,7 +61,9 @@ def test_names_of_one_hinge_leave_its_components_out():
         for quantity in ("rotation", "rotation_rate", "plastic_rotation", "moment", "capacity", "energy")
     }
     assert "node.tip.rotation_rate.z" in set(names_of("node", "tip"))
-    assert len(list(names_of("obstacle", "pole"))) == 9
+    obstacle = list(names_of("obstacle", "pole"))
+    assert "obstacle.pole.dent" in obstacle
+    assert len(obstacle) == 10
 
 
 @pytest.mark.parametrize(

@@ -37,8 +37,9 @@ def _absorbed(result: Result) -> str:
     most = result.hinges[name]
     if len(result.hinges) == 1 or not most.energy > 0.0:
         return f"The structure absorbed {total}."
-    share = percent(most.energy / sum(hinge.energy for hinge in result.hinges.values()))
-    return f"The structure absorbed {total} in {len(result.hinges)} hinges, {share} of it in {name}."
+    parts = [hinge.energy for hinge in result.hinges.values()] + [dent.energy for dent in result.dents]
+    where = f"{len(result.hinges)} hinges{' and dents' if result.dents else ''}"
+    return f"The structure absorbed {total} in {where}, {percent(most.energy / sum(parts))} of it in {name}."
 
 
 def _dented(result: Result) -> str:

@@ -9,7 +9,7 @@ from tests.support.multibody.frames import TUBE as TUBE_KEYS
 
 from crumple.section import RectangularTube, fold_distance, half_fold_length
 from crumple.structure import hinge_places
-from crumple.structure.hinges.automatic import ASIDE
+from crumple.structure.hinges.runs.candidates import ASIDE
 from crumple.structure.hinges.runs.straight_runs import straight_run
 
 NODES = {"a": (0.0, 0.0, 0.0), "b": (0.4, 0.0, 0.0), "c": (1.0, 0.0, 0.0), "d": (1.0, 0.0, 0.5)}
