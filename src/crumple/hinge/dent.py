@@ -19,7 +19,8 @@ Rectangular tube of width b and depth h along the force, under a pole:
 
     F = min(0.15 E t d, f(d/h) s t^2)
 
-with the rise and f of shells of four tubes on a rigid floor (`RISE`, `CRUSHED`).  The middle line moves by
+with the rise and f of shells of four tubes on a rigid floor (`RISE`, `CRUSHED`); m = exp(-2.8 d/h) is the
+moment of two slowly pressed tubes in shells over the depth of their dents.  The middle line moves by
 d (b + h/2)/(2 (b + h)) in the mean, if the upper half of the webs shortens evenly.  A ball meets the middle
 of a wall, which gives way at far smaller forces: it has no law here.
 
@@ -44,6 +45,8 @@ CRUSHED = (
 """Depth of a dent in a rectangular tube over its own depth, and force over flow stress and wall squared."""
 RISE = 0.15
 """Force of its first rise over Young's modulus, wall and depth."""
+WEAKENS = 2.8
+"""Decrease of the logarithm of the moment of a rectangular tube over the depth of a dent, over its own."""
 SAMPLES = 41
 """Depths at which a force is given; they lie closer where it rises like a root."""
 SHALLOWEST = 1e-5
@@ -115,15 +118,19 @@ def dent_force(depth: Floats, thickness: float, stress: float) -> Floats:
     return 4.0 * stress * thickness * np.sqrt(2.0 * np.pi * thickness * depth / 3.0)
 
 
-def left_by_dent(depth: float, radius: float) -> float:
-    """Share of the plastic moment of a round tube that a dent leaves.
+def left_by_dent(section: CircularTube | RectangularTube, dent: float, depth: float) -> float:
+    """Share of the plastic moment that a dent leaves.
 
     Parameters
     ----------
-    depth, radius
-        Of the dent, and mean radius of the tube [m]; the depth is at most the radius.
+    section
+        Of the tube.
+    dent, depth
+        Of the dent, at most to the middle, and of the section along the force [m].
     """
-    half_arc = math.acos(1.0 - depth / radius)
+    if isinstance(section, RectangularTube):
+        return math.exp(-WEAKENS * dent / depth)
+    half_arc = math.acos(1.0 - 2.0 * dent / (depth - section.thickness))
     return math.cos(half_arc / 2.0) - math.sin(half_arc) / 2.0
 
 
@@ -135,16 +142,23 @@ def round_walls_move(depth: Floats, radius: float) -> Floats:
 
 
 def left_in_bending(
-    moment: float, diameter: float, thickness: float, spans: tuple[float, float], held: tuple[bool, bool]
+    section: CircularTube | RectangularTube,
+    material: Material,
+    depth: float,
+    moment: float,
+    spans: tuple[float, float],
+    held: tuple[bool, bool],
 ) -> float:
-    """Share of the plastic moment that is left where a force dents and bends a round tube.
+    """Share of the plastic moment that is left where a force dents and bends a tube.
 
     Parameters
     ----------
+    section, material
+        Of the tube.
+    depth
+        Of the section along the force [m].
     moment
         Its plastic moment M_p [N m].
-    diameter, thickness
-        Of the tube [m].
     spans
         Distances of the force from what holds the tube on both sides [m].
     held
@@ -153,16 +167,14 @@ def left_in_bending(
     Returns
     -------
     float
-        That of a dent as deep as the radius, if the tube bends no earlier.
+        That of a dent to the middle of the section, if the tube bends no earlier.
     """
-    radius = (diameter - thickness) / 2.0
-    stress = moment / (4.0 * radius**2 * thickness)
     here = sum(1.0 / span for span in spans)
     there = sum(carries / span for carries, span in zip(held, spans, strict=True))
-    low, high = 0.0, radius
+    dent = dent_of(section, material, depth)
+    low, high = 0.0, (depth - section.thickness) / 2.0
     for _ in range(HALVINGS):
-        depth = (low + high) / 2.0
-        bends = moment * (left_by_dent(depth, radius) * here + there)
-        dented = float(dent_force(np.asarray(depth), thickness, stress))
-        low, high = (low, depth) if dented > bends else (depth, high)
-    return left_by_dent(high, radius)
+        middle = (low + high) / 2.0
+        bends = moment * (left_by_dent(section, middle, depth) * here + there)
+        low, high = (low, middle) if float(dent.at(np.asarray(middle))) > bends else (middle, high)
+    return left_by_dent(section, high, depth)

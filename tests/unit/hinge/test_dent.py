@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from crumple.hinge.dent import dent_force, dent_of, left_by_dent, left_in_bending, round_walls_move
+from crumple.hinge.dent import dent_of, left_by_dent, left_in_bending, round_walls_move
 from crumple.material import Material
 from crumple.section import CircularTube, RectangularTube
 
@@ -45,8 +45,15 @@ def test_the_moment_that_a_dent_leaves():
     carries = height < radius - depth
     neutral = np.median(height[carries])
     moment = np.abs(height[carries] - neutral).sum()
-    assert left_by_dent(depth, radius) == pytest.approx(moment / np.abs(height).sum(), rel=1e-3)
-    assert left_by_dent(0.0, radius) == pytest.approx(1.0)
+    assert left_by_dent(TUBE, depth, 60e-3) == pytest.approx(moment / np.abs(height).sum(), rel=1e-3)
+
+
+@pytest.mark.parametrize("section", [TUBE, RectangularTube(60e-3, 40e-3, 2e-3)])
+def test_a_deeper_dent_leaves_less(section):
+    left = [left_by_dent(section, depth, 40e-3) for depth in np.linspace(0.0, 19e-3, 20)]
+    assert left[0] == pytest.approx(1.0)
+    assert np.all(np.diff(left) < 0.0)
+    assert left[-1] > 0.0
 
 
 def test_the_walls_of_a_round_tube_move_to_the_chord():
@@ -57,18 +64,18 @@ def test_the_walls_of_a_round_tube_move_to_the_chord():
 
 
 @pytest.mark.parametrize("held", [(True, True), (True, False), (False, False)])
-def test_a_dent_grows_until_the_tube_bends(held):
-    spans, radius, wall, stress = (0.4, 0.6), 29e-3, 2e-3, 350e6
-    moment = 4.0 * radius**2 * wall * stress
-    left = left_in_bending(moment, 2.0 * radius + wall, wall, spans, held)
-    depths = np.linspace(1e-6, radius, 100_001)
-    shares = np.array([left_by_dent(depth, radius) for depth in depths])
+@pytest.mark.parametrize("section", [TUBE, RectangularTube(80e-3, 60e-3, 1.5e-3)])
+def test_a_dent_grows_until_the_tube_bends(section, held):
+    spans, moment = (0.4, 0.6), 2500.0
+    left = left_in_bending(section, STEEL, 60e-3, moment, spans, held)
+    depths = np.linspace(0.0, 29e-3, 20_001)
+    shares = np.array([left_by_dent(section, depth, 60e-3) for depth in depths])
     bends = sum((shares + carries) / span for carries, span in zip(held, spans, strict=True)) * moment
-    first = int(np.argmax(dent_force(depths, wall, stress) > bends))
-    assert left == pytest.approx(shares[first] if first else shares[-1], abs=1e-4)
+    first = int(np.argmax(dent_of(section, STEEL, 60e-3).at(depths) > bends))
+    assert first > 0
+    assert left == pytest.approx(shares[first], abs=1e-4)
 
 
 def test_short_spans_are_dented_to_the_middle():
-    moment = 4.0 * 29e-3**2 * 2e-3 * 350e6
-    left = left_in_bending(moment, 60e-3, 2e-3, (0.05, 0.05), (True, True))
+    left = left_in_bending(TUBE, STEEL, 60e-3, 2500.0, (0.05, 0.05), (True, True))
     assert left == pytest.approx(math.cos(math.pi / 4.0) - 0.5)

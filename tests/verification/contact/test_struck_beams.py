@@ -36,6 +36,7 @@ obstacles:
     radius: 50 mm
     mass: {MASS:g} kg
     velocity: [0 m/s, 0 m/s, {-SPEED:g} m/s]
+    dents: false
 analysis: {{duration: 8 ms, multibody: {{members: rigid}}}}
 outputs: {{every: 0.02 ms}}
 """

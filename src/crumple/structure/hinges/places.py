@@ -154,7 +154,7 @@ def law_of(structure: StructureParts, place: HingePlace) -> HingeLaw:
 
     alike = alike_law(structure, place)
     law = build() if alike is None else structure.kept.once("law", alike, build)
-    return with_dent(structure, place.member, place.name, place.law, law)
+    return with_dent(structure, place.member, place.name, place.axis, place.law, law)
 
 
 def alike_law(structure: StructureParts, place: HingePlace) -> tuple[str, str, Axis, str] | None:

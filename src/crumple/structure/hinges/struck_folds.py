@@ -15,7 +15,7 @@ from crumple.hinge import HingeLaw
 from crumple.hinge.bending.dented import DentedLaw
 from crumple.hinge.dent import Dent, dent_of, left_in_bending
 from crumple.numeric.arrays import Floats
-from crumple.section import AXES, CircularTube, RectangularTube, half_fold_length
+from crumple.section import AXES, Axis, CircularTube, RectangularTube, half_fold_length
 from crumple.structure.hinges.automatic import strikes_on
 from crumple.structure.hinges.law_choice import automatic_law
 from crumple.structure.hinges.runs.straight_runs import straight_run
@@ -34,30 +34,37 @@ the forces of one obstacle on several tubes."""
 
 
 def with_dent(
-    structure: StructureParts, member: str, name: str, reference: LawReference | None, law: HingeLaw
+    structure: StructureParts,
+    member: str,
+    name: str,
+    axis: Axis,
+    reference: LawReference | None,
+    law: HingeLaw,
 ) -> HingeLaw:
-    """Law of a hinge, lowered if it is an automatic one of a round tube where an obstacle dents it.
+    """Law of a hinge, lowered if it is an automatic one of a tube where an obstacle dents it.
 
     Parameters
     ----------
-    structure, member, name
-        The hinge.
+    structure, member, name, axis
+        The hinge, and the axis of the section about which the law bends.
     reference, law
         What the input says of its law, which it may name itself; and the law.
     """
     section = structure.section_of(member)
-    if not structure.obstacles or not isinstance(section, CircularTube):
+    if not structure.obstacles or not isinstance(section, CircularTube | RectangularTube):
         return law
     strike = strikes_on(structure, member).get(name)
     if strike is None or automatic_law(structure, reference) is None:
         return law
+    across = structure.frame_of(member).axis("z" if axis == "y" else "y")
     run = straight_run(structure, member).stretches
-    dents = (tube for obstacle in strike.obstacles for tube in dented_tubes(structure, obstacle))
-    if not any(tube.member in run for tube in dents):
-        return law
-    moment = float(law.moment_capacity(0.0))
-    left = left_in_bending(moment, section.diameter, section.thickness, strike.spans, strike.held)
-    return DentedLaw(law, left)
+    for tube in (tube for obstacle in strike.obstacles for tube in dented_tubes(structure, obstacle)):
+        bends = isinstance(section, CircularTube) or abs(float(tube.outwards @ across)) >= SQUARE
+        if tube.member in run and bends:
+            material, moment = structure.material_of(member), float(law.moment_capacity(0.0))
+            left = left_in_bending(section, material, tube.depth, moment, strike.spans, strike.held)
+            return DentedLaw(law, left)
+    return law
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,14 +79,15 @@ class DentedTube:
         Nodes in the dent, between the ends of its straight run.
     outwards
         Unit vector from it to the obstacle, (3,).
-    dent
-        Its law.
+    depth, dent
+        Of its section along the force [m], and the law of the dent.
     """
 
     member: str
     station: float
     nodes: tuple[str, ...]
     outwards: Floats
+    depth: float
     dent: Dent
 
 
@@ -141,8 +149,9 @@ def _dented(structure: StructureParts, member: str, place: StruckPlace) -> Dente
         depth = float(np.ptp(section.outer_outline(), axis=0)[int(np.argmax(across))])
     if not _folds_there(structure, member, place.obstacle):
         return None
+    nodes = _nodes_in(structure, member, place.station)
     dent = dent_of(section, structure.material_of(member), depth)
-    return DentedTube(member, place.station, _nodes_in(structure, member, place.station), outwards, dent)
+    return DentedTube(member, place.station, nodes, outwards, depth, dent)
 
 
 def _nodes_in(structure: StructureParts, member: str, station: float) -> tuple[str, ...]:
