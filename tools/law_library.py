@@ -51,7 +51,7 @@ LARGEST = math.radians(40.0)
 """Plastic rotation at which the laws end."""
 
 PLACE = ("slenderness", "ratio", "yield_strain", "hardening")
-ROLES: tuple[Role, ...] = ("training", "earlier", "former", "mesh")
+ROLES: tuple[Role, ...] = ("training", "earlier", "former", "mesh", "hardened")
 """Points that are fitted."""
 HELD_OUT: tuple[Role, ...] = ("held-out", "check")
 """Points that are not."""
