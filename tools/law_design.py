@@ -9,9 +9,9 @@ with h the true stress at a plastic strain of 0.1 over the yield stress.  Bendin
 same with a and b exchanged.  The range is given by slenderness max(a, b)/t and ratio a/b.
 
 Training points are a Sobol sequence, pushed towards the ends of the range (there a regression extrapolates),
-on a coarse mesh; some of them are solved on the nominal mesh too.  Hardened round tubes are another Sobol
-sequence, on the nominal mesh only.  Held-out points are uniform random numbers from seeds of their own, on the
-nominal mesh.  Nobody chooses anything by the latter.
+on a coarse mesh; some of them are solved on the nominal mesh too.  Round tubes with hardening are another
+Sobol sequence, on the nominal mesh only.  Held-out points are uniform random numbers from seeds of their own,
+on the nominal mesh.  Nobody chooses anything by the latter.
 """
 
 from __future__ import annotations
@@ -201,7 +201,7 @@ def _held_out(kind: Kind) -> Iterator[Point]:
     slenderness = (THICKEST, SLENDERNESS[1]) if kind == "rectangular_tube" else SLENDERNESS
     first = np.random.default_rng([SEED, len(kind)]).uniform(size=(HELD_OUT[kind], 4))
     later = np.random.default_rng([LATER_SEED, len(kind)]).uniform(size=(LATER_HELD_OUT[kind], 4))
-    # all of them harden
+    # past the share without hardening, so that it is uniform
     later[:, 3] = WITHOUT_HARDENING + (1.0 - WITHOUT_HARDENING) * later[:, 3]
     for number, place in enumerate(np.concatenate([first, later])):
         one = _point(kind, "held-out", number, place[:3], place[3])

@@ -51,7 +51,9 @@ LARGEST = math.radians(40.0)
 """Plastic rotation at which the laws end."""
 
 PLACE = ("slenderness", "ratio", "yield_strain", "hardening")
-ROLES: tuple[Role, ...] = ("training", "earlier", "former", "mesh", "hardened")
+NOMINAL_ROLES: tuple[Role, ...] = ("mesh", "hardened")
+"""Points on the nominal mesh that are fitted."""
+ROLES: tuple[Role, ...] = ("training", "earlier", "former", *NOMINAL_ROLES)
 """Points that are fitted."""
 HELD_OUT: tuple[Role, ...] = ("held-out", "check")
 """Points that are not."""
@@ -291,11 +293,11 @@ def check(folder: Path) -> None:
     """Errors of the written table at nominal points: fitted, left out, held out."""
     for kind in TRAINING:
         found = tube_table(kind)
-        nominal = [one for role in ("mesh", *HELD_OUT) for one in read(folder, kind, role)]
+        nominal = [one for role in (*NOMINAL_ROLES, *HELD_OUT) for one in read(folder, kind, role)]
         left_out = {
             one["name"]: np.array(one["left_out"]) for one in found.facts["points"] if "left_out" in one
         }
-        for title, roles in (("fitted", ("mesh",)), ("left out", ("mesh",)), ("held out", HELD_OUT)):
+        for title, roles in (("fitted", NOMINAL_ROLES), ("left out", NOMINAL_ROLES), ("held out", HELD_OUT)):
             print(f"{kind}, {title}: error of the energy up to {AT.tolist()} deg")
             errors = []
             for one in (each for each in nominal if each.point["role"] in roles):
