@@ -33,6 +33,8 @@ TUBE := $(if $(filter strong,$(AXIS)),out/tube_upright.yaml,examples/01_tube_ben
 CONSTRAINTS ?= tools/constraints.txt
 export PIP_CONSTRAINT := $(abspath $(CONSTRAINTS))
 export PIP_BUILD_CONSTRAINT := $(abspath $(CONSTRAINTS))
+# with it, every process that a test starts would compile all modules again
+unexport PYTHONDONTWRITEBYTECODE
 RANGES := build/ranges
 SANITIZED := build/sanitized
 SANITIZERS_address := address,undefined,float-cast-overflow

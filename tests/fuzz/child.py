@@ -15,7 +15,7 @@ from typing import Any
 
 from tests.fuzz import kernel_base, restart_base
 from tests.fuzz.attacks import ATTACKS
-from tests.fuzz.sites import Watch
+from tests.fuzz.sites import Watch, sites
 from tests.fuzz.worker import MEMORY, SECONDS, WAITING, Outcome, place_in
 
 import crumple.multibody
@@ -23,6 +23,8 @@ import crumple.shell
 
 FORKED = (kernel_base, restart_base, crumple.multibody, crumple.shell)
 """Modules that attacks import late: children are forked with them."""
+SITES = sites()
+"""Found once, before children are forked: it takes seconds."""
 
 
 def attempt(attack: Callable[[Any], str], payload: Any) -> Outcome:

@@ -13,6 +13,7 @@ for a line of the list that names no site.
 from __future__ import annotations
 
 import ast
+import gc
 import json
 import sys
 from collections import Counter
@@ -130,15 +131,25 @@ def _by_end() -> dict[End, str]:
 
 @cache
 def _sites() -> list[tuple[str, int, End]]:
+    # the collector would look through all trees again and again, which takes as long as everything else
+    gc.disable()
+    try:
+        return _found()
+    finally:
+        gc.enable()
+
+
+def _found() -> list[tuple[str, int, End]]:
     trees = {
         path.relative_to(PACKAGE).as_posix(): ast.parse(path.read_text(encoding="utf-8"))
         for path in sorted(PACKAGE.rglob("*.py"))
     }
-    makers = {file: set(_makers(tree)) for file, tree in trees.items()}
+    nodes = {file: list(ast.walk(tree)) for file, tree in trees.items()}
+    makers = {file: set(_makers(inside)) for file, inside in nodes.items()}
     public = {name for names in makers.values() for name in names if not name.startswith("_")}
     found, met = [], Counter[str]()
     for file, tree in trees.items():
-        texts = _assigned(tree)
+        texts = _assigned(nodes[file])
         for function, node in _calls(tree, ERRORS | public | makers[file]):
             name = f"{file} {function}: {_message(node, texts)}"
             met[name] += 1
@@ -148,26 +159,28 @@ def _sites() -> list[tuple[str, int, End]]:
     return found
 
 
-def _makers(tree: ast.AST) -> Iterator[str]:
+def _makers(nodes: Iterable[ast.AST]) -> Iterator[str]:
     """Functions that return an error, or never return."""
-    for node in ast.walk(tree):
+    for node in nodes:
         returns = node.returns if isinstance(node, ast.FunctionDef) else None
         if returns is not None and ast.unparse(returns) in {*ERRORS, "NoReturn"}:
             yield node.name  # type: ignore[attr-defined]
 
 
-def _calls(tree: ast.AST, names: set[str], function: str = "module") -> Iterator[tuple[str, ast.Call]]:
+def _calls(tree: ast.AST, names: set[str], function: str = "module") -> list[tuple[str, ast.Call]]:
     """Calls of these functions with no other one among their arguments, and the function where they are."""
+    found = []
     for node in ast.iter_child_nodes(tree):
         if isinstance(node, ast.FunctionDef | ast.ClassDef):
-            yield from _calls(node, names, node.name if function == "module" else f"{function}.{node.name}")
+            found += _calls(node, names, node.name if function == "module" else f"{function}.{node.name}")
             continue
-        inner = list(_calls(node, names, function))
-        yield from inner
+        inner = _calls(node, names, function)
+        found += inner
         if isinstance(node, ast.Call) and not inner:
             called = node.func.id if isinstance(node.func, ast.Name) else getattr(node.func, "attr", "")
             if called in names:
-                yield function, node
+                found.append((function, node))
+    return found
 
 
 def _message(node: ast.Call, texts: Sequence[tuple[str, int, ast.expr]]) -> str:
@@ -200,10 +213,10 @@ def _text(node: ast.expr) -> str:
     return max(texts, key=len)
 
 
-def _assigned(tree: ast.AST) -> list[tuple[str, int, ast.expr]]:
+def _assigned(nodes: Iterable[ast.AST]) -> list[tuple[str, int, ast.expr]]:
     """Name, line and value of the assignments, in order of lines."""
     found = []
-    for node in ast.walk(tree):
+    for node in nodes:
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
             found.append((node.targets[0].id, node.lineno, node.value))
         elif (

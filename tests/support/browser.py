@@ -113,6 +113,8 @@ class Browser:
             deviceScaleFactor=1,
             mobile=False,
         )
+        # what another test set
+        self.call("Emulation.setEmulatedMedia", media="")
         self.events.clear()
         self.call("Page.navigate", url=url)
         end = time.monotonic() + PATIENCE

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,6 +11,7 @@ from numpy.typing import NDArray
 CHORDS_PER_QUARTER = 8
 
 
+@lru_cache(maxsize=256)
 def rounded_rectangle(width: float, depth: float, radius: float) -> NDArray[np.float64]:
     """Corner points of a rectangle centred on the origin, or arcs where the radius is positive.
 
@@ -28,7 +31,7 @@ def rounded_rectangle(width: float, depth: float, radius: float) -> NDArray[np.f
     y, z = width / 2.0 - radius, depth / 2.0 - radius
     centres = np.array([[y, -z], [y, z], [-y, z], [-y, -z]])
     if radius <= 0.0:
-        return centres
+        return _read_only(centres)
     quarter = np.linspace(0.0, np.pi / 2.0, CHORDS_PER_QUARTER + 1)
     corners = [
         centre + radius * np.column_stack([np.cos(start + quarter), np.sin(start + quarter)])
@@ -37,10 +40,17 @@ def rounded_rectangle(width: float, depth: float, radius: float) -> NDArray[np.f
     points = np.concatenate(corners)
     # corners that touch (radius of half a side) share a point: keep it once
     apart = np.linalg.norm(points - np.roll(points, 1, axis=0), axis=1) > 1e-9 * (width + depth)
-    return np.asarray(points[apart], float)
+    return _read_only(points[apart])
 
 
+@lru_cache(maxsize=256)
 def circle(diameter: float) -> NDArray[np.float64]:
     """Points of a circle about the origin, shape (8 * CHORDS_PER_QUARTER, 2), counter-clockwise from +y."""
     angle = np.linspace(0.0, 2.0 * np.pi, 8 * CHORDS_PER_QUARTER, endpoint=False)
-    return np.asarray(diameter / 2.0 * np.column_stack([np.cos(angle), np.sin(angle)]), float)
+    return _read_only(diameter / 2.0 * np.column_stack([np.cos(angle), np.sin(angle)]))
+
+
+def _read_only(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Points that all callers share."""
+    points.flags.writeable = False
+    return points

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
-from typing import TypeVar
+from typing import Self, TypeVar, cast
 
 import numpy as np
 
@@ -29,6 +29,12 @@ from crumple.structure.schema.spec import Named, Spec
 from crumple.structure.settings.stored_laws import LawsOrFolder
 
 Part = TypeVar("Part")
+
+OF_ANY_STIFFNESS = frozenset({
+    "section", "material", "rigidity", "shear area", "planar", "corners", "untreated corners", "T-joints",
+    "framework", "held runs", "braced", "strikes joint", "struck places", "sound members",
+})  # fmt: skip
+"""Kinds of derived data that are the same whether members are rigid or elastic."""
 
 
 def _by_node(parts: Iterable[tuple[str, Part]]) -> dict[str, list[Part]]:
@@ -81,6 +87,14 @@ class StructureParts(Spec):
     member_contact: MemberContact | None = None
     """Contact of members with members that share no node; without it they pass through each other in the
     multibody model, while shells have `analysis.shell.self_contact`."""
+
+    def with_elastic(self, members: Mapping[str, Member]) -> Self:
+        """Copy with members that differ in nothing but in `elastic`, checked like any other part."""
+        parts = {name: getattr(self, name) for name in self.key_names}
+        changed = type(self).model_construct(**{**parts, "members": FrozenMapping(members)})
+        # a cached property: as if the copy itself had been asked
+        changed.__dict__["kept"] = self.kept.shared(OF_ANY_STIFFNESS)
+        return cast(Self, changed)
 
     def section_of(self, member: str) -> Section:
         """Cross-section of a member."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Collection, Hashable
 from functools import lru_cache
 from typing import Any, ParamSpec, TypeVar, cast
 from weakref import WeakValueDictionary
@@ -46,6 +46,13 @@ class Kept(dict[tuple[str, Hashable], Any]):
         """Forget all."""
         super().clear()
         self.frames.clear()
+
+    def shared(self, kinds: Collection[str]) -> Kept:
+        """Data of some kinds, and the frames, for a structure in which they are the same."""
+        other = Kept()
+        other.update({key: value for key, value in self.items() if key[0] in kinds})
+        other.frames.update(self.frames)
+        return other
 
     def once(self, kind: str, name: Hashable, compute: Callable[[], T]) -> T:
         """Data of a kind and name; computed when first needed."""

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Self
+
 from pydantic import ValidationInfo, model_validator
 
 from crumple.structure.checks.checks import problems_in
+from crumple.structure.keys.member import Member
 from crumple.structure.parts import StructureParts
 from crumple.structure.schema.spec import raise_all
 
@@ -19,6 +23,12 @@ class Structure(StructureParts):
         # a cached property: as if the structure itself had been asked
         structure.__dict__["kept"] = parts.kept
         return structure
+
+    def with_elastic(self, members: Mapping[str, Member]) -> Self:
+        """See `StructureParts`."""
+        changed = super().with_elastic(members)
+        raise_all(problems_in(changed))
+        return changed
 
     @model_validator(mode="after")
     def _sound(self, info: ValidationInfo) -> Structure:

@@ -59,7 +59,7 @@ def test_shells_use_the_pair_at_large_strain_and_a_logarithm_becomes_a_power():
 
 
 def test_a_coarse_law_has_the_curve_at_rest_and_a_rate_law():
-    coarse = Resolution(3.0, 5.0)
+    coarse = Resolution(2.0, 5.0)
     model = Bending(TUBE, STEEL, largest=0.15, resolution=coarse)
     law, plain = characterise(model).law, characterise(at_rest(model)).law
     assert law.curve == plain.curve

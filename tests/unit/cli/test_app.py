@@ -5,12 +5,11 @@ import os
 import socket
 
 import pytest
-from tests.unit.cli.test_cli import run_command  # noqa: F401
 
 from crumple.cli import app as verb
 
 
-def test_a_missing_package_is_named_with_its_extra(run_command, monkeypatch):  # noqa: F811
+def test_a_missing_package_is_named_with_its_extra(run_command, monkeypatch):
     known = importlib.util.find_spec
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "uvicorn" else known(name))
     code, _, err = run_command("app")
@@ -20,7 +19,7 @@ def test_a_missing_package_is_named_with_its_extra(run_command, monkeypatch):  #
 
 
 @pytest.mark.parametrize("missing", ["none.yaml", "none/x.yaml"])
-def test_a_missing_file_is_refused(run_command, tmp_path, missing):  # noqa: F811
+def test_a_missing_file_is_refused(run_command, tmp_path, missing):
     pytest.importorskip("starlette")
     pytest.importorskip("uvicorn")
     pytest.importorskip("websockets")
@@ -44,7 +43,7 @@ def test_nothing_is_left_when_it_is_ended(tmp_path, monkeypatch):
     assert list(tmp_path.glob("crumple-*")) == []
 
 
-def test_a_port_in_use_is_refused(run_command, tmp_path):  # noqa: F811
+def test_a_port_in_use_is_refused(run_command, tmp_path):
     for package in ("starlette", "uvicorn", "websockets"):
         pytest.importorskip(package)
     with socket.socket() as taken:

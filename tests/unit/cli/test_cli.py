@@ -13,31 +13,11 @@ from pathlib import Path
 import pytest
 
 import crumple
-from crumple.cli import main as command
 from crumple.errors import Status
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "01_tube_bending.yaml"
 STEEL = "yield 488 MPa, E 210 GPa"
 TUBE = "rectangular_tube 50x25x2.65 mm"
-
-
-@pytest.fixture
-def run_command(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
-    """Call the command with arguments; gives exit code, standard output, standard error."""
-
-    def call(*arguments: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["crumple", *map(str, arguments)])
-        monkeypatch.setenv("COLUMNS", "120")
-        code = 0
-        try:
-            command.main()
-        except SystemExit as stop:
-            code = int(stop.code or 0)
-        out, err = capsys.readouterr()
-        assert "Traceback" not in out + err
-        return code, out, err
-
-    return call
 
 
 def test_help_names_every_verb(run_command) -> None:

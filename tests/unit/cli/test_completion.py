@@ -6,7 +6,6 @@ import subprocess
 import sys
 
 import pytest
-from tests.unit.cli.test_cli import run_command  # noqa: F401
 
 ASK = "import sys; sys.argv = ['crumple']; from crumple.cli.main import main; main()"
 
@@ -36,7 +35,7 @@ def test_commands_options_and_choices_are_completed(shell, line, found):
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
-def test_the_script_asks_the_program(run_command, shell):  # noqa: F811
+def test_the_script_asks_the_program(run_command, shell):
     code, out, _ = run_command("completion", shell)
     assert code == 0
     assert f"_CRUMPLE_COMPLETE=complete_{shell}" in out
@@ -45,7 +44,7 @@ def test_the_script_asks_the_program(run_command, shell):  # noqa: F811
         subprocess.run([path, "-n"], input=out, text=True, check=True)
 
 
-def test_bash_completes_with_the_script(run_command, tmp_path):  # noqa: F811
+def test_bash_completes_with_the_script(run_command, tmp_path):
     if shutil.which("bash") is None or os.name == "nt":
         pytest.skip("no bash")
     (tmp_path / "completion").write_text(run_command("completion", "bash")[1])
@@ -61,7 +60,7 @@ def test_bash_completes_with_the_script(run_command, tmp_path):  # noqa: F811
     assert done.stdout.strip() == "layouts"
 
 
-def test_an_unknown_shell_is_refused(run_command):  # noqa: F811
+def test_an_unknown_shell_is_refused(run_command):
     code, _, err = run_command("completion", "tcsh")
     assert code == 2
     assert "bash" in err

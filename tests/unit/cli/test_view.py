@@ -1,27 +1,10 @@
 """`crumple view DIR`: the page is written, opened if asked for, and a folder without results is refused."""
 
-import sys
 import webbrowser
 
-import pytest
 from tests.support.result.synthetic_tube import tube_result
 
-from crumple.cli import main as command
 from crumple.result import write
-
-
-@pytest.fixture(name="run_command")
-def _run_command(monkeypatch, capsys):
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["crumple", *map(str, arguments)])
-        code = 0
-        try:
-            command.main()
-        except SystemExit as stop:
-            code = int(stop.code or 0)
-        return code, *capsys.readouterr()
-
-    return call
 
 
 def test_the_page_is_written_and_opened(run_command, tmp_path, monkeypatch):

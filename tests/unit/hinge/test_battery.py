@@ -13,12 +13,13 @@ Every case is solved on every section that is drawn, so a law that refuses one f
 """
 
 import dataclasses
+import functools
 import math
 import pickle
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given, seed, settings
 from hypothesis import strategies as st
 
 from crumple.errors import InputError
@@ -154,8 +155,9 @@ tubes = st.builds(
 shares = st.lists(st.floats(0.0, 1.0), min_size=1, max_size=8)
 
 
+@functools.cache
 def law_of(case, section, axis="y"):
-    """Law of a case."""
+    """Law of a case; to build it takes longer than most of what is asked of it."""
     name, number = case
     options = OPTIONS.get(name, [{}])[number]
     build = SECTIONS.get((name, number)) or SECTIONS.get((name, None))
@@ -166,11 +168,25 @@ def law_of(case, section, axis="y"):
 
 
 def every(cases):
-    """Run a property over laws and many sections."""
+    """Run a property over laws and many sections.
+
+    All properties are asked of the same laws, which are then built once; `make verify` asks each property
+    of laws of its own too.
+    """
 
     def over(function):
-        drawn = settings(max_examples=25)(given(tubes, shares, st.sampled_from([1, -1]))(function))
-        return pytest.mark.parametrize("case", cases, ids=lambda case: f"{case[0]}-{case[1]}")(drawn)
+        shared, own = (
+            settings(max_examples=number)(given(tubes, shares, st.sampled_from([1, -1]))(function))
+            for number in (15, 25)
+        )
+        asked = {"shared": seed(0)(shared), "own": own}
+
+        @pytest.mark.parametrize("laws", ["shared", pytest.param("own", marks=pytest.mark.slow)])
+        @pytest.mark.parametrize("case", cases, ids=lambda case: f"{case[0]}-{case[1]}")
+        def test(case, laws):
+            asked[laws](case)
+
+        return test
 
     return over
 

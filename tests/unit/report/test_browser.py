@@ -1,12 +1,10 @@
 """The page in a real browser: it renders, fetches nothing, complains of nothing, fits screen and paper."""
 
 import base64
-import os
 import re
 import zlib
 
 import pytest
-from tests.support.browser import Browser, find_browser
 from tests.support.result.synthetic_frame import CUBE, frame_result
 from tests.support.result.synthetic_tube import tube_result
 
@@ -22,19 +20,6 @@ FIGURES = """[...document.querySelectorAll('figure svg')].map(svg => {
   return {width: box.width, height: box.height, drawn: drawn.width * drawn.height, outside: outside,
           title: svg.querySelector('title').textContent, labelled: svg.getAttribute('aria-labelledby')};
 })"""
-
-
-@pytest.fixture(scope="module", name="browser")
-def _browser():
-    path = find_browser()
-    if path is None:
-        # on a developer's machine a browser may be missing; where the project is checked it may not
-        assert not os.environ.get("CI"), "no Chromium found, and CI is set"
-        pytest.skip("no Chromium found")
-    # without these flags the browser itself warns that it draws WebGL in software
-    browser = Browser(path, ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"))
-    yield browser
-    browser.close()
 
 
 @pytest.fixture(scope="module", name="pages")
@@ -133,7 +118,6 @@ def test_the_table_of_laws_has_room_on_paper(browser, pages):
     cells = "document.querySelectorAll('.laws tbody tr:first-child :is(th, td)')"
     widths = browser.evaluate(f"[...{cells}].map(cell => cell.getBoundingClientRect().width)")
     fits = browser.evaluate("document.documentElement.scrollWidth <= 673")
-    browser.call("Emulation.setEmulatedMedia", media="")
     assert widths[0] > 660
     assert min(widths[1:5]) > 80
     assert sum(widths[1:]) < 673

@@ -2,7 +2,6 @@
 
 import base64
 import hashlib
-import os
 import re
 import time
 import zlib
@@ -11,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.support.browser import Browser, find_browser
 from tests.support.result.folded_tube import analysis, angle_over_time, folded_result, folded_states
 from tests.unit.comparison.cautions.test_trust import shortened
 
@@ -24,8 +22,6 @@ from crumple.report.comparison_page import scene_of
 from crumple.report.scene.hinges import hinge_states
 from crumple.report.scene.scene import frame_times
 
-WEBGL = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
-NO_WEBGL = ("--disable-webgl", "--disable-3d-apis")
 LARGEST_PAGE = 3_000_000
 THREE_SHA256 = "89c5b9aa843f5f652a4914e55bdf5d67fa0235d996a25bc511bf713ee6d76061"
 
@@ -69,16 +65,9 @@ def _page(found, tmp_path_factory):
     return write_comparison(found, source, tmp_path_factory.mktemp("page"), pictures=(0.0, 0.05, 0.1))
 
 
-@pytest.fixture(name="browser", params=[WEBGL, NO_WEBGL], ids=["webgl", "canvas"])
-def _browser(request):
-    path = find_browser()
-    if path is None:
-        assert not os.environ.get("CI"), "no Chromium found, and CI is set"
-        pytest.skip("no Chromium found")
-    browser = Browser(path, request.param)
-    browser.wanted = "webgl" if request.param is WEBGL else "2d"
-    yield browser
-    browser.close()
+@pytest.fixture(name="browser")
+def _browser(either_browser):
+    return either_browser
 
 
 def opened(browser, page):

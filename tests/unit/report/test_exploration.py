@@ -1,14 +1,11 @@
 """The page with sliders: exact at solved values, marked between them, empty where nothing was solved."""
 
 import csv
-import os
 import time
 
 import numpy as np
 import pytest
-from tests.support.browser import Browser, find_browser
 from tests.unit.analysis.test_explore import EXAMPLES, TUBE, named
-from tests.unit.cli.test_cli import run_command  # noqa: F401  (a fixture)
 
 from crumple.analysis.explore import explore
 from crumple.errors import InputError
@@ -16,17 +13,6 @@ from crumple.report.exploration import write_exploration
 
 TOLD = "document.querySelector('[data-role=told]').textContent"
 HINGE = "crumplePlayer.scene.models[0].hinges[0].rotation"
-
-
-@pytest.fixture(scope="module", name="browser")
-def _browser():
-    path = find_browser()
-    if path is None:
-        assert not os.environ.get("CI"), "no Chromium found, and CI is set"
-        pytest.skip("no Chromium found")
-    browser = Browser(path, ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"))
-    yield browser
-    browser.close()
 
 
 @pytest.fixture(scope="module", name="grid")
@@ -153,7 +139,7 @@ def test_a_grid_without_any_result_is_refused(tmp_path):
         write_exploration(explore(TUBE.analysis, sliders), sliders, "", tmp_path)
 
 
-def test_the_command_writes_the_page_and_the_next_run_removes_it(run_command, tmp_path):  # noqa: F811
+def test_the_command_writes_the_page_and_the_next_run_removes_it(run_command, tmp_path):
     example = EXAMPLES / "01_tube_bending.yaml"
     out = tmp_path / "out"
     code, said, _ = run_command("run", example, "--out", out, "--explore", "mass", "--no-law-range")

@@ -3,7 +3,6 @@
 import csv
 import json
 import math
-import os
 import re
 import sys
 import time
@@ -12,8 +11,6 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from tests.support.browser import Browser, find_browser
-from tests.unit.cli.test_cli import run_command  # noqa: F401  (a fixture)
 from tests.unit.study.test_study import ROTATION, WALL, written
 
 from crumple.analysis.solve import run_of
@@ -49,17 +46,6 @@ def _study(tmp_path_factory):
     data["alike"] = rows_alike(table, data["rows"], rows)
     page, shown = write_study_page(data, solved_for_shapes(loaded, table, rows), folder)
     return loaded, table, answer, data, page, shown
-
-
-@pytest.fixture(scope="module", name="browser")
-def _browser():
-    path = find_browser()
-    if path is None:
-        assert not os.environ.get("CI"), "no Chromium found, and CI is set"
-        pytest.skip("no Chromium found")
-    browser = Browser(path, ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"))
-    yield browser
-    browser.close()
 
 
 def opened(browser, page, width=1400):
@@ -307,7 +293,7 @@ def test_the_page_fits_a_phone(browser, study):
     assert browser.evaluate("document.documentElement.scrollWidth") <= 390
 
 
-def test_the_command_writes_page_and_parquet(run_command, tmp_path):  # noqa: F811
+def test_the_command_writes_page_and_parquet(run_command, tmp_path):
     pandas = pytest.importorskip("pandas")
     file = written(tmp_path, "{type: sobol, rows: 8}", WALL, ROTATION + "\n  f: {formula: 2 * r}")
     out = tmp_path / "out"

@@ -13,7 +13,6 @@ import time
 from concurrent.futures import Future
 
 import pytest
-from tests.unit.cli.test_cli import run_command  # noqa: F401  (a fixture)
 from tests.unit.study.test_study import WALL, count, rows_of, written
 
 from crumple.errors import InputError
@@ -168,7 +167,7 @@ def test_no_worker_answers(cluster, study, tmp_path):
 
 
 @pytest.mark.slow
-def test_a_scheduler_that_goes_away(cluster, study, tmp_path, run_command):  # noqa: F811
+def test_a_scheduler_that_goes_away(cluster, study, tmp_path, run_command):
     """The rows so far are kept, and --resume goes on with another one."""
     file, whole = study
     folder = tmp_path / "a"
@@ -205,7 +204,7 @@ def test_batches_on_a_cluster_have_the_bits_of_those_here(cluster, tmp_path):
     assert rows_of(tmp_path / "here") == rows_of(tmp_path / "there")
 
 
-def test_no_scheduler_and_no_extra(study, tmp_path, monkeypatch, run_command):  # noqa: F811
+def test_no_scheduler_and_no_extra(study, tmp_path, monkeypatch, run_command):
     from crumple.study import cluster as module
 
     monkeypatch.setattr(module, "CONNECTING", 0.2)

@@ -7,7 +7,6 @@ import sys
 import time
 
 import pytest
-from tests.unit.cli.test_cli import run_command  # noqa: F401  (a fixture)
 from tests.unit.study.test_study import WALL, rows_of, written
 
 from crumple.errors import InputError
@@ -36,7 +35,7 @@ def count(file):
     return number
 
 
-def test_one_of_three_parts_is_killed_and_repeated(study, tmp_path, run_command):  # noqa: F811
+def test_one_of_three_parts_is_killed_and_repeated(study, tmp_path, run_command):
     file, whole = study
     for part in ("1/3", "3/3"):
         assert "solved now" in run_command("study", file, "--out", tmp_path, "--part", part)[1]
@@ -92,7 +91,7 @@ def test_methods_that_follow_their_rows_have_no_parts(tmp_path, method):
         run_part(LoadedStudy(file), tmp_path, (1, 2))
 
 
-def test_parts_are_joined_by_a_command_of_its_own(study, tmp_path, run_command):  # noqa: F811
+def test_parts_are_joined_by_a_command_of_its_own(study, tmp_path, run_command):
     code, _, err = run_command("study", study[0], "--out", tmp_path, "--part", "1/2", "--merge")
     assert code == 2
     assert "a part is of a study alone" in err

@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.special import ndtri
-from tests.unit.cli.test_cli import run_command  # noqa: F401  (a fixture)
 
 from crumple.analysis import check, load, solve
 from crumple.analysis.solve import run_of
@@ -150,7 +149,7 @@ def test_check_refuses_criteria_that_cannot_be_judged(tmp_path, criterion, what)
     assert problem.line > TUBE.count("\n")
 
 
-def test_files_and_page(tmp_path, run_command):  # noqa: F811
+def test_files_and_page(tmp_path, run_command):
     criteria = "  turn: {channel: hinge.root.rotation, at_most: 33 deg}\n"
     file, out = written(tmp_path, criteria, rows=50), tmp_path / "out"
     said = run_command("run", str(file), "--out", str(out))[1]

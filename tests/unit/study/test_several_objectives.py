@@ -7,7 +7,6 @@ import sys
 
 import numpy as np
 import pytest
-from tests.unit.cli.test_cli import run_command  # noqa: F401  (a fixture)
 from tests.unit.study.test_study import ROTATION, WALL, rows_of, written
 
 from crumple.errors import InputError
@@ -100,7 +99,7 @@ def test_generations_are_replayed_from_their_rows(tmp_path):
 
 
 @optuna
-def test_a_study_file_with_two_objectives(run_command, tmp_path):  # noqa: F811
+def test_a_study_file_with_two_objectives(run_command, tmp_path):
     file = written(tmp_path, "{type: optimise, rows: 48}", WALL, MASS, BOTH)
     code, out, err = run_command("study", file, "--out", tmp_path / "one", "--workers", 1)
     assert (code, err) == (0, "")

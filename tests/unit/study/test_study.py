@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.unit.cli.test_cli import run_command  # noqa: F401  (a fixture)
 
 from crumple.analysis import load, solve
 from crumple.analysis.criteria import Measured, measure
@@ -181,20 +180,19 @@ def test_slow_rows_are_kept_while_others_are_in_work(tmp_path, monkeypatch):
     assert count(tmp_path) == 3
 
 
-def test_a_killed_study_goes_on(tmp_path):
+def test_a_killed_study_goes_on(tmp_path, run_command):
     file = written(tmp_path, "{type: monte_carlo, rows: 600, seed: 4}", WALL)
     killed, whole = tmp_path / "killed", tmp_path / "whole"
-    command = [sys.executable, "-m", "crumple", "study", file, "--out"]
-    process = subprocess.Popen([*command, killed], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    command = [sys.executable, "-m", "crumple", "study", file, "--out", killed]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     while process.poll() is None and count(killed) == 0:
         time.sleep(0.01)
     process.kill()
     process.wait()
     known = count(killed)
     assert 0 < known < 600
-    again = subprocess.run([*command, killed, "--resume"], check=True, capture_output=True, text=True)
-    assert f"{600 - known} solved now" in again.stdout
-    subprocess.run([*command, whole, "--workers", "1"], check=True, capture_output=True)
+    assert f"{600 - known} solved now" in run_command("study", file, "--out", killed, "--resume")[1]
+    assert run_command("study", file, "--out", whole, "--workers", "1")[0] == 0
     assert rows_of(killed) == rows_of(whole)
     assert (killed / "study.json").read_bytes() == (whole / "study.json").read_bytes()
 
@@ -294,7 +292,7 @@ def test_points_come_from_a_file(tmp_path):
         run_study(LoadedStudy(tmp_path / "study.yaml"), tmp_path)
 
 
-def test_the_command(run_command, tmp_path):  # noqa: F811
+def test_the_command(run_command, tmp_path):
     file = written(tmp_path, "{type: sobol, rows: 8}", more="constraints: [{response: r, at_most: 9 rad}]")
     code, out, err = run_command("study", file, "--out", tmp_path / "out", "--workers", 1)
     assert (code, err) == (0, "")
@@ -306,7 +304,7 @@ def test_the_command(run_command, tmp_path):  # noqa: F811
     assert '"sobol_indices"' in out
 
 
-def test_the_command_says_that_a_response_is_constant(run_command, tmp_path):  # noqa: F811
+def test_the_command_says_that_a_response_is_constant(run_command, tmp_path):
     """The mass does not depend on the speed."""
     response = ROTATION + "\n  m: {mass: true}"
     file = written(tmp_path, "{type: sobol_indices, rows: 64}", response=response)
@@ -320,7 +318,7 @@ def test_the_command_says_that_a_response_is_constant(run_command, tmp_path):  #
     assert indices["r"]["v"]["total"] == pytest.approx(1.0, abs=0.1)
 
 
-def test_a_full_disk_is_no_defect(run_command, tmp_path, monkeypatch):  # noqa: F811
+def test_a_full_disk_is_no_defect(run_command, tmp_path, monkeypatch):
     def small(path):
         file = connect(path)
         # of one table each, and of all names: the rows do not fit

@@ -202,28 +202,35 @@ def warping_path(first: Floats, second: Floats, window: int) -> tuple[NDArray[np
         predecessors with equal cost: one back in the first, then one back in the second, then both.
     """
     n = first.size
+    mirrored = second[::-1]
     # costs of an anti-diagonal depend only on the two before it; entry i + 1 is index i of the first curve
     older, old, new = (np.full(n + 3, np.inf) for _ in range(3))
-    back = np.empty((2 * n - 1, window + 1), dtype=np.int8)
+    # whether the way came back in the second, and back in both
+    from_second, from_both = np.empty((2, 2 * n - 1, window + 1), dtype=np.bool_)
     lows = np.empty(2 * n - 1, dtype=np.int64)
+    # the way starts with no cost
+    older[0] = 0.0
     for d in range(2 * n - 1):
         low = max(0, d - n + 1, (d - window + 1) // 2)
         high = min(n - 1, d, (d + window) // 2)
         lows[d] = low
-        before = np.stack([old[low : high + 1], old[low + 1 : high + 2], older[low : high + 1]])
-        steps = before.argmin(axis=0)
-        back[d, : high - low + 1] = steps
-        cheapest = np.take_along_axis(before, steps[None], axis=0)[0] if d else 0.0
-        new[low + 1 : high + 2] = (
-            first[low : high + 1] - second[d - high : d - low + 1][::-1]
-        ) ** 2 + cheapest
+        width = high - low + 1
+        in_first, in_second, in_both = old[low : high + 1], old[low + 1 : high + 2], older[low : high + 1]
+        np.less(in_second, in_first, out=from_second[d, :width])
+        cheapest = np.minimum(in_first, in_second)
+        np.less(in_both, cheapest, out=from_both[d, :width])
+        np.minimum(cheapest, in_both, out=cheapest)
+        difference = first[low : high + 1] - mirrored[n - 1 - d + low : n - d + high]
+        np.add(difference * difference, cheapest, out=new[low + 1 : high + 2])
         new[low] = new[high + 2] = np.inf
         older, old, new = old, new, older
     row, column = n - 1, n - 1
     path = [(row, column)]
     while row or column:
         d = row + column
-        row, column = ((row - 1, column), (row, column - 1), (row - 1, column - 1))[back[d, row - lows[d]]]
+        place = d, row - lows[d]
+        both = from_both[place]
+        row, column = row - (both or not from_second[place]), column - (both or from_second[place])
         path.append((row, column))
     pairs = np.array(path[::-1], dtype=np.int64)
     return pairs[:, 0], pairs[:, 1]

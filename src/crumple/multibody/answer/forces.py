@@ -35,6 +35,9 @@ from crumple.result.channels import AXES, channels_along
 from crumple.section import fitted_interaction, plastic_interaction
 from crumple.structure import Outputs, SectionForce, Structure
 
+TOGETHER = 64
+"""Connections whose forces are found at once: enough for NumPy, few enough for the memory."""
+
 
 @dataclass(frozen=True, eq=False)
 class Wrench:
@@ -57,17 +60,33 @@ def on_second(poses: SpatialHistory, number: int) -> Wrench:
     """Force and moment that a connection exerts on its second body, about its place on the first."""
     kept = poses.wrenches
     if number not in kept:
-        connection = poses.linkage.connections[number]
-        half = vector_quaternion(poses.relative(connection.first, connection.second) / 2.0)
-        middle = product(poses.quaternion(connection.first), half)
-        axes = turned(middle[:, None], connection.axes[None])
-        force, moment = np.split(poses.record.joint_force[:, number], 2, axis=1)
-        place = poses.place(connection.first, connection.position)[0]
-        kept[number] = Wrench(
-            np.einsum("nk,nki->ni", force, axes), np.einsum("nk,nki->ni", moment, axes), place
-        )
+        kept |= _on_second(poses, _asked_with(poses.linkage, number))
     wrench: Wrench = kept[number]
     return wrench
+
+
+def _asked_with(linkage: Linkage, number: int) -> list[int]:
+    """Connections near one that are of its kind: elastic joints, of which few are asked for, or others."""
+    begin = number - number % TOGETHER
+    elastic = [
+        one.hinge is not None and not one.hinge.plastic
+        for one in linkage.connections[begin : begin + TOGETHER]
+    ]
+    return [begin + k for k, one in enumerate(elastic) if one == elastic[number - begin]]
+
+
+def _on_second(poses: SpatialHistory, numbers: list[int]) -> dict[int, Wrench]:
+    """The same of several connections."""
+    found = [poses.linkage.connections[i] for i in numbers]
+    first, second = (np.array([getattr(one, side) for one in found]) for side in ("first", "second"))
+    half = vector_quaternion(poses.relatives(first, second) / 2.0)
+    middle = product(poses.quaternions(first), half)
+    axes = turned(middle[:, :, None], np.array([one.axes for one in found]))
+    along = poses.record.joint_force[:, numbers]
+    place, _ = poses.motions(first, np.array([one.position for one in found]))
+    force, moment = (np.einsum("nmk,nmki->mni", part, axes) for part in (along[..., :3], along[..., 3:]))
+    points = np.ascontiguousarray(np.swapaxes(place, 0, 1))
+    return {i: Wrench(force[k], moment[k], points[k]) for k, i in enumerate(numbers)}
 
 
 def force_channels(structure: Structure, poses: SpatialHistory, local_time: Floats) -> Iterator[Channel]:

@@ -119,9 +119,10 @@ def gravity_channels(structure: Structure, poses: Poses) -> Iterator[Channel]:
         for piece in pieces
     ]
     parts += [(lump_mass(structure, lump), poses.node_body[lump.node]) for lump in structure.masses.values()]
-    work = sum(
-        part.mass * ((poses.place(body, part.centre)[0] - part.centre) @ gravity) for part, body in parts
+    places, _ = poses.motions(
+        np.array([body for _, body in parts]), np.array([part.centre for part, _ in parts])
     )
+    work = sum(part.mass * ((places[:, k] - part.centre) @ gravity) for k, (part, _) in enumerate(parts))
     yield channel("energy.gravity", np.asarray(work, float))
 
 

@@ -52,6 +52,12 @@ class Poses(Protocol):
     def quaternion(self, body: int) -> Floats:
         """Rotation of a body from the start, (n, 4)."""
 
+    def motions(self, bodies: Integers, points: Floats) -> tuple[Floats, Floats]:
+        """`place` of m points given at the start, (m, 3), each on a body, (m,): (n, m, 3) each."""
+
+    def relatives(self, first: Integers, second: Integers) -> Floats:
+        """`relative` of m pairs of bodies, (m,) each: (n, m, 3)."""
+
     def places(self, bodies: Integers, points: Floats, rows: Integers) -> tuple[Floats, Floats]:
         """Positions [m], (r, m, 3), and rotations from the start, (r, m, 4), in r of the rows.
 
@@ -110,6 +116,15 @@ class TreePoses:
         velocity = record.velocity[:, body, 1:] + rate[:, None] * np.stack([-arm[:, 1], arm[:, 0]], axis=1)
         return plane.raised(record.pose[:, body, 1:] + origin + arm) + across, plane.raised(velocity)
 
+    def motions(self, bodies: Integers, points: Floats) -> tuple[Floats, Floats]:
+        """See `Poses`."""
+        found = [self.place(int(body), point) for body, point in zip(bodies, points, strict=True)]
+        return _side_by_side([place for place, _ in found]), _side_by_side([rate for _, rate in found])
+
+    def relatives(self, first: Integers, second: Integers) -> Floats:
+        """See `Poses`."""
+        return _side_by_side([self.relative(a, b) for a, b in zip(first, second, strict=True)])
+
     def quaternion(self, body: int) -> Floats:
         """See `Poses`."""
         return vector_quaternion(self.rotation(body)[0])
@@ -156,6 +171,11 @@ class SpatialPoses(Generic[SpatialKind]):
         return np.array([*(body.centre for body in self.linkage.bodies), np.zeros(3)])
 
     @cached_property
+    def _turns(self) -> Floats:
+        """Rotations of the bodies, at the end that of the ground, (n, bodies + 1, 4)."""
+        return _with_ground(self.record.rotation, (1.0, 0.0, 0.0, 0.0))
+
+    @cached_property
     def wrenches(self) -> dict[int, Any]:
         """Forces of connections that were asked for, by number, for `on_second`."""
         return {}
@@ -194,12 +214,28 @@ class SpatialPoses(Generic[SpatialKind]):
             return np.tile([1.0, 0.0, 0.0, 0.0], (self.rows, 1))
         return self.record.rotation[:, body]
 
+    def quaternions(self, bodies: Integers) -> Floats:
+        """Rotations of m bodies from the start, (n, m, 4)."""
+        return self._turns[:, bodies]
+
+    def motions(self, bodies: Integers, points: Floats) -> tuple[Floats, Floats]:
+        """See `Poses`."""
+        arm = turned(self.quaternions(bodies), points - self._centres[bodies])
+        centre, twist = self.record.centre[:, bodies], self.record.velocity[:, bodies]
+        # the ground stays where it is
+        centre[:, bodies == GROUND], twist[:, bodies == GROUND] = 0.0, 0.0
+        return centre + arm, twist[..., 3:] + cross(twist[..., :3], arm)
+
+    def relatives(self, first: Integers, second: Integers) -> Floats:
+        """See `Poses`."""
+        turns = product(inverse(self.quaternions(first)), self.quaternions(second))
+        return continuous(quaternion_vector(turns))
+
     def places(self, bodies: Integers, points: Floats, rows: Integers) -> tuple[Floats, Floats]:
         """See `Poses`."""
-        centre = self.record.centre[rows[:, None], bodies]
-        rotation = self.record.rotation[rows[:, None], bodies]
+        centre, rotation = self.record.centre[rows[:, None], bodies], self._turns[rows[:, None], bodies]
         # the ground stays where it is
-        centre[:, bodies == GROUND], rotation[:, bodies == GROUND] = 0.0, (1.0, 0.0, 0.0, 0.0)
+        centre[:, bodies == GROUND] = 0.0
         return centre + turned(rotation, points - self._centres[bodies]), rotation
 
     def rotation(self, body: int) -> tuple[Floats, Floats]:
@@ -250,6 +286,17 @@ def piece_at(pieces: Mapping[str, tuple[Piece, ...]], member: str, station: floa
     """Piece that contains a station [m] of a member; at a cut the one before it, at the end the last."""
     *inner, last = pieces[member]
     return next((piece for piece in inner if station <= piece.end and station < last.end), last)
+
+
+def _with_ground(values: Floats, ground: tuple[float, ...]) -> Floats:
+    """Values of bodies, (n, bodies, k), and at the end those of the ground, (k,)."""
+    n, _, k = values.shape
+    return np.concatenate([values, np.broadcast_to(ground, (n, 1, k))], axis=1)
+
+
+def _side_by_side(columns: list[Floats]) -> Floats:
+    """Rows of m bodies, (n, 3) each, as (n, m, 3)."""
+    return np.stack(columns, axis=1) if columns else np.zeros((0, 0, 3))
 
 
 def _still(rows: int, vector: Floats) -> tuple[Floats, Floats]:

@@ -56,7 +56,7 @@ def states_of(structure: Structure, poses: Poses, output_times: Floats, times: F
     """Shapes at those of the given times [s] that the run reached, each at the nearest output."""
     reached = times[times <= output_times[-1] * (1 + 1e-12)]
     rows = np.searchsorted((output_times[1:] + output_times[:-1]) / 2.0, reached)
-    points, moved, quads, member, station, contour = [], [], [], [], [], []
+    points, middles, bodies, quads, member, station, contour = [], [], [], [], [], [], []
     count = 0
     for index, name in enumerate(structure.members):
         frame, outline = structure.frame_of(name), structure.section_of(name).outline()
@@ -64,14 +64,15 @@ def states_of(structure: Structure, poses: Poses, output_times: Floats, times: F
         stations = _stations(poses.pieces[name], float(np.ptp(outline, axis=0).max()))
         rings = frame.position(stations[:, None, None]) + outline @ frame.axes[1:]
         points.append(rings.reshape(-1, 3))
-        bodies = np.array([_meeting(poses, name, station) for station in stations])
-        moved += _carried(poses, bodies, rings, rows)
+        middles.append(rings.mean(axis=1))
+        bodies += [(*_meeting(poses, name, station), around) for station in stations]
         member.append(np.full(around * len(stations), index, dtype=np.int64))
         station.append(np.repeat(stations, around))
         contour.append(np.tile(np.arange(around), len(stations)))
         quads.append(count + _tube_quads(len(stations), around))
         count += around * len(stations)
     reference = np.concatenate(points)
+    moved = _carried(poses, np.array(bodies), np.concatenate(middles), reference, rows)
     return States(
         points=reference,
         quads=np.concatenate(quads),
@@ -107,16 +108,18 @@ def _meeting(poses: Poses, member: str, station: float) -> tuple[int, int]:
     return pieces[first].body, pieces[last].body
 
 
-def _carried(poses: Poses, bodies: Integers, rings: Floats, rows: Integers) -> list[Floats]:
-    """Positions of rings of points, (rings, around, 3), at some output times.
+def _carried(poses: Poses, rings: Integers, middles: Floats, points: Floats, rows: Integers) -> list[Floats]:
+    """Positions of rings of points at some output times.
 
     Parameters
     ----------
     poses
         Of the bodies.
-    bodies
-        The two that carry each ring, (rings, 2); at a hinge, where they differ, a ring rotates by the mean of
-        both about the hinge, so that the walls meet.
+    rings
+        The two bodies that carry each ring, and its number of points, (rings, 3); at a hinge, where they
+        differ, a ring rotates by the mean of both about the hinge, so that the walls meet.
+    middles, points
+        Of the rings, (rings, 3), and of all of them in order, (points, 3).
     rows
         Output times.
 
@@ -125,18 +128,20 @@ def _carried(poses: Poses, bodies: Integers, rings: Floats, rows: Integers) -> l
     list
         Parts of few enough points for the memory, (rows, points, 3), in order.
     """
-    at_once = max(1, MOST_AT_ONCE // (max(1, len(rows)) * rings.shape[1]))
+    until = np.cumsum(rings[:, 2])
+    part_of = until * max(1, len(rows)) // MOST_AT_ONCE
     found = []
-    for begin in range(0, len(rings), at_once):
-        part, pairs = rings[begin : begin + at_once], bodies[begin : begin + at_once]
-        middle = part.mean(axis=1)
-        place, turn = poses.places(pairs[:, 0], middle, rows)
-        hinges = np.flatnonzero(pairs[:, 0] != pairs[:, 1])
+    for part in np.unique(part_of):
+        at = np.flatnonzero(part_of == part)
+        first, second, around = rings[at].T
+        place, turn = poses.places(first, middles[at], rows)
+        hinges = np.flatnonzero(first != second)
         if len(hinges):
-            other = poses.places(pairs[hinges, 1], middle[hinges], rows)[0]
+            other = poses.places(second[hinges], middles[at][hinges], rows)[0]
             place[:, hinges] = (place[:, hinges] + other) / 2.0
-            bent = np.stack([poses.relative(a, b)[rows] for a, b in pairs[hinges].tolist()], axis=1)
+            bent = poses.relatives(first[hinges], second[hinges])[rows]
             turn[:, hinges] = product(turn[:, hinges], vector_quaternion(bent / 2.0))
-        carried = place[:, :, None] + turned(turn[:, :, None], part - middle[:, None])
-        found.append(carried.reshape(len(rows), -1, 3))
+        arms = points[until[at[0]] - around[0] : until[at[-1]]] - np.repeat(middles[at], around, axis=0)
+        place, turn = (np.repeat(of_rings, around, axis=1) for of_rings in (place, turn))
+        found.append(place + turned(turn, arms))
     return found

@@ -86,9 +86,9 @@ def changed_capacities(hinges: tuple[PlacedHinge, ...]) -> Iterator[tuple[Placed
     hinges
         In the structure's order.
     """
+    up, down = ([scaled_hinge(hinge, 1.0 + change) for hinge in hinges] for change in (CHANGE, -CHANGE))
     for signs in patterns(len(hinges)).values():
-        factors = 1.0 + CHANGE * signs
-        yield tuple(scaled_hinge(hinge, float(factor)) for hinge, factor in zip(hinges, factors, strict=True))
+        yield tuple(one if sign > 0.0 else other for one, other, sign in zip(up, down, signs, strict=True))
 
 
 def not_unique(runs: Sequence[Sequence[HingeHistory]]) -> str | None:

@@ -209,11 +209,10 @@ def fast_nodes(structure: Structure, solved: Solved, total: float) -> Iterator[C
 def node_speeds(structure: Structure, solved: Solved) -> Mapping[str, Floats]:
     """Speed of every node at the output times [m/s], (n,)."""
     poses = solved.poses
-    return {
-        node: np.linalg.norm(poses.place(poses.node_body[node], np.asarray(position, float))[1], axis=1)
-        for node, position in structure.nodes.items()
-        if node in poses.node_body
-    }
+    names = [node for node in structure.nodes if node in poses.node_body]
+    bodies = np.array([poses.node_body[node] for node in names])
+    _, velocity = poses.motions(bodies, np.array([structure.nodes[node] for node in names], float))
+    return dict(zip(names, np.linalg.norm(velocity, axis=2).T, strict=True))
 
 
 def moving_mass(structure: Structure, solved: Solved) -> float:

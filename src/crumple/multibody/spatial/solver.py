@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterator
 from copy import copy
 from dataclasses import replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -218,9 +219,17 @@ class SpatialSolver:
             obstacles=lowered.obstacles,
             until=lowered.until,
         )
-        now = None if before is None else Placed(before.centre[-1], before.rotation[-1])
-        velocity, impulse, energy = added_motion(*parts, now, first=before is None)
+        if before is None:
+            velocity, impulse, energy = self._start
+        else:
+            now = Placed(before.centre[-1], before.rotation[-1])
+            velocity, impulse, energy = added_motion(*parts, now, first=False)
         return energy, simulation.set_motion(velocity, impulse)
+
+    @cached_property
+    def _start(self) -> tuple[Floats, Floats, float]:
+        """What the first stage adds, the same in every run."""
+        return added_motion(self._structure, self.linkage, self._touching, self._stages[0], first=True)
 
     def _solved(
         self,

@@ -2,15 +2,17 @@
 
 Bending moments are largest where something holds, joins or loads a member, and masses, supports and joints
 all sit on nodes: so a candidate lies near each end of a member (`fold_distance`), unless nothing there
-can carry a moment.  Obstacles also strike members between their nodes: a candidate lies there (struck_places)
-if no other is within one fold.  Braced members carry forces along their axis and buckle with a hinge between
-those at their ends: a candidate lies in their middle.  Distributed inertia and long spans bend members in
-between: `spacing` puts further candidates there.  A candidate that is never loaded to its capacity stays
-rigid, and changes nothing.
+can carry a moment.  Members in line that are one tube (straight_runs) count as one, with a single candidate
+at each node between them.  Obstacles also strike members between their nodes: a candidate lies there
+(struck_places) if no other is within one fold.  Braced members carry forces along their axis and buckle with
+a hinge between those at their ends: a candidate lies in their middle.  Distributed inertia and long spans
+bend members in between: `spacing` puts further candidates there.  A candidate that is never loaded to its
+capacity stays rigid, and changes nothing.
 
 Members of a straight run between supports (held_runs), braced members (braced), and elastic members of
 structures of which an obstacle strikes a rigid joint (joint_reach), also change their length at their hinges,
-unless the input says otherwise.  Braced tubes fold by the crushing law of their section; others yield.
+unless the input says otherwise.  Tubes of the last two kinds fold by the crushing law of their section; all
+others yield.
 
 A corner whose law is stored has one hinge at its node in place of the candidates in its zone, and the
 branch of a T-joint one in the face on which it ends.
@@ -19,6 +21,9 @@ branch of a T-joint one in the face on which it ends.
 from __future__ import annotations
 
 import math
+from bisect import bisect
+from collections import defaultdict
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -31,6 +36,7 @@ from crumple.structure.hinges.joint_reach import joint_reach, strikes_joint
 from crumple.structure.hinges.law_choice import component_text
 from crumple.structure.hinges.lengthening.braced import braced
 from crumple.structure.hinges.lengthening.held_runs import held_runs
+from crumple.structure.hinges.straight_runs import StraightRun, straight_run
 from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
 from crumple.structure.keys.hinge_axes import AxialSlip, HingeAxes
 from crumple.structure.keys.member import AutomaticHinges, Hinge
@@ -115,12 +121,13 @@ def _keys(
 
 
 def _slip(structure: StructureParts, member: str) -> AxialSlip:
-    """How a member that lengthens unasked shortens: a braced one folds, as a column, others yield.
+    """How a member that lengthens unasked shortens: compressed tubes fold, as columns, others yield.
 
-    A stored law of folding is used in any case.
+    Held runs mostly stretch, and yield.  A stored law of folding is used in any case.
     """
     law = FOLDING.get(structure.section_of(member).kind)
-    if law is None or member not in braced(structure) or component_text(structure, member, "crush"):
+    folds = _behind_struck_joint(structure, member) or member in braced(structure)
+    if law is None or not folds or component_text(structure, member, "crush"):
         return AxialSlip()
     return AxialSlip(law=law)
 
@@ -131,9 +138,13 @@ def lengthens(structure: StructureParts, member: str) -> bool:
     unsaid = asked is not None and "axial" not in asked.model_fields_set
     if not unsaid:
         return False
-    if structure.members[member].elastic and strikes_joint(structure):
+    if _behind_struck_joint(structure, member):
         return True
     return member in held_runs(structure) or member in braced(structure)
+
+
+def _behind_struck_joint(structure: StructureParts, member: str) -> bool:
+    return bool(structure.members[member].elastic) and strikes_joint(structure)
 
 
 def twists(structure: StructureParts, member: str) -> bool:
@@ -167,33 +178,67 @@ def automatic_stations(
         Largest distance between candidates [m]; None: only at the ends, in the middle of braced members, and
         where obstacles strike.
     """
-    section, length = structure.section_of(member), structure.frame_of(member).length
+    run = straight_run(structure, member)
+    kept = structure.kept.once(
+        "run stations",
+        (next(iter(run.stretches)), axes, spacing),
+        lambda: _on_run(structure, run, axes, spacing),
+    )
+    return dict(sorted(kept.get(member, {}).items(), key=lambda item: item[1]))
+
+
+def _on_run(
+    structure: StructureParts, run: StraightRun, axes: tuple[Axis, ...], spacing: float | None
+) -> dict[str, dict[str, float]]:
+    """Candidates on a straight run by member and name: distance from the member's first node [m]."""
+    names = list(run.stretches)
+    ends = names[0], names[-1]
+    section = structure.section_of(ends[0])
     half = max(half_fold_length(section, axis) for axis in axes)
-    nodes = structure.members[member].nodes
-    loaded = [carries_moment(structure, member, node) for node in nodes]
-    start, end = joint_reach(structure, member, nodes[0]), length - joint_reach(structure, member, nodes[1])
-    # a member that is shorter than two folds has room for one
+    loaded = [carries_moment(structure, *one) for one in zip(ends, run.nodes, strict=True)]
+    reach = [joint_reach(structure, *one) for one in zip(ends, run.nodes, strict=True)]
+    start, end = reach[0], run.length - reach[1]
+    found: dict[str, dict[str, float]] = defaultdict(dict)
+
+    def put(name: str, along: float) -> None:
+        member = run.member_at(along)
+        name = f"{member}-{name}"
+        name = f"{name}-struck" if name in found[member] else name
+        found[member][name] = run.stretches[member].station(along)
+
+    # a run that is shorter than two folds has room for one
     if 4.0 * half >= end - start:
-        return {f"{member}-1": (start + end) / 2.0} if any(loaded) else {}
+        if any(loaded):
+            put("1", (start + end) / 2.0)
+        return found
     inside = max(fold_distance(section, axis) for axis in axes)
     first, last = start + inside, end - inside
+    struck = [(place, at) for place, at in _struck(structure, run, half) if first < at < last]
     number = 1 if spacing is None else max(1, math.ceil((last - first) / spacing * (1.0 - 1e-9)))
-    struck = [place for place in struck_places(structure, member) if first < place.station < last]
     # a strut buckles with a hinge between those of its ends, which an obstacle places where it strikes
-    number = max(2, number) if member in braced(structure) and not struck else number
+    number = max(2, number) if not struck and not braced(structure).isdisjoint(run.stretches) else number
     between = np.linspace(first, last, number + 1)[1:-1]
-    found = {f"{member}-{nodes[0]}": first} if loaded[0] else {}
-    found |= {f"{member}-{i}": float(station) for i, station in enumerate(between, 1)}
-    found |= {f"{member}-{nodes[1]}": last} if loaded[1] else {}
-    taken = [first, *between, last]
-    for place in struck:
-        rubs = structure.obstacles[place.obstacle].friction > 0.0
-        at = place.station + (ASIDE * half if rubs else 0.0)
-        if all(abs(at - other) > 2.0 * half for other in taken):
-            name = f"{member}-{place.obstacle}"
-            found[f"{name}-struck" if name in found else name] = at
-            taken.append(at)
-    return dict(sorted(found.items(), key=lambda item: item[1]))
+    for node, at, carries in zip(run.nodes, (first, last), loaded, strict=True):
+        if carries:
+            put(node, at)
+    for i, at in enumerate(between, 1):
+        put(str(i), float(at))
+    taken = [first, *between.tolist(), last]
+    nodes = [(node, at - ASIDE * half) for node, at in run.between.items()]
+    for name, at in (*struck, *nodes):
+        before = bisect(taken, at)
+        if all(abs(at - other) > 2.0 * half for other in taken[max(before - 1, 0) : before + 1]):
+            put(name, at)
+            taken.insert(before, at)
+    return found
+
+
+def _struck(structure: StructureParts, run: StraightRun, half: float) -> Iterator[tuple[str, float]]:
+    """Obstacles that strike a run, and where [m]; beside that place where they rub."""
+    for member, stretch in run.stretches.items():
+        for place in struck_places(structure, member):
+            rubs = structure.obstacles[place.obstacle].friction > 0.0
+            yield place.obstacle, stretch.along(place.station + (ASIDE * half if rubs else 0.0))
 
 
 def carries_moment(structure: StructureParts, member: str, node: str) -> bool:

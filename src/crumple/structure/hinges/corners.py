@@ -115,6 +115,24 @@ def _corners(structure: StructureParts) -> tuple[dict[str, Corner], dict[str, st
     return found, reasons
 
 
+def continues(structure: StructureParts, node: str) -> bool:
+    """Whether the members at a node are one tube in line: two of one section, placed alike, and no more."""
+    members = structure.members_at.get(node, ())
+    if len(members) != 2 or not all(is_whole(structure, name) for name in members):
+        return False
+    first, second = members
+    arriving, onward = -leaving(structure, first, node), leaving(structure, second, node)
+    angle = math.acos(float(np.clip(arriving @ onward, -1.0, 1.0)))
+    if angle >= SMALLEST or next(_reasons(structure, node, (first, second), angle), None) is not None:
+        return False
+    across = np.cross(arriving, onward)
+    bent = float(np.linalg.norm(across))
+    normal = across / bent if bent > ALONG else structure.frame_of(first).y
+    return _same_points(
+        _outline(structure, first, arriving, normal), _outline(structure, second, onward, normal)
+    )
+
+
 def is_whole(structure: StructureParts, name: str) -> bool:
     """Whether a member's line, section and metals are there; always so in a sound structure."""
     member = structure.members[name]

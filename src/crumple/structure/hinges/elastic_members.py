@@ -68,7 +68,7 @@ def with_elastic_members(structure: Parts, settings: MultibodySettings, duration
         for name, spec in structure.members.items()
     }
     changed = any(spec is not structure.members[name] for name, spec in members.items())
-    return structure.model_copy(update={"members": members}) if changed else structure
+    return structure.with_elastic(members) if changed else structure
 
 
 def _elastic(spec: Member, segments: int) -> Member:
@@ -128,8 +128,13 @@ def shear_stretch(structure: StructureParts, member: str, axis: Axis) -> float:
     depth = float(np.ptp(section.outer_outline() @ _across(axis)))
     if structure.frame_of(member).length >= SLENDER * depth:
         return 0.0
-    stiffness = material.shear_modulus * walls_of(section).shear_area(axis, material)
-    return structure.flexural_rigidity(member, axis) / stiffness
+    spec = structure.members[member]
+    area = structure.kept.once(
+        "shear area",
+        (spec.section, spec.material, axis),
+        lambda: walls_of(section).shear_area(axis, material),
+    )
+    return structure.flexural_rigidity(member, axis) / (material.shear_modulus * area)
 
 
 def _across(axis: Axis) -> Floats:

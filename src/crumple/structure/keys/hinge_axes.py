@@ -120,7 +120,7 @@ class HingeAxes(Spec):
     """Whether it also yields or folds along the member; `true`: folds by a stored law, else yields. Automatic
     hinges of a straight run between supports and of braced members do so unless this is `false`, and with
     obstacles those of elastic members where one strikes a rigid joint, and at mitred corners in a plane.
-    Braced tubes fold by the law of their section."""
+    Braced tubes, and those where a joint is struck, fold by the law of their section."""
     coupling: CouplingName | None = None
     """How its axes share the capacity: the interaction of the section's walls (default), an ellipsoid, none,
     a ball (one curve over the angle of rotation), or a fold about its tension flange."""

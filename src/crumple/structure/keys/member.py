@@ -84,7 +84,8 @@ class AutomaticHinges(HingeAxes):
 
     spacing: PositiveLength | None = None
     """Largest distance between candidates along a member; without it they lie at its ends, at the
-    distance of a fold from a rigid face, and where an obstacle strikes it in between."""
+    distance of a fold from a rigid face, and where an obstacle strikes it in between. Members in line that
+    are one tube count as one, with a candidate at each node between them."""
 
 
 def _automatic(given: Any) -> Any:

@@ -73,3 +73,30 @@ def test_hinges_away_from_corners_stay_as_they_are(tmp_path):
     foot = motion("post-a", "post", 0.02, 0.2)
     seen = Measured({}, (), (foot,), (motion("post at 250 mm", "post", 0.25, 0.1),))
     assert with_corners(seen, whole, plastic_hinges(whole)).hinges == (foot,)
+
+
+@pytest.mark.parametrize(
+    ("second", "station", "turned"), [(("b", "c"), 0.008, 0.3), (("c", "b"), 0.492, -0.3)]
+)
+def test_a_fold_at_a_node_in_a_tube_is_that_of_both_members(second, station, turned):
+    member = {"section": "tube", "material": "steel"}
+    whole = Structure(
+        materials={"steel": STEEL},
+        sections={"tube": TUBE},
+        nodes={"a": (0.0, 0.0, 0.0), "b": (0.5, 0.0, 0.0), "c": (1.0, 0.0, 0.0)},
+        members={"first": {"nodes": ("a", "b"), **member}, "second": {"nodes": second, **member}},
+        supports={"clamp": {"node": "a", "fix": "all"}},
+        hinges="auto",
+        initial_velocity=[{"nodes": ["c"], "translation": (0.0, 0.0, -3.0)}],
+    )
+    hinges = plastic_hinges(whole)
+    # members that lead towards each other have opposite y axes, and each is seen from its own start
+    same = float(np.sign(whole.frame_of("second").y @ whole.frame_of("first").y))
+    near = motion("first-b", "first", 0.49, 0.2)
+    beyond = motion("second there", "second", station, turned * same)
+    far = motion("second at 250 mm", "second", 0.25, 0.1)
+    seen = with_corners(Measured({}, (), (near,), (beyond, far)), whole, hinges)
+    assert "first-b" in {hinge.name for hinge in hinges}
+    assert seen.hinges[0].rotation[-1] == pytest.approx(0.5)
+    assert seen.hinges[0].plastic_work[-1] == pytest.approx(2.0)
+    assert seen.extra == (far,)

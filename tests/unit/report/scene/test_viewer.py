@@ -1,19 +1,14 @@
 """The viewer in a real browser: it draws, scrubs, picks, shows obstacles, fits a phone."""
 
 import math
-import os
 import time
 
 import pytest
-from tests.support.browser import Browser, find_browser
 from tests.unit.report.scene.test_scene import INPUT
 
 from crumple.analysis import loads, solve_with_frames
 from crumple.report import Layout, ReportInput, write_layouts, write_report
 from crumple.report.scene.page import write_view
-
-WEBGL = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
-NO_WEBGL = ("--disable-webgl", "--disable-3d-apis")
 
 # what differs from the background, and a sum that changes with the picture
 DRAWN = """(() => {
@@ -43,16 +38,9 @@ def _pages(tmp_path_factory):
     return {"run": run, "layouts": layouts, "view": write_view(run.parent)}
 
 
-@pytest.fixture(scope="module", name="browser", params=[WEBGL, NO_WEBGL], ids=["webgl", "canvas"])
-def _browser(request):
-    path = find_browser()
-    if path is None:
-        assert not os.environ.get("CI"), "no Chromium found, and CI is set"
-        pytest.skip("no Chromium found")
-    browser = Browser(path, request.param)
-    browser.wanted = "webgl" if request.param is WEBGL else "2d"
-    yield browser
-    browser.close()
+@pytest.fixture(name="browser")
+def _browser(either_browser):
+    return either_browser
 
 
 def opened(browser, page, width=1200):

@@ -1,10 +1,14 @@
 """Members bend by default where any hinges are automatic, in short runs, unless a member says otherwise."""
 
+import pickle
+
 import pytest
 from tests.support.multibody.frames import CLAMP, member, structure
 
+from crumple.analysis import load
 from crumple.multibody import Run, solve_multibody
-from crumple.structure import AutomaticHinges, MultibodySettings, with_elastic_members
+from crumple.structure import AutomaticHinges, MultibodySettings, placed_hinges, with_elastic_members
+from crumple.structure.parts import OF_ANY_STIFFNESS
 
 SHORT, LONG = 0.1, 2.0
 NODES = {"a": (0.0, 0.0, 0.0), "b": (1.0, 0.0, 0.0), "c": (1.0, 0.0, 1.0)}
@@ -60,3 +64,23 @@ def test_the_result_says_so():
     assert "joint(s) between the hinges" in bends
     assert "Members are rigid between their hinges" not in bends
     assert "Members are rigid between their hinges" in rigid
+
+
+@pytest.mark.parametrize("name", ["box_frame", "l_oblique", "chain_beam", "buggy", "hat_pillar"])
+def test_what_the_elastic_copy_keeps_is_what_it_would_find_itself(name):
+    whole = load(f"tests/concordance/structures/{name}.yaml").structure
+    placed_hinges(whole)
+    elastic = with_elastic_members(whole, MultibodySettings(members="elastic"), SHORT)
+    assert elastic.kept
+    anew = whole.model_copy(update={"members": elastic.members})
+    assert elastic is not whole
+    found, expected = placed_hinges(elastic), placed_hinges(anew)
+    assert [(hinge.name, hinge.station, hinge.axis) for hinge in found] == [
+        (hinge.name, hinge.station, hinge.axis) for hinge in expected
+    ]
+    for one, other in zip(found, expected, strict=True):
+        assert pickle.dumps((one.record, one.spatial)) == pickle.dumps((other.record, other.spatial))
+    # what was taken over equals what the other one has found by now
+    shared = {key for key in elastic.kept if key[0] in OF_ANY_STIFFNESS and key in anew.kept}
+    assert shared
+    assert all(repr(elastic.kept[key]) == repr(anew.kept[key]) for key in shared)

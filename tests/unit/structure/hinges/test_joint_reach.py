@@ -117,5 +117,25 @@ def test_elastic_members_yield_along_their_axes_where_a_joint_is_struck(at, hing
     assert not any(Freedom.AXIAL in freedoms(hinge) for hinge in plastic_hinges(analysis.structure))
 
 
+@pytest.mark.parametrize(
+    ("section", "folds"),
+    [
+        ("square_tube, side: 40 mm", True),
+        ("circular_tube, diameter: 40 mm", True),
+        ("angle, width: 40 mm, depth: 40 mm", False),
+    ],
+)
+def test_tubes_fold_by_the_law_of_their_section_and_others_yield(section, folds):
+    begin, end = STRUCK.split("square_tube, side: 40 mm")
+    text = (begin + section + end).format(at="[0 m, 0 m, -0.1 m]", more=RISES, hinges="auto")
+    analysis = loads(text)
+    bends = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    for hinge in plastic_hinges(bends):
+        axial = hinge.spatial.components[hinge.spatial.freedoms.index(Freedom.AXIAL)].record
+        least, most = axial.negative.moment.min(), axial.negative.moment.max()
+        assert (least < 0.7 * most) == folds
+        assert axial.positive.moment.min() == axial.positive.moment.max()
+
+
 def freedoms(hinge):
     return set() if hinge.spatial is None else {component.freedom for component in hinge.spatial.components}
