@@ -9,8 +9,9 @@ with h the true stress at a plastic strain of 0.1 over the yield stress.  Bendin
 same with a and b exchanged.  The range is given by slenderness max(a, b)/t and ratio a/b.
 
 Training points are a Sobol sequence, pushed towards the ends of the range (there a regression extrapolates),
-on a coarse mesh; some of them are solved on the nominal mesh too.  Held-out points are uniform random numbers
-from a seed of their own, on the nominal mesh.  Nobody chooses anything by the latter.
+on a coarse mesh; some of them are solved on the nominal mesh too.  Round tubes with hardening are another
+Sobol sequence, on the nominal mesh only.  Held-out points are uniform random numbers from seeds of their own,
+on the nominal mesh.  Nobody chooses anything by the latter.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ from crumple.numeric.arrays import Floats
 from crumple.section import CircularTube, RectangularTube, Section
 
 Kind = Literal["rectangular_tube", "circular_tube"]
-Role = Literal["training", "earlier", "former", "mesh", "held-out", "check"]
+Role = Literal["training", "earlier", "former", "mesh", "hardened", "held-out", "check"]
 
 SLENDERNESS = (15.0, 60.0)
 """Larger side, or diameter, over wall."""
@@ -52,7 +53,13 @@ COARSE, NOMINAL = 4.0, 8.0
 TRAINING = {"rectangular_tube": 20, "circular_tube": 8}
 FORMER = {"rectangular_tube": 10, "circular_tube": 4}
 """Points that were held out on the coarse mesh; their errors are known, so they are training points now."""
+HARDENED = {"rectangular_tube": 0, "circular_tube": 8}
+"""Points with hardening that are solved on the nominal mesh only: most others have none."""
+LEAST_HARDENED = 1.2
+"""Their least stress at a plastic strain of 0.1 over the yield stress."""
 HELD_OUT = {"rectangular_tube": 3, "circular_tube": 1}
+LATER_HELD_OUT = {"rectangular_tube": 0, "circular_tube": 4}
+"""More of them, with a hardening that is uniform over its whole range."""
 MESH: dict[str, tuple[tuple[Role, int], ...]] = {
     "rectangular_tube": (
         *(("training", 0), ("training", 12), ("training", 5), ("training", 17), ("training", 18)),
@@ -87,8 +94,8 @@ They are those of first designs, of wider ranges, that were given up for their c
 was solved."""
 CHECK = {"rectangular_tube": ((25.0, 1.0, 350e6 / 210e9, 1.0, NOMINAL),), "circular_tube": ()}
 """Held out on the nominal mesh: the tube 50x50x2 mm with 350 MPa."""
-SEED, FORMER_SEED = 20261, 20260
-"""Of the held-out points, and of those that were held out before."""
+SEED, LATER_SEED, FORMER_SEED = 20261, 20262, 20260
+"""Of the held-out points, of the later ones, and of those that were held out before."""
 WALL = 1e-3
 """Thickness of every tube that is solved [m]; only ratios matter."""
 YOUNGS_MODULUS = 210e9
@@ -162,7 +169,8 @@ def _numbered() -> Iterator[tuple[float, Point]]:
             for number, place in enumerate(CHECK[kind])
         ]
         coarse = ((earlier, 0.0), (training, 0.0), (former, 0.0))
-        for group, begin in (*coarse, (mesh, 1.0), (list(_held_out(kind)), 1.0), (check, 1.0)):
+        nominal = (mesh, list(_held_out(kind)), check, list(_hardened(kind)))
+        for group, begin in (*coarse, *((each, 1.0) for each in nominal)):
             for number, point in enumerate(group):
                 yield begin + (number + 0.5) / len(group), point
 
@@ -171,6 +179,15 @@ def _training(kind: Kind) -> Iterator[Point]:
     unit = qmc.Sobol(4, scramble=True, seed=1 if kind == "rectangular_tube" else 2).random_base2(6)
     for number, place in enumerate(unit[: TRAINING[kind]]):
         yield _point(kind, "training", number, 0.5 - 0.5 * np.cos(math.pi * place[:3]), place[3])
+
+
+def _hardened(kind: Kind) -> Iterator[Point]:
+    unit = qmc.Sobol(3, scramble=True, seed=3).random_base2(4)
+    shares = 0.5 - 0.5 * np.cos(math.pi * unit[: HARDENED[kind]])
+    for number, (slenderness, strain, rise) in enumerate(shares):
+        hardening = LEAST_HARDENED + (HARDENING[1] - LEAST_HARDENED) * rise
+        one = _point(kind, "hardened", number, np.array([slenderness, 0.0, strain]), 0.0)
+        yield replace(one, hardening=float(np.round(hardening, 6)), elements=NOMINAL)
 
 
 def _former(kind: Kind) -> Iterator[Point]:
@@ -182,8 +199,11 @@ def _former(kind: Kind) -> Iterator[Point]:
 def _held_out(kind: Kind) -> Iterator[Point]:
     """Uniform in the range of the laws, on the nominal mesh."""
     slenderness = (THICKEST, SLENDERNESS[1]) if kind == "rectangular_tube" else SLENDERNESS
-    random = np.random.default_rng([SEED, len(kind)])
-    for number, place in enumerate(random.uniform(size=(HELD_OUT[kind], 4))):
+    first = np.random.default_rng([SEED, len(kind)]).uniform(size=(HELD_OUT[kind], 4))
+    later = np.random.default_rng([LATER_SEED, len(kind)]).uniform(size=(LATER_HELD_OUT[kind], 4))
+    # past the share without hardening, so that it is uniform
+    later[:, 3] = WITHOUT_HARDENING + (1.0 - WITHOUT_HARDENING) * later[:, 3]
+    for number, place in enumerate(np.concatenate([first, later])):
         one = _point(kind, "held-out", number, place[:3], place[3])
         ratio = 1.0 if kind == "circular_tube" else _between((DEEPEST, RATIO[1]), place[1])
         yield replace(one, slenderness=_between(slenderness, place[0]), ratio=ratio, elements=NOMINAL)

@@ -4,6 +4,10 @@ namespace crumple::spatial {
 
 namespace {
 
+// A step longer than this multiple of the one that showed the accelerations is not guessed: those of a step that was cut short, at a closing
+// contact say, may be of forces that act for no longer, and over the whole step would move bodies by any distance.
+constexpr double far_ahead = 10;
+
 // twice the energy, with an inertia of a bar of the model's length
 double energy_of(const Model& model, const Body& body, const Twist& v) {
     return body.mass * (dot(v.v, v.v) + model.length * model.length / 12 * dot(v.w, v.w));
@@ -16,6 +20,7 @@ void Ahead::see_half(const std::vector<Twist>& before, const std::vector<Twist>&
     acceleration_.resize(before.size());
     for (size_t i = 0; i < before.size(); i++) acceleration_[i] = (1 / length) * (after[i] - before[i]);
     rates_ = rates;
+    length_ = 2 * length;
     known_ = true;
 }
 
@@ -28,8 +33,8 @@ void Ahead::see_step(const std::vector<Twist>& before, const std::vector<Twist>&
 }
 
 bool Ahead::guess(const std::vector<Twist>& now, double length) {
-    guessed_ = known_;
-    if (!known_) return false;
+    guessed_ = known_ && length <= far_ahead * length_;
+    if (!guessed_) return false;
     end_.resize(now.size());
     for (size_t i = 0; i < now.size(); i++) end_[i] = now[i] + length * acceleration_[i];
     return good_;

@@ -18,8 +18,8 @@ public:
     void see_half(const std::vector<Twist>& before, const std::vector<Twist>& after, double length, const std::vector<double>& rates);
     // after an accepted step in halves: its accelerations continue linearly
     void see_step(const std::vector<Twist>& before, const std::vector<Twist>& after, double length, const std::vector<double>& rates);
-    // Finds the end velocities of a step from these velocities; false if nothing is known, or if the last guess was further from the
-    // solution than the velocities before the step.
+    // Finds the end velocities of a step from these velocities; false if nothing is known of steps of such a length, or if the last
+    // guess was further from the solution than the velocities before the step.
     bool guess(const std::vector<Twist>& now, double length);
     const std::vector<Twist>& end() const { return end_; }
     // rates along all rows at the end of the last (half) step, which show what is locked
@@ -29,6 +29,7 @@ public:
 
 private:
     bool known_ = false, guessed_ = false, good_ = true;
+    double length_ = 0;  // of the step that showed the accelerations
     std::vector<Twist> acceleration_, end_;
     std::vector<double> rates_;
 };

@@ -1,0 +1,39 @@
+"""Design of the library of tubes: the shipped tables contain its points, and no held-out tube is fitted."""
+
+import pytest
+from tools.law_design import LEAST_HARDENED, NOMINAL, TRAINING, points
+from tools.law_library import HELD_OUT, NOMINAL_ROLES, PLACE, ROLES
+
+from crumple.hinge.tube_library.table import tube_table
+
+KINDS = tuple(TRAINING)
+
+
+def entries(kind, roles):
+    """Points of a shipped table by name."""
+    return {one["name"]: one for one in tube_table(kind).facts["points"] if one["role"] in roles}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_shipped_points_are_those_of_the_design(kind):
+    designed = {one.name: one for one in points() if one.kind == kind}
+    for name, entry in entries(kind, (*ROLES, *HELD_OUT)).items():
+        assert {key: getattr(designed[name], key) for key in PLACE} == {key: entry[key] for key in PLACE}
+    nominal = {name for name, one in designed.items() if one.elements == NOMINAL}
+    assert nominal == entries(kind, (*NOMINAL_ROLES, *HELD_OUT)).keys()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_no_held_out_tube_is_fitted(kind):
+    held_out, fitted = entries(kind, HELD_OUT), entries(kind, ROLES)
+    assert len(tube_table(kind).centres) == len(fitted)
+    places = [{tuple(one[key] for key in PLACE) for one in each.values()} for each in (held_out, fitted)]
+    assert places[0]
+    assert not places[0] & places[1]
+    assert not any("left_out" in one for one in held_out.values())
+
+
+def test_hardened_round_tubes_have_their_hardening_on_the_nominal_mesh():
+    hardened = [one for one in points() if one.role == "hardened"]
+    assert {one.kind for one in hardened} == {"circular_tube"}
+    assert all(one.hardening >= LEAST_HARDENED and one.elements == NOMINAL for one in hardened)
