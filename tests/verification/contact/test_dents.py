@@ -155,6 +155,19 @@ def test_an_obstacle_need_not_dent():
     assert -result["node.middle.displacement.z"].min() < 1e-4
 
 
+def test_an_obstacle_that_is_not_met_dents_nothing():
+    assert crumple.solve(analysis_of(ROUND, f"{POLE}, {THROWN}".replace("-6", "6"))).dents == ()
+
+
+def test_nothing_dents_where_a_stage_is_quasi_static():
+    slow = ("duration: 20 ms", "stages: [{name: push, kind: quasi-static, duration: 20 ms}]")
+    motion = "motion: {z: {havsin: {x0: 0 ms, h0: 0 mm, x1: 20 ms, h1: -0.9 mm}}}"
+    result = crumple.solve(analysis_of(ROUND, f"{POLE}, {motion}", slow))
+    assert result.status.ok
+    assert result.dents == ()
+    assert "obstacle.pole.dent" not in result.channels
+
+
 def test_results_list_dents(tmp_path):
     result = crumple.solve(analysis_of(ROUND, f"{POLE}, {THROWN}"))
     write(result, tmp_path)

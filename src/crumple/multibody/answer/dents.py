@@ -14,6 +14,9 @@ from crumple.result import Channel, DentedWall
 from crumple.result.channels import channel
 from crumple.structure import DentedTube
 
+ROUNDING = 1e-6
+"""Depth up to which a wall is not dented [m]."""
+
 
 @dataclass(frozen=True, eq=False)
 class DentHistory:
@@ -81,14 +84,15 @@ def wall_motions(dents: Iterable[DentHistory]) -> Mapping[str, WallMotion]:
 
 
 def dented_walls(dents: Iterable[DentHistory]) -> tuple[DentedWall, ...]:
-    """Dents as listed in results."""
+    """Dents as listed in results: those beyond `ROUNDING`."""
     return tuple(
         DentedWall(
             dent.tube.member,
             dent.tube.station,
             dent.obstacle,
-            float(dent.depth.max(initial=0.0)),
-            float(dent.energy[-1]) if dent.energy.size else 0.0,
+            float(dent.depth.max()),
+            float(dent.energy[-1]),
         )
         for dent in dents
+        if dent.depth.max(initial=0.0) > ROUNDING
     )

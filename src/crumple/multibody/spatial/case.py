@@ -200,7 +200,7 @@ def spatial_case(structure: Structure, run: Run) -> SpatialCase:
     owners = tuple(name for name, _ in support_drives(structure, linkage, longest))
     frequency = run.settings.resolved_frequency
     plain = spatial_model(structure, linkage, longest, resolved_frequency=frequency)
-    touching = with_obstacles(structure, linkage, plain, owners, longest)
+    touching = with_obstacles(structure, linkage, plain, owners, stages)
     touching = replace(touching, model=off_dead_centres(touching.model, linkage, dead_centres(linkage))[0])
     motions = [
         added_motion(structure, linkage, touching, stage, first=i == 0)[:2] for i, stage in enumerate(stages)

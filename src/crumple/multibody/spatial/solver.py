@@ -82,7 +82,7 @@ class SpatialSolver:
         frequency = run.settings.resolved_frequency
         plain = spatial_model(structure, self.linkage, longest, resolved_frequency=frequency)
         owners = tuple(name for name, _ in support_drives(structure, self.linkage, longest))
-        touching = with_obstacles(structure, self.linkage, plain, owners, longest)
+        touching = with_obstacles(structure, self.linkage, plain, owners, self._stages)
         self._model, self._dead_centres = touching.model, dead_centres(self.linkage)
         self._touching = touching
         self._touch(aside=False, crushing=False)

@@ -7,7 +7,7 @@ they can touch of members is in `surface`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -35,6 +35,7 @@ from crumple.structure import (
     Obstacle,
     PlaneObstacle,
     SphereObstacle,
+    Stage,
     Structure,
     dented_tubes,
 )
@@ -79,7 +80,11 @@ class Touching:
 
 
 def with_obstacles(
-    structure: Structure, linkage: Linkage, model: SpatialModel, owners: tuple[str, ...], duration: float
+    structure: Structure,
+    linkage: Linkage,
+    model: SpatialModel,
+    owners: tuple[str, ...],
+    stages: Sequence[Stage],
 ) -> Touching:
     """Add the obstacles of a structure, and the capsules of its members, to a model.
 
@@ -91,8 +96,8 @@ def with_obstacles(
         Without obstacles.
     owners
         Supports that the model's drives belong to.
-    duration
-        Prescribed motion is sampled over it [s].
+    stages
+        Of the run.  Prescribed motion is sampled over the longest; where one is quasi-static, nothing dents.
     """
     if not structure.obstacles and structure.member_contact is None:
         return Touching(model, {}, owners, np.zeros((0, 3)))
@@ -100,10 +105,12 @@ def with_obstacles(
     surface = surface_of(structure, linkage, moving, member)
     together = {plane: bodies_together(linkage, folding=plane) for plane in (False, True)}
     added = _Added(model)
+    duration = max(stage.duration for stage in stages)
+    fast = all(stage.kind == "dynamic" for stage in stages)
     obstacles = []
     for name, obstacle in structure.obstacles.items():
         body = added.obstacle(name, obstacle, duration)
-        tubes = dented_tubes(structure, name)
+        tubes = dented_tubes(structure, name) if fast else ()
         if tubes:
             body = added.face(name, obstacle, tubes, body)
         allowed = set(structure.members if obstacle.members is None else obstacle.members)
