@@ -111,9 +111,10 @@ def _dented_tubes(structure: StructureParts, obstacle: str) -> tuple[DentedTube,
     found = tuple(tube for tube in tubes if tube is not None)
     if not found or len(found) < len(tubes):
         return ()
-    mean = np.sum([tube.outwards for tube in found], axis=0)
-    mean = mean / np.linalg.norm(mean)
-    return found if all(float(tube.outwards @ mean) >= SQUARE for tube in found) else ()
+    towards = np.sum([tube.outwards for tube in found], axis=0)
+    size = float(np.linalg.norm(towards))
+    alike = size > 0.0 and all(float(tube.outwards @ towards) >= SQUARE * size for tube in found)
+    return found if alike else ()
 
 
 def _struck_first(structure: StructureParts, obstacle: str) -> Iterator[tuple[str, StruckPlace]]:

@@ -113,6 +113,23 @@ def test_laws_of_folds_in_dents(section, axes):
     assert all(0.2 < left < 1.0 for left in dents.values())
 
 
+def test_a_tube_that_is_free_to_turn_at_its_ends_bends_before_it_is_dented_deeply():
+    """The force that bends it is smaller, so that the dent leaves more."""
+    clamped = "supports:\n  foot: {node: low, fix: all}\n  end: {node: right, fix: all}"
+    turning = (
+        "supports:\n  foot: {node: left, fix: [x, y, z, rx, rz]}\n  end: {node: right, fix: [y, z, rx, rz]}"
+    )
+    alone = ("  post: {nodes: [low, left], section: round, material: steel}\n", "")
+    text = TEXT.replace("SECTION", "round").replace("OBSTACLE", HIGH.replace("[beam, post]", "[beam]"))
+    text = text.replace("LOWER", "0").replace("  low: [0 m, 0 m, -400 mm]\n", "").replace(*alone)
+    left = []
+    for supports in (clamped.replace("node: low", "node: left"), turning):
+        structure = loads(text.replace(clamped, supports)).structure
+        (law,) = [hinge.law for hinge in plastic_hinges(structure) if isinstance(hinge.law, DentedLaw)]
+        left.append(law.left)
+    assert left[0] < left[1] < 1.0
+
+
 def test_a_law_that_the_input_names_stays():
     named = ("hinges: auto", "hinges: {law: {type: constant, moment: 2 kN*m}}")
     structure = structure_of("round", HIGH, named)
