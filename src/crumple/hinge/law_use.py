@@ -1,11 +1,11 @@
-"""Where the law of a hinge comes from, for people: the user, a store, a formula, or an estimate."""
+"""Where the law of a hinge comes from, for people: user, store, library, formula, or an estimate."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Literal
 
-Origin = Literal["user", "stored", "formula", "estimate"]
+Origin = Literal["user", "stored", "library", "formula", "estimate"]
 INPUT = "INPUT"
 """Stands for the name of the input file in a command: a structure does not know it."""
 
@@ -17,8 +17,8 @@ class LawUse:
     Attributes
     ----------
     origin
-        ``user``: the input names it; ``stored``: found in the store of laws; ``formula``: of the section's
-        shape; ``estimate``: nothing backs it.
+        ``user``: the input names it; ``stored``: found in the store of laws; ``library``: of tubes;
+        ``formula``: of the section's shape; ``estimate``: nothing backs it.
     content
         Hash of the law, 16 hexadecimal digits: of the law file, or of the sampled curves.
     band
@@ -37,6 +37,7 @@ class LawUse:
         words = {
             "user": "given in the input",
             "stored": "stored, from shells",
+            "library": "library of tubes solved by shells",
             "formula": "formula",
             "estimate": "estimate without evidence",
         }

@@ -7,7 +7,8 @@ outer width, the outer depth and the thickness of the section.  The scaling is o
 Walls that buckle before they yield, and folds of open profiles, may carry far less.  If no such tube exists,
 the plastic moment is held.
 
-`AutoLaw` is the law of a hinge that names none: the formula of the section's shape, else this estimate.
+`AutoLaw` is the law of a hinge that names none: the library or formula of the section's shape, else this
+estimate.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from crumple.errors import InputError
 from crumple.hinge.bending.kecman import KecmanLaw
 from crumple.hinge.law import HingeLaw, SofteningVariable, Source, Trust, Validity
 from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
-from crumple.hinge.registry import DEFAULT_BENDING, build_law
+from crumple.hinge.registry import AUTOMATIC_BENDING, build_law
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
@@ -115,7 +116,7 @@ class EstimatedLaw:
 
 
 class AutoLaw:
-    """Formula of the section's shape where there is one, else the estimate; stored laws go before both."""
+    """Law of the section's shape where there is one, else the estimate; stored laws go before both."""
 
     @classmethod
     def of(cls, section: Section, material: Material, axis: Axis = "y") -> HingeLaw:
@@ -126,18 +127,17 @@ class AutoLaw:
         section, material, axis
             Of the hinge.
         """
-        return build_law(formula_or_estimate(section, material, axis), section, material, axis)
+        return build_law(automatic_type(section, material, axis), section, material, axis)
 
 
-def formula_or_estimate(section: Section, material: Material, axis: Axis) -> str:
-    """Name of the law that a hinge without a law and without a stored one has."""
-    name = DEFAULT_BENDING.get(section.kind)
-    if name is not None:
+def automatic_type(section: Section, material: Material, axis: Axis) -> str:
+    """Type of the law that a hinge without a law and without a stored one has."""
+    for name in AUTOMATIC_BENDING.get(section.kind, ()):
         try:
             build_law(name, section, material, axis)
         except InputError:
-            # the shape has a formula, but not about this axis or with these proportions
-            return EstimatedLaw.name
+            # the shape has this law, but not about this axis, with these proportions or this metal
+            continue
         return name
     return EstimatedLaw.name
 

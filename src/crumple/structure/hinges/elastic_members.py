@@ -18,7 +18,7 @@ from typing import TypeVar
 import numpy as np
 
 from crumple.hinge import HingeRecord, build_law, record_of
-from crumple.hinge.bending.estimate import formula_or_estimate
+from crumple.hinge.bending.estimate import automatic_type
 from crumple.hinge.record.record import Form
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
@@ -174,7 +174,7 @@ def _yielding(section: Section, material: Material, axis: Axis, rigidity: float)
     stress = material.flow_stress if curve is None else curve.yield_stress
     curvature = CURVATURES * stress * section.elastic_section_modulus(axis) / rigidity
     moment = bending_moment(section, material, axis, curvature)
-    fold = build_law(formula_or_estimate(section, material, axis), section, material, axis)
+    fold = build_law(automatic_type(section, material, axis), section, material, axis)
     moment = np.minimum(moment, float(fold.moment_capacity(0.0)))
     plastic = np.maximum.accumulate(curvature - moment / rigidity)
     kept = np.concatenate([[True], np.diff(plastic) > 1e-9 * plastic[-1]])

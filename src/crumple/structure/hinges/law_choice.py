@@ -1,10 +1,10 @@
-"""Which law a hinge has that names none, or `auto`: a stored one, else a formula, else an estimate."""
+"""Which law a hinge has that names none, or `auto`: stored, from the library, a formula or an estimate."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
-from crumple.hinge.bending.estimate import formula_or_estimate
+from crumple.hinge.bending.estimate import automatic_type
 from crumple.hinge.measured.library import by_place
 from crumple.hinge.measured.place_hash import Load, place_hash
 from crumple.hinge.registry import AUTO
@@ -42,7 +42,7 @@ def chosen_law(structure: StructureParts, member: str, axis: Axis, asked: LawKey
         text = stored_text(structure, place_hash(section, material, axis)) if structure.laws else None
         if text is not None:
             return with_type(asked, "file", text=text)
-        kind = formula_or_estimate(section, material, axis)
+        kind = automatic_type(section, material, axis)
         return plain_law(kind) if asked == plain_law(AUTO) else with_type(asked, kind)
 
     return structure.kept.once("chosen law", (spec.section, spec.material, axis, asked), choose)

@@ -1,4 +1,4 @@
-"""Where the law of each hinge comes from, for people: the user, a store, a formula, or an estimate."""
+"""Where the law of each hinge comes from, for people: user, store, library, formula, or an estimate."""
 
 from __future__ import annotations
 
@@ -30,6 +30,8 @@ from crumple.structure.settings.multibody_settings import MultibodySettings
 
 Parts = TypeVar("Parts", bound=StructureParts)
 
+UNNAMED: Mapping[str, Origin] = {"estimate": "estimate", "library": "library"}
+"""Origins of laws that the input does not name, by their types; others are formulas."""
 AT_END = 1e-6
 """Distance of a hinge from its member's end, over the member's length, that is rounding."""
 
@@ -87,7 +89,7 @@ def law_use(structure: StructureParts, place: HingePlace, law: HingeLaw, record:
     origin: Origin = "stored"
     if text is None:
         named = is_named_law(structure, place)
-        origin = "user" if named else "estimate" if law.name == "estimate" else "formula"
+        origin = "user" if named else UNNAMED.get(law.name, "formula")
     band = law.validity.uncertainty
     content = content_hash(text) if text is not None else _hash_of_record(law, record)
     better = (
