@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from crumple.hinge.corner.mitred_corner import LARGEST, SMALLEST
+from crumple.hinge.corner.in_plane import LARGEST, SMALLEST
 from crumple.hinge.measured.place_hash import Direction, place_hash
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, half_fold_length
