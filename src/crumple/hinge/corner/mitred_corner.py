@@ -59,7 +59,7 @@ UNCERTAINTY = 0.25
 
 @dataclass(frozen=True)
 class MitredCornerLaw(InPlaneLaw):
-    """Corner of two rectangular tubes that meet in a mitre, bent in its plane: an estimate fitted to shells.
+    """Corner of two rectangular or circular tubes in a mitre, bent in its plane: an estimate from shells.
 
     Attributes
     ----------

@@ -57,7 +57,7 @@ SLENDER = (14.0, 45.0)
 """Diameter over thickness of the corners that were solved by shells, 15.6 to 38.9, with some room [-]."""
 REACH = math.radians(30.0)
 """Rotation up to which the corners were solved by shells."""
-UNCERTAINTY = 0.25
+UNCERTAINTY = 0.20
 """Half-width of the band [-]; see the table in the theory page."""
 
 

@@ -66,6 +66,15 @@ class Corner:
         section, material = structure.section_of(self.first), structure.material_of(self.first)
         return place_hash(section, material, self.axis, self.angle, load="out-of-plane", about=about)
 
+    def is_round(self, structure: StructureParts) -> bool:
+        """Whether its tubes are round: their sections have no axis of their own, so the plane gives it."""
+        return structure.section_of(self.first).kind == "circular_tube"
+
+    def is_about(self, structure: StructureParts) -> bool:
+        """Whether the section's axis is normal to its plane; that of a round tube may be any."""
+        along = structure.frame_of(self.first).axis(self.axis) @ np.array(self.normal)
+        return abs(float(along)) > 1.0 - ALONG
+
     @property
     def across(self) -> Axis:
         """Axis of the section in the corner's plane."""
