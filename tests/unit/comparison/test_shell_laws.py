@@ -29,7 +29,7 @@ def test_hinges_also_twist_as_those_of_elastic_members():
     turned = 0.3 * TIME
     folds = [
         HingeMotion(name, "post", 0.03, TIME, turned, turned, turned, 1e3 + 0.0 * TIME, 1e3 * turned, "")
-        for name in ("post-root", "arm-knee")
+        for name in ("post-root", "corner-knee")
     ]
     structure = variants_of(analysis, folds)[SHELL_LAWS].structure
     plain = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)

@@ -7,8 +7,8 @@ from 10 degrees on; the closed corner of the thinnest tube, whose walls fold alm
 10 degrees and within the band from 20 on.
 
 Round tubes: sub-models of the same kind of corners that were listed before any was solved, to 2.5, 5, 10, 20
-and 29 degrees; the constants were fitted to nine others. An opened corner of thin tubes ends where its members
-fold beside it. Tolerance: the band of 20 % that the law states.
+and 29 degrees; the constants were fitted to nine others. The energies of opened corners of thin tubes end
+where their members fold beside them. Tolerance: the band of 20 % that the law states.
 
 Out of their plane: the sub-models of `--load out-of-plane` about the bisector and the tangent (four elements
 along half a fold) of corners of other sections and steels than the nine about the bisector and six about the
