@@ -230,7 +230,7 @@ def _direction(given: _Place) -> Direction:
 def _corner(angle: str | None) -> float | None:
     """Angle of a corner [rad]."""
     from crumple.errors import InputError, Problem
-    from crumple.hinge.corner.mitred_corner import LARGEST
+    from crumple.hinge.corner.in_plane import LARGEST
     from crumple.units import parse_quantity
 
     corner = None if angle is None else parse_quantity(angle, "rad")

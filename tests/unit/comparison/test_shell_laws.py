@@ -18,7 +18,7 @@ members:
   arm: {nodes: [knee, tip], section: tube, material: steel}
 hinges: {axes: [y, z]}
 supports: {clamp: {node: root, fix: all}}
-masses: {load: {node: tip, mass: 20 kg}}
+masses: {load: {node: tip, mass: 20 kg}, bracket: {node: knee, mass: 1 kg}}
 initial_velocity: [{nodes: [tip], translation: [5 m/s, 0 m/s, -3 m/s]}]
 analysis: {duration: 20 ms}
 """

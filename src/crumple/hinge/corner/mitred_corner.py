@@ -23,23 +23,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from enum import Enum
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crumple.errors import InputError, Problem
 from crumple.hinge.bending.kecman import KecmanLaw
-from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
+from crumple.hinge.corner.in_plane import Closing, InPlaneLaw, rounded, slope_of
+from crumple.hinge.corner.round_corner import RoundCornerLaw
+from crumple.hinge.law import Source, Trust, Validity
 from crumple.hinge.options import choice
-from crumple.hinge.rate import HingeRate, rate_factor
-from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.numeric.sign_change import sign_change
 from crumple.registry.quantity import PositiveAngle
-from crumple.section import Axis, Section
+from crumple.section import Axis, CircularTube, Section
 
 SOURCE = Source(
     "mitred corner: webs over the mitre, flanges by bending of their walls, softening of the straight tube",
@@ -51,63 +49,31 @@ WEB, FLANGE = 0.56, 2.44
 """g and k of the moment at the start [-]."""
 CLOSING, OPENING, OPEN_RISE = 0.45, 0.75, 1.12
 """c, d and o of the moment of both senses [-]."""
-ROUNDING = 3.0
-"""p of the transition from the start to the fold of a corner that closes [-]."""
 STIFFNESS = 0.34
 """r of the elastic stiffness [-]."""
-SMALLEST, LARGEST = math.radians(5.0) * (1.0 - 1e-9), math.radians(100.0) * (1.0 + 1e-9)
-"""Angles between the members, with room for rounding.  Beyond the largest a mitre is longer than the section;
-shells join such members rigidly, and automatic hinges have no corner there."""
 REACH = math.radians(40.0)
 """Rotation up to which the corners were solved by shells."""
 UNCERTAINTY = 0.25
 """Half-width of the band [-]; see the table in the theory page."""
 
 
-class Closing(Enum):
-    """Sense of the hinge's rotation that closes the corner."""
-
-    POSITIVE = "positive"
-    NEGATIVE = "negative"
-
-
 @dataclass(frozen=True)
-class MitredCornerLaw:
-    """Corner of two rectangular tubes that meet in a mitre, bent in its plane: an estimate fitted to shells.
+class MitredCornerLaw(InPlaneLaw):
+    """Corner of two rectangular or circular tubes in a mitre, bent in its plane: an estimate from shells.
 
     Attributes
     ----------
-    start
-        Moment at which it begins to fold when it is closed [N m].
-    plastic
-        Plastic moment of the members [N m], which no capacity exceeds.
-    slope
-        s, sine of half the angle between the members [-].
-    tube
-        Law of the straight member.
-    closing
-        Sense that closes the corner.
-    elastic_stiffness
-        Of the corner's own walls [N m/rad].
+    start, plastic, slope, tube, closing, elastic_stiffness, validity
+        See `InPlaneLaw`.
 
     References
     ----------
     docs/theory/mitred_corner.md.  Verified in tests/verification/hinge/test_mitred_corners.py.
     """
 
-    name: ClassVar[str] = "mitred_corner"
     source: ClassVar[Source] = SOURCE
-    softening_variable: ClassVar[SofteningVariable] = SofteningVariable.PEAK
-    stop: ClassVar[Stop | None] = None
-    symmetric: ClassVar[bool] = False
 
-    start: float
-    plastic: float
-    slope: float
     tube: KecmanLaw
-    closing: Closing
-    elastic_stiffness: float | None
-    validity: Validity
 
     @classmethod
     def of(
@@ -118,13 +84,13 @@ class MitredCornerLaw:
         *,
         angle: PositiveAngle,
         closing: Closing | str = Closing.POSITIVE,
-    ) -> MitredCornerLaw:
-        """Law of a corner.
+    ) -> InPlaneLaw:
+        """Law of a corner; of round tubes, a `RoundCornerLaw`.
 
         Parameters
         ----------
         section
-            Rectangular tube, of both members.
+            Rectangular or circular tube, of both members.
         material
             Yield stress and elastic modulus.
         axis
@@ -137,16 +103,14 @@ class MitredCornerLaw:
         Raises
         ------
         InputError
-            If the section is not a rectangular tube, or the angle is outside 5 to 100 degrees.
+            If the section is neither, or the angle is outside 5 to 100 degrees.
         """
-        if not SMALLEST <= angle <= LARGEST:
-            what, came = "no mitred corner has this angle", f"{math.degrees(angle):.4g} deg"
-            todo = "use the law of the member, or one from shells"
-            raise InputError(Problem(what, came, "5 to 100 deg", todo, "angle"))
+        s, sense = slope_of(angle), choice("closing", closing, Closing)
+        if isinstance(section, CircularTube):
+            return RoundCornerLaw.of(section, material, angle=angle, closing=sense)
         tube = KecmanLaw.of(section, material, axis, after_jamming="hold")
         wall = section.thickness
         across, deep = section.flange_width(axis) - wall, section.bending_depth(axis) - wall
-        s = math.sin(angle / 2.0)
         webs = deep**2 / 2.0 * (1.0 - WEB * s**2) / (1.0 - s**2)
         flanges = across * deep / math.hypot(1.0, across * s / (FLANGE * wall))
         plastic = float(tube.moment_capacity(0.0))
@@ -155,26 +119,10 @@ class MitredCornerLaw:
             plastic,
             s,
             tube,
-            choice("closing", closing, Closing),
+            sense,
             STIFFNESS * material.youngs_modulus * wall * deep**2,
             Validity(REACH, "corners of other proportions were solved by shells that far", (), UNCERTAINTY),
         )
-
-    @property
-    def title(self) -> str:
-        """One line for people."""
-        angle = math.degrees(2.0 * math.asin(self.slope))
-        return f"mitred corner of {angle:.4g} deg, {self.start / 1e3:.4g} kN m at the start"
-
-    @property
-    def jamming_angle(self) -> float | None:
-        """Not known."""
-        return None
-
-    @property
-    def rate(self) -> HingeRate | None:
-        """That of the straight member."""
-        return self.tube.rate
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Rotations where the slope jumps [rad]."""
@@ -197,15 +145,7 @@ class MitredCornerLaw:
             return np.asarray(np.minimum(self._opening_start, fold), np.float64)
         upto = np.minimum(np.asarray(rotation, np.float64), self.tube.jamming_angle)
         fold = (1.0 - CLOSING * self.slope) * self.tube.mechanism.moment(upto)
-        return self.start * (1.0 + (self.start / fold) ** ROUNDING) ** (-1.0 / ROUNDING)
-
-    def closes(self, sense: int) -> bool:
-        """Whether a sense of the rotation closes the corner."""
-        return (sense > 0) == (self.closing is Closing.POSITIVE)
-
-    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
-        """Factor on the capacity at a rotation rate [rad/s]."""
-        return rate_factor(self.rate, rotation_rate)
+        return rounded(self.start, fold)
 
     @property
     def _opening_start(self) -> float:

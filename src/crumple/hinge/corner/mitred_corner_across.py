@@ -30,7 +30,7 @@ from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.bending.kecman import KecmanLaw
-from crumple.hinge.corner.mitred_corner import LARGEST, SMALLEST
+from crumple.hinge.corner.in_plane import LARGEST, SMALLEST
 from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
 from crumple.hinge.options import choice
 from crumple.hinge.rate import HingeRate, rate_factor

@@ -20,7 +20,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crumple.hinge.corner.mitred_corner import LARGEST
+from crumple.hinge.corner.in_plane import LARGEST
 from crumple.numeric.arrays import Floats
 from crumple.section import RectangularTube, Section
 

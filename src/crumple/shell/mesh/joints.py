@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.corner.mitred_corner import LARGEST
+from crumple.hinge.corner.in_plane import LARGEST
 from crumple.numeric.arrays import Floats
 from crumple.shell.mesh.contour import Contour
 from crumple.shell.mesh.end import End

@@ -54,7 +54,12 @@ def _stored(structure: StructureParts, corner: Corner, asked: LawKeys, text: str
 
 
 def _estimated(structure: StructureParts, corner: Corner, asked: LawKeys) -> LawKeys | None:
-    """Estimate of a corner without a stored law; None where there is none for its section or angle."""
+    """Estimate of a corner without a stored law; None where there is none for its section or angle.
+
+    Nor for a hinge that cannot turn about the normal of the corner's plane.
+    """
+    if not _about_normal(structure, corner):
+        return None
     section, material = structure.section_of(corner.first), structure.material_of(corner.first)
     own = {"angle": corner.angle, "closing": "positive" if corner.sense > 0 else "negative"}
     try:
@@ -62,6 +67,17 @@ def _estimated(structure: StructureParts, corner: Corner, asked: LawKeys) -> Law
     except InputError:
         return None
     return with_type(asked, MITRED, **own)
+
+
+def _about_normal(structure: StructureParts, corner: Corner) -> bool:
+    """Whether the corner's hinge turns about the normal of its plane."""
+    asked = automatic_of(structure, corner.first)
+    if asked is None or corner.is_about(structure):
+        return asked is not None
+    if asked.axes is None:
+        # in space hinges turn about all axes unless one is named
+        return asked.axis is None or planar(structure)
+    return {"x", "y", "z"} <= {*asked.axes}
 
 
 def _asked(structure: StructureParts, corner: Corner) -> LawKeys | None:
@@ -133,12 +149,14 @@ def _shortening(
     """Slip at a corner of elastic members in a plane that obstacles may press: compression folds it too.
 
     Without obstacles axial forces are small, and the planar kernel, which has no slip, solves the model. The
-    input may say `axial: false` or another coupling; the regularised form cannot slip.
+    shortening of round tubes is not known. The input may say `axial: false` or another coupling; the
+    regularised form cannot slip.
     """
     members = [structure.members[name] for name in (corner.first, corner.second)]
     asked = automatic_of(structure, corner.first)
     declined = asked is not None and asked.axial is None and "axial" in asked.model_fields_set
-    able = structure.obstacles and all(member.elastic for member in members) and law.form != "regularised"
+    known = not corner.is_round(structure) and law.form != "regularised"
+    able = structure.obstacles and all(member.elastic for member in members) and known
     if declined or not able or keys["coupling"] is not None:
         return {}
     return {"axial": keys["axial"] or AxialSlip(), "coupling": "tension-flange"}

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from crumple.hinge.corner.mitred_corner import LARGEST, SMALLEST
+from crumple.hinge.corner.in_plane import LARGEST, SMALLEST
 from crumple.hinge.measured.place_hash import Direction, place_hash
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, half_fold_length
@@ -65,6 +65,15 @@ class Corner:
         """Hash of the place out of the corner's plane, about its bisector or its tangent."""
         section, material = structure.section_of(self.first), structure.material_of(self.first)
         return place_hash(section, material, self.axis, self.angle, load="out-of-plane", about=about)
+
+    def is_round(self, structure: StructureParts) -> bool:
+        """Whether its tubes are round: their sections have no axis of their own, so the plane gives it."""
+        return structure.section_of(self.first).kind == "circular_tube"
+
+    def is_about(self, structure: StructureParts) -> bool:
+        """Whether the section's axis is normal to its plane; that of a round tube may be any."""
+        along = structure.frame_of(self.first).axis(self.axis) @ np.array(self.normal)
+        return abs(float(along)) > 1.0 - ALONG
 
     @property
     def across(self) -> Axis:

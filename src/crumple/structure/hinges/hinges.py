@@ -53,8 +53,8 @@ from crumple.structure.remembered import remembered
 
 ANY = HingeShares({"y": 1.0, "z": 1.0})
 """Shares for results that do not depend on the length of a member."""
-NEARER = np.sqrt(0.5)
-"""Cosine of 45 degrees: of two axes across a member the nearer one is within it."""
+NEARER = np.sqrt(0.5) * (1.0 - 1e-9)
+"""Cosine of 45 degrees, with room for rounding: of two axes across a member the nearer one is within it."""
 AXIS_ROW: dict[Axis, int] = {"y": 1, "z": 2}
 """Row of an axis among the axes of a hinge."""
 STIFF = 0.1

@@ -36,6 +36,8 @@ def estimate_across(structure: StructureParts, corner: Corner, about: Direction)
 def is_turned(structure: StructureParts, corner: Corner, axes: Iterable[str] | None) -> bool:
     """Whether the hinge of a corner has the corner's axes: there is a law about one, and it turns about all.
 
+    A round tube has no axis of its own that would be normal to the corner's plane, so its hinge has them too.
+
     Parameters
     ----------
     structure, corner
@@ -45,7 +47,7 @@ def is_turned(structure: StructureParts, corner: Corner, axes: Iterable[str] | N
     """
     if {*(axes or ())} != {"x", "y", "z"}:
         return False
-    return any(
+    return corner.is_round(structure) or any(
         text_across(structure, corner, about) is not None
         or estimate_across(structure, corner, about) is not None
         for about in DIRECTIONS

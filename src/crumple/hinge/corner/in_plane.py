@@ -1,0 +1,112 @@
+"""Common part of the laws of mitred corners bent in their plane: angle, sense, and the straight member."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from dataclasses import dataclass
+from enum import Enum
+from typing import ClassVar
+
+from numpy.typing import ArrayLike
+
+from crumple.errors import InputError, Problem
+from crumple.hinge.law import HingeLaw, SofteningVariable, Validity
+from crumple.hinge.rate import HingeRate, rate_factor
+from crumple.hinge.stop import Stop
+from crumple.numeric.arrays import Floats
+
+SMALLEST, LARGEST = math.radians(5.0) * (1.0 - 1e-9), math.radians(100.0) * (1.0 + 1e-9)
+"""Angles between the members, with room for rounding.  Beyond the largest a mitre is longer than the section;
+shells join such members rigidly, and automatic hinges have no corner there."""
+ROUNDING = 3.0
+"""p of the transition from the start to the fold [-]."""
+
+
+class Closing(Enum):
+    """Sense of the hinge's rotation that closes the corner."""
+
+    POSITIVE = "positive"
+    NEGATIVE = "negative"
+
+
+@dataclass(frozen=True)
+class InPlaneLaw:
+    """Base of the laws of corners; a subclass gives the moments of both senses.
+
+    Attributes
+    ----------
+    start
+        Moment at which it begins to fold when it is closed [N m].
+    plastic
+        Plastic moment of the members [N m], which no capacity exceeds.
+    slope
+        s, sine of half the angle between the members [-].
+    tube
+        Law of the straight member.
+    closing
+        Sense that closes the corner.
+    elastic_stiffness
+        Of the corner's own walls [N m/rad].
+    """
+
+    name: ClassVar[str] = "mitred_corner"
+    softening_variable: ClassVar[SofteningVariable] = SofteningVariable.PEAK
+    stop: ClassVar[Stop | None] = None
+    symmetric: ClassVar[bool] = False
+
+    start: float
+    plastic: float
+    slope: float
+    tube: HingeLaw
+    closing: Closing
+    elastic_stiffness: float | None
+    validity: Validity
+
+    @property
+    def title(self) -> str:
+        """One line for people."""
+        angle = math.degrees(2.0 * math.asin(self.slope))
+        return f"mitred corner of {angle:.4g} deg, {self.start / 1e3:.4g} kN m at the start"
+
+    @property
+    def jamming_angle(self) -> float | None:
+        """Not known."""
+        return None
+
+    @property
+    def rate(self) -> HingeRate | None:
+        """That of the straight member."""
+        return self.tube.rate
+
+    @abstractmethod
+    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
+        """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
+
+    def closes(self, sense: int) -> bool:
+        """Whether a sense of the rotation closes the corner."""
+        return (sense > 0) == (self.closing is Closing.POSITIVE)
+
+    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
+        """Factor on the capacity at a rotation rate [rad/s]."""
+        return rate_factor(self.rate, rotation_rate)
+
+
+def slope_of(angle: float) -> float:
+    """Sine of half the angle between the members [rad].
+
+    Raises
+    ------
+    InputError
+        If the angle is outside 5 to 100 degrees.
+    """
+    if not SMALLEST <= angle <= LARGEST:
+        what, came = "no mitred corner has this angle", f"{math.degrees(angle):.4g} deg"
+        todo = "use the law of the member, or one from shells"
+        raise InputError(Problem(what, came, "5 to 100 deg", todo, "angle"))
+    return math.sin(angle / 2.0)
+
+
+def rounded(start: Floats | float, fold: Floats) -> Floats:
+    """Moment [N m] of a corner that begins to yield at one moment and whose fold carries another."""
+    return start * (1.0 + (start / fold) ** ROUNDING) ** (-1.0 / ROUNDING)

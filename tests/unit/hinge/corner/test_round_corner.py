@@ -1,0 +1,166 @@
+"""Mitred corners of round tubes: limits of the law, its senses, and where automatic hinges have it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from crumple.analysis import loads
+from crumple.errors import InputError
+from crumple.hinge import Trust, build_law
+from crumple.material import Material
+from crumple.section import Channel, CircularTube
+from crumple.structure import plastic_hinges
+from crumple.structure.hinges.corners import corners
+
+STEEL = Material("steel", 210e9, 0.3, 7850.0, 350e6)
+TUBE = CircularTube(0.050, 0.002)
+FRAME = """crumple: 1
+materials:
+  steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}
+sections:
+  tube: {type: circular_tube, diameter: 50 mm, thickness: 2 mm}
+nodes: {foot: [0 m, 0 m, 0 m], corner: [0 m, 0 m, 0.5 m], tip: [0.5 m, 0 m, 0.5 m]}
+members:
+  post: {nodes: [foot, corner], section: tube, material: steel, up: UP}
+  arm: {nodes: ARM, section: tube, material: steel, up: ARM_UP}
+hinges: HINGES
+supports: {clamp: {node: foot, fix: all}}
+masses: {payload: {node: AT, mass: 20 kg}}
+initial_velocity: [{nodes: [tip], translation: MOVING}]
+OBSTACLES
+analysis: {duration: 20 ms}
+"""
+UPS = {"across": "[1, 0, 0]", "normal": "[0, 1, 0]", "diagonal": "[1, 1, 0]"}
+ARM_UPS = {"across": "[0, 0, 1]", "normal": "[0, 1, 0]", "diagonal": "[0, 1, -1]"}
+FALLING, ASIDE = "[0 m/s, 0 m/s, -5 m/s]", "[0 m/s, 5 m/s, 0 m/s]"
+
+
+def corner(degrees=90.0, tube=TUBE, **options):
+    return build_law("mitred_corner", tube, STEEL, angle=math.radians(degrees), **options)
+
+
+def frame(moving=FALLING, arm="[corner, tip]", up="across", hinges="auto", at="tip", obstacles=""):
+    ups = {"ARM_UP": ARM_UPS[up], "UP": UPS[up]}
+    parts = {"MOVING": moving, **ups, "ARM": arm, "HINGES": hinges, "AT": at, "OBSTACLES": obstacles}
+    text = FRAME
+    # ARM_UP holds the other two words
+    for word, part in parts.items():
+        text = text.replace(word, part)
+    return loads(text).structure
+
+
+def hinge_at(structure):
+    return next((one for one in plastic_hinges(structure) if one.name == "corner-corner"), None)
+
+
+def test_nearly_in_line_it_is_the_straight_member_where_start_or_fold_governs():
+    straight = build_law("circular", TUBE, STEEL, after_jamming="hold")
+    law = corner(5.0)
+    far = np.radians([0.0, 40.0])
+    for sense in (1, -1):
+        np.testing.assert_allclose(law.moment_capacity(far, sense), straight.moment_capacity(far), rtol=0.15)
+    assert law.share == pytest.approx(1.0 - 0.32 / 3.0)
+
+
+@pytest.mark.parametrize("degrees", [5.0, 45.0, 100.0])
+def test_thick_walls_carry_the_plastic_moment_and_no_corner_carries_more(degrees):
+    solid = CircularTube(0.050, 0.0249)
+    law = corner(degrees, solid)
+    assert law.plastic * 0.95 < law.start <= law.plastic
+    assert law.moment_capacity(np.radians(60.0), -1) <= law.plastic
+
+
+def test_thin_rings_carry_two_thirds_power_of_their_slenderness():
+    one, other = corner(90.0, CircularTube(0.0508, 0.0008)), corner(90.0, CircularTube(0.1008, 0.0008))
+    shares = [law.start / law.plastic for law in (one, other)]
+    assert shares[0] / shares[1] == pytest.approx(2.0 ** (2.0 / 3.0), rel=0.01)
+
+
+def test_the_figures_of_a_right_angle():
+    law, wall, radius = corner(), 0.002, 0.024
+    thin = (6.0 * 2.0 * 0.63 * wall / radius) ** (2.0 / 3.0) / 2.0
+    assert law.start == pytest.approx(law.plastic * thin / (1.0 + thin**3) ** (1.0 / 3.0))
+    assert law.elastic_stiffness == pytest.approx(0.48 * 210e9 * wall**2 * radius * 2.0**2.5)
+    for sense in (1, -1):
+        assert float(law.moment_capacity(0.0, sense)) == pytest.approx(law.start, rel=1e-3)
+    at, fold = np.radians(20.0), law.tube.fold.mechanism.moment(np.radians(20.0))
+    closed = (law.start**-3 + (0.68 * fold) ** -3) ** (-1.0 / 3.0)
+    assert float(law.moment_capacity(at, 1)) == pytest.approx(closed)
+    stretched = law.plastic - (law.plastic - law.start) * math.exp(-at / (0.15 * law.slope))
+    opened = (stretched**-3 + ((1.0 + 1.85 * law.slope) * fold) ** -3) ** (-1.0 / 3.0)
+    assert float(law.moment_capacity(at, -1)) == pytest.approx(opened)
+    assert law.source.trust is Trust.FITTED
+    assert "90 deg" in law.title
+
+
+def test_a_closed_corner_only_softens_and_an_opened_one_first_stiffens():
+    at = np.radians(np.linspace(0.0, 40.0, 161))
+    law = corner()
+    assert (np.diff(law.moment_capacity(at, 1)) < 0.0).all()
+    peak = int(np.argmax(law.moment_capacity(at, -1)))
+    assert 10.0 < np.degrees(at[peak]) < 20.0
+    other = corner(closing="negative")
+    np.testing.assert_array_equal(law.moment_capacity(at, 1), other.moment_capacity(at, -1))
+
+
+def test_walls_of_other_proportions_have_a_warning_and_no_band():
+    assert corner().validity.uncertainty == pytest.approx(0.20)
+    assert corner().validity.warnings == ()
+    for wall in (0.0010, 0.0050):
+        validity = corner(tube=CircularTube(0.050, wall)).validity
+        assert validity.uncertainty is None
+        assert "diameter over thickness" in validity.warnings[0]
+
+
+def test_other_angles_and_sections_are_refused():
+    for degrees in (2.0, 110.0):
+        with pytest.raises(InputError, match="no mitred corner has this angle"):
+            corner(degrees)
+    with pytest.raises(InputError, match="rectangular tubes"):
+        corner(tube=Channel(0.05, 0.03, 0.002))
+
+
+@pytest.mark.parametrize("arm", ["[corner, tip]", "[tip, corner]"])
+@pytest.mark.parametrize("up", UPS)
+def test_in_a_plane_automatic_hinges_have_it_in_the_right_sense(arm, up):
+    structure = frame(arm=arm, up=up)
+    hinge = hinge_at(structure)
+    assert {one.name for one in plastic_hinges(structure)} == {"post-foot", "corner-corner"}
+    np.testing.assert_allclose(np.abs(hinge.direction), [0.0, 1.0, 0.0], atol=1e-12)
+    # pushed down at its tip the corner closes
+    weak = 1 if hinge.direction[1] > 0.0 else -1
+    assert hinge.law.moment_capacity(0.1, weak) < hinge.law.moment_capacity(0.1, -weak)
+
+
+@pytest.mark.parametrize("up", UPS)
+def test_in_space_the_hinge_turns_about_the_normal_and_keeps_the_laws_of_the_member_about_others(up):
+    hinge = hinge_at(frame(ASIDE, up=up))
+    found = {c.freedom.name: float(c.record.positive.moment[0]) for c in hinge.spatial.components}
+    normal = next(name for name in "YZ" if abs(hinge.axes[" YZ".index(name)] @ [0.0, 1.0, 0.0]) > 1.0 - 1e-9)
+    straight = float(build_law("circular", TUBE, STEEL).moment_capacity(0.0))
+    assert found[normal] == pytest.approx(corner().start, rel=1e-3)
+    assert found["Z" if normal == "Y" else "Y"] == pytest.approx(straight)
+    torque = 2.0 * math.pi * 0.024**2 * 0.002 * 350e6 / math.sqrt(3.0)
+    assert found["X"] == pytest.approx(torque, rel=0.01)
+    assert all(component.shift is None for component in hinge.spatial.components)
+
+
+def test_a_hinge_that_does_not_turn_about_the_normal_keeps_the_law_of_the_member():
+    for up, there in (("across", True), ("diagonal", False)):
+        structure = frame(ASIDE, up=up, hinges="{axes: [y, z]}")
+        assert "corner" in corners(structure)
+        assert (hinge_at(structure) is not None) == there
+    assert hinge_at(frame(ASIDE, up="diagonal", hinges="{axes: [y, z, x]}")) is not None
+    assert hinge_at(frame(ASIDE, up="diagonal", hinges="{axis: y}")) is None
+
+
+def test_a_loaded_corner_keeps_the_law_of_the_member():
+    assert hinge_at(frame(at="corner")) is None
+
+
+def test_no_shortening_of_a_round_corner_is_assumed():
+    wall = "obstacles: {wall: {type: plane, point: [0 m, 0 m, -1 m], normal: [0, 0, 1]}}"
+    assert hinge_at(frame(obstacles=wall)).spatial is None
