@@ -74,7 +74,7 @@ class RoundCornerLaw(InPlaneLaw):
 
     References
     ----------
-    docs/theory/mitred_corner.md.  Verified in tests/verification/hinge/test_round_corners.py.
+    docs/theory/mitred_corner.md.  Verified in tests/verification/hinge/test_mitred_corners.py.
     """
 
     source: ClassVar[Source] = SOURCE
