@@ -81,16 +81,17 @@ BENDING: Registry[LawType] = Registry(
     },
 )
 AUTO = "auto"
-"""Type of a hinge without a law: its stored law, else one of `AUTOMATIC_BENDING`, else an estimate."""
-AUTOMATIC_BENDING = {
-    "rectangular_tube": ("kecman",),
-    "circular_tube": ("library", "circular"),
-    "channel": ("folded_profile",),
-    "hat": ("folded_profile",),
-    "closed_hat": ("folded_profile",),
+"""Type of a hinge without a law: its stored law, else `FREE_BENDING` or a formula, else an estimate."""
+DEFAULT_BENDING = {
+    "rectangular_tube": "kecman",
+    "circular_tube": "circular",
+    "channel": "folded_profile",
+    "hat": "folded_profile",
+    "closed_hat": "folded_profile",
 }
-"""Laws of a hinge without one, by the kind of its section: the first that applies.  Why rectangular tubes
-have their formula and not the library: docs/theory/tube_library.md."""
+"""Formula of a hinge without a law, by the kind of its section."""
+FREE_BENDING = {"circular_tube": "library"}
+"""Law that goes before it where no joint or clamp keeps the section in shape: docs/theory/tube_library.md."""
 AXIAL: Registry[AxialLawType] = Registry(
     "axial law",
     {

@@ -7,8 +7,7 @@ outer width, the outer depth and the thickness of the section.  The scaling is o
 Walls that buckle before they yield, and folds of open profiles, may carry far less.  If no such tube exists,
 the plastic moment is held.
 
-`AutoLaw` is the law of a hinge that names none: the library or formula of the section's shape, else this
-estimate.
+`AutoLaw` is the law of a section: the formula of its shape, else this estimate.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ from crumple.errors import InputError
 from crumple.hinge.bending.kecman import KecmanLaw
 from crumple.hinge.law import HingeLaw, SofteningVariable, Source, Trust, Validity
 from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
-from crumple.hinge.registry import AUTOMATIC_BENDING, build_law
+from crumple.hinge.registry import DEFAULT_BENDING, FREE_BENDING, build_law
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
@@ -130,9 +129,20 @@ class AutoLaw:
         return build_law(automatic_type(section, material, axis), section, material, axis)
 
 
-def automatic_type(section: Section, material: Material, axis: Axis) -> str:
-    """Type of the law that a hinge without a law and without a stored one has."""
-    for name in AUTOMATIC_BENDING.get(section.kind, ()):
+def automatic_type(section: Section, material: Material, axis: Axis, *, free: bool = False) -> str:
+    """Type of the law that a hinge without a law and without a stored one has.
+
+    Parameters
+    ----------
+    section, material, axis
+        Of the hinge.
+    free
+        Whether no joint or clamp beside it keeps the section in shape.
+    """
+    names = [DEFAULT_BENDING.get(section.kind)]
+    for name in [FREE_BENDING.get(section.kind), *names] if free else names:
+        if name is None:
+            continue
         try:
             build_law(name, section, material, axis)
         except InputError:

@@ -31,7 +31,7 @@ from crumple.structure.hinges.joint_reach import strikes_joint
 from crumple.structure.hinges.law_choice import component_text
 from crumple.structure.hinges.lengthening.braced import braced
 from crumple.structure.hinges.lengthening.held_runs import held_runs
-from crumple.structure.hinges.runs.candidates import Strike, candidates_on
+from crumple.structure.hinges.runs.candidates import Candidate, Strike, candidates_on
 from crumple.structure.hinges.runs.straight_runs import straight_run
 from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
 from crumple.structure.keys.hinge_axes import AxialSlip, HingeAxes
@@ -178,9 +178,19 @@ def automatic_stations(
 
 def strikes_on(structure: StructureParts, member: str) -> Mapping[str, Strike]:
     """What strikes a member's straight run at its candidates, by their names."""
-    asked = automatic_of(structure, member)
-    if asked is None or not structure.obstacles:
-        return {}
-    run, (_, axes) = straight_run(structure, member), _keys(structure, member, asked)
-    found = candidates_on(structure, run, axes, asked.spacing).get(member, [])
+    found = _candidates(structure, member) if structure.obstacles else []
     return {one.name: one.strike for one in found if one.strike is not None}
+
+
+def folds_freely(structure: StructureParts, member: str, hinge: str) -> bool:
+    """Whether a hinge is a candidate between the joints or clamps at the ends of a straight run."""
+    return any(one.name == hinge and one.free for one in _candidates(structure, member))
+
+
+def _candidates(structure: StructureParts, member: str) -> list[Candidate]:
+    """Candidates on a member, if its hinges are automatic."""
+    asked = automatic_of(structure, member)
+    if asked is None:
+        return []
+    run, (_, axes) = straight_run(structure, member), _keys(structure, member, asked)
+    return candidates_on(structure, run, axes, asked.spacing).get(member, [])

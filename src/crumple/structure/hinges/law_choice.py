@@ -25,7 +25,7 @@ def automatic_law(structure: StructureParts, reference: LawReference | None) -> 
     return named if named.type == AUTO else None
 
 
-def chosen_law(structure: StructureParts, member: str, axis: Axis, asked: LawKeys) -> LawKeys:
+def chosen_law(structure: StructureParts, member: str, axis: Axis, asked: LawKeys, *, free: bool) -> LawKeys:
     """Law of a hinge in a straight member about an axis.
 
     Parameters
@@ -34,6 +34,8 @@ def chosen_law(structure: StructureParts, member: str, axis: Axis, asked: LawKey
         The hinge; its section and material must exist.
     asked
         Law of type `auto`: its further keys, as form and bound, are those of the law that is found.
+    free
+        Whether no joint or clamp beside it keeps the section in shape.
     """
     spec = structure.members[member]
 
@@ -42,10 +44,10 @@ def chosen_law(structure: StructureParts, member: str, axis: Axis, asked: LawKey
         text = stored_text(structure, place_hash(section, material, axis)) if structure.laws else None
         if text is not None:
             return with_type(asked, "file", text=text)
-        kind = automatic_type(section, material, axis)
+        kind = automatic_type(section, material, axis, free=free)
         return plain_law(kind) if asked == plain_law(AUTO) else with_type(asked, kind)
 
-    return structure.kept.once("chosen law", (spec.section, spec.material, axis, asked), choose)
+    return structure.kept.once("chosen law", (spec.section, spec.material, axis, asked, free), choose)
 
 
 def component_text(structure: StructureParts, member: str, load: Load) -> str | None:

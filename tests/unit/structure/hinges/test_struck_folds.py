@@ -6,7 +6,7 @@ import pytest
 
 from crumple import loads
 from crumple.hinge.bending.dented import DentedLaw
-from crumple.structure import dented_tubes, hinge_places, plastic_hinges
+from crumple.structure import dented_tubes, hinge_places, law_uses, plastic_hinges
 from crumple.structure.hinges.places import law_of
 
 TEXT = """
@@ -128,6 +128,16 @@ def test_a_tube_that_is_free_to_turn_at_its_ends_bends_before_it_is_dented_deepl
         (law,) = [hinge.law for hinge in plastic_hinges(structure) if isinstance(hinge.law, DentedLaw)]
         left.append(law.left)
     assert left[0] < left[1] < 1.0
+
+
+@pytest.mark.parametrize(("wall", "law", "origin"), [(2, "library", "library"), (5, "circular", "formula")])
+def test_free_folds_of_round_tubes_have_the_law_of_the_library(wall, law, origin):
+    """Within its range; joints and clamps keep the section in shape, and the folds there their formula."""
+    whole = structure_of("round", HIGH + ", dents: false", ("thickness: 2 mm", f"thickness: {wall} mm"))
+    laws = {hinge.name: hinge.law.name for hinge in plastic_hinges(whole) if hinge.member == "beam"}
+    assert laws.pop("beam-pole") == law
+    assert set(laws.values()) == {"circular", "mitred_corner"}
+    assert law_uses(whole)["beam-pole"].origin == origin
 
 
 def test_a_law_that_the_input_names_stays():

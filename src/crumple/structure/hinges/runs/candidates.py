@@ -6,7 +6,7 @@ import math
 from bisect import bisect
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -52,6 +52,8 @@ class Candidate:
         Its member, and its own name.
     station
         Distance from the member's first node [m].
+    free
+        Whether it lies between those beside the ends of the run.
     strike
         What strikes it, if anything does.
     """
@@ -59,6 +61,7 @@ class Candidate:
     member: str
     name: str
     station: float
+    free: bool = False
     strike: Strike | None = None
 
 
@@ -126,12 +129,12 @@ def _candidates(
                 taken.insert(before, at)
             strikes = tuple(obstacle for obstacle, place in pressed if abs(at - place) <= half)
             strike = Strike(strikes, (at - start, end - at), held) if strikes else None
-            yield _candidate(run, name, at, strike)
+            yield replace(_candidate(run, name, at), free=True, strike=strike)
 
 
-def _candidate(run: StraightRun, name: str, along: float, strike: Strike | None = None) -> Candidate:
+def _candidate(run: StraightRun, name: str, along: float) -> Candidate:
     member = run.member_at(along)
-    return Candidate(member, f"{member}-{name}", run.stretches[member].station(along), strike)
+    return Candidate(member, f"{member}-{name}", run.stretches[member].station(along))
 
 
 def _struck(
