@@ -172,7 +172,7 @@ def fits_of(coordinates: tuple[Coordinate, ...], points: Points) -> Iterator[Fit
         # with fewer points than this a trend is no better than chance
         if 2 * math.comb(count + degree, degree) > len(points.share):
             continue
-        for number in range(count + 1):
+        for number in range(count + 1 if points.share.any() else 1):
             for step in itertools.combinations(range(count), number):
                 if not step or 4 * (1 + len(step)) <= nominal:
                     yield _fitted(coordinates, points, degree, step)
@@ -186,7 +186,9 @@ def _fitted(coordinates: tuple[Coordinate, ...], points: Points, degree: int, st
         [e for e in itertools.product(range(degree + 1), repeat=count) if sum(e) <= degree], np.float64
     )
     trend_terms = np.prod(places[:, None, :] ** exponents[None], axis=2)
+    # on one mesh alone there is no step
     step_terms = share[:, None] * np.hstack([np.ones((len(share), 1)), places[:, list(step)]])
+    step_terms = step_terms[:, step_terms.any(axis=0)]
     terms = np.hstack([trend_terms, step_terms])
     groups = [np.flatnonzero(points.tubes == tube) for tube in np.unique(points.tubes)]
 

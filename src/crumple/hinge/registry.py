@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar, runtime_checkable
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar, runtime_checkable
 
 from crumple.errors import InputError, Problem
 from crumple.registry.keys import MISSING, Key, keys_of
@@ -76,12 +76,13 @@ BENDING: Registry[LawType] = Registry(
         "measured": "crumple.hinge.measured.measured_law:MeasuredLaw",
         "file": "crumple.hinge.measured.file_law:FileLaw",
         "library": "crumple.hinge.tube_library.law:TubeLibraryLaw",
+        "clamped_tube": "crumple.hinge.tube_library.clamped:ClampedTubeLaw",
         "estimate": "crumple.hinge.bending.estimate:EstimatedLaw",
         "auto": "crumple.hinge.bending.estimate:AutoLaw",
     },
 )
 AUTO = "auto"
-"""Type of a hinge without a law: its stored law, else `FREE_BENDING` or a formula, else an estimate."""
+"""Type of a hinge without a law: its stored law, else of the library, else a formula, else an estimate."""
 DEFAULT_BENDING = {
     "rectangular_tube": "kecman",
     "circular_tube": "circular",
@@ -90,8 +91,13 @@ DEFAULT_BENDING = {
     "closed_hat": "folded_profile",
 }
 """Formula of a hinge without a law, by the kind of its section."""
-FREE_BENDING = {"circular_tube": "library"}
-"""Law that goes before it where no joint or clamp keeps the section in shape: docs/theory/tube_library.md."""
+Fold = Literal["free", "clamped"]
+"""Whether a fold lies between joints and clamps, or beside one, which keeps the section in shape."""
+FOLD_BENDING: dict[Fold, dict[str, str]] = {
+    "free": {"circular_tube": "library"},
+    "clamped": {"circular_tube": "clamped_tube"},
+}
+"""Law that goes before the formula in such folds: docs/theory/tube_library.md."""
 AXIAL: Registry[AxialLawType] = Registry(
     "axial law",
     {

@@ -98,7 +98,7 @@ ASYMMETRIC = {
 }
 
 
-ROUND = {("library", 1), ("mitred_corner", 2), ("mitred_corner", 3)}
+ROUND = {("library", 1), ("clamped_tube", 0), ("mitred_corner", 2), ("mitred_corner", 3)}
 """Round tubes of laws that take others too."""
 
 
@@ -140,6 +140,7 @@ SECTIONS = {
     ("kecman", 4): slender,
     ("library", 0): solved,
     ("library", 1): solved_round,
+    ("clamped_tube", None): solved_round,
     ("circular", None): lambda s: CircularTube(s.width, s.thickness),
     ("mitred_corner", 2): lambda s: CircularTube(s.width, s.thickness),
     ("mitred_corner", 3): lambda s: CircularTube(s.width, s.thickness),

@@ -13,6 +13,7 @@ def test_laws_are_found_by_the_files_of_their_folder():
     assert list(law_types()) == [
         "auto",
         "circular",
+        "clamped_tube",
         "constant",
         "estimate",
         "file",

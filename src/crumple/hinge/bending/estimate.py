@@ -22,7 +22,7 @@ from crumple.errors import InputError
 from crumple.hinge.bending.kecman import KecmanLaw
 from crumple.hinge.law import HingeLaw, SofteningVariable, Source, Trust, Validity
 from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
-from crumple.hinge.registry import DEFAULT_BENDING, FREE_BENDING, build_law
+from crumple.hinge.registry import DEFAULT_BENDING, FOLD_BENDING, Fold, build_law
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
@@ -129,18 +129,18 @@ class AutoLaw:
         return build_law(automatic_type(section, material, axis), section, material, axis)
 
 
-def automatic_type(section: Section, material: Material, axis: Axis, *, free: bool = False) -> str:
+def automatic_type(section: Section, material: Material, axis: Axis, fold: Fold | None = None) -> str:
     """Type of the law that a hinge without a law and without a stored one has.
 
     Parameters
     ----------
     section, material, axis
         Of the hinge.
-    free
-        Whether no joint or clamp beside it keeps the section in shape.
+    fold
+        Whether a joint or clamp beside it keeps the section in shape; None: not known.
     """
-    names = [DEFAULT_BENDING.get(section.kind)]
-    for name in [FREE_BENDING.get(section.kind), *names] if free else names:
+    for laws in (FOLD_BENDING[fold] if fold else {}, DEFAULT_BENDING):
+        name = laws.get(section.kind)
         if name is None:
             continue
         try:

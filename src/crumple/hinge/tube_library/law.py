@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
 from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor, rate_warnings
 from crumple.hinge.stop import Stop
-from crumple.hinge.tube_library.table import tube_table
+from crumple.hinge.tube_library.table import TubeTable, tube_table
 from crumple.hinge.tube_library.tube import columns_of, place_of_tube
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
@@ -65,7 +65,7 @@ class TubeLibraryLaw:
     rate: HingeRate | None
 
     @classmethod
-    def of(cls, section: Section, material: Material, axis: Axis = "y") -> TubeLibraryLaw:
+    def of(cls, section: Section, material: Material, axis: Axis = "y") -> Self:
         """Law of a tube.
 
         Parameters
@@ -82,8 +82,12 @@ class TubeLibraryLaw:
         InputError
             If the section is no such tube, or outside the range of the library.
         """
+        return cls.from_table(tube_table(section.kind), section, material, axis)
+
+    @classmethod
+    def from_table(cls, table: TubeTable, section: Section, material: Material, axis: Axis) -> Self:
+        """Law of a tube by a table of its shape; refuses like `of`."""
         place = place_of_tube(section, material, axis)
-        table = tube_table(section.kind)
         share = table.moment(columns_of(table, place))
         end = float(table.rotation[-1])
         basis = f"interpolated between tubes solved with shells up to {math.degrees(end):.0f} deg"

@@ -23,7 +23,7 @@ APART = 1e-6
 def place_problems(structure: StructureParts, known: Mapping[str, Names]) -> Iterator[Problem]:
     """Places, names and laws of hinges."""
     where: dict[str, list[str]] = defaultdict(list)
-    sound: set[tuple[str, str, str, str, bool]] = set()
+    sound: set[tuple[str, str, str, str, str | None]] = set()
     reported: set[Problem] = set()
     for name in sound_members(structure):
         places, length = member_hinge_places(structure, name), structure.frame_of(name).length

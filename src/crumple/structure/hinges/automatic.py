@@ -23,6 +23,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from crumple.hinge.registry import Fold
 from crumple.section import Axis, half_fold_length
 from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import FOLDS, automatic_of, folds_at_ends
@@ -182,9 +183,9 @@ def strikes_on(structure: StructureParts, member: str) -> Mapping[str, Strike]:
     return {one.name: one.strike for one in found if one.strike is not None}
 
 
-def folds_freely(structure: StructureParts, member: str, hinge: str) -> bool:
-    """Whether a hinge is a candidate between the joints or clamps at the ends of a straight run."""
-    return any(one.name == hinge and one.free for one in _candidates(structure, member))
+def fold_of(structure: StructureParts, member: str, hinge: str) -> Fold | None:
+    """Whether a candidate lies between the joints or clamps at the ends of a straight run, or beside one."""
+    return next((one.fold for one in _candidates(structure, member) if one.name == hinge), None)
 
 
 def _candidates(structure: StructureParts, member: str) -> list[Candidate]:

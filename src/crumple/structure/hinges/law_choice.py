@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from crumple.hinge.bending.estimate import automatic_type
 from crumple.hinge.measured.library import by_place
 from crumple.hinge.measured.place_hash import Load, place_hash
-from crumple.hinge.registry import AUTO
+from crumple.hinge.registry import AUTO, Fold
 from crumple.section import Axis
 from crumple.structure.keys.law import LawKeys, LawReference
 from crumple.structure.parts import StructureParts
@@ -25,7 +25,9 @@ def automatic_law(structure: StructureParts, reference: LawReference | None) -> 
     return named if named.type == AUTO else None
 
 
-def chosen_law(structure: StructureParts, member: str, axis: Axis, asked: LawKeys, *, free: bool) -> LawKeys:
+def chosen_law(
+    structure: StructureParts, member: str, axis: Axis, asked: LawKeys, fold: Fold | None
+) -> LawKeys:
     """Law of a hinge in a straight member about an axis.
 
     Parameters
@@ -34,8 +36,8 @@ def chosen_law(structure: StructureParts, member: str, axis: Axis, asked: LawKey
         The hinge; its section and material must exist.
     asked
         Law of type `auto`: its further keys, as form and bound, are those of the law that is found.
-    free
-        Whether no joint or clamp beside it keeps the section in shape.
+    fold
+        Whether a joint or clamp beside it keeps the section in shape; None: not known.
     """
     spec = structure.members[member]
 
@@ -44,10 +46,10 @@ def chosen_law(structure: StructureParts, member: str, axis: Axis, asked: LawKey
         text = stored_text(structure, place_hash(section, material, axis)) if structure.laws else None
         if text is not None:
             return with_type(asked, "file", text=text)
-        kind = automatic_type(section, material, axis, free=free)
+        kind = automatic_type(section, material, axis, fold)
         return plain_law(kind) if asked == plain_law(AUTO) else with_type(asked, kind)
 
-    return structure.kept.once("chosen law", (spec.section, spec.material, axis, asked, free), choose)
+    return structure.kept.once("chosen law", (spec.section, spec.material, axis, asked, fold), choose)
 
 
 def component_text(structure: StructureParts, member: str, load: Load) -> str | None:

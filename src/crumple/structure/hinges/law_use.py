@@ -30,7 +30,7 @@ from crumple.structure.settings.multibody_settings import MultibodySettings
 
 Parts = TypeVar("Parts", bound=StructureParts)
 
-UNNAMED: Mapping[str, Origin] = {"estimate": "estimate", "library": "library"}
+UNNAMED: Mapping[str, Origin] = {"estimate": "estimate", "library": "library", "clamped_tube": "library"}
 """Origins of laws that the input does not name, by their types; others are formulas."""
 AT_END = 1e-6
 """Distance of a hinge from its member's end, over the member's length, that is rounding."""

@@ -10,11 +10,12 @@ from dataclasses import dataclass
 
 from crumple import hinge
 from crumple.hinge import HingeLaw
+from crumple.hinge.registry import Fold
 from crumple.material import Material
 from crumple.section import Axis, Section, fold_distance
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges.asked import where_automatic
-from crumple.structure.hinges.automatic import folds_freely, hinges_of
+from crumple.structure.hinges.automatic import fold_of, hinges_of
 from crumple.structure.hinges.law_choice import automatic_law, chosen_law, plain_law
 from crumple.structure.hinges.runs.ends import holds_rotation
 from crumple.structure.hinges.struck_folds import with_dent
@@ -131,8 +132,8 @@ def _elastic(spec: LawKeys) -> LawKeys:
 def _law_spec(structure: StructureParts, place: HingePlace) -> LawKeys:
     asked = automatic_law(structure, place.law)
     if asked is not None:
-        free = folds_freely(structure, place.member, place.name)
-        return chosen_law(structure, place.member, place.axis, asked, free=free)
+        fold = fold_of(structure, place.member, place.name)
+        return chosen_law(structure, place.member, place.axis, asked, fold)
     assert place.law is not None
     if not isinstance(place.law, str):
         return place.law
@@ -158,16 +159,16 @@ def law_of(structure: StructureParts, place: HingePlace) -> HingeLaw:
     return with_dent(structure, place.member, place.name, place.axis, place.law, law)
 
 
-def alike_law(structure: StructureParts, place: HingePlace) -> tuple[str, str, Axis, str, bool] | None:
-    """What all hinges with the same law have in common: section, material, axis, its name, and free folds.
+def alike_law(structure: StructureParts, place: HingePlace) -> tuple[str, str, Axis, str, Fold | None] | None:
+    """What all hinges with the same law have in common: section, material, axis, its name, and kind of fold.
 
     None without a name.
     """
     spec = structure.members[place.member]
     if not isinstance(place.law, str):
         return None
-    free = folds_freely(structure, place.member, place.name)
-    return (spec.section, spec.material, place.axis, place.law, free)
+    fold = fold_of(structure, place.member, place.name)
+    return (spec.section, spec.material, place.axis, place.law, fold)
 
 
 # a law is a pure function of these four: the hinges of a chain and the runs of a study share it

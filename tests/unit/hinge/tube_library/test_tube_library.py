@@ -80,6 +80,15 @@ def test_what_is_outside_the_range_is_refused(section, material, message):
         law(section, material)
 
 
+def test_the_fold_of_a_round_tube_beside_a_clamp_takes_more_work_than_a_free_one():
+    clamped = build_law("clamped_tube", ROUND, STEEL, "y")
+    rotation = np.radians(np.linspace(0.0, 30.0, 3001))
+    works = [np.trapezoid(one.moment_capacity(rotation), rotation) for one in (clamped, law(ROUND))]
+    assert 1.1 < works[0] / works[1] < 1.3
+    with pytest.raises(InputError, match="circular_tube"):
+        build_law("clamped_tube", TUBE, STEEL, "y")
+
+
 def test_every_coordinate_that_is_out_of_range_is_named():
     metal = replace(STEEL, yield_stress=1200e6, given_flow_stress=3000e6)
     with pytest.raises(InputError) as error:

@@ -130,14 +130,19 @@ def test_a_tube_that_is_free_to_turn_at_its_ends_bends_before_it_is_dented_deepl
     assert left[0] < left[1] < 1.0
 
 
-@pytest.mark.parametrize(("wall", "law", "origin"), [(2, "library", "library"), (5, "circular", "formula")])
-def test_free_folds_of_round_tubes_have_the_law_of_the_library(wall, law, origin):
-    """Within its range; joints and clamps keep the section in shape, and the folds there their formula."""
+@pytest.mark.parametrize(
+    ("wall", "free", "clamped", "origin"),
+    [(2, "library", "clamped_tube", "library"), (5, "circular", "circular", "formula")],
+)
+def test_folds_of_round_tubes_have_the_laws_of_the_library(wall, free, clamped, origin):
+    """Within its range: those beside joints and clamps, which keep the section round, have their own."""
     whole = structure_of("round", HIGH + ", dents: false", ("thickness: 2 mm", f"thickness: {wall} mm"))
     laws = {hinge.name: hinge.law.name for hinge in plastic_hinges(whole) if hinge.member == "beam"}
-    assert laws.pop("beam-pole") == law
-    assert set(laws.values()) == {"circular", "mitred_corner"}
-    assert law_uses(whole)["beam-pole"].origin == origin
+    assert laws.pop("beam-pole") == free
+    assert set(laws.values()) == {clamped, "mitred_corner"}
+    uses = law_uses(whole)
+    assert {uses[name].origin for name, law in laws.items() if law == clamped} == {origin}
+    assert uses["beam-pole"].origin == origin
 
 
 def test_a_law_that_the_input_names_stays():

@@ -10,7 +10,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from crumple.hinge.registry import Fold
 from crumple.section import Axis, fold_distance, half_fold_length
+from crumple.structure.hinges.corners import corners
 from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.lengthening.braced import braced
 from crumple.structure.hinges.runs.ends import carries_moment, passes_moment
@@ -52,8 +54,9 @@ class Candidate:
         Its member, and its own name.
     station
         Distance from the member's first node [m].
-    free
-        Whether it lies between those beside the ends of the run.
+    fold
+        Whether it lies between those beside the ends of the run, or beside what keeps the section there in
+        shape: all but a mitre.
     strike
         What strikes it, if anything does.
     """
@@ -61,7 +64,7 @@ class Candidate:
     member: str
     name: str
     station: float
-    free: bool = False
+    fold: Fold | None = None
     strike: Strike | None = None
 
 
@@ -102,7 +105,7 @@ def _candidates(
     # a run that is shorter than two folds has room for one
     if 4.0 * half >= end - start:
         if first_held or last_held:
-            yield _candidate(run, "1", (start + end) / 2.0)
+            yield replace(_candidate(run, "1", (start + end) / 2.0), fold=_beside(structure, *run.nodes))
         return
     inside = max(fold_distance(section, axis) for axis in axes)
     first, last = start + inside, end - inside
@@ -113,9 +116,9 @@ def _candidates(
     number = max(2, number) if not struck and not braced(structure).isdisjoint(run.stretches) else number
     between = np.linspace(first, last, number + 1)[1:-1].tolist()
     if first_held:
-        yield _candidate(run, run.nodes[0], first)
+        yield replace(_candidate(run, run.nodes[0], first), fold=_beside(structure, run.nodes[0]))
     if last_held:
-        yield _candidate(run, run.nodes[1], last)
+        yield replace(_candidate(run, run.nodes[1], last), fold=_beside(structure, run.nodes[1]))
     inner = [(str(i), at) for i, at in enumerate(between, 1)]
     taken = [first, *between, last]
     beside = [(node, at - ASIDE * half) for node, at in run.between.items()]
@@ -129,12 +132,17 @@ def _candidates(
                 taken.insert(before, at)
             strikes = tuple(obstacle for obstacle, place in pressed if abs(at - place) <= half)
             strike = Strike(strikes, (at - start, end - at), held) if strikes else None
-            yield replace(_candidate(run, name, at), free=True, strike=strike)
+            yield replace(_candidate(run, name, at), fold="free", strike=strike)
 
 
 def _candidate(run: StraightRun, name: str, along: float) -> Candidate:
     member = run.member_at(along)
     return Candidate(member, f"{member}-{name}", run.stretches[member].station(along))
+
+
+def _beside(structure: StructureParts, *nodes: str) -> Fold | None:
+    """Kind of a fold beside nodes."""
+    return "clamped" if corners(structure).keys().isdisjoint(nodes) else None
 
 
 def _struck(
