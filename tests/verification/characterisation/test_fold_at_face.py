@@ -8,6 +8,10 @@ to a plastic rotation is compared with that of the sub-model: by the face it is 
 mesh (docs/theory/tube_library.md), and here it is to be within 4 % of the middle of that.  x is to lie
 between 0.25 and 1.05 half folds.
 
+The walls of a round tube are kept round by the face: the multibody model, with elastic members and automatic
+hinges, is to take the work of slow cantilevers in shells within 5 %, which is asked of the law.  It was not
+fitted to these two tubes.
+
 Kind: independent calculation.  Source: derived here.
 """
 
@@ -23,6 +27,7 @@ from crumple.characterisation.sub_model import largest_side
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import half_fold_length
+from crumple.section.shapes.circular_tube import CircularTube
 from crumple.section.shapes.rectangular_tube import RectangularTube
 from crumple.structure import Structure
 
@@ -31,6 +36,12 @@ TUBE = RectangularTube(width=0.050, depth=0.025, thickness=0.00265)
 ELEMENTS, SIDES, END = 4.0, 8.0, math.radians(33.0)
 RESOLUTION = Resolution(ELEMENTS)
 DEGREES = (10, 20, 30)
+ROUND = [
+    (17.495432, 0.002391, (0.1744, 0.3229, 0.4290)),
+    (40.224637, 0.003449, (0.1340, 0.2082, 0.2568)),
+]
+"""Diameter over wall and yield strain of round tubes, and work of shells over the plastic moment up to a
+chord of `DEGREES`, of tools/tube_library/clamped-circular_tube-plastic-held-out-0*.json."""
 
 
 def cantilever() -> Analysis:
@@ -90,3 +101,45 @@ def test_a_rigid_face_adds_a_few_percent_to_the_work_of_a_fold(record_figure):
         record_figure(f"work at a face over that of the sub-model, {degrees} deg", ratio, 1.045, 0.04, "-")
         where = float(place[np.searchsorted(np.maximum.accumulate(rotation), at)])
         record_figure(f"place of the fold over half a fold, {degrees} deg", where, 0.65, 0.4, "-")
+
+
+def round_tube(slenderness: float, yield_strain: float) -> Analysis:
+    """Cantilever of eight diameters in the multibody model, its tip driven across."""
+    metal = Material("metal", 210e9, 0.3, 7850.0, yield_strain * 210e9)
+    tube, length = CircularTube(slenderness * 1e-3, 1e-3), 8e-3 * slenderness
+    return Analysis(
+        structure=Structure(
+            materials={"metal": metal},
+            sections={"tube": tube},
+            nodes={"foot": (0.0, 0.0, 0.0), "tip": (length, 0.0, 0.0)},
+            members={"arm": {"nodes": ("foot", "tip"), "section": "tube", "material": "metal"}},
+            supports={
+                "foot": {"node": "foot", "fix": "all"},
+                "tip": {
+                    "node": "tip",
+                    "fix": ["y", "rx", "rz"],
+                    "motion": {"z": {"havsin": {"x0": 0.0, "h0": 0.0, "x1": 0.03, "h1": -0.6 * length}}},
+                },
+            },
+            hinges="auto",
+        ),
+        duration=0.03,
+        multibody={"members": "elastic"},
+        outputs={"every": 1e-4, "nodes": ["tip"]},
+    )
+
+
+@pytest.mark.parametrize(("slenderness", "yield_strain", "shells"), ROUND)
+def test_a_round_tube_beside_a_clamp_takes_the_work_of_shells(
+    record_figure, slenderness, yield_strain, shells
+):
+    """Work at the tip over the plastic moment, up to some angles of the chord."""
+    result = solve(round_tube(slenderness, yield_strain))
+    down = np.abs(result["node.tip.displacement.z"]) / (8e-3 * slenderness)
+    modulus = CircularTube(slenderness * 1e-3, 1e-3).plastic_section_modulus("y")
+    done = result["energy.external_work"] / (yield_strain * 210e9 * modulus)
+    for degrees, expected in zip(DEGREES, shells, strict=True):
+        found = float(np.interp(math.sin(math.radians(degrees)), down, done))
+        record_figure(
+            f"work of a clamped round tube, {degrees} deg", found, expected, 0.05, "-", relative=True
+        )

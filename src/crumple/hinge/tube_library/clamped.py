@@ -16,6 +16,7 @@ from typing import ClassVar, Self
 from crumple.errors import InputError, Problem
 from crumple.hinge.tube_library.law import TubeLibraryLaw
 from crumple.hinge.tube_library.table import tube_table
+from crumple.hinge.tube_library.tube import place_of_tube
 from crumple.material import Material
 from crumple.section import Axis, CircularTube, Section
 
@@ -55,7 +56,7 @@ class ClampedTubeLaw(TubeLibraryLaw):
         if not isinstance(section, CircularTube):
             what, todo = "this law is for circular tubes", "use auto for this section"
             raise InputError(Problem(what, section.kind, "circular_tube", todo, "section"))
-        return cls.from_table(tube_table(TABLE), section, material, axis)
+        return cls.at(tube_table(TABLE), place_of_tube(section, material, axis), section, material, axis)
 
     @property
     def title(self) -> str:

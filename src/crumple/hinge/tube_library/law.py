@@ -82,12 +82,14 @@ class TubeLibraryLaw:
         InputError
             If the section is no such tube, or outside the range of the library.
         """
-        return cls.from_table(tube_table(section.kind), section, material, axis)
+        place = place_of_tube(section, material, axis)
+        return cls.at(tube_table(section.kind), place, section, material, axis)
 
     @classmethod
-    def from_table(cls, table: TubeTable, section: Section, material: Material, axis: Axis) -> Self:
-        """Law of a tube by a table of its shape; refuses like `of`."""
-        place = place_of_tube(section, material, axis)
+    def at(
+        cls, table: TubeTable, place: dict[str, float], section: Section, material: Material, axis: Axis
+    ) -> Self:
+        """Law of a tube at a place of a table; refuses like `of`."""
         share = table.moment(columns_of(table, place))
         end = float(table.rotation[-1])
         basis = f"interpolated between tubes solved with shells up to {math.degrees(end):.0f} deg"
