@@ -1,6 +1,7 @@
 """Design of the library of tubes: the shipped tables contain its points, and no held-out tube is fitted."""
 
 import pytest
+from tools.law_clamped import TABLE, design
 from tools.law_design import LEAST_HARDENED, NOMINAL, TRAINING, points
 from tools.law_library import HELD_OUT, NOMINAL_ROLES, PLACE, ROLES
 
@@ -31,6 +32,16 @@ def test_no_held_out_tube_is_fitted(kind):
     assert places[0]
     assert not places[0] & places[1]
     assert not any("left_out" in one for one in held_out.values())
+
+
+def test_the_clamped_tubes_of_the_table_are_those_of_its_design():
+    table = tube_table(TABLE)
+    designed = {one.name: one for one in design()}
+    assert designed.keys() == {one["name"] for one in table.facts["points"]}
+    for entry in table.facts["points"]:
+        point = designed[entry["name"]]
+        assert {key: getattr(point, key) for key in PLACE} == {key: entry[key] for key in PLACE}
+    assert len(table.centres) == sum(one.role != "held-out" for one in designed.values())
 
 
 def test_hardened_round_tubes_have_their_hardening_on_the_nominal_mesh():
