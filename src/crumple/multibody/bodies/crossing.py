@@ -32,7 +32,7 @@ def crossing_members(
     """
     radius = np.array([capsule.radius for capsule in capsules])
     near = pair_distances(capsules, pairs) < JOINED * radius[np.array(pairs, int).reshape(-1, 2)].sum(axis=1)
-    return {(member[pairs[k][0]], member[pairs[k][1]]) for k in np.flatnonzero(near)}
+    return {(member[pairs[k][0]], member[pairs[k][1]]) for k in np.flatnonzero(near).tolist()}
 
 
 def segment_distance(first: tuple[Floats, Floats], second: tuple[Floats, Floats]) -> Floats:
