@@ -36,6 +36,7 @@ import numpy as np
 
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
+from crumple.numeric.monotone_root import rising_root
 from crumple.section import CircularTube, RectangularTube
 
 CRUSHED = (
@@ -53,7 +54,6 @@ SHALLOWEST = 1e-5
 """Depth up to which a force is constant [m]: roots begin at zero."""
 JAMMED, JAMS_WITHIN = 50.0, 1e-2
 """Factor on the force where walls meet, and in what share of the deepest dent they do."""
-HALVINGS = 60
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,9 +172,10 @@ def left_in_bending(
     here = sum(1.0 / span for span in spans)
     there = sum(carries / span for carries, span in zip(held, spans, strict=True))
     dent = dent_of(section, material, depth)
-    low, high = 0.0, (depth - section.thickness) / 2.0
-    for _ in range(HALVINGS):
-        middle = (low + high) / 2.0
-        bends = moment * (left_by_dent(section, middle, depth) * here + there)
-        low, high = (low, middle) if float(dent.at(np.asarray(middle))) > bends else (middle, high)
-    return left_by_dent(section, high, depth)
+
+    def too_strong(deep: float) -> float:
+        bends = moment * (left_by_dent(section, deep, depth) * here + there)
+        return float(dent.at(np.asarray(deep))) - bends
+
+    deepest = (depth - section.thickness) / 2.0
+    return left_by_dent(section, rising_root(too_strong, 0.0, deepest, 0.0), depth)

@@ -80,6 +80,16 @@ def test_the_dent_takes_the_energy_of_a_thrown_obstacle(section, obstacle, depth
     assert result["obstacle.pole.dent"].max() == pytest.approx(dent.depth, rel=1e-6)
 
 
+def test_a_dent_counts_from_the_position_at_the_start():
+    """A pole that overlaps the tube by 1 mm is in contact: the overlap is no dent, and takes no energy."""
+    inside = POLE.replace("81 mm", "79 mm")
+    result = crumple.solve(analysis_of(ROUND, f"{inside}, {THROWN}"))
+    assert result["obstacle.pole.dent"][0] == 0.0
+    (dent,) = result.dents
+    assert dent.depth == pytest.approx(round_depth(BLOW), rel=0.01)
+    assert (-result["obstacle.pole.displacement.z"]).max() == pytest.approx(dent.depth, rel=1e-3)
+
+
 def test_the_force_is_that_of_the_dent():
     result = crumple.solve(analysis_of(ROUND, f"{POLE}, {THROWN}"))
     depth, force = result["obstacle.pole.dent"], result["obstacle.pole.force.z"]

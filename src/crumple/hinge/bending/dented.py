@@ -18,10 +18,10 @@ from numpy.typing import ArrayLike
 
 from crumple.hinge.inside import LawInside
 from crumple.numeric.arrays import Floats
+from crumple.numeric.sign_change import sign_change
 
 GRID = 1441
 """Rotations up to half a turn at which a limit of the capacity is looked for."""
-HALVINGS = 60
 
 
 @dataclass(frozen=True)
@@ -61,9 +61,6 @@ class DentedLaw(LawInside):
 
     def _crossing(self, low: float, high: float, sense: int) -> float:
         limit = self._limit(sense)
-        falls = float(self.law.moment_capacity(low, sense)) >= limit
-        for _ in range(HALVINGS):
-            middle = (low + high) / 2.0
-            above = float(self.law.moment_capacity(middle, sense)) >= limit
-            low, high = (middle, high) if above == falls else (low, middle)
-        return high
+        up = 1.0 if float(self.law.moment_capacity(low, sense)) < limit else -1.0
+        found = sign_change(lambda at: up * (self.law.moment_capacity(at, sense) - limit), low, high)
+        return high if found is None else found

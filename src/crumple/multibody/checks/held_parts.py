@@ -14,8 +14,8 @@ from crumple._core.outcome import Outcome
 from crumple._core.spatial.model import SpatialCapsule
 from crumple.multibody.answer.solved import Solved
 from crumple.multibody.bodies.capsules import member_capsules, pieces_by_length
+from crumple.multibody.bodies.crossing import segment_distance
 from crumple.multibody.bodies.linkage import link
-from crumple.multibody.checks.overlap import segment_distance
 from crumple.numeric.arrays import Floats
 from crumple.structure import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, Structure
 from crumple.units import format_quantity

@@ -184,7 +184,8 @@ def _problem(
             "this is not one of the permitted values", came, allowed, suggestion(value, words), where
         )
     what, allowed = _WORDS.get(kind, (message, ""))
-    return Problem(what, came, allowed.format_map(_Blank(context)), "", where)
+    todo = f"write {allowed}" if what.endswith(_NEEDED) else ""
+    return Problem(what, came, allowed.format_map(_Blank(context)), todo, where)
 
 
 def _too_short(value: Any, place: Place) -> Problem:
@@ -204,6 +205,7 @@ def _unknown_type(value: Any, context: Mapping[str, Any], where: str) -> Problem
     return Problem(what, shown(tag), one_of(types), suggestion(tag, types), where)
 
 
+_NEEDED = "is needed here"
 _WORDS: dict[str, tuple[str, str]] = {
     "model_type": ("a group of keys is needed here", "keys with values"),
     "model_attributes_type": ("a group of keys is needed here", "keys with values"),
@@ -212,6 +214,7 @@ _WORDS: dict[str, tuple[str, str]] = {
     "tuple_type": ("a list is needed here", "a list in brackets"),
     "list_type": ("a list is needed here", "a list in brackets"),
     "bool_type": ("true or false is needed here", "true or false"),
+    "bool_parsing": ("true or false is needed here", "true or false"),
     "string_type": ("a text is needed here", "a text"),
     "string_too_long": ("the text is too long", "at most {max_length} characters"),
     "string_too_short": ("the text is too short", "at least {min_length} characters"),

@@ -35,6 +35,13 @@ def test_kinks_are_where_the_slope_jumps():
         assert np.abs(bow).max() < 1e-5 * float(law.moment_capacity(0.0))
 
 
+def test_the_limit_ends_where_the_law_falls_below_it():
+    law = DentedLaw(ROUND, 0.7)
+    limit = 0.7 * float(ROUND.moment_capacity(0.0))
+    own = [kink for kink in law.kinks() if kink not in ROUND.kinks()]
+    np.testing.assert_allclose(ROUND.moment_capacity(own), limit, rtol=1e-14)
+
+
 def test_what_does_not_change():
     dented = DentedLaw(ROUND, 0.7)
     for name in ("name", "source", "validity", "elastic_stiffness", "softening_variable", "rate", "stop"):

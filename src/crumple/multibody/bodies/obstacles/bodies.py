@@ -22,6 +22,7 @@ from crumple._core.spatial.model import (
     SpatialObstacle,
 )
 from crumple.multibody.bodies.capsules import member_capsules, touching_pairs
+from crumple.multibody.bodies.crossing import crossing_members
 from crumple.multibody.bodies.crumpling_ends import CrumplingEnd
 from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.bodies.obstacles.faces import Face, face_of
@@ -120,9 +121,10 @@ def with_obstacles(
     contact = structure.member_contact
     pairs = SpatialContact()
     if contact is not None:
-        pairs = SpatialContact(
-            tuple(touching_pairs(structure, moving, member)), contact.friction, contact.restitution
-        )
+        between = list(touching_pairs(structure, moving, member))
+        crossing = crossing_members(moving, member, between)
+        meeting = tuple(pair for pair in between if (member[pair[0]], member[pair[1]]) not in crossing)
+        pairs = SpatialContact(meeting, contact.friction, contact.restitution)
     touching_model = replace(
         model,
         bodies=(*model.bodies, *added.bodies),
