@@ -23,6 +23,10 @@ constexpr double impulse_tolerance = 1e-9, widened_tolerance = 1e-1;
 // Limit of the linear solves of a step relative to the Newton iterations allowed for one width of the ramps: enough for all widths in
 // two passes, and some more.
 constexpr int most_solves = 20;
+// Number of times that friction follows normal impulses in a solution: contacts that take the load in turns, because each is pressed
+// while the friction of another is missing, would do so for ever.  The limits are then those of impulses that were found before, as
+// after the last pass.
+constexpr int most_followed = 4;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -84,6 +88,7 @@ void NewtonSolver::take() {
 bool NewtonSolver::solve_laws() {
     tolerance_ = impulse_tolerance;
     energy_ = 0;
+    followed_ = 0;
     for (size_t i = 0; i < p_.free.size(); i++) {
         energy_ += p_.inertia_share() * (p_.model.bodies[i].mass * dot(p_.free[i].v, p_.free[i].v) + dot(p_.free[i].w, p_.inertia[i] * p_.free[i].w)) / 2;
     }
@@ -186,7 +191,7 @@ bool NewtonSolver::settled(double& slope) {
     if (!balanced(slope)) return false;
     if (!rubs_ || tolerance_ > impulse_tolerance || p_.contacts.rows() == 1 || p_.contacts.size() == 0) return true;
     const double* impulse = p_.impulse.data() + p_.contact_rows();
-    if (p_.contacts.limits_hold(impulse)) return true;
+    if (p_.contacts.limits_hold(impulse) || ++followed_ > most_followed) return true;
     follow_friction();
     return balanced(slope) && p_.contacts.limits_hold(impulse);
 }

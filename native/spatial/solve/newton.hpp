@@ -73,6 +73,7 @@ private:
     std::vector<std::vector<double>> applied_, answers_;
     bool solved_ = false;                       // whether w holds the solution of the last pass
     bool rubs_ = true;                          // friction follows the normal impulses
+    int followed_ = 0;                          // times that they did so in this solution
     bool full_steps_ = true;                    // full Newton steps have not cycled in this step
     double tolerance_ = 0;                      // relative tolerance of impulses at the present width of the ramps
     double energy_ = 0;                         // kinetic energy of the free motion [J]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
 from functools import cached_property
 from math import isnan
@@ -276,6 +276,14 @@ class Result:
             hint = f"; did you mean {' or '.join(near)}?" if near else ""
             raise KeyError(f"no channel {name!r} among {len(self.channels)}{hint}")
         return self.channels[name].values
+
+    def __iter__(self) -> Iterator[str]:
+        """Names of the channels."""
+        return iter(self.channels)
+
+    def __contains__(self, name: object) -> bool:
+        """Whether there is a channel of this name."""
+        return name in self.channels
 
     @cached_property
     def outputs(self) -> dict[str, OutputSummary]:

@@ -53,6 +53,12 @@ def test_equals_takes_nan_as_equal_and_names_as_different():
     assert not tube_result().equals(tube_result(title="another"))
 
 
+def test_a_result_holds_and_lists_the_names_of_its_channels(tube):
+    assert "node.tip.velocity.z" in tube
+    assert "node.tip.velocity.zz" not in tube
+    assert list(tube) == list(tube.channels)
+
+
 def test_filtered_is_the_filter_on_the_channel(tube):
     smooth = tube.filtered("node.tip.velocity.z", 180)
     assert smooth.name == "node.tip.velocity.z.cfc180"

@@ -1,0 +1,56 @@
+"""Flush contacts with friction: points of one joint that take the load in turns."""
+
+from __future__ import annotations
+
+import pytest
+
+from crumple._core.outcome import Outcome
+from crumple.analysis import loads
+from crumple.multibody import Run
+from crumple.multibody.spatial import solver
+from crumple.structure import placed_hinges, with_elastic_members
+
+RAILS = """crumple: 1
+materials:
+  steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 310 MPa}
+sections:
+  rail: {type: square_tube, side: 45 mm, thickness: 2 mm}
+  cross: {type: square_tube, side: 50 mm, thickness: 3 mm}
+nodes:
+  rear_left: [0 m, 0.25 m, 0 m]
+  rear_right: [0 m, -0.25 m, 0 m]
+  front_left: [0.45 m, 0.22 m, 0.04 m]
+  front_right: [0.45 m, -0.22 m, 0.04 m]
+members:
+  left: {nodes: [rear_left, front_left], section: rail, material: steel}
+  right: {nodes: [rear_right, front_right], section: rail, material: steel}
+  front: {nodes: [front_left, front_right], section: cross, material: steel}
+  rear: {nodes: [rear_left, rear_right], section: cross, material: steel}
+hinges: auto
+masses:
+  left: {node: rear_left, mass: 90 kg}
+  right: {node: rear_right, mass: 90 kg}
+initial_velocity: [{translation: [8 m/s, 0 m/s, 0 m/s]}]
+obstacles:
+  wall: {type: plane, point: [0.482 m, 0.22 m, 0 m], normal: [-0.9976, -0.0698, 0], friction: 0.3}
+analysis:
+  duration: 25 ms
+"""
+
+
+def test_corners_of_a_beam_that_lies_flat_on_a_wall_stay_rigid_contacts(monkeypatch):
+    """Eight corners of the front beam and the rails' ends meet the wall, stick, slide and part.
+
+    What a run that cannot go on is repeated with, walls that crush and no corners, is not needed.
+    """
+
+    def refuse(*_):
+        pytest.fail("the run could not go on with rigid contacts")
+
+    monkeypatch.setattr(solver, "with_crushing", refuse)
+    analysis = loads(RAILS)
+    bends = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    run = Run(analysis.duration, analysis.duration)
+    solved = solver.SpatialSolver(bends, run, placed_hinges(bends)).run(1e-3, None, ends_only=True)
+    assert solved.outcome is Outcome.COMPLETE
+    assert solved.residual < 1e-6
