@@ -17,6 +17,10 @@ constexpr double gap_tolerance = 1e-12;
 constexpr double unsolvable_gap = 1e-6;
 // Tolerance of the rates of held rows at the end of a step, relative to the speed.
 constexpr double projection_tolerance = 1e-12;
+// Rates of held rows after the projection, relative to the speed, above which it has no solution if they were smaller before.  At the smallest
+// steps of a chain of short elastic bars, rounding can leave nothing of the equations: velocities of 1e34 m/s were found.
+constexpr double unsolvable_rate = 1e-6;
+constexpr double tiny = 1e-300;  // [m/s]: rates of parts at rest can be among the smallest numbers, which have no digits
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -169,8 +173,7 @@ bool EndOfStep::project_positions(State& s, double h) {
         p_.locate_all(s, p_.end, s.t + h, p_.rows, p_.error.data());
     }
     if (!meets()) return false;
-    if (!p_.stage.quasi_static) project_rates(s, h);
-    return true;
+    return p_.stage.quasi_static || project_rates(s, h);
 }
 
 // Whether the held rows are satisfied at the positions where they were last located.
@@ -185,8 +188,9 @@ bool EndOfStep::meets() const {
     return true;
 }
 
-// The impulses of the projection are part of the step: those of drives do work, because their rates are not zero.
-void EndOfStep::project_rates(State& s, double h) {
+// The impulses of the projection are part of the step: those of drives do work, because their rates are not zero.  False if the held rows
+// cannot be satisfied.
+bool EndOfStep::project_rates(State& s, double h) {
     const std::vector<Link>& links = p_.system.links();
     p_.rates(p_.rows, p_.velocity.data(), p_.x.data());
     for (size_t c = 0; c < links.size(); c++) {
@@ -203,7 +207,12 @@ void EndOfStep::project_rates(State& s, double h) {
         }
     }
     work_ = p_.x;
+    left_.resize(work_.size());
+    const double allowed = std::max(largest_held(work_), unsolvable_rate * largest_speed()) + tiny;
     p_.system.solve(p_.x.data(), projection_tolerance * p_.speed, p_.velocity.data());
+    p_.rates(p_.rows, p_.velocity.data(), left_.data());
+    for (size_t k = 0; k < left_.size(); k++) left_[k] -= p_.target[k];
+    if (!(largest_held(left_) <= allowed)) return false;
     contact_.push_obstacles(s, h);
     for (size_t c = 0; c < links.size(); c++) {
         const bool driven = p_.is_joint(c) && p_.model.joints[at(p_.connections[c].index)].driven;
@@ -213,6 +222,23 @@ void EndOfStep::project_rates(State& s, double h) {
             if (driven) s.work_on(drives_obstacle(at(p_.connections[c].index)), -p_.x[k] * (p_.target[k] + work_[k] / 2));
         }
     }
+    return true;
+}
+
+// largest of these rates of held rows
+double EndOfStep::largest_held(const std::vector<double>& rate) const {
+    double largest = 0;
+    for (size_t c = 0; c < p_.connections.size(); c++) {
+        for (int i = 0; i < p_.system.links()[c].held; i++) largest = std::max(largest, std::fabs(rate[at(p_.start(c) + i)]));
+    }
+    return largest;
+}
+
+// largest speed at the start or the end of the step [m/s]
+double EndOfStep::largest_speed() const {
+    double speed = p_.speed;
+    for (const Twist& v : p_.velocity) speed = std::max({speed, norm(v.v), norm(v.w) * p_.model.length});
+    return speed;
 }
 
 bool EndOfStep::drives_obstacle(size_t joint) const {

@@ -20,7 +20,9 @@ private:
     void work_of_loads(State& s, double h);
     bool project_positions(State& s, double h);
     bool meets() const;
-    void project_rates(State& s, double h);
+    bool project_rates(State& s, double h);
+    double largest_held(const std::vector<double>& rate) const;
+    double largest_speed() const;
     void show_forces(State& s, double h);
     bool drives_obstacle(size_t joint) const;
     double inertial_energy(size_t body) const;
@@ -29,7 +31,7 @@ private:
     Problem& p_;
     ContactStep& contact_;
     std::vector<Twist> direction_;
-    std::vector<double> work_;
+    std::vector<double> work_, left_;
 };
 
 }  // namespace crumple::spatial

@@ -1,5 +1,8 @@
 """Where members that bend by default end a run early, the answer is that of rigid bars, and says so."""
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -48,3 +51,28 @@ def test_ranges_and_modes_of_such_an_answer_are_found(ended):
     result = with_modes(with_law_range(solve_analysis(analysis), analysis), analysis)
     assert result.law_range is not None
     assert result.modes is not None
+
+
+CRAMPED = """
+import resource
+import crumple
+from tests.support import random_frames
+resource.setrlimit(resource.RLIMIT_AS, (2 << 30, resource.RLIM_INFINITY))
+whole = random_frames.frame(1, 222)
+structure = whole.structure.model_copy(update={"obstacles": {}})
+short = whole.model_copy(update={"structure": structure, "duration": 5e-4})
+result = crumple.solve(short)
+assert result.status.ok
+assert result.warnings[0].startswith("Members are rigid bars here")
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits the address space")
+@pytest.mark.skipif("san.so" in os.environ.get("LD_PRELOAD", ""), reason="sanitizers need address space")
+def test_a_step_without_a_solution_brings_no_bars_into_reach():
+    """Rounding left 1e34 m/s of a step of short bars; with them 1175 pairs of bars touched, in all memory."""
+    root = Path(__file__).parents[3]
+    environment = {"PYTHONPATH": str(root), "OPENBLAS_NUM_THREADS": "1"}
+    script = [sys.executable, "-c", CRAMPED]
+    done = subprocess.run(script, cwd=root, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
