@@ -20,6 +20,7 @@ constexpr double projection_tolerance = 1e-12;
 // Rates of held rows after the projection, relative to the speed, above which it has no solution if they were smaller before.  At the smallest
 // steps of a chain of short elastic bars, rounding can leave nothing of the equations: velocities of 1e34 m/s were found.
 constexpr double unsolvable_rate = 1e-6;
+constexpr double tiny = 1e-300;  // [m/s]: rates of parts at rest can be among the smallest numbers, which have no digits
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -207,7 +208,7 @@ bool EndOfStep::project_rates(State& s, double h) {
     }
     work_ = p_.x;
     left_.resize(work_.size());
-    const double allowed = std::max(largest_held(work_), unsolvable_rate * largest_speed());
+    const double allowed = std::max(largest_held(work_), unsolvable_rate * largest_speed()) + tiny;
     p_.system.solve(p_.x.data(), projection_tolerance * p_.speed, p_.velocity.data());
     p_.rates(p_.rows, p_.velocity.data(), left_.data());
     for (size_t k = 0; k < left_.size(); k++) left_[k] -= p_.target[k];
