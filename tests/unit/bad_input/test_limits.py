@@ -54,7 +54,7 @@ def refused(text: str) -> list[tuple[str, str]]:
     return [(problem.where, problem.what) for problem in refusal.value.problems]
 
 
-MANY = "".join(f", s{i}: {{node: n{i}, fix: [y]}}" for i in range(1, 200))
+MANY = "".join(f", s{i}: {{node: n{i}, fix: [y]}}" for i in range(1, 100))
 UNKNOWN = (r"nodes: \[n(\d+), n(\d+)\]", r"nodes: [q\1, q\2]")
 
 
@@ -71,7 +71,7 @@ UNKNOWN = (r"nodes: \[n(\d+), n(\d+)\]", r"nodes: [q\1, q\2]")
     ids=["valid", "unknown nodes", "unknown sections", "unknown keys", "automatic", "supports"],
 )  # fmt: skip
 def test_the_work_of_a_check_is_linear_in_the_size(change) -> None:
-    small, large = (chain(number) for number in (200, 1000))
+    small, large = (chain(number) for number in (100, 500))
     calls(change(small))  # imports and what is remembered
     few, many = calls(change(small)), calls(change(large))
     # five times as much; a part that grows with the square, even one of a tenth, would make seven times
