@@ -134,7 +134,7 @@ def test_an_unusable_output_path_is_reported_before_solving(run_command, tmp_pat
 
 
 def test_an_interrupted_comparison_goes_on(run_command, tmp_path: Path, monkeypatch) -> None:
-    words = ("compare", coarse(tmp_path, 30), "--threads", 1, "--no-variants", "--out")
+    words = ("compare", coarse(tmp_path, 50), "--threads", 1, "--no-variants", "--out")
     parts, whole = tmp_path / "parts", tmp_path / "whole"
 
     def end(moment: Moment) -> str:

@@ -38,7 +38,11 @@ def curve_of(section, *, length_factor: float = 1.0, slowness: float = 7.0, to: 
     return characterise(model).curve
 
 
-@pytest.mark.parametrize("section", [TUBE, THIN, ROUND], ids=["rectangle", "square", "round"])
+@pytest.mark.parametrize(
+    "section",
+    [pytest.param(TUBE, marks=pytest.mark.slow), THIN, pytest.param(ROUND, marks=pytest.mark.slow)],
+    ids=["rectangle", "square", "round"],
+)
 def test_plateau_is_bredts_torque(section, record_figure):
     y, z = section.outline().T
     enclosed = 0.5 * abs(float(y @ np.roll(z, -1) - z @ np.roll(y, -1)))

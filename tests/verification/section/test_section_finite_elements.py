@@ -123,6 +123,7 @@ def test_against_elements(section, record_figure):
         )
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:Arrays of 2-dimensional vectors:DeprecationWarning")
 def test_closed_hat_welded_along_lines_and_bonded_all_over(record_figure):
     section = ClosedHat(60 * MM, 50 * MM, 1.5 * MM, 20 * MM)

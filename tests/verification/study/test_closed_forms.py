@@ -133,6 +133,7 @@ def test_the_optimum_of_a_quadratic(limit, x, y):
     assert answer.best["variables"]["y"] == pytest.approx(y, abs=0.01)
 
 
+@pytest.mark.slow
 def test_the_lightest_tube_is_that_of_a_fine_grid(tmp_path):
     loaded = LoadedStudy(Path("examples/studies/02_lightest_tube.yaml"))
     _, answer = run_study(loaded, tmp_path)
