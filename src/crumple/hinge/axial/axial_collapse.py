@@ -1,16 +1,17 @@
 """Axial slip of a hinge: force against shortening of a column that folds, and yield in tension.
 
 Unknown: the force P(u) over the shortening u, from a peak P_0, a mean P_m over the stroke S, and the half
-length H of a fold, which takes up d = 2 H S/l of a column of length l:
+length H of a fold, which takes up d = 2 H S/l of a column of length l.  Walls that turn by a small angle t
+shorten by u ~ H t^2 and have a lever arm H t: a mechanism of constant moments has P ~ 1/t ~ u^(-1/2), and the
+walls carry no more than their yield.  A fold takes the work P_m d whatever its first force, which gives u_0:
 
-    P = P_0 - (P_0 - P_1) u/u_1    0 <= u < u_1 = min(H, d P_m/P_0)
-    P = P_1                        u_1 <= u < d,      (P_0 + P_1) u_1/2 + P_1 (d - u_1) = P_m d
-    P = P_m                        d <= u < S;  from P_1 linearly over half of d - u_1, with d in its middle
+    P = P_0                    0 <= u < u_0 = x^2 d,     x = 1 - sqrt(1 - P_m/P_0)
+    P = P_0 sqrt(u_0/u)        u_0 <= u < d,             P_0 d (2 x - x^2) = P_m d
+    P = P_m                    d <= u < S;  from x P_0 linearly over half of d - u_0, with d in its middle
     stop at u = S
 
-A fold takes the same work P_m d whatever its first force, so the first one pays for the peak with a trough;
-P_1 >= P_m/2.  Further folds make the force swing about P_m; that is left out.  Without H the fall takes 5 %
-of the stroke and d is the stroke.  In tension the walls yield.  Limits: P_0 = P_m is a constant force.
+Further folds make the force swing about P_m; that is left out.  Without H the force falls linearly over 5 %
+of the stroke, and d is the stroke.  In tension the walls yield.  Limits: P_0 = P_m is a constant force.
 Derived here; not valid for a column shorter than its fold, or one that buckles sideways.
 """
 
@@ -29,10 +30,13 @@ from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
 from crumple.hinge.rate import HingeRate, rate_factor
 from crumple.hinge.stop import Stop
 from crumple.numeric.arrays import Floats
+from crumple.numeric.monotone_root import rising_root
 
 CHOSEN = Source("none", Trust.ASSUMED, "peak, mean and stroke are the user's choice")
 FIRST_FALL = 0.05
 """Share of the stroke over which the peak falls where no fold length is known."""
+PIECES = 8
+"""Straight pieces of P_0 sqrt(u_0/u)."""
 
 
 @dataclass(frozen=True)
@@ -47,8 +51,8 @@ class AxialCollapse:
         S [m]; inf: never closed, the mean is held.
     tension
         Force in tension [N].
-    fall, fold
-        u_1 and d [m].
+    points
+        Shortening [m] and force [N] at the corners of the curve, which is constant beyond the last.
     stop
         Stop of the closed folds, in shortening only; None without a stroke.
 
@@ -65,8 +69,7 @@ class AxialCollapse:
     mean: float
     stroke: float
     tension: float
-    fall: float
-    fold: float
+    points: tuple[tuple[float, ...], tuple[float, ...]]
     stop: Stop | None = None
     rate: HingeRate | None = None
     source: Source = CHOSEN
@@ -83,8 +86,7 @@ class AxialCollapse:
         stroke: float,
         *,
         tension: float | None = None,
-        fall: float | None = None,
-        fold: float = math.inf,
+        fold: float | None = None,
         closed_stiffness: float = 0.0,
     ) -> AxialCollapse:
         """Collapse with given forces.
@@ -95,8 +97,6 @@ class AxialCollapse:
             P_0 >= P_m [N] and S [m].
         tension
             Force in tension [N]; the peak without it.
-        fall
-            Half length of a fold [m]; 5 % of the stroke without it.
         fold
             Shortening of the first fold [m], the stroke at most.
         closed_stiffness
@@ -123,11 +123,11 @@ class AxialCollapse:
             problems.append(Problem(what, f"{mean:g} N", f"at most {peak:g} N", todo, "mean"))
         if problems:
             raise InputError(problems)
-        endless = not math.isfinite(stroke)
-        first = 0.0 if endless else FIRST_FALL * stroke if fall is None else fall
-        stop = Stop(stroke, closed_stiffness) if closed_stiffness > 0.0 and not endless else None
-        fold = min(fold, stroke)
-        return cls(peak, mean, stroke, numbers["tension"], min(first, fold * mean / peak), fold, stop)
+        stop = Stop(stroke, closed_stiffness) if closed_stiffness > 0.0 and math.isfinite(stroke) else None
+        curve = (
+            _linear(peak, mean, stroke) if fold is None else _folding(peak, mean, min(fold, stroke), stroke)
+        )
+        return cls(peak, mean, stroke, numbers["tension"], curve, stop)
 
     @classmethod
     def of(
@@ -146,8 +146,7 @@ class AxialCollapse:
             mean,
             law.effective_stroke * length,
             tension=tension,
-            fall=half,
-            fold=math.inf if half is None else 2.0 * half * law.effective_stroke,
+            fold=None if half is None else 2.0 * half * law.effective_stroke,
             closed_stiffness=closed_stiffness,
         )
         rate = None
@@ -155,24 +154,6 @@ class AxialCollapse:
             rate = HingeRate(law.rate.metal.D / law.rate.shape, law.rate.metal.q)
         basis = Validity(math.inf, law.validity.basis, law.validity.warnings, law.validity.uncertainty)
         return replace(made, rate=rate, source=law.source, validity=basis)
-
-    @property
-    def after(self) -> float:
-        """P_1 [N]."""
-        if self.fall == 0.0:
-            return self.mean
-        return (self.mean * self.fold - self.peak * self.fall / 2.0) / (self.fold - self.fall / 2.0)
-
-    @property
-    def points(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """Shortening [m] and force [N] at the corners of the curve, which is constant beyond the last."""
-        if self.fall == 0.0:
-            return (0.0,), (self.after,)
-        if self.fold >= self.stroke:
-            return (0.0, self.fall), (self.peak, self.after)
-        half = (self.fold - self.fall) / 4.0
-        at = (0.0, self.fall, self.fold - half, self.fold + half)
-        return at, (self.peak, self.after, self.after, self.mean)
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Shortening at which the slope of the force changes."""
@@ -188,3 +169,35 @@ class AxialCollapse:
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
         """Factor at a speed of slip [m/s]."""
         return rate_factor(self.rate, rotation_rate)
+
+
+_Curve = tuple[tuple[float, ...], tuple[float, ...]]
+
+
+def _linear(peak: float, mean: float, stroke: float) -> _Curve:
+    """A fall over `FIRST_FALL` of the stroke to the force that makes the mean over the stroke."""
+    if not math.isfinite(stroke):
+        return (0.0,), (mean,)
+    fall = min(FIRST_FALL, mean / peak) * stroke
+    return (0.0, fall), (peak, (mean * stroke - peak * fall / 2.0) / (stroke - fall / 2.0))
+
+
+def _folding(peak: float, mean: float, fold: float, stroke: float) -> _Curve:
+    """The curve of the module's docstring in straight pieces of the same work."""
+    if mean == peak:
+        return (0.0,), (peak,)
+    least = 1.0 - math.sqrt(1.0 - mean / peak)
+
+    def curve(x: float) -> _Curve:
+        """With the plateau x^2 of the fold; that of a single fold does not rise at its end."""
+        rise = 0.0 if fold >= stroke else (1.0 - x**2) * fold / 4.0
+        at = np.geomspace(x**2 * fold, fold - rise, PIECES + 1)
+        end = () if fold >= stroke else ((fold + rise, mean),)
+        force = peak * x * np.sqrt(fold / at)
+        return (0.0, *at.tolist(), *(u for u, _ in end)), (peak, *force.tolist(), *(p for _, p in end))
+
+    def excess(x: float) -> float:
+        at, force = curve(x)
+        return float(np.diff(at) @ (np.add(force[1:], force[:-1]) / 2.0)) / (mean * at[-1]) - 1.0
+
+    return curve(rising_root(excess, 0.5 * least, least, 1e-9))

@@ -28,10 +28,10 @@ from crumple.section import Axis, half_fold_length
 from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import FOLDS, automatic_of, folds_at_ends
 from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
-from crumple.structure.hinges.joint_reach import strikes_joint
 from crumple.structure.hinges.law_choice import component_text
 from crumple.structure.hinges.lengthening.braced import braced
 from crumple.structure.hinges.lengthening.held_runs import held_runs
+from crumple.structure.hinges.lengthening.struck import strikes_along
 from crumple.structure.hinges.runs.candidates import Candidate, Strike, candidates_on
 from crumple.structure.hinges.runs.straight_runs import straight_run
 from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
@@ -119,7 +119,7 @@ def _slip(structure: StructureParts, member: str) -> AxialSlip:
     Held runs mostly stretch, and yield.  A stored law of folding is used in any case.
     """
     law = FOLDING.get(structure.section_of(member).kind)
-    folds = _behind_struck_joint(structure, member) or member in braced(structure)
+    folds = _struck_along(structure, member) or member in braced(structure)
     if law is None or not folds or component_text(structure, member, "crush"):
         return AxialSlip()
     return AxialSlip(law=law)
@@ -131,13 +131,13 @@ def lengthens(structure: StructureParts, member: str) -> bool:
     unsaid = asked is not None and "axial" not in asked.model_fields_set
     if not unsaid:
         return False
-    if _behind_struck_joint(structure, member):
+    if _struck_along(structure, member):
         return True
     return member in held_runs(structure) or member in braced(structure)
 
 
-def _behind_struck_joint(structure: StructureParts, member: str) -> bool:
-    return bool(structure.members[member].elastic) and strikes_joint(structure)
+def _struck_along(structure: StructureParts, member: str) -> bool:
+    return bool(structure.members[member].elastic) and strikes_along(structure)
 
 
 def twists(structure: StructureParts, member: str) -> bool:
