@@ -1,4 +1,4 @@
-"""Members shorten where an obstacle meets a rigid joint or a free end with them behind it."""
+"""Members shorten where an obstacle meets a node in front of them."""
 
 from __future__ import annotations
 
@@ -81,8 +81,10 @@ def test_a_clamp_stands_on_a_wall_and_does_not_meet_it():
     assert not along(RAIL, ("masses:", "supports: {foot: {node: front, fix: all}}\nmasses:"))
 
 
-def test_a_mitred_corner_dents_instead():
-    assert not along(FRAME, *CORNERS)
+def test_a_mitred_corner_counts_for_a_plane_and_not_for_a_pole_which_dents_it():
+    assert along(FRAME, *CORNERS)
+    pole = "{type: cylinder, point: [-0.1 m, 0.2 m, 0 m], axis: [0, 0, 1], radius: 50 mm}"
+    assert not along(FRAME, *CORNERS, ("{type: plane, point: [-0.1 m, 0 m, 0 m], normal: [1, 0, 0]}", pole))
 
 
 def test_the_edge_of_a_plane_meets_only_what_is_nearest():

@@ -1,13 +1,10 @@
 """Structures whose members must shorten, because an obstacle stops or pushes them along their axes.
 
-A wall or a mitred corner that an obstacle strikes dents, which limits the force of the impact far below the
-squash load of the members behind it.  A rigid joint does not dent: it stops at once, with the masses that it
-carries, and members in line with the motion stop what lies behind them with their squash load.  Neither does
-the free end of a member that meets a face.  Members of fixed length would pass any force on in no time.
-
-A plane meets nodes *in front*: no member leads from there towards the plane by more than `FLAT`, and one
-leads away within `ALONG` of its normal.  Others, and the edge of a plane, strike the place of the members'
-axes that is nearest to them at the start.
+Members in line with an impact pass on their squash load; members of fixed length would pass any force on in
+no time, and stop what lies behind them.  A plane meets nodes *in front*: no member leads from there towards
+the plane by more than `FLAT`, and one leads away within `ALONG` of its normal.  Others, and the edge of a
+plane, strike the place of the members' axes that is nearest to them at the start.  Where that is a wall or a
+mitred corner it dents, which limits the force far below the squash load; a rigid joint does not.
 """
 
 from __future__ import annotations
@@ -30,7 +27,7 @@ falls on a corner are."""
 
 
 def strikes_along(structure: StructureParts) -> bool:
-    """Whether structure or obstacle moves at the start, and strikes a rigid joint or the end of a member."""
+    """Whether structure or obstacle moves at the start, and strikes members along their axes."""
     return structure.kept.once("strikes along", "", lambda: _strikes_along(structure))
 
 
@@ -38,7 +35,7 @@ def _strikes_along(structure: StructureParts) -> bool:
     moves = bool(structure.initial_velocity)
     struck = [one for one in structure.obstacles.values() if moves or any(one.velocity)]
     return any(
-        _meets_end(structure, one)
+        _meets_node(structure, one)
         if isinstance(one, PlaneObstacle) and one.edge is None
         else _nearest_is_joint(structure, one)
         for one in struck
@@ -58,17 +55,15 @@ def _nearest_is_joint(structure: StructureParts, obstacle: Obstacle) -> bool:
     )
 
 
-def _meets_end(structure: StructureParts, plane: PlaneObstacle) -> bool:
-    """Whether a plane meets a rigid joint or a free end in front, with a member behind it."""
+def _meets_node(structure: StructureParts, plane: PlaneObstacle) -> bool:
+    """Whether a plane meets a node in front, with a member behind it."""
     normal = np.asarray(plane.normal, float) / np.linalg.norm(plane.normal)
     names = set(_before(structure, plane))
     for node, members in structure.members_at.items():
         if names.isdisjoint(members) or structure.supports_at.get(node):
             continue
         away = [float(leaving(structure, name, node) @ normal) for name in members if name in names]
-        if min(away) < -math.sin(FLAT) or max(away) < math.cos(ALONG):
-            continue
-        if len(members) == 1 or any(joint_reach(structure, name, node) for name in members):
+        if min(away) >= -math.sin(FLAT) and max(away) >= math.cos(ALONG):
             return True
     return False
 
