@@ -91,11 +91,13 @@ def _judged(case: Case, model: str, shells: ShellResults) -> Verdict:
     except InputError as error:
         measures, reason = Measures(status="refused"), error.problems[0].what
     # the shells' names: a model with other joints or hinges is measured at the same places
+    own = case.analysis()
+    structure = with_elastic_members(own.structure, own.multibody, own.duration)
     reference, *runs = (
-        with_joined_zones(one, case.analysis().structure, shells.reference)
+        with_joined_zones(one, structure, shells.reference)
         for one in (shells.reference, *(one for pair in shells.pairs for one in pair))
     )
-    joined = with_joined_zones(measures, case.analysis().structure, shells.reference)
+    joined = with_joined_zones(measures, structure, shells.reference)
     figures = figures_of(joined, reference, tuple(zip(runs[::2], runs[1::2], strict=True)))
     return Verdict(case, model, measures, shells, figures, _order(measures, shells.reference), reason)
 
