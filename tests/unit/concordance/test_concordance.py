@@ -109,7 +109,7 @@ def test_ranking_counts_the_pairs_that_shells_tell_apart() -> None:
 
 
 def test_the_suite_is_complete_and_its_inputs_are_sound() -> None:
-    assert len(STRUCTURES) == 24
+    assert len(STRUCTURES) == 34
     assert len(LAYOUTS) == 24
     assert {half for half, _ in FAMILIES.values()} == {"tuned-on", "judged-by"}
     for case in CASES.values():
