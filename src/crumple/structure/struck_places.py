@@ -117,12 +117,12 @@ def _path(structure: StructureParts, obstacle: Obstacle) -> Floats | None:
         (np.asarray(field.translation, float) for field in structure.initial_velocity), np.zeros(3)
     )
     if not velocity.any():
-        velocity = _first_displacement(obstacle)
+        velocity = first_displacement(obstacle)
     speed = float(np.linalg.norm(velocity))
     return velocity / speed if speed > 0.0 else None
 
 
-def _first_displacement(obstacle: Obstacle) -> Floats:
+def first_displacement(obstacle: Obstacle) -> Floats:
     """Prescribed displacement of an obstacle once there is any [m], (3,)."""
     functions = (obstacle.motion.x, obstacle.motion.y, obstacle.motion.z)
     moved = np.column_stack([np.zeros(len(TIMES)) if f is None else f(TIMES) for f in functions])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
@@ -157,13 +156,6 @@ def motion_of(fields: Sequence[InitialVelocity], point: Floats) -> tuple[Floats,
     """Velocity [m/s] at a point and angular velocity [rad/s] of the sum of several fields, (3,) each."""
     velocity, rate = np.zeros(3), np.zeros(3)
     for field in fields:
-        turn = _rate_of(field)
-        velocity += np.asarray(field.translation, float) + cross(turn, point - np.asarray(field.about, float))
-        rate += turn
+        velocity += field.at(point)
+        rate += field.rate
     return velocity, rate
-
-
-def _rate_of(field: InitialVelocity) -> Floats:
-    if field.axis is None:
-        return np.zeros(3)
-    return np.asarray(field.axis, float) * (field.rotation / math.hypot(*field.axis))

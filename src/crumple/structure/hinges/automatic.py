@@ -28,10 +28,11 @@ from crumple.section import Axis, half_fold_length
 from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import FOLDS, automatic_of, folds_at_ends
 from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
+from crumple.structure.hinges.joint_reach import strikes_joint
 from crumple.structure.hinges.law_choice import component_text
 from crumple.structure.hinges.lengthening.braced import braced
 from crumple.structure.hinges.lengthening.held_runs import held_runs
-from crumple.structure.hinges.lengthening.struck import strikes_along
+from crumple.structure.hinges.lengthening.stopped import stopped
 from crumple.structure.hinges.runs.candidates import Candidate, Strike, candidates_on
 from crumple.structure.hinges.runs.straight_runs import straight_run
 from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
@@ -137,7 +138,8 @@ def lengthens(structure: StructureParts, member: str) -> bool:
 
 
 def _struck_along(structure: StructureParts, member: str) -> bool:
-    return bool(structure.members[member].elastic) and strikes_along(structure)
+    """Whether an impact presses the members together along their axes."""
+    return bool(structure.members[member].elastic) and (strikes_joint(structure) or stopped(structure))
 
 
 def twists(structure: StructureParts, member: str) -> bool:

@@ -1,9 +1,14 @@
-"""Rigid joints: how far they reach along a member, to where the walls of the others end.
+"""Rigid joints: how far they reach along a member, to where the walls of the others end; which are struck.
 
 Members whose ends meet at a node and share no mitre are joined by what lies between them: a weld to the
 faces of the others, a gusset, a cast node.  Their folds form outside of it.  With unit vectors x and y from
 the node into two members at an angle a, and half depths d and e in their common plane, the inner edges meet
 at (e + d cos a) / sin a along the first.
+
+A wall or a mitred corner that an obstacle strikes dents, which limits the force of the impact far below the
+squash load of the members behind it.  A rigid joint does not dent: it stops at once, with the masses that it
+carries, and members in line with the motion stop what lies behind them with their squash load.  Members of
+fixed length would pass any force on in no time.
 """
 
 from __future__ import annotations
@@ -15,7 +20,9 @@ import numpy as np
 from crumple.numeric.arrays import Floats
 from crumple.structure.geometry import NARROWEST
 from crumple.structure.hinges.corners import corners, is_whole, leaving
+from crumple.structure.keys.obstacles import Obstacle
 from crumple.structure.parts import StructureParts
+from crumple.structure.struck_places import PLACES, axis_gaps
 
 LARGEST_SHARE = 0.35
 """Share of a member that a joint takes at most."""
@@ -50,6 +57,30 @@ def joint_reach(structure: StructureParts, member: str, node: str) -> float:
         theirs = _half_depth(structure, other, (own - cosine * along) / sine)
         reach = max(reach, (theirs + cosine * mine) / sine)
     return min(reach, LARGEST_SHARE * structure.frame_of(member).length)
+
+
+def strikes_joint(structure: StructureParts) -> bool:
+    """Whether structure or obstacle moves at the start, and the members' nearest place is a rigid joint."""
+    return structure.kept.once("strikes joint", "", lambda: _strikes_joint(structure))
+
+
+def _strikes_joint(structure: StructureParts) -> bool:
+    moves = bool(structure.initial_velocity)
+    struck = [one for one in structure.obstacles.values() if moves or any(one.velocity)]
+    return any(_nearest_is_joint(structure, one) for one in struck)
+
+
+def _nearest_is_joint(structure: StructureParts, obstacle: Obstacle) -> bool:
+    """Whether the nearest place of the members' axes to an obstacle, at the start, is a rigid joint."""
+    names = [name for name in obstacle.members or structure.members if structure.has_line(name)]
+    if not names:
+        return False
+    gaps = axis_gaps(structure, obstacle, names)
+    which, place = np.unravel_index(np.argmin(gaps), gaps.shape)
+    if PLACES[place] not in (0.0, 1.0):
+        return False
+    member = names[which]
+    return joint_reach(structure, member, structure.members[member].nodes[int(PLACES[place])]) > 0.0
 
 
 def _half_depth(structure: StructureParts, member: str, direction: Floats) -> float:

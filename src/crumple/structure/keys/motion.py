@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Literal
 
+import numpy as np
 from pydantic import BeforeValidator, model_validator
 
 from crumple.function import TimeFunction
+from crumple.numeric.arrays import Floats
+from crumple.numeric.rotation import cross
 from crumple.registry.quantity import AngularVelocity, Direction, Position, Velocity
 from crumple.registry.refusal import refuse
 from crumple.structure.keys.time_function import AngleFunction, LengthFunction
@@ -100,6 +104,18 @@ class InitialVelocity(Spec):
     """Only these nodes; without `nodes` and `members` the whole structure."""
     members: tuple[Name, ...] | None = None
     """Only these members."""
+
+    @property
+    def rate(self) -> Floats:
+        """Angular velocity [rad/s], (3,)."""
+        if self.axis is None:
+            return np.zeros(3)
+        return np.asarray(self.axis, float) * (self.rotation / math.hypot(*self.axis))
+
+    def at(self, point: Floats) -> Floats:
+        """Velocity at a point [m/s], (3,)."""
+        arm = point - np.asarray(self.about, float)
+        return np.asarray(self.translation, float) + cross(self.rate, arm)
 
     @model_validator(mode="after")
     def _complete(self) -> InitialVelocity:

@@ -10,8 +10,7 @@ from crumple.analysis import loads
 from crumple.hinge import Freedom
 from crumple.section import fold_distance
 from crumple.structure import hinge_places, plastic_hinges, with_elastic_members
-from crumple.structure.hinges.joint_reach import LARGEST_SHARE, joint_reach
-from crumple.structure.hinges.lengthening.struck import strikes_along
+from crumple.structure.hinges.joint_reach import LARGEST_SHARE, joint_reach, strikes_joint
 
 T_FRAME = """crumple: 1
 materials:
@@ -93,13 +92,13 @@ def struck(at, more=RISES, hinges="auto"):
 
 
 def test_a_joint_is_struck_where_it_is_nearest_to_what_moves():
-    assert strikes_along(struck("[0 m, 0 m, -0.1 m]").structure)
+    assert strikes_joint(struck("[0 m, 0 m, -0.1 m]").structure)
     # the wall of an arm, and the free end of one
-    assert not strikes_along(struck("[0.16 m, 0 m, -0.1 m]").structure)
-    assert not strikes_along(struck("[0.4 m, 0 m, -0.1 m]").structure)
+    assert not strikes_joint(struck("[0.16 m, 0 m, -0.1 m]").structure)
+    assert not strikes_joint(struck("[0.4 m, 0 m, -0.1 m]").structure)
     # nothing moves; it touches the stem alone
-    assert not strikes_along(struck("[0 m, 0 m, -0.1 m]", more="friction: 0.1").structure)
-    assert strikes_along(struck("[0 m, 0 m, -0.1 m]", more=f"{RISES}, members: [stem]").structure)
+    assert not strikes_joint(struck("[0 m, 0 m, -0.1 m]", more="friction: 0.1").structure)
+    assert strikes_joint(struck("[0 m, 0 m, -0.1 m]", more=f"{RISES}, members: [stem]").structure)
 
 
 @pytest.mark.parametrize(

@@ -19,6 +19,7 @@ drive is free: each of these can only add motions.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -64,28 +65,62 @@ def passes_on(structure: StructureParts, member: str, node: str) -> bool:
     return all(joint.type in KEEPS_LENGTH for joint in joints)
 
 
-def _motions(structure: StructureParts) -> dict[str, Floats]:
+Row = tuple[Floats, list[int]]
+"""Coefficients of displacements, and which ones."""
+
+
+@dataclass(frozen=True)
+class Framework:
+    """Equations R q = 0 of the displacements q that keep all lengths.
+
+    Attributes
+    ----------
+    free
+        Orthonormal directions in which a node can move, by node, (directions, 3).
+    starts
+        First displacement of a node.
+    count
+        Number of displacements.
+    rows
+        R, bar by bar.
+    """
+
+    free: Mapping[str, Floats]
+    starts: Mapping[str, int]
+    count: int
+    rows: list[Row]
+
+    def places(self, node: str) -> list[int]:
+        """Displacements of a node."""
+        return [self.starts[node] + i for i in range(len(self.free[node]))]
+
+
+def framework(structure: StructureParts) -> Framework:
+    """The framework of the members' nodes."""
     members = [name for name in structure.members if structure.has_line(name)]
     nodes = list(dict.fromkeys(node for name in members for node in structure.members[name].nodes))
     free = {node: _free_directions(structure, node) for node in nodes}
     starts = dict(zip(nodes, np.cumsum([0, *(len(one) for one in free.values())]).tolist(), strict=False))
-    count = sum(len(one) for one in free.values())
-    rows: list[tuple[Floats, list[int]]] = []
+    found = Framework(free, starts, sum(len(one) for one in free.values()), [])
     for name in members:
-        if not _keeps_length(structure, name):
-            continue
-        first, second = structure.members[name].nodes
-        along = structure.frame_of(name).x
-        places = [starts[node] + i for node in (first, second) for i in range(len(free[node]))]
-        rows.append((np.concatenate([-free[first] @ along, free[second] @ along]), places))
-    found = np.random.default_rng(0).standard_normal((count, MOTIONS))
-    for _ in range(3 if count else 0):
-        found = BED * _solved(rows, found)
-    return {node: one.T @ found[starts[node] : starts[node] + len(one)] for node, one in free.items()}
+        if _keeps_length(structure, name):
+            first, second = structure.members[name].nodes
+            along = structure.frame_of(name).x
+            row = np.concatenate([-free[first] @ along, free[second] @ along])
+            found.rows.append((row, [*found.places(first), *found.places(second)]))
+    return found
 
 
-def _solved(rows: list[tuple[Floats, list[int]]], right: Floats) -> Floats:
-    """Displacements of bars on a bed under forces."""
+def _motions(structure: StructureParts) -> dict[str, Floats]:
+    pinned = framework(structure)
+    found = np.random.default_rng(0).standard_normal((pinned.count, MOTIONS))
+    for _ in range(3 if pinned.count else 0):
+        found = BED * on_a_bed(pinned.rows, found)
+    return {node: one.T @ found[pinned.places(node)] for node, one in pinned.free.items()}
+
+
+def on_a_bed(rows: list[Row], right: Floats) -> Floats:
+    """Displacements of bars on a bed of stiffness `BED` under forces, (displacements, ...)."""
     count = len(right)
     if count <= DENSE:
         stiffness = BED * np.eye(count)

@@ -15,6 +15,7 @@ from crumple.section import Axis, fold_distance, half_fold_length
 from crumple.structure.hinges.corners import corners
 from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.lengthening.braced import braced
+from crumple.structure.hinges.lengthening.stopped import stopped
 from crumple.structure.hinges.runs.ends import carries_moment, passes_moment
 from crumple.structure.hinges.runs.straight_runs import StraightRun
 from crumple.structure.parts import StructureParts
@@ -114,6 +115,9 @@ def _candidates(
     number = 1 if spacing is None else max(1, math.ceil((last - first) / spacing * (1.0 - 1e-9)))
     # a strut buckles with a hinge between those of its ends, which an obstacle places where it strikes
     number = max(2, number) if not struck and not braced(structure).isdisjoint(run.stretches) else number
+    # what is pressed between free ends folds somewhere
+    pressed_free = not first_held and not last_held and stopped(structure)
+    number = max(2, number) if pressed_free and structure.members[names[0]].elastic else number
     between = np.linspace(first, last, number + 1)[1:-1].tolist()
     if first_held:
         yield replace(_candidate(run, run.nodes[0], first), fold=_beside(structure, run.nodes[0]))

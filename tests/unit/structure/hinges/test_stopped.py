@@ -1,0 +1,133 @@
+"""Structures that an impact stops if their members keep their lengths: their members shorten."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from crumple.analysis import loads, solve
+from crumple.structure import hinge_places, with_elastic_members
+from crumple.structure.hinges.lengthening.stopped import LOST, lost_share
+
+FRAME = """crumple: 1
+materials:
+  steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 300 MPa}
+sections:
+  rail: {type: square_tube, side: 40 mm, thickness: 2 mm}
+  beam: {type: rectangular_tube, width: 40 mm, depth: 60 mm, thickness: 2.5 mm}
+nodes:
+  left_end: [0 m, 0.3 m, 0 m]
+  left: [0 m, 0.2 m, 0 m]
+  right: [0 m, -0.2 m, 0 m]
+  left_rear: [0.4 m, 0.2 m, 0 m]
+  right_rear: [0.4 m, -0.2 m, 0 m]
+members:
+  tip: {nodes: [left_end, left], section: beam, material: steel}
+  front: {nodes: [left, right], section: beam, material: steel}
+  left_rail: {nodes: [left, left_rear], section: rail, material: steel}
+  right_rail: {nodes: [right, right_rear], section: rail, material: steel}
+hinges: auto
+masses: {car: {node: left_rear, mass: 100 kg}}
+obstacles:
+  wall: {type: plane, point: [-0.1 m, 0 m, 0 m], normal: [1, 0, 0]}
+initial_velocity: [{translation: [-5 m/s, 0 m/s, 0 m/s]}]
+analysis: {duration: 1 ms}
+"""
+RAIL = """crumple: 1
+materials:
+  steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 300 MPa}
+sections: {rail: {type: square_tube, side: 40 mm, thickness: 2 mm}}
+nodes: {front: [0 m, 0 m, 0 m], rear: [0.4 m, 0 m, 0 m]}
+members: {rail: {nodes: [front, rear], section: rail, material: steel}}
+hinges: auto
+masses: {car: {node: rear, mass: 100 kg}}
+obstacles:
+  wall: {type: plane, point: [-0.1 m, 0 m, 0 m], normal: [1, 0, 0]}
+initial_velocity: [{translation: [-5 m/s, 0 m/s, 0 m/s]}]
+analysis: {duration: 40 ms, multibody: {mechanism_check: off}}
+outputs: {nodes: [rear]}
+"""
+WALL = "normal: [1, 0, 0]"
+AT = ("point: [-0.1 m, 0 m, 0 m]", "point: [0 m, 0 m, -0.1 m]")
+CORNERS = [
+    ("  left_end: [0 m, 0.3 m, 0 m]\n", ""),
+    ("  tip: {nodes: [left_end, left], section: beam, material: steel}\n", ""),
+    ("section: beam", "section: rail"),
+]
+"""A front beam that ends at its rails, of the same tube."""
+
+
+def lost(text, *changes):
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    return lost_share(loads(text).structure)
+
+
+def test_what_a_wall_stops_along_its_members_is_lost_but_for_what_can_bend():
+    # the tip beside the rail turns on
+    assert lost(FRAME) == pytest.approx(1.0, abs=0.02)
+    assert lost(FRAME, *CORNERS) == pytest.approx(1.0, abs=1e-6)
+
+
+def test_a_mass_that_is_met_itself_loses_its_speed_towards_the_wall():
+    # a rail that falls flat on a floor
+    across = lost(RAIL, ("[-5 m/s, 0 m/s, 0 m/s]", "[0 m/s, 0 m/s, -5 m/s]"), (WALL, "normal: [0, 0, 1]"), AT)
+    assert across == pytest.approx(1.0)
+    free = lost(RAIL, ("node: rear", "node: front"), (WALL, "normal: [1, 1, 0]"))
+    # a mass that meets a frictionless wall at 45 degrees keeps half of its energy
+    assert free == pytest.approx(0.5, abs=0.01)
+
+
+def test_a_tilted_wall_meets_the_rails_behind_the_tips_of_their_beam():
+    assert lost(FRAME, (WALL, "normal: [1, -0.2, 0]")) > LOST
+    # a wall along the way meets nothing
+    assert lost(FRAME, AT, (WALL, "normal: [0, 0, 1]")) < 1e-9
+
+
+def test_a_clamp_stands_on_a_wall_and_does_not_meet_it():
+    assert lost(RAIL, ("masses:", "supports: {foot: {node: front, fix: all}}\nmasses:")) == pytest.approx(1.0)
+    swung = ("[-5 m/s, 0 m/s, 0 m/s]", "[0 m/s, -5 m/s, 0 m/s]")
+    held = ("masses:", "supports: {foot: {node: front, fix: all}}\nmasses:")
+    # what moves with the clamp is lost: half of the rail
+    assert lost(RAIL, swung, held) < 0.01
+
+
+RAMS = [
+    "sphere, point: [-0.11 m, 0 m, 0 m], radius: 100 mm, mass: 50 kg, velocity: [5 m/s, 0 m/s, 0 m/s]",
+    "cylinder, point: [-0.11 m, 0 m, 0 m], axis: [0, 1, 0], radius: 0.1 m, velocity: [5 m/s, 0 m/s, 0 m/s]",
+    f"plane, point: [-9 mm, 0.1 m, 0 m], {WALL}, edge: [0, 1, 0], velocity: [5 m/s, 0 m/s, 0 m/s]",
+    f"plane, point: [-9 mm, 0 m, 0 m], {WALL}, "
+    "motion: {x: {step: {x0: 0 ms, h0: 0 mm, x1: 9 ms, h1: 9 mm}}}",
+]
+
+
+@pytest.mark.parametrize("ram", RAMS)
+def test_obstacles_of_all_kinds_push_a_column_along_its_axis(ram):
+    wall = "{type: plane, point: [-0.1 m, 0 m, 0 m], normal: [1, 0, 0]}"
+    rest = ("initial_velocity: [{translation: [-5 m/s, 0 m/s, 0 m/s]}]\n", "")
+    clamped = ("masses: {car: {node: rear, mass: 100 kg}}", "supports: {foot: {node: rear, fix: all}}")
+    assert lost(RAIL, (wall, f"{{type: {ram}}}"), rest, clamped) == pytest.approx(1.0, abs=1e-3)
+    # a free rail is carried along
+    light = ("mass: 100 kg", "mass: 0.1 kg")
+    assert lost(RAIL, (wall, f"{{type: {ram}}}"), rest, light) < 0.06
+
+
+def test_a_motion_that_changes_a_length_is_lost_at_the_start():
+    thrown = ("{translation:", "{nodes: [rear], translation:")
+    clamped = ("obstacles:", "supports: {foot: {node: front, fix: all}}\nobstacles:")
+    assert lost(RAIL, thrown, clamped) == pytest.approx(1.0)
+    assert lost(RAIL, ("initial_velocity: [{translation: [-5 m/s, 0 m/s, 0 m/s]}]\n", "")) == 0.0
+
+
+@pytest.mark.parametrize("held", [True, False])
+def test_members_of_a_stopped_structure_shorten(held):
+    support = ("obstacles:", "supports: {guide: {node: rear, fix: [y, z, rx, ry, rz]}}\nobstacles:")
+    read = loads(RAIL.replace(*support) if held else RAIL)
+    whole = with_elastic_members(read.structure, read.multibody, read.duration)
+    (place,) = hinge_places(whole)
+    # between free ends it is in the middle
+    assert place.station == pytest.approx(0.2) or held
+    assert place.keys.axial.law == "superfolding"
+    result = solve(read)
+    assert 0.02 < float(np.abs(result["node.rear.displacement.x"]).max()) - 0.1 < 0.06
