@@ -322,13 +322,13 @@ bool Contacts::limits_hold(const double* impulse) const {
     return change <= settled_change_ * largest;
 }
 
-bool Contacts::settle(const double* impulse, const double* rate0, const double* rate) {
+bool Contacts::settle(const double* impulse, const double* rate0, const double* rate, bool any_limits) {
     double work = 0, scale = 0;
     for (size_t k = 0; k < rows() * active_.size(); k++) {
         work += impulse[k] * (rate0[k] + rate[k]) / 2;
         scale += std::fabs(impulse[k]) * (std::fabs(rate0[k]) + std::fabs(rate[k]));
     }
-    const bool hold = limits_hold(impulse);
+    const bool hold = any_limits || limits_hold(impulse);
     for (size_t i = 0; i < active_.size(); i++) active_[i].normal_impulse = -impulse[rows() * i];
     if (work < -rounding * scale && restitution_share_ > 0) {
         restitution_share_ = restitution_share_ < least_bounce ? 0 : less_bounce * restitution_share_;

@@ -117,6 +117,8 @@ bool NewtonSolver::solve_laws() {
     return narrow_ramps();
 }
 
+bool NewtonSolver::took_turns() const { return followed_ > most_followed; }
+
 int NewtonSolver::most_iterations() const { return newton_limit + newton_limit_per_hinge * static_cast<int>(p_.frozen.size()); }
 
 // A locked hinge is almost infinitely stiff, so a line search with the true ramps releases hinges one at a time.  The ramps are

@@ -29,6 +29,8 @@ public:
     bool solve();
     // a single Newton step; false if its result is not finite
     bool solve_linear();
+    // whether contacts took the load in turns in the last pass: its friction is then that of normal impulses found before
+    bool took_turns() const;
     std::int64_t solves() const { return solves_; }
     // body at the link with the largest imbalance in the last iteration; -1: the ground
     int stuck_body() const { return stuck_body_; }

@@ -26,11 +26,11 @@ void ContactStep::allow_closing(double h) {
     }
 }
 
-bool ContactStep::settle() {
+bool ContactStep::settle(bool any_limits) {
     if (p_.contacts.size() == 0) return true;
     const size_t first = p_.contact_rows();
     for (size_t i = 0; i < p_.contacts.size(); i++) p_.w[first + p_.contacts.rows() * i] += allowed_[i];
-    return p_.contacts.settle(&p_.impulse[first], &p_.rate0[first], &p_.w[first]);
+    return p_.contacts.settle(&p_.impulse[first], &p_.rate0[first], &p_.w[first], any_limits);
 }
 
 void ContactStep::commit(State& s, double h) {

@@ -15,7 +15,7 @@ public:
     // shifts the normal rates by the allowed rates
     void allow_closing(double h);
     // after a pass: restores the true rates; returns whether friction has used the normal impulses that the pass found
-    bool settle();
+    bool settle(bool any_limits);
     void commit(State& s, double h);
     // Adds the impulses on obstacles from the projection of the rates, in which contacts keep their tangents.
     void push_obstacles(State& s, double h);

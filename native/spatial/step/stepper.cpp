@@ -10,6 +10,8 @@ namespace {
 // Passes over the frozen quantities of a step: the second evaluates them at the middle of the motion found by the first, which makes
 // the step second-order accurate.  More follow only until friction agrees with the normal impulses of the contacts.
 constexpr int passes = 2, most_passes = 20;
+// Passes in which contacts take the load in turns, after which their friction may disagree: it would in all that follow.
+constexpr int most_turns = 3;
 // Length of a step that is used to evaluate the present state only [s].
 constexpr double instant = 1e-12;
 
@@ -68,6 +70,7 @@ void Stepper::begin(State& s, double h, const std::vector<Twist>* guess, bool di
     p_.rates(p_.rows, s.velocity.data(), p_.rate0.data());
     find_redundant(s.pose);
     turned_back_.assign(p_.frozen.size(), false);
+    turns_ = 0;
     // a guess is the result of a step that has just been solved
     newton_.begin(guess != nullptr, !discarded);
 }
@@ -207,7 +210,8 @@ bool Stepper::solve() {
 
 // After a pass: whether contacts and hinges need no further one.
 bool Stepper::settle() {
-    const bool rubs = !contact_.settle();
+    if (newton_.took_turns()) turns_++;
+    const bool rubs = !contact_.settle(turns_ >= most_turns);
     const bool turned = turned_back();
     return records_.settled(p_, !turned && !rubs);
 }

@@ -98,6 +98,7 @@ private:
     VibrationFilter filter_;
     std::vector<Twist> direction_, momentum_, guess_;
     std::vector<char> turned_back_;  // per hinge: whether it reversed in a pass over the present step
+    int turns_ = 0;                  // passes over the present step in which contacts took the load in turns
     int redundant_ = 0;
     std::vector<int> redundant_rows_;
 };
