@@ -36,6 +36,51 @@ obstacles:
 analysis:
   duration: 25 ms
 """
+PORTAL = """crumple: 1
+materials:
+  steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 300 MPa}
+sections:
+  post: {type: square_tube, side: 40 mm, thickness: 2 mm}
+  beam: {type: rectangular_tube, width: 40 mm, depth: 60 mm, thickness: 2.5 mm}
+nodes:
+  left: [0 m, -0.3 m, 0 m]
+  right: [0 m, 0.3 m, 0 m]
+  left_top: [0 m, -0.3 m, 0.5 m]
+  middle: [0 m, 0 m, 0.5 m]
+  right_top: [0 m, 0.3 m, 0.5 m]
+members:
+  left_post: {nodes: [left, left_top], section: post, material: steel}
+  right_post: {nodes: [right, right_top], section: post, material: steel}
+  left_beam: {nodes: [left_top, middle], section: beam, material: steel}
+  right_beam: {nodes: [middle, right_top], section: beam, material: steel}
+hinges: auto
+supports: {left: {node: left, fix: all}, right: {node: right, fix: all}}
+obstacles:
+  plate:
+    type: plane
+    point: [0 m, 0 m, 0.535 m]
+    normal: [0, 0, -1]
+    mass: 200 kg
+    velocity: [0 m/s, 0 m/s, -5 m/s]
+    friction: 0.2
+analysis:
+  duration: 2 ms
+"""
+
+
+def solved_once(text):
+    analysis = loads(text)
+    bends = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    run = Run(analysis.duration, analysis.duration)
+    return solver.SpatialSolver(bends, run, placed_hinges(bends)).run(1e-3, None, ends_only=True)
+
+
+def test_contacts_that_take_turns_do_not_take_all_passes_of_a_step():
+    """A plate that lies flat on a beam: before, 176 linear solves a step, since friction never agreed."""
+    solved = solved_once(PORTAL)
+    assert solved.outcome is Outcome.COMPLETE
+    assert solved.solves < 80 * solved.steps
+    assert solved.residual < 1e-6
 
 
 def test_corners_of_a_beam_that_lies_flat_on_a_wall_stay_rigid_contacts(monkeypatch):
@@ -48,9 +93,6 @@ def test_corners_of_a_beam_that_lies_flat_on_a_wall_stay_rigid_contacts(monkeypa
         pytest.fail("the run could not go on with rigid contacts")
 
     monkeypatch.setattr(solver, "with_crushing", refuse)
-    analysis = loads(RAILS)
-    bends = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
-    run = Run(analysis.duration, analysis.duration)
-    solved = solver.SpatialSolver(bends, run, placed_hinges(bends)).run(1e-3, None, ends_only=True)
+    solved = solved_once(RAILS)
     assert solved.outcome is Outcome.COMPLETE
     assert solved.residual < 1e-6
