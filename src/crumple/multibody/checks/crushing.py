@@ -8,7 +8,7 @@ which is a mean between outputs, on members that lie along it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from crumple.numeric.rotation import turned
 from crumple.result import Caution
 from crumple.section import plastic_interaction
 from crumple.structure import Structure
+from crumple.structure.hinges.asked import automatic_of
 
 ALONG = np.cos(np.radians(30.0))
 """Cosine of the angle between a blow and a member's axis below which it counts as bending, not crushing."""
@@ -56,11 +57,21 @@ def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> 
             f"{named('Member', list(beyond))} {'carries' if one else 'carry'} up to "
             f"{max(beyond.values()) / 1e3:.4g} kN along {'its axis' if one else 'their axes'}, and "
             f"{peak / 1e3:.4g} kN fold the walls ({what}), but nothing in {it} can shorten: axial folding "
-            f"is not modelled. Give {it} hinges with 'axial: {{law: {law or 'superfolding'}}}', or solve "
-            "with shells."
+            f"is not modelled. Give {it} hinges with 'axial: {{law: {law or 'superfolding'}}}', "
+            f"{_bending(structure, beyond)}or solve with shells."
         )
         for member, force in beyond.items():
             yield Caution("axial_compression", force, peak, "N", f"member {member}", text)
+
+
+def _bending(structure: Structure, members: Iterable[str]) -> str:
+    """What else helps rigid members with automatic hinges."""
+    if any(structure.members[name].elastic or automatic_of(structure, name) is None for name in members):
+        return ""
+    return (
+        "or 'members: elastic' in analysis.multibody, with which automatic hinges shorten where an impact "
+        "would stop the structure, "
+    )
 
 
 def _at_hinges(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:

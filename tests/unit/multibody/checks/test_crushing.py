@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from tests.support.structures import STEEL
 
-from crumple.analysis import load, solve
+from crumple.analysis import load, loads, solve
 from crumple.hinge import build_axial_law
 from crumple.multibody import Run, solve_multibody
 from crumple.structure import MultibodySettings, Outputs, SectionForce, Structure
@@ -66,3 +66,12 @@ def test_a_tube_thrown_at_a_wall_along_its_axis_is_named():
     carried = float(text.split("carries up to ")[1].split(" kN")[0])
     assert carried == pytest.approx(200.0 * 10.0 / 5e-5 / 1e3, rel=0.01)
     assert "axial folding is not modelled" in text
+
+
+@pytest.mark.parametrize(("members", "warned"), [("rigid", True), ("elastic", False)])
+def test_rigid_members_with_automatic_hinges_are_told_that_elastic_ones_shorten(members, warned):
+    settings = f"hinges: auto\nanalysis:\n  multibody: {{members: {members}, mechanism_check: off}}"
+    result = solve(loads(CRUSH.read_text("utf-8").replace("analysis:", settings)))
+    texts = [text for text in result.warnings if "along its axis" in text]
+    assert len(texts) == warned
+    assert all("or 'members: elastic' in analysis.multibody" in text for text in texts)
