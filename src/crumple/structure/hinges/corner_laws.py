@@ -14,6 +14,7 @@ from crumple.structure.hinges.asked import automatic_of
 from crumple.structure.hinges.corner.across import bisector_law, is_turned
 from crumple.structure.hinges.corners import Corner, corners
 from crumple.structure.hinges.law_choice import automatic_law, stored_text, with_type
+from crumple.structure.hinges.lengthening.stopped import presses
 from crumple.structure.keys.hinge_axes import AxialSlip, AxisLaws
 from crumple.structure.keys.law import LawKeys, LawReference
 from crumple.structure.keys.member import Hinge
@@ -138,6 +139,8 @@ def corner_hinges(structure: StructureParts, member: str, keys: Mapping[str, Any
             axes = (corner.axis, *(axis for axis in keys["axes"] if axis != corner.axis))
             own = {**keys, "axes": axes, "law": None, "laws": AxisLaws(**{**rest, corner.axis: law})}
             own |= {"coupling": keys["coupling"] or "ellipsoid"} if turned else {}
+            if turned and presses(structure) and _shortening(structure, corner, keys, law):
+                own["axial"] = keys["axial"] or AxialSlip()
         station = 0.0 if nodes[0] == node else length
         found.append(Hinge.model_construct(name=corner_name(node), at=station, **own))
     return found

@@ -25,6 +25,7 @@ from crumple.hinge import (
 )
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, half_fold_length
+from crumple.structure.hinges.corner.press import with_corner_press
 from crumple.structure.hinges.corner.shift import with_corner_shift
 from crumple.structure.hinges.corner.slip import with_corner_slip
 from crumple.structure.hinges.corner.springs import with_corner_springs
@@ -288,7 +289,8 @@ def spatial_record_of(
         plain = corner_of(structure, place.name)
         return record if plain is None else with_corner_slip(record, plain, metal[0])
     sprung = with_corner_springs(record, corner, metal, shares.twist, torsion)
-    return with_corner_shift(sprung, corner, metal[0])
+    shifted = with_corner_shift(sprung, corner, metal[0])
+    return with_corner_press(shifted, corner, metal[0], metal[1].yield_stress * metal[0].area)
 
 
 def _side(structure: StructureParts, member: str) -> float:

@@ -98,3 +98,59 @@ def test_it_only_turns_where_nothing_presses_or_the_model_or_the_input_does_not_
 
 def test_a_coupling_of_the_input_is_kept():
     assert corner(hinges="{axial: true, coupling: ellipsoid}").spatial.surface.coupling is Coupling.ELLIPSOID
+
+
+SPACE = "{axes: [x, y, z]}"
+
+
+def test_in_space_compression_takes_from_the_moment_in_the_plane_in_proportion():
+    hinge = corner(SPACE)
+    spatial = hinge.spatial
+    surface = spatial.surface
+    assert surface.coupling is Coupling.SECTION
+    assert spatial.freedoms == (Freedom.AXIAL, Freedom.X, Freedom.Y, Freedom.Z)
+    n, t, m, across = np.eye(4)
+    for alone in (n, t, m, across):
+        assert surface.gauge(alone) == pytest.approx(1.0, abs=1e-12)
+    # |n| + |m|, and a circle with what lies across; the norm of the rows rounds corners by 4 %
+    for share in (0.25, 0.5, 0.75):
+        for sense in (-1.0, 1.0):
+            both = share * n + sense * (1.0 - share) * m
+            assert 0.955 < surface.gauge(both) <= 1.001
+            assert surface.gauge(both + across) == pytest.approx(math.sqrt(2.0), rel=0.06)
+    assert surface.gauge(0.6 * m + 0.8 * across) == pytest.approx(1.0, rel=0.06)
+    assert surface.gauge(0.6 * m + 0.8 * t) == pytest.approx(1.0, rel=1e-9)
+
+
+def test_the_force_that_a_corner_carries_in_space_falls_as_its_fold_grows():
+    parts = {part.freedom: part.record for part in corner(SPACE).spatial.components}
+    moment, slip = parts[Freedom.Y].positive, parts[Freedom.AXIAL].negative
+    squash = 350e6 * (0.05**2 - 0.046**2)
+    first = slip.moment[0]
+    for turn in (0.0, 0.01, 0.03, 0.1, 0.3):
+        arm = 0.024 * (1.0 - FOLD * math.exp(-turn / 0.023))
+        still = 0.024 * (1.0 - FOLD) * 0.157 * squash / 2.0
+        expected = min(squash, (np.interp(turn, moment.rotation, moment.moment) + still) / arm)
+        found = np.interp(turn * moment.moment[0] / first, slip.rotation, slip.moment)
+        assert found == pytest.approx(expected, rel=0.01)
+    # in tension the walls yield
+    assert (parts[Freedom.AXIAL].positive.moment == squash).all()
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        {"obstacles": "{}"},
+        {
+            "obstacles": WALL.replace("normal: [1, 0, 0]", "normal: [0, 0, 1]").replace(
+                "[0 m, 0 m, 0 m]", "[0 m, 0 m, -1 m]"
+            )
+        },
+        {"members": "rigid"},
+        {"hinges": "{axes: [x, y, z], axial: false}"},
+    ],
+)
+def test_in_space_it_only_turns_where_nothing_presses_a_member_along_its_axis(case):
+    spatial = corner(**({"hinges": SPACE} | case)).spatial
+    assert Freedom.AXIAL not in spatial.freedoms
+    assert spatial.surface.coupling is Coupling.ELLIPSOID

@@ -43,10 +43,15 @@ def with_corner_slip(record: SpatialHingeRecord, corner: Corner, section: Sectio
     surface = record.surface
     if surface.coupling is not Coupling.TENSION_FLANGE:
         return record
-    depth = 2.0 * surface.arm
-    fold = max(LEAST, FOLD - STEEP * math.sin(0.5 * corner.angle) * section.thickness / depth)
+    fold = fold_share(corner, section)
     step = (1.0 - fold) * surface.arm / SIDES
     # a step lies in the middle of the forces that it stands for
     gains = tuple((k * step, (k - 0.5) * FULL / SIDES) for k in range(1, SIDES + 1))
     growth = (PLACES, 1.0 - np.exp(-PLACES / FOLDED))
     return replace(record, surface=replace(surface, arm=fold * surface.arm, gains=gains, growth=growth))
+
+
+def fold_share(corner: Corner, section: Section) -> float:
+    """b, the arm of a fold without compression over the distance of the tension flange [-]."""
+    depth = section.bending_depth(corner.axis) - section.thickness
+    return max(LEAST, FOLD - STEEP * math.sin(0.5 * corner.angle) * section.thickness / depth)

@@ -30,6 +30,8 @@ from crumple.structure.struck_places import LEAST, PLACES, axis_gaps, first_disp
 
 FLAT = math.radians(25.0)
 """Angle by which members at a node may lead towards a plane that meets it."""
+ALONG = math.radians(60.0)
+"""Angle of a member to the normal of what meets its end within which it is pressed along its axis."""
 LOST = 0.25
 """Share of the energy that shows that lengths cannot stay."""
 HEAVY = 1e3
@@ -39,6 +41,24 @@ HEAVY = 1e3
 def stopped(structure: StructureParts) -> bool:
     """Whether an impact at the start takes most of the energy of members that keep their lengths."""
     return structure.kept.once("stopped", "", lambda: lost_share(structure) > LOST)
+
+
+def presses(structure: StructureParts) -> bool:
+    """Whether an obstacle meets a node from which a member leads away within `ALONG` of the blow."""
+    return structure.kept.once("presses", "", lambda: _presses(structure))
+
+
+def _presses(structure: StructureParts) -> bool:
+    moving = _start(structure)
+    for obstacle in structure.obstacles.values():
+        motion, _ = _motion(obstacle, 1.0)
+        for node in nodes_met(structure, obstacle):
+            outwards = _outwards(obstacle, np.asarray(structure.nodes[node], float))
+            members = (name for name in structure.members_at[node] if is_whole(structure, name))
+            along = max(float(leaving(structure, name, node) @ outwards) for name in members)
+            if along > math.cos(ALONG) and (moving[node][1] - motion) @ outwards < 0.0:
+                return True
+    return False
 
 
 def lost_share(structure: StructureParts) -> float:
