@@ -15,6 +15,8 @@ from crumple.result import cfc
 
 SHELLS_ALONE = ("07_axial_crush",)
 """Examples that only shells solve; they run in tests/verification."""
+LONG = ("diagonal", "strong_beam")
+"""Layouts that take twenty seconds each; others like them are among the rest."""
 TEXT = Path("examples/01_tube_bending.yaml").read_text(encoding="utf-8")
 
 
@@ -31,7 +33,7 @@ def test_the_python_example_is_the_file_and_gives_the_same_bits():
 @pytest.mark.parametrize(
     "path",
     [
-        path
+        pytest.param(path, marks=pytest.mark.slow if path.stem in LONG else ())
         for path in sorted(Path("examples").rglob("*.yaml"))
         if path.stem not in SHELLS_ALONE and path.parent.name != "studies"
     ],
