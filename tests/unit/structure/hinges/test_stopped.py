@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from crumple.analysis import loads, solve
+from crumple.errors import InputError
 from crumple.structure import hinge_places, with_elastic_members
 from crumple.structure.hinges.lengthening.stopped import LOST, lost_share
 
@@ -131,3 +132,27 @@ def test_members_of_a_stopped_structure_shorten(held):
     assert place.keys.axial.law == "superfolding"
     result = solve(read)
     assert 0.02 < float(np.abs(result["node.rear.displacement.x"]).max()) - 0.1 < 0.06
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("{type: plane,", "{type: plane, members: [nobody],", "there is no member 'nobody'"),
+        (
+            "section: rail, material: steel}\nhinges",
+            "section: none, material: steel}\nhinges",
+            "no section 'none'",
+        ),
+        ("left_rear]", "nowhere]", "there is no node 'nowhere'"),
+    ],
+)
+def test_names_that_are_not_there_are_refused_where_members_are_elastic(old, new, message):
+    text = FRAME.replace("analysis: {", "analysis: {multibody: {members: elastic}, ")
+    text = (
+        text.replace("material: steel}\n", "material: steel, elastic: true}\n")
+        if "section" not in old
+        else text
+    )
+    assert old in text
+    with pytest.raises(InputError, match=message):
+        loads(text.replace(old, new))

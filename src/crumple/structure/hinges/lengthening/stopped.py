@@ -62,8 +62,13 @@ def _presses(structure: StructureParts) -> bool:
 
 
 def lost_share(structure: StructureParts) -> float:
-    """Share of the energy at the start that is lost if all members keep their lengths [-]; 0 without any."""
+    """Share of the energy at the start that is lost if all members keep their lengths [-]; 0 without any.
+
+    Also 0 for a structure with mistakes, of which no mass is known at some node.
+    """
     pinned, moving = framework(structure), _start(structure)
+    if not moving or not pinned.free.keys() <= moving.keys():
+        return 0.0
     total = sum(mass for mass, _ in moving.values())
     weights = [math.sqrt(moving[node][0]) for node, free in pinned.free.items() for _ in free]
     speeds = [part for node, free in pinned.free.items() for part in free @ moving[node][1]]
@@ -92,7 +97,8 @@ def lost_share(structure: StructureParts) -> float:
 
 def nodes_met(structure: StructureParts, obstacle: Obstacle) -> Iterator[str]:
     """Nodes that an obstacle meets first, without those that supports hold or drive."""
-    names = [name for name in obstacle.members or structure.members if is_whole(structure, name)]
+    wanted = obstacle.members or structure.members
+    names = [name for name in wanted if name in structure.members and is_whole(structure, name)]
     if isinstance(obstacle, PlaneObstacle) and obstacle.edge is None:
         normal = np.asarray(obstacle.normal, float) / np.linalg.norm(obstacle.normal)
         for node, members in structure.members_at.items():
