@@ -30,8 +30,8 @@ ELASTIC_SHARE = 0.05
 """Share of elastic energy above which rigid bars need a warning: as large as the laws' own scatter."""
 ERROR_SHARE = 0.01
 """Estimated error of a rotation relative to the largest rotation above which a warning is given."""
-SMALL_ERROR = 1e-5
-"""Estimated error [rad] that is negligible, however small the rotations are."""
+SMALL_ERROR = 5e-4
+"""Estimated error [rad] that is negligible, however small the rotations are: 0.03 deg."""
 SLOW_SHARE = 0.05
 """Energy removed from the motion over that in the structure above which a stage is not quasi-static."""
 LOCKED = (
@@ -157,7 +157,7 @@ def warnings(
     found += broken_warnings(solved.hinges)
     found += overlap_warnings(structure)
     found += held_part_warnings(structure, solved)
-    found += _inaccurate(hinges, largest)
+    found += inaccurate(hinges, largest)
     found += [
         f"Material {name}: {spec.statement}" for name, spec in structure.materials.items() if spec.statement
     ]
@@ -233,11 +233,12 @@ def _of_hinge(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -
     return found
 
 
-def _inaccurate(hinges: dict[str, HingeSummary], largest: float) -> list[str]:
+def inaccurate(hinges: dict[str, HingeSummary], largest: float) -> list[str]:
     """One sentence for all rotations with a large estimated error."""
     errors = [summary.rotation_error or 0.0 for summary in hinges.values() if summary.bends]
-    worst, number = max(errors, default=0.0), sum(error > ERROR_SHARE * largest for error in errors)
-    if worst <= max(ERROR_SHARE * largest, SMALL_ERROR):
+    allowed = max(ERROR_SHARE * largest, SMALL_ERROR)
+    worst, number = max(errors, default=0.0), sum(error > allowed for error in errors)
+    if number == 0:
         return []
     return [
         f"The rotations of {number} of {len(errors)} hinges err by up to {math.degrees(worst):.2g} deg "

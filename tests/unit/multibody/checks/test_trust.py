@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
 from crumple.multibody import Run, solve_multibody
+from crumple.multibody.checks.trust import inaccurate
 from crumple.result import Result
 from crumple.structure import Structure
 
@@ -165,3 +167,26 @@ def test_rotations_beyond_the_range_are_reported_in_one_sentence() -> None:
     assert text.startswith(
         f"Hinges a, b: turned by {turns[0]} to {turns[1]} deg; the law is valid up to 1.1 deg"
     )
+
+
+@pytest.mark.parametrize(
+    ("largest", "errors", "said"),
+    [
+        (math.radians(60.0), (0.5, 0.7), "of 1 of 2 hinges err by up to 0.7 deg"),
+        # a hundredth of the largest rotation
+        (math.radians(60.0), (0.5, 0.59), ""),
+        # rotations of a column that is pressed together: nobody decides on hundredths of a degree
+        (math.radians(0.02), (0.011, 0.02), ""),
+        (math.radians(0.1), (0.04, 0.02), "of 1 of 2 hinges err by up to 0.04 deg"),
+    ],
+)
+def test_estimated_errors_count_beyond_a_hundredth_and_a_floor(largest, errors, said) -> None:
+    result = thrown(1.0)
+    (summary,) = result.hinges.values()
+    hinges = {
+        str(i): replace(summary, rotation_max=largest, rotation_error=math.radians(error))
+        for i, error in enumerate(errors)
+    }
+    texts = inaccurate(hinges, largest)
+    assert len(texts) == bool(said)
+    assert all(said in text for text in texts)
