@@ -5,7 +5,8 @@ fold): the plastic work about its bisector and about its tangent at 5 to 30 degr
 times as long within 3 %. L-frames of 90, 60 and 30 degrees between their members, as in
 test_l_frame_out_of_plane, whose tip is pushed by 200 mm out of the plane, with the laws of their members in
 bending and torsion and of their corner in its plane and about both of its directions out of it, and
-elastic members: work, and rotation of the arm, against the shell model of the same input (5 mm elements,
+elastic members (laws of 5 elements along half a fold: with 4 the work at 90 degrees is 5.0 % above
+the shells): work, and rotation of the arm, against the shell model of the same input (5 mm elements,
 energy residual 2e-7 or less), solved once by this program. Tolerances: 5 % of the work, and of the rotations
 3.5 degrees, since they were found to differ by up to 3.2: this is what the laws reach, not a target that was
 set. About the normal of the plane the arm is compared at the end; without the shift of the set of its corner
@@ -28,7 +29,7 @@ from crumple.section import RectangularTube
 
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 488e6)
 TUBE = RectangularTube(width=0.050, depth=0.025, thickness=0.00265)
-COARSE = Resolution(4.0, 7.0)
+COARSE, FRAMES = Resolution(4.0, 7.0), Resolution(5.0, 7.0)
 TIMES = (60, 80, 100)
 """Times [ms] of the figures."""
 # angle [deg]: external work [J], rotation of the tip about x and about z [deg], at TIMES
@@ -68,11 +69,11 @@ def test_frame_out_of_its_plane_follows_its_shells(degrees, tmp_path, record_fig
     structure = source.analysis.structure
     metal = structure.section_of("post"), structure.material_of("post")
     models = (
-        Torsion(*metal, resolution=COARSE),
-        Bending(*metal, resolution=COARSE),
-        Bending(*metal, angle=angle, resolution=COARSE),
-        OutOfPlane(*metal, angle=angle, about="bisector", resolution=COARSE),
-        OutOfPlane(*metal, angle=angle, about="tangent", resolution=COARSE),
+        Torsion(*metal, resolution=FRAMES),
+        Bending(*metal, resolution=FRAMES),
+        Bending(*metal, angle=angle, resolution=FRAMES),
+        OutOfPlane(*metal, angle=angle, about="bisector", resolution=FRAMES),
+        OutOfPlane(*metal, angle=angle, about="tangent", resolution=FRAMES),
     )
     store = LawStore(tmp_path / "laws")
     for model in models:
