@@ -102,7 +102,7 @@ public:
     double normal(size_t i) const { return active_[i].normal_impulse; }
     double friction(size_t i) const { return law(active_[i]).friction; }
     // Stores the result of a pass: impulses and rates at the start and end (`rows` each).  False if another pass is needed: the normal
-    // impulses used for friction have changed, or an impact gained energy and its restitution must be reduced.
+    // impulses used for friction have changed, unless `any_limits` will do, or an impact gained energy and its restitution must be reduced.
     bool settle(const double* impulse, const double* rate0, const double* rate, bool any_limits);
     // after the last pass: energies, forces on obstacles, and the time at which open contacts closed (`from_rest`: the step starts at
     // rest); rows as in the step

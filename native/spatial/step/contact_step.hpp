@@ -14,7 +14,7 @@ public:
     void begin(const State& s);
     // shifts the normal rates by the allowed rates
     void allow_closing(double h);
-    // after a pass: restores the true rates; returns whether friction has used the normal impulses that the pass found
+    // after a pass: restores the true rates; returns whether friction has used the normal impulses that the pass found (`any_limits`: others will do)
     bool settle(bool any_limits);
     void commit(State& s, double h);
     // Adds the impulses on obstacles from the projection of the rates, in which contacts keep their tangents.

@@ -57,7 +57,7 @@ def with_corner_press(
 
     References
     ----------
-    docs/theory/mitred_corner.md.
+    docs/theory/mitred_corner.md.  Verified in tests/unit/structure/hinges/test_corner_shortening.py.
     """
     parts = {component.freedom: component for component in record.components}
     in_plane = Freedom[corner.axis.upper()]

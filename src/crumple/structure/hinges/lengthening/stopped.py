@@ -39,7 +39,7 @@ HEAVY = 1e3
 
 
 def stopped(structure: StructureParts) -> bool:
-    """Whether an impact at the start takes most of the energy of members that keep their lengths."""
+    """Whether an impact at the start takes more than `LOST` of the energy if members keep their lengths."""
     return structure.kept.once("stopped", "", lambda: lost_share(structure) > LOST)
 
 
