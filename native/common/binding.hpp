@@ -18,6 +18,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/machine.hpp"
+
 namespace crumple {
 
 template <class T, class... Options> using InOf = nanobind::ndarray<const T, nanobind::c_contig, nanobind::device::cpu, Options...>;
@@ -165,16 +167,18 @@ inline nanobind::tuple fields(nanobind::handle given, std::size_t number, const 
     return found;
 }
 
-// Runs work(ask) while others may use the interpreter; `ask` calls `poll`, and is empty where that is None.
+// Runs work(ask) while others may use the interpreter, with tiny numbers as zero; `ask` calls `poll`, and is empty where that is None.
 template <class Work> auto unlocked(nanobind::handle poll, Work work) {
     std::function<bool(double)> ask;
     if (!poll.is_none()) {
         ask = [poll](double value) {
+            const TinyAsZero usual(false);
             nanobind::gil_scoped_acquire locked;
             return nanobind::cast<bool>(poll(value));
         };
     }
     nanobind::gil_scoped_release released;
+    const TinyAsZero fast;
     return work(ask);
 }
 

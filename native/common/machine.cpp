@@ -14,6 +14,46 @@ long long process_number() {
 #endif
 }
 
+namespace {
+
+// The register with the modes of floating-point arithmetic, and those of its bits that stand for tiny operands and results.
+#if defined(__x86_64__)
+constexpr unsigned long long tiny_as_zero = 1u << 6 | 1u << 15;
+
+unsigned long long modes() {
+    unsigned value;
+    __asm__ volatile("stmxcsr %0" : "=m"(value));
+    return value;
+}
+
+void set_modes(unsigned long long wanted) {
+    const unsigned value = static_cast<unsigned>(wanted);
+    __asm__ volatile("ldmxcsr %0" : : "m"(value) : "memory");
+}
+#elif defined(__aarch64__)
+constexpr unsigned long long tiny_as_zero = 1u << 24;
+
+unsigned long long modes() {
+    unsigned long long value;
+    __asm__ volatile("mrs %0, fpcr" : "=r"(value));
+    return value;
+}
+
+void set_modes(unsigned long long wanted) { __asm__ volatile("msr fpcr, %0" : : "r"(wanted) : "memory"); }
+#else
+constexpr unsigned long long tiny_as_zero = 0;
+
+unsigned long long modes() { return 0; }
+
+void set_modes(unsigned long long) {}
+#endif
+
+}  // namespace
+
+TinyAsZero::TinyAsZero(bool wanted) : before_(modes()) { set_modes(wanted ? before_ | tiny_as_zero : before_ & ~tiny_as_zero); }
+
+TinyAsZero::~TinyAsZero() { set_modes(before_); }
+
 #if defined(__x86_64__)
 
 namespace {

@@ -11,12 +11,25 @@ long long process_number();
 int x86_level();
 
 // Hint to the processor that this thread waits in a loop.
-inline void pause() {
+inline void spin() {
 #if defined(__x86_64__)
     __asm__ volatile("pause");
 #elif defined(__aarch64__)
     __asm__ volatile("yield");
 #endif
 }
+
+// While one lives, this thread and those that it starts take numbers below the smallest normal one for zero (or not): motion that
+// friction has slowed down to nothing ends in such numbers, with which a processor is a hundred times slower.
+class TinyAsZero {
+public:
+    explicit TinyAsZero(bool wanted = true);
+    ~TinyAsZero();
+    TinyAsZero(const TinyAsZero&) = delete;
+    TinyAsZero& operator=(const TinyAsZero&) = delete;
+
+private:
+    const unsigned long long before_;
+};
 
 }  // namespace crumple

@@ -50,7 +50,7 @@ struct Team::Crew {
         const auto start = std::chrono::steady_clock::now();
         for (int i = 0; calls.load(std::memory_order_acquire) == seen; i++) {
             if (i < spins_before_yield) {
-                pause();
+                spin();
                 continue;
             }
             std::this_thread::yield();
@@ -62,7 +62,7 @@ struct Team::Crew {
     void await_end() const {
         for (int i = 0; busy.load(std::memory_order_acquire) != 0; i++) {
             if (i < spins_before_yield)
-                pause();
+                spin();
             else
                 std::this_thread::yield();
         }

@@ -28,7 +28,7 @@ public:
         }
         for (int i = 0; phase_.load(std::memory_order_acquire) == phase; i++) {
             if (i < spins_before_yield)
-                pause();
+                spin();
             else
                 std::this_thread::yield();
         }

@@ -185,6 +185,16 @@ def test_poll_cancels_and_keeps_what_it_had():
     assert 0 < len(record.time) < 100
 
 
+def test_numbers_too_small_to_be_normal_are_zero_in_a_run_alone():
+    kept = []
+    simulation = SpatialSimulation(SpatialModel((SpatialBody(1.0, np.eye(3), np.zeros(3)),)))
+    simulation.set_motion(np.array([[0, 0, 0, 1, 1e-310, 0]]), np.zeros((1, 6)))
+    record = simulation.run(np.array([1.0]))
+    assert record.velocity[-1, 0].tolist() == [0, 0, 0, 1, 0, 0]
+    m4(1e-6).run(np.array([0.1]), lambda time: bool(kept.append(np.float64(1e-310) * 0.5) or True))
+    assert kept and {*kept, np.float64(1e-310) * 0.5} == {5e-311}
+
+
 def test_same_bits_twice():
     first, second = (m4(1e-3).run(np.array([0.1])) for _ in range(2))
     assert np.array_equal(first.rotation, second.rotation)
