@@ -58,7 +58,7 @@ def member_capsules(
     capsules, owner = [], []
     for name, pieces in of_member.items():
         frame, nodes = structure.frame_of(name), structure.members[name].nodes
-        places, radius = capsule_rows(structure.section_of(name).outer_outline())
+        radius = capsule_rows(structure.section_of(name).outer_outline())[1]
         # the round end of a capsule lies within a free end of the member, and rounds a corner
         inset = radius if held else WITHIN * radius
         first, last = (inset if ends[node] == 1 else 0.0 for node in nodes)
@@ -69,8 +69,7 @@ def member_capsules(
             start, end = max(piece.start, spine[0]), min(piece.end, spine[1])
             if (piece.body == GROUND) is not held or start > end:
                 continue
-            for place in places:
-                shift = place @ frame.axes[1:]
+            for shift in row_shifts(structure, name):
                 capsules.append(
                     SpatialCapsule(
                         piece.body, frame.position(start) + shift, frame.position(end) + shift, radius
@@ -169,6 +168,12 @@ def capsule_rows(outline: Floats) -> tuple[Floats, float]:
     apart = np.zeros(2)
     apart[int(size.argmax())] = float(size.max()) / 2.0 - radius
     return np.array([centre - apart, centre + apart]), radius
+
+
+def row_shifts(structure: Structure, member: str) -> Floats:
+    """Places of a member's capsules from its axis at the start [m], (rows, 3)."""
+    places, _ = capsule_rows(structure.section_of(member).outer_outline())
+    return np.asarray(places @ structure.frame_of(member).axes[1:])
 
 
 def touching_pairs(

@@ -2,7 +2,8 @@
 
 Pieces of a member on both sides of a hinge, and members that meet rigidly at a node, end in balls about the
 same point, which move as one.  A contact at each would be the same contact again: how the force divides
-between them is not determined, and which of them slides is decided by rounding.
+between them is not determined, and which of them slides is decided by rounding.  Balls beside the axis of a
+member, of a flat section, part when a hinge turns, but not at an elastic joint, which hardly does.
 """
 
 from __future__ import annotations
@@ -49,13 +50,17 @@ def ends_met(
     return tuple(met)
 
 
-def bodies_together(linkage: Linkage, *, folding: bool) -> dict[Place, dict[int, int]]:
+def bodies_together(
+    linkage: Linkage, rows: Mapping[str, Floats], *, folding: bool
+) -> dict[Place, dict[int, int]]:
     """Bodies whose points at a place stay together, by place: one of them stands for all.
 
     Parameters
     ----------
     linkage
         Bodies and connections.
+    rows
+        Of every member, places of its capsules from its axis [m], (rows, 3).
     folding
         Whether pieces on both sides of a hinge that folds along their member count.  They slide into each
         other, and what one leaves the other covers: a plane, which rests on the ends of capsules alone, meets
@@ -66,12 +71,14 @@ def bodies_together(linkage: Linkage, *, folding: bool) -> dict[Place, dict[int,
         ground = GROUND in (connection.first, connection.second)
         if ground or not (not _slips(connection) or (folding and _folds(linkage, connection))):
             continue
-        of = found[_place(connection.position)]
-        first, second = (of.get(body, body) for body in (connection.first, connection.second))
-        of[connection.first], of[connection.second] = first, first
-        for body, stands in of.items():
-            if stands == second:
-                of[body] = first
+        hinge = connection.hinge
+        for shift in np.zeros((1, 3)) if hinge is None or hinge.plastic else rows[hinge.member]:
+            of = found[_place(connection.position + shift)]
+            first, second = (of.get(body, body) for body in (connection.first, connection.second))
+            of[connection.first], of[connection.second] = first, first
+            for body, stands in of.items():
+                if stands == second:
+                    of[body] = first
     return found
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.support.multibody.frames import member, structure
 
-from crumple.multibody.bodies.capsules import member_capsules
+from crumple.multibody.bodies.capsules import member_capsules, row_shifts
 from crumple.multibody.bodies.linkage import link
 from crumple.multibody.bodies.shared_ends import BOTH, FIRST, SECOND, bodies_together, ends_met
 
@@ -20,7 +20,8 @@ def met(whole, touching=None, *, plane=True):
     linkage = link(whole)
     capsules, _ = member_capsules(whole, linkage.pieces)
     chosen = tuple(range(len(capsules))) if touching is None else touching
-    ends = ends_met(bodies_together(linkage, folding=plane), capsules, chosen)
+    rows = {name: row_shifts(whole, name) for name in whole.members}
+    ends = ends_met(bodies_together(linkage, rows, folding=plane), capsules, chosen)
     places = Counter()
     for index, of in zip(chosen, ends, strict=True):
         for side, place in ((FIRST, capsules[index].first), (SECOND, capsules[index].second)):
@@ -63,6 +64,17 @@ def test_capsules_beside_the_axis_part_when_the_hinge_turns():
     places, _, _ = met(frame(section=flat))
     at_hinge = [count for (x, _, _), count in places.items() if x == 200]
     assert at_hinge == [2, 2]
+
+
+def test_capsules_beside_the_axis_are_met_once_at_an_elastic_joint():
+    flat = {"type": "rectangular_tube", "width": 0.06, "depth": 0.03, "thickness": 0.002}
+    members = {"ab": member("a", "b", ("h", 0.2), elastic=4), "bc": member("b", "c", section="other")}
+    sections = {"tube": flat, "other": SQUARE}
+    places, capsules, _ = met(structure(nodes=LINE, members=members, sections=sections, supports={}))
+    rows = [(x, count) for (x, y, _), count in places.items() if abs(y) == 15 and 0 < x < 500]
+    assert len(capsules) == 2 * 6 + 1
+    hinges = (200, 465)
+    assert sorted(rows) == sorted((x, 1 + (x in hinges)) for x in {x for x, _ in rows} for _ in range(2))
 
 
 @pytest.mark.parametrize(

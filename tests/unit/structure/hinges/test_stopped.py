@@ -94,6 +94,21 @@ def test_a_clamp_stands_on_a_wall_and_does_not_meet_it():
     assert lost(RAIL, swung, held) < 0.01
 
 
+@pytest.mark.parametrize(
+    ("support", "share"),
+    [
+        ("fix: [y, z, rx, ry, rz]", 1.0),
+        ("fix: [x, y, z]", 0.0),
+        ("fix: [y, z], motion: {x: {step: {x0: 0 ms, h0: 0 mm, x1: 9 ms, h1: 9 mm}}}", 0.0),
+    ],
+)
+def test_supports_take_the_blow_only_in_the_directions_that_they_hold(support, share):
+    guided = ("obstacles:", f"supports: {{end: {{node: front, {support}}}}}\nobstacles:")
+    rest = ("initial_velocity: [{translation: [-5 m/s, 0 m/s, 0 m/s]}]\n", "")
+    ram = ("type: plane,", "type: plane, mass: 1 kg, velocity: [5 m/s, 0 m/s, 0 m/s],")
+    assert lost(RAIL, guided, rest, ram) == pytest.approx(share, abs=0.02)
+
+
 RAMS = [
     "sphere, point: [-0.11 m, 0 m, 0 m], radius: 100 mm, mass: 50 kg, velocity: [5 m/s, 0 m/s, 0 m/s]",
     "cylinder, point: [-0.11 m, 0 m, 0 m], axis: [0, 1, 0], radius: 0.1 m, velocity: [5 m/s, 0 m/s, 0 m/s]",

@@ -21,7 +21,7 @@ from crumple._core.spatial.model import (
     SpatialModel,
     SpatialObstacle,
 )
-from crumple.multibody.bodies.capsules import member_capsules, touching_pairs
+from crumple.multibody.bodies.capsules import member_capsules, row_shifts, touching_pairs
 from crumple.multibody.bodies.crossing import crossing_members
 from crumple.multibody.bodies.crumpling_ends import CrumplingEnd
 from crumple.multibody.bodies.linkage import GROUND, Linkage
@@ -104,7 +104,8 @@ def with_obstacles(
         return Touching(model, {}, owners, np.zeros((0, 3)))
     moving, member = member_capsules(structure, linkage.pieces)
     surface = surface_of(structure, linkage, moving, member)
-    together = {plane: bodies_together(linkage, folding=plane) for plane in (False, True)}
+    rows = {name: row_shifts(structure, name) for name in structure.members}
+    together = {plane: bodies_together(linkage, rows, folding=plane) for plane in (False, True)}
     added = _Added(model)
     duration = max(stage.duration for stage in stages)
     fast = all(stage.kind == "dynamic" for stage in stages)

@@ -99,7 +99,7 @@ def framework(structure: StructureParts) -> Framework:
     """The framework of the members' nodes."""
     members = [name for name in structure.members if structure.has_line(name)]
     nodes = list(dict.fromkeys(node for name in members for node in structure.members[name].nodes))
-    free = {node: _free_directions(structure, node) for node in nodes}
+    free = {node: free_directions(structure, node) for node in nodes}
     starts = dict(zip(nodes, np.cumsum([0, *(len(one) for one in free.values())]).tolist(), strict=False))
     found = Framework(free, starts, sum(len(one) for one in free.values()), [])
     for name in members:
@@ -136,7 +136,7 @@ def on_a_bed(rows: list[Row], right: Floats) -> Floats:
     return splu((bars.T @ bars + BED * sparse.eye_array(count)).tocsc()).solve(right)
 
 
-def _free_directions(structure: StructureParts, node: str) -> Floats:
+def free_directions(structure: StructureParts, node: str) -> Floats:
     """Orthonormal directions in which a node can move, (directions, 3); in a plane those of the plane."""
     blocked = [np.eye(3)[axis] for axis in supported(structure, node)]
     if planar(structure):
