@@ -15,12 +15,19 @@ from crumple.multibody.checks.collapse import PART, ROUNDING, patterns
 from crumple.multibody.run import Cancel, Progress, Run
 from crumple.multibody.variants.contact_points import contact_points
 from crumple.multibody.variants.law_range import WIDEST
-from crumple.multibody.variants.variants import solve_variants
+from crumple.multibody.variants.variants import OTHER_PARTS, VariantTable, solve_variants
 from crumple.numeric.arrays import Floats
 from crumple.numeric.ranking import largest_first
 from crumple.result.nearby import Mode, Modes
 from crumple.result.result import Result
-from crumple.structure import Structure, any_automatic, plastic_hinges, value_at, with_elastic_members
+from crumple.structure import (
+    Structure,
+    any_automatic,
+    changed,
+    plastic_hinges,
+    value_at,
+    with_elastic_members,
+)
 
 BAND = 0.05
 """Half-width for laws without a known band [-]."""
@@ -76,12 +83,34 @@ def modes(
     runs = {**_capacities(structure), **_friction(structure), **contact_points(structure, run)}
     runs |= _stiffness(structure, run)
     table = solve_variants(structure, run, _columns(structure, runs), threads, progress, cancel)
-    turned = np.stack([np.abs(table[f"hinge.{name}.plastic_rotation"]) for name in names], axis=1)
-    given = np.array([abs(float(result[f"hinge.{name}.plastic_rotation"][-1])) for name in names])
-    good = [status.ok for status in table.status]
-    ended = {RESULT: given} | {name: turned[i] for i, name in enumerate(runs) if good[i]}
-    failed = tuple(name for name, ok in zip(runs, good, strict=True) if not ok)
-    return Modes(grouped(names, ended), failed)
+    given = {name: float(result[f"hinge.{name}.plastic_rotation"][-1]) for name in names}
+    turned: dict[str, dict[str, float] | None] = {RESULT: given}
+    for i, (name, changes) in enumerate(runs.items()):
+        if table.reason[i] == OTHER_PARTS:
+            turned[name] = _alone(changed(structure, changes), run, changes, threads, cancel)
+        else:
+            turned[name] = _rotations(table, i, names) if table.status[i].ok else None
+    ended = {name: rotations for name, rotations in turned.items() if rotations is not None}
+    folds = list(dict.fromkeys(hinge for rotations in ended.values() for hinge in rotations))
+    sizes = {
+        name: np.array([abs(rotations.get(hinge, 0.0)) for hinge in folds])
+        for name, rotations in ended.items()
+    }
+    return Modes(grouped(folds, sizes), tuple(name for name in turned if name not in ended))
+
+
+def _alone(
+    structure: Structure, run: Run, changes: Changes, threads: int | None, cancel: Cancel | None
+) -> dict[str, float] | None:
+    """Rotations of a run whose parts no batch has: an obstacle that strikes elsewhere folds another place."""
+    table = solve_variants(structure, run, changes, threads, None, cancel)
+    names = [hinge.name for hinge in plastic_hinges(structure)]
+    return _rotations(table, 0, names) if table.status[0].ok else None
+
+
+def _rotations(table: VariantTable, row: int, hinges: list[str]) -> dict[str, float]:
+    """Plastic rotations at the end of a run [rad], by hinge."""
+    return {name: float(table[f"hinge.{name}.plastic_rotation"][row]) for name in hinges}
 
 
 def is_impact(structure: Structure, run: Run) -> bool:

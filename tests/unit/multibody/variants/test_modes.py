@@ -131,6 +131,30 @@ def test_capacities_friction_and_stiffness_change_by_their_shares(monkeypatch):
     assert len({values[0] for values in capacities.values()}) > 1
 
 
+STRUCK = """crumple: 1
+materials:
+  steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}
+sections: {tube: {type: square_tube, side: 50 mm, thickness: 2 mm}}
+nodes: {left: [0 m, 0 m, 0 m], right: [0.6 m, 0 m, 0 m]}
+members: {beam: {nodes: [left, right], section: tube, material: steel}}
+hinges: auto
+supports: {left: {node: left, fix: all}, right: {node: right, fix: all}}
+obstacles:
+  pole: {type: cylinder, point: [0.2 m, 0 m, 0.06 m], axis: [0, 1, 0], radius: 30 mm, mass: 60 kg, VELOCITY}
+analysis: {duration: 15 ms}
+""".replace("VELOCITY", "velocity: [0 m/s, 0 m/s, -6 m/s], guide: [0, 0, 1]")
+
+
+def test_an_obstacle_that_strikes_elsewhere_folds_another_place():
+    analysis = loads(STRUCK)
+    result = with_modes(solve(analysis), analysis)
+    runs = [name for mode in result.modes.modes for name in mode.runs]
+    assert {"contact point one way", "contact point other way"} < set(runs)
+    assert result.modes.failed == ()
+    for mode in result.modes.modes:
+        assert "beam-pole" in mode.hinges
+
+
 @pytest.mark.parametrize("setting", ["off", "auto"])
 def test_they_are_not_looked_for_unasked(setting):
     analysis = rail(0.2, mechanism_check=setting)
