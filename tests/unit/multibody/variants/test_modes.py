@@ -140,7 +140,7 @@ members: {beam: {nodes: [left, right], section: tube, material: steel}}
 hinges: auto
 supports: {left: {node: left, fix: all}, right: {node: right, fix: all}}
 obstacles:
-  pole: {type: cylinder, point: [0.2 m, 0 m, 0.06 m], axis: [0, 1, 0], radius: 30 mm, mass: 60 kg, VELOCITY}
+  pole: {type: cylinder, point: [0.28 m, 0 m, 0.06 m], axis: [0, 1, 0], radius: 30 mm, mass: 60 kg, VELOCITY}
 analysis: {duration: 15 ms}
 """.replace("VELOCITY", "velocity: [0 m/s, 0 m/s, -6 m/s], guide: [0, 0, 1]")
 
