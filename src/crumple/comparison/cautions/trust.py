@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from crumple.comparison.cautions.fold_trust import across_joint, fold_sentences, largest_turn
+from crumple.comparison.cautions.mode_followed import mode_sentences
 from crumple.comparison.cautions.run_cautions import run_sentences
 from crumple.comparison.cautions.shortfall import shortfall
 from crumple.comparison.cautions.verdict import SMALL, agreement, verdict
@@ -47,6 +48,7 @@ def trust_of(comparison: Comparison, structure: Structure) -> Trust:
     facts: list[str] = []
     cautions: list[str] = []
     for text, serious in (
+        *mode_sentences(comparison),
         *agreement(comparison),
         *_ranges(comparison, hinges),
         *fold_sentences(comparison, structure, hinges),
