@@ -74,7 +74,7 @@ void spatial() {
     joint.hinge = 0;
     model.joints = {joint};
     SpatialHinge hinge;
-    hinge.components = {{5, constant_hinge()}};
+    hinge.components = {{5, constant_hinge(), {}, -1}};
     model.hinges = {hinge};
     model.hinge_joint = {0};
     model.length = length;
