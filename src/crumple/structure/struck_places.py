@@ -28,7 +28,7 @@ import numpy as np
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import cross
 from crumple.structure.geometry import NARROWEST, Frame
-from crumple.structure.keys.obstacles import CylinderObstacle, Obstacle, PlaneObstacle, gap
+from crumple.structure.keys.obstacles import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, gap
 from crumple.structure.parts import StructureParts
 
 PLACES = np.linspace(0.0, 1.0, 11)
@@ -103,6 +103,47 @@ def _struck_places(structure: StructureParts) -> Mapping[str, tuple[StruckPlace,
             if place is not None and -LEAST <= place.station <= structure.frame_of(member).length + LEAST:
                 found[member] = (*found.get(member, ()), place)
     return found
+
+
+def travel_to_joints(structure: StructureParts, obstacle: str) -> float:
+    """By how far a ball or a pole moves until it touches a joint [m]; infinite if it meets none.
+
+    The joint is a ball about its node that reaches as far as the narrowest member there.
+    """
+    spec = structure.obstacles[obstacle]
+    path = _path(structure, spec)
+    if path is None or not isinstance(spec, SphereObstacle | CylinderObstacle):
+        return math.inf
+    least = math.inf
+    for node, members in structure.members_at.items():
+        outlines = (
+            structure.section_of(name).outer_outline()
+            for name in members
+            if structure.has_line(name) and (spec.members is None or name in spec.members)
+        )
+        reach = min((float(np.ptp(outline, axis=0).min()) / 2.0 for outline in outlines), default=None)
+        if reach is not None:
+            apart = np.asarray(structure.nodes[node], float) - np.asarray(spec.point, float)
+            least = min(least, _travel_to_ball(spec, apart, path, spec.radius + reach))
+    return least
+
+
+def _travel_to_ball(obstacle: Obstacle, apart: Floats, path: Floats, distance: float) -> float:
+    """Travel along a path until a point is at a distance from the centre of a ball or the axis of a pole."""
+    whole, along = apart, path
+    if isinstance(obstacle, CylinderObstacle):
+        axis = _unit(np.asarray(obstacle.axis))
+        apart, path = apart - (apart @ axis) * axis, path - (path @ axis) * axis
+    closing, speed = float(apart @ path), float(path @ path)
+    left = closing**2 - speed * (float(apart @ apart) - distance**2)
+    if speed < LEAST or closing < 0.0 or left < 0.0:
+        return math.inf
+    travel = max(0.0, (closing - math.sqrt(left)) / speed)
+    if isinstance(obstacle, CylinderObstacle) and obstacle.length is not None:
+        beyond = float((whole - travel * along) @ _unit(np.asarray(obstacle.axis)))
+        if not -distance <= beyond <= obstacle.length + distance:
+            return math.inf
+    return travel
 
 
 def _path(structure: StructureParts, obstacle: Obstacle) -> Floats | None:

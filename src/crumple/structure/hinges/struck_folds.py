@@ -22,7 +22,7 @@ from crumple.structure.hinges.runs.straight_runs import straight_run
 from crumple.structure.keys.law import LawReference
 from crumple.structure.keys.obstacles import CylinderObstacle, SphereObstacle
 from crumple.structure.parts import StructureParts
-from crumple.structure.struck_places import StruckPlace, struck_places
+from crumple.structure.struck_places import StruckPlace, struck_places, travel_to_joints
 
 TOGETHER = 1e-3
 """Difference of the travels of an obstacle to tubes that it strikes at the same time [m]."""
@@ -118,7 +118,7 @@ def _dented_tubes(structure: StructureParts, obstacle: str) -> tuple[DentedTube,
 
 
 def _struck_first(structure: StructureParts, obstacle: str) -> Iterator[tuple[str, StruckPlace]]:
-    """Members that an obstacle strikes first, one for each straight run."""
+    """Members that an obstacle strikes first, one for each straight run; none if it meets a joint before."""
     places = {
         member: place
         for member in structure.members
@@ -127,6 +127,8 @@ def _struck_first(structure: StructureParts, obstacle: str) -> Iterator[tuple[st
         if place.obstacle == obstacle
     }
     first = min((place.travel for place in places.values()), default=0.0)
+    if travel_to_joints(structure, obstacle) < first - TOGETHER:
+        return
     runs = set()
     for member, place in places.items():
         run = next(iter(straight_run(structure, member).stretches))

@@ -87,6 +87,18 @@ def test_what_is_struck_later_does_not_count():
     assert dented(structure_of("round", both, ("LOWER", "-20"))) == ["beam"]
 
 
+@pytest.mark.parametrize(("x", "expected"), [(-100, []), (200, ["beam"])])
+def test_what_lies_behind_a_struck_corner_is_not_dented(x, expected):
+    """A ball at 45 degrees meets the corner of beam and post, or the beam; the other lies below."""
+    ball = f"type: sphere, point: [{x} mm, 0 m, 100 mm], radius: 40 mm"
+    text = TEXT.replace("SECTION", "round").replace("OBSTACLE", ball)
+    text = text.replace("300 mm, LOWER mm", "0 mm, -300 mm")
+    text = text.replace(
+        "velocity: [0 m/s, 0 m/s, -5 m/s], guide: [0, 0, -1]", "velocity: [5 m/s, 0 m/s, -5 m/s]"
+    )
+    assert dented(loads(text).structure) == expected
+
+
 def test_the_edge_of_a_plane_dents_nothing():
     edge = (
         "type: plane, point: [400 mm, 0 m, 40 mm], normal: [0.5, 0, -1], edge: [-1, 0, -0.5], members: [beam]"
