@@ -36,6 +36,8 @@ from crumple.numeric.arrays import Floats
 from crumple.result import Provenance, Result, missing_pictures, sentences
 from crumple.structure import Structure, any_automatic, law_uses, placed_hinges, with_elastic_members
 
+FORK = 0.05
+"""Difference of the rotations of two runs over the largest one that accuracy alone hardly explains."""
 FAILED = frozenset({Outcome.STEP_COLLAPSED, Outcome.STALLED, Outcome.NOT_FINITE})
 """Ends of a run with members that bend after which rigid bars are tried."""
 FINER = (0.1, 0.01)
@@ -102,6 +104,8 @@ def solve_multibody(
     errors = None
     if run.checks and solved.outcome is Outcome.COMPLETE and rough.outcome is Outcome.COMPLETE:
         errors = _errors(rough, solved)
+        if errors.max(initial=0.0) > FORK * max(hinge.rotation_max for hinge in solved.hinges):
+            errors = _errors_beside_finer(solver, solved, errors, run, cancel)
     doubt = _doubt(structure, run, solver, rough, cancel) if run.checks else None
     seconds = time.perf_counter() - begin
     return _result(
@@ -151,6 +155,19 @@ def _errors(rough: Solved, solved: Solved) -> Floats:
     ]
     unseen = [2.0 * solved.unseen * hinge.rotation_max for hinge in solved.hinges]
     return np.asarray(np.array(errors) + np.array(unseen))
+
+
+def _errors_beside_finer(
+    solver: Solver, solved: Solved, errors: Floats, run: Run, cancel: Cancel | None
+) -> Floats:
+    """Errors from a run that is finer than the answer: a coarser one may take another path near a fork."""
+    poll = poll_of(run.duration, (1.0, 1.0), None, cancel)
+    try:
+        with asking(cancel):
+            finer = solver.run(run.settings.accuracy / CHECK_FACTOR**2, poll, ends_only=True)
+    except CancelledError:
+        return errors
+    return _errors(finer, solved) if finer.outcome is Outcome.COMPLETE else errors
 
 
 def _final(hinge: HingeHistory) -> float:

@@ -1,11 +1,14 @@
 """Running a structure: output times, progress and cancel, statuses, warnings."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tests.support.multibody.frames import CLAMP, LAW, THROWN, X_LINE, member, structure
 
 from crumple.errors import InputError, Status
 from crumple.multibody import Run, solve_multibody
+from crumple.multibody.planar.solver import TreeSolver
 from crumple.multibody.run import output_times
 from crumple.structure import MultibodySettings, Outputs
 
@@ -55,6 +58,26 @@ def test_moment_shown_at_the_start_is_what_the_hinge_will_carry():
     result = solve_multibody(thrown(), RUN)
     assert result["hinge.h.moment"][0] == pytest.approx(500.0)
     assert result["hinge.h.capacity"][0] == pytest.approx(500.0)
+
+
+@pytest.mark.parametrize(("turned_less", "runs"), [(0.1, 3), (0.001, 2)])
+def test_where_a_coarse_run_takes_another_path_a_finer_one_states_the_error(monkeypatch, turned_less, runs):
+    accuracies = []
+    run = TreeSolver.run
+
+    def coarse_elsewhere(solver, accuracy, *rest, **keys):
+        accuracies.append(accuracy)
+        found = run(solver, accuracy, *rest, **keys)
+        (hinge,) = found.hinges
+        if accuracy == RUN.settings.accuracy:
+            hinge = replace(hinge, rotation_max=hinge.rotation_max * (1.0 - turned_less))
+        return replace(found, hinges=(hinge,))
+
+    monkeypatch.setattr(TreeSolver, "run", coarse_elsewhere)
+    hinge = solve_multibody(thrown(), RUN).hinges["h"]
+    assert len(accuracies) == runs
+    assert accuracies[-1] == RUN.settings.accuracy * (1.0 if runs == 2 else 1.0 / 16.0)
+    assert hinge.rotation_error < 0.002 * hinge.rotation_max
 
 
 def test_progress_runs_from_nothing_to_the_whole():
