@@ -151,9 +151,11 @@ void Simulation::show_first_moments() {
             if (model_.hinges[j].components.front().law.form != Form::elastic_plastic) own.total_moment = seen.total_moment;
         }
     }
-    state_.acceleration = probe.acceleration;
     state_.travel = probe.travel;
     state_.last_step = probe.last_step;
+    // forces of an impact at the start would be its impulses over the length of the trial step
+    if (state_.contact.impact) return;
+    state_.acceleration = probe.acceleration;
     state_.joint_force = probe.joint_force;
     state_.contact.force = probe.contact.force;
 }

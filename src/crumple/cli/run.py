@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 
 MOST_HINGES = 20
 """Number of hinges in the table; the files contain all."""
+MOST_OF_NAMES = 22
+"""Width up to which names in tables are not broken: with the figures, 80 columns."""
 QUICK = 5.0
 """Time of a run up to which range from the hinge laws and modes are computed without being requested [s]."""
 
@@ -340,9 +343,11 @@ def _table(what: str, names: list[str], columns: tuple[tuple[str, list[Any], str
 
     from crumple.cli.console.columns import in_one_unit
 
-    table = Table()
-    table.add_column(what)
-    cells = [[escape(name) for name in names]]
+    table = Table(padding=(0, 1, 0, 0))
+    # heads wrap between words; names are needed whole
+    table.add_column(what, no_wrap=True)
+    broken = (re.findall(f".{{1,{MOST_OF_NAMES}}}", name) for name in names)
+    cells = [["\n".join(map(escape, parts)) for parts in broken]]
     for head, values, si in columns:
         unit, texts = in_one_unit(values, si, absent="turning")
         table.add_column(f"{head}, {unit}" if unit else head, justify="right")

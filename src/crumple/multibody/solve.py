@@ -104,7 +104,7 @@ def solve_multibody(
     errors = None
     if run.checks and solved.outcome is Outcome.COMPLETE and rough.outcome is Outcome.COMPLETE:
         errors = _errors(rough, solved)
-        if errors.max(initial=0.0) > FORK * max(hinge.rotation_max for hinge in solved.hinges):
+        if errors.max(initial=0.0) > FORK * max((one.rotation_max for one in solved.hinges), default=0.0):
             errors = _errors_beside_finer(solver, solved, errors, run, cancel)
     doubt = _doubt(structure, run, solver, rough, cancel) if run.checks else None
     seconds = time.perf_counter() - begin

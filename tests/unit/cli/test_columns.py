@@ -15,6 +15,7 @@ def test_one_unit_for_the_column() -> None:
     assert in_one_unit([0.0795, None], "s", absent="turning") == ("ms", ["79.50", "turning"])
     assert in_one_unit([12345.6, 1.0], "rad/s") == ("rad/s", ["12346", "1"])
     assert in_one_unit([], "J") == ("J", [])
+    assert in_one_unit([100.0, -1e-9, -5.0], "J") == ("J", ["100.0", "0.0", "-5.0"])
     assert in_one_unit([0.0, math.nan], "J") == ("J", ["0.000", "nan"])
 
 

@@ -27,11 +27,11 @@ def in_one_unit(
     Returns
     -------
     tuple
-        Unit and texts.
+        Unit and texts; what is rounded to zero has no sign.
     """
     largest = max((abs(v) for v in values if v is not None and math.isfinite(v)), default=0.0)
     name = format_quantity(largest, unit, digits).partition(" ")[2]
     factor = unit_factor(name, unit)
     whole = math.floor(math.log10(largest / factor)) + 1 if largest > 0.0 else 1
     decimals = max(0, digits - max(whole, 1))
-    return name, [absent if v is None else f"{v / factor:.{decimals}f}" for v in values]
+    return name, [absent if v is None else f"{v / factor:z.{decimals}f}" for v in values]

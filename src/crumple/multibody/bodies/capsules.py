@@ -19,7 +19,7 @@ from crumple.cancelling import go_on
 from crumple.errors import InputError, Problem
 from crumple.multibody.bodies.assembly import Piece
 from crumple.multibody.bodies.linkage import GROUND, Linkage
-from crumple.numeric.arrays import Floats
+from crumple.numeric.arrays import Floats, Integers
 from crumple.structure import Structure
 from crumple.structure.geometry import NARROWEST
 from crumple.structure.hinges.corners import leaving
@@ -87,7 +87,11 @@ def end_corners(
     With each its members, and the node of a free end face, which moves.
     """
     for node, members in structure.members_at.items():
-        if len(members) > 2 or (len(members) == 2 and structure.joints_at.get(node)):
+        if len(members) > 1 and structure.joints_at.get(node):
+            continue
+        if len(members) > 2 and any(
+            len(_outermost(structure.section_of(m).outer_outline())) > 4 for m in members
+        ):
             continue
         axes = [leaving(structure, name, node) for name in members]
         there: list[tuple[SpatialCapsule, set[str]]] = []
@@ -100,7 +104,7 @@ def end_corners(
             if len(members) == 1:
                 points = _face_corners(outline, radius) @ across + radius * axes[i]
             else:
-                points = _tips(outline, radius, across, axes[i], axes[1 - i])
+                points = _tips(outline, radius, across, axes[i], axes[:i] + axes[i + 1 :])
             for place in np.asarray(structure.nodes[node], float) + points:
                 # members that move as one have the same tips at their mitre
                 near = (
@@ -123,19 +127,20 @@ def end_body(structure: Structure, pieces: tuple[Piece, ...], node: str) -> int:
     return next(piece.body for piece in (pieces if from_node else pieces[::-1]) if piece.end > piece.start)
 
 
-def _tips(outline: Floats, inset: float, across: Floats, axis: Floats, other: Floats) -> Floats:
-    """Corners of a member's walls beyond the node that another shares, from the node, (points, 3) [m].
+def _tips(outline: Floats, inset: float, across: Floats, axis: Floats, others: list[Floats]) -> Floats:
+    """Corners of a member's walls beyond the node that others share, from the node, (points, 3) [m].
 
-    Every line along the walls starts in the plane that halves the angle, as at a mitre, but not further
-    beyond the node than it is from the member's axis: at acute angles shells have no mitre, but this outline.
+    Every line along the walls starts in the last of the planes that halve the angles, as at a mitre, but not
+    further beyond the node than it is from the member's axis: at acute angles shells have no mitre, but this
+    outline.
     """
-    plane = axis - other
-    if float(axis @ other) > math.cos(NARROWEST):
+    planes = np.array([axis - other for other in others])
+    if any(float(axis @ other) > math.cos(NARROWEST) for other in others):
         return np.zeros((0, 3))
 
     def starts(points: Floats) -> Floats:
         arms = points @ across
-        meeting = -(arms @ plane) / float(axis @ plane)
+        meeting = (-(arms @ planes.T) / (planes @ axis)).max(axis=1)
         return np.asarray(np.maximum(meeting, -np.linalg.norm(arms, axis=1)))
 
     # the line that starts first may lie between the directions; of equal ones the first in this order
@@ -148,9 +153,14 @@ def _tips(outline: Floats, inset: float, across: Floats, axis: Floats, other: Fl
 
 def _face_corners(outline: Floats, inset: float) -> Floats:
     """Points of an outline that are outermost in `DIRECTIONS`, moved in, (points, 2) [m]."""
+    return _moved_in(outline[_outermost(outline)], outline, inset)
+
+
+def _outermost(outline: Floats) -> Integers:
+    """Which points of an outline are outermost in `DIRECTIONS`: the corners of a rectangle."""
     turns = 2.0 * np.pi * (np.arange(DIRECTIONS) + 0.5) / DIRECTIONS
     outwards = np.stack([np.cos(turns), np.sin(turns)], axis=1)
-    return _moved_in(outline[np.unique((outline @ outwards.T).argmax(axis=0))], outline, inset)
+    return np.unique((outline @ outwards.T).argmax(axis=0))
 
 
 def _moved_in(points: Floats, outline: Floats, inset: float) -> Floats:

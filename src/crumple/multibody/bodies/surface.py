@@ -64,7 +64,7 @@ class Surface:
                 of
                 if free not in nodes
                 and _meets(ball, obstacle)
-                and (free or float(gap(obstacle, ball.first)) > 0.0)
+                and (free or float(gap(obstacle, ball.first)) > ball.radius)
                 else set()
                 for ball, of, free in self.corners
             ]

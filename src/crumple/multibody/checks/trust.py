@@ -22,8 +22,9 @@ from crumple.result import HingeSummary
 from crumple.structure import PlacedHinge, Structure, dented_tubes
 from crumple.text.names import listed
 
-LOST_SHARE = 1e-3
-"""Share of the energy input that may be lost at the start before a warning is given."""
+LOST_SHARE = 0.05
+"""Share of the energy input that may be lost at the start before a warning is given: a node that is thrown
+alone takes a piece of its members along, which costs some percent."""
 MOST = 0.5
 """The same share from which the parts are taken to be locked, as bars of fixed length in a triangle are."""
 ELASTIC_SHARE = 0.05

@@ -196,6 +196,21 @@ def test_numbers_too_small_to_be_normal_are_zero_in_a_run_alone():
     assert {*kept, np.float64(1e-310) * 0.5} == {5e-311}
 
 
+def test_an_impact_at_the_start_has_no_force_at_the_start():
+    ball = SpatialModel(
+        (SpatialBody(2.0, np.eye(3), np.zeros(3)),),
+        capsules=(SpatialCapsule(0, np.zeros(3), np.zeros(3), 0.1),),
+        obstacles=(SpatialObstacle(ObstacleKind.PLANE, GROUND, -0.1 * np.array(X), np.array(X)),),
+    )
+    simulation = SpatialSimulation(ball)
+    simulation.set_motion(np.array([[0, 0, 0, -3.0, 0, 0]]), np.zeros((1, 6)))
+    record = simulation.run(np.array([0.0, 0.01]))
+    force = record.obstacle_force[:, 0, 0]
+    assert force[0] == 0.0
+    # on the plane, mean over the interval
+    assert force[1] * 0.01 == pytest.approx(-2.0 * 3.0)
+
+
 def test_same_bits_twice():
     first, second = (m4(1e-3).run(np.array([0.1])) for _ in range(2))
     assert np.array_equal(first.rotation, second.rotation)

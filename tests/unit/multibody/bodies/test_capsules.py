@@ -61,6 +61,32 @@ def test_every_half_of_a_mitre_moves_with_its_own_member(at):
     assert owners == ([["ab", "ab"], ["bc", "bc"]] if at == "b" else [["ab", "ab", "bc", "bc"]])
 
 
+SQUARE = {"type": "square_tube", "side": 0.05, "thickness": 0.002}
+ROUND = {"type": "circular_tube", "diameter": 0.05, "thickness": 0.002}
+
+
+def tips_of_three(directions, section=SQUARE):
+    """Tips at the origin of three members that lead away from it."""
+    nodes = {"o": (0.0, 0.0, 0.0)} | {f"n{i}": direction for i, direction in enumerate(directions)}
+    members = {f"m{i}": member("o", f"n{i}") for i in range(3)}
+    whole = structure(nodes=nodes, members=members, sections={"tube": section}, supports={})
+    found = end_corners(whole, link(whole).pieces)
+    return [(ball.first, of) for ball, of, node in found if node is None]
+
+
+def test_three_square_tubes_make_the_corner_of_a_cube():
+    axes = [(0.3, 0.0, 0.0), (0.0, 0.3, 0.0), (0.0, 0.0, 0.3)]
+    ((place, owners),) = tips_of_three(axes)
+    assert place == pytest.approx(np.full(3, -0.025 * (1.0 - 1e-3)))
+    assert owners == {"m0", "m1", "m2"}
+    # round tubes meet in edges that are nearly flat, which points do not describe
+    assert tips_of_three(axes, ROUND) == []
+
+
+def test_a_branch_at_right_angles_has_no_tips():
+    assert tips_of_three([(0.3, 0.0, 0.0), (-0.3, 0.0, 0.0), (0.0, 0.0, 0.3)]) == []
+
+
 def test_members_with_a_joint_at_their_node_have_no_tips():
     pin = {"pin": {"type": "revolute", "node": "b", "member": "ab", "axis": (0.0, 1.0, 0.0)}}
     assert not at_corner(joints=pin)
