@@ -14,8 +14,9 @@ import numpy as np
 from crumple.hinge import HingeLaw
 from crumple.hinge.bending.dented import DentedLaw
 from crumple.hinge.dent import Dent, dent_of, left_in_bending
+from crumple.material import Material
 from crumple.numeric.arrays import Floats
-from crumple.section import AXES, Axis, CircularTube, RectangularTube, half_fold_length
+from crumple.section import AXES, Axis, CircularTube, ClosedHat, RectangularTube, half_fold_length
 from crumple.structure.hinges.automatic import strikes_on
 from crumple.structure.hinges.law_choice import automatic_law
 from crumple.structure.hinges.runs.straight_runs import straight_run
@@ -50,8 +51,8 @@ def with_dent(
     reference, law
         What the input says of its law, which it may name itself; and the law.
     """
-    section = structure.section_of(member)
-    if not structure.obstacles or not isinstance(section, CircularTube | RectangularTube):
+    section = _walls(structure, member)
+    if not structure.obstacles or section is None:
         return law
     strike = strikes_on(structure, member).get(name)
     if strike is None or automatic_law(structure, reference) is None:
@@ -61,7 +62,7 @@ def with_dent(
     for tube in (tube for obstacle in strike.obstacles for tube in dented_tubes(structure, obstacle)):
         bends = isinstance(section, CircularTube) or abs(float(tube.outwards @ across)) >= SQUARE
         if tube.member in run and bends:
-            material, moment = structure.material_of(member), float(law.moment_capacity(0.0))
+            material, moment = _metal(structure, member), float(law.moment_capacity(0.0))
             left = left_in_bending(section, material, tube.depth, moment, strike.spans, strike.held)
             return DentedLaw(law, left)
     return law
@@ -139,22 +140,38 @@ def _struck_first(structure: StructureParts, obstacle: str) -> Iterator[tuple[st
 
 def _dented(structure: StructureParts, member: str, place: StruckPlace) -> DentedTube | None:
     """Dent of a struck member; None if there is no law for it."""
-    section = structure.section_of(member)
+    section = _walls(structure, member)
     outwards = np.asarray(place.outwards)
-    if not isinstance(section, CircularTube | RectangularTube) or place.sine < ACROSS:
+    if section is None or place.sine < ACROSS:
         return None
     if isinstance(section, CircularTube):
         depth = section.diameter
     else:
-        across = np.abs(structure.frame_of(member).axes[1:] @ outwards)
-        if isinstance(structure.obstacles[place.obstacle], SphereObstacle) or across.max() < SQUARE:
+        across = structure.frame_of(member).axes[1:] @ outwards
+        # of a hat the crown alone
+        struck = across[1:] if isinstance(structure.section_of(member), ClosedHat) else np.abs(across)
+        if isinstance(structure.obstacles[place.obstacle], SphereObstacle) or struck.max() < SQUARE:
             return None
-        depth = float(np.ptp(section.outer_outline(), axis=0)[int(np.argmax(across))])
+        depth = float((section.width, section.depth)[int(np.argmax(np.abs(across)))])
     if not _folds_there(structure, member, place.obstacle):
         return None
     nodes = _nodes_in(structure, member, place.station)
-    dent = dent_of(section, structure.material_of(member), depth)
+    dent = dent_of(section, _metal(structure, member), depth)
     return DentedTube(member, place.station, nodes, outwards, depth, dent)
+
+
+def _walls(structure: StructureParts, member: str) -> CircularTube | RectangularTube | None:
+    """The tube whose walls an obstacle dents: of a closed hat crown and webs; None of other sections."""
+    section = structure.section_of(member)
+    if isinstance(section, ClosedHat):
+        return RectangularTube(section.width, section.depth, section.thickness)
+    return section if isinstance(section, CircularTube | RectangularTube) else None
+
+
+def _metal(structure: StructureParts, member: str) -> Material:
+    """Metal of these walls."""
+    own = getattr(structure.section_of(member), "hat_material", None)
+    return structure.material_of(member) if own is None else own
 
 
 def _nodes_in(structure: StructureParts, member: str, station: float) -> tuple[str, ...]:

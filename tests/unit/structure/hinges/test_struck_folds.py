@@ -16,6 +16,7 @@ materials:
 sections:
   round: {type: circular_tube, diameter: 60 mm, thickness: 2 mm}
   square: {type: square_tube, side: 60 mm, thickness: 2 mm}
+  hat: {type: closed_hat, width: 60 mm, depth: 60 mm, thickness: 2 mm, flange: 20 mm}
   open: {type: channel, width: 60 mm, depth: 60 mm, thickness: 2 mm}
 nodes:
   left: [0 m, 0 m, 0 m]
@@ -61,6 +62,9 @@ def dented(structure):
         # on an edge between two walls, and on what is no tube
         ("square, roll: 45 deg", HIGH, []),
         ("open", HIGH, []),
+        # on its crown, and on its plate
+        ("hat", HIGH, ["beam"]),
+        ("hat, roll: 180 deg", HIGH, []),
         ("round", BALL.replace("HEIGHT", "90"), ["beam"]),
         # in the middle of a flat wall
         ("square", BALL.replace("HEIGHT", "90"), []),
@@ -162,3 +166,16 @@ def test_a_law_that_the_input_names_stays():
     structure = structure_of("round", HIGH, named)
     assert dented(structure) == ["beam"]
     assert not any(isinstance(hinge.law, DentedLaw) for hinge in plastic_hinges(structure))
+
+
+def test_a_hat_is_dented_like_the_tube_of_its_crown_and_webs():
+    hat, tube = (dented_tubes(structure_of(section), "pole")[0] for section in ("hat", "square"))
+    assert hat.depth == tube.depth == pytest.approx(0.06)
+    assert hat.dent.at(0.01) == pytest.approx(tube.dent.at(0.01))
+    text = TEXT.replace("SECTION", "hat").replace("OBSTACLE", HIGH).replace("LOWER", "0")
+    text = text.replace("flange: 20 mm}", "flange: 20 mm, hat_material: soft}")
+    text = text.replace("materials:", "materials:\n  soft: SOFT")
+    soft = "youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 175 MPa"
+    text = text.replace("SOFT", f"{{{soft}}}")
+    (softer,) = dented_tubes(loads(text).structure, "pole")
+    assert softer.dent.at(0.01) == pytest.approx(hat.dent.at(0.01) / 2.0)
