@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 
 import numpy as np
@@ -20,7 +20,7 @@ from crumple.errors import InputError, Problem
 from crumple.multibody.bodies.assembly import Piece
 from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.numeric.arrays import Floats, Integers
-from crumple.structure import Structure
+from crumple.structure import PlaneObstacle, Structure
 from crumple.structure.geometry import NARROWEST
 from crumple.structure.hinges.corners import leaving
 
@@ -35,6 +35,9 @@ DIRECTIONS = 8
 LEAST_TIP = 0.1
 """Least distance of a tip beyond its node, over that from the member's axis: at bends below 11 to 16 degrees
 the round ends of capsules reach as far, within 1 % of their radius."""
+STANDS_OUT = 1.2
+"""Distance from the node towards a plane of a tip of three members over that of their capsules from which it
+counts: flush contacts that touch with both take several times the linear solves, with the same result."""
 ROUND = 1.1
 """Ratio of the sides of a section up to which one row of capsules represents it."""
 
@@ -105,6 +108,8 @@ def end_corners(
                 points = _face_corners(outline, radius) @ across + radius * axes[i]
             else:
                 points = _tips(outline, radius, across, axes[i], axes[:i] + axes[i + 1 :])
+            if len(members) > 2:
+                points = _standing_out(structure, members, points)
             for place in np.asarray(structure.nodes[node], float) + points:
                 # members that move as one have the same tips at their mitre
                 near = (
@@ -149,6 +154,21 @@ def _tips(outline: Floats, inset: float, across: Floats, axis: Floats, others: l
     start = starts(points)
     kept = start < -LEAST_TIP * np.linalg.norm(points, axis=1)
     return np.asarray((points @ across + start[:, None] * axis)[kept])
+
+
+def _standing_out(structure: Structure, members: Sequence[str], points: Floats) -> Floats:
+    """Those points from the node of some members that a plane meets well before their capsules."""
+    found = np.zeros(len(points), bool)
+    for obstacle in structure.obstacles.values():
+        if isinstance(obstacle, PlaneObstacle):
+            towards = -np.asarray(obstacle.normal, float) / np.linalg.norm(obstacle.normal)
+            reach = max(
+                float((row_shifts(structure, name) @ towards).max())
+                + capsule_rows(structure.section_of(name).outer_outline())[1]
+                for name in members
+            )
+            found |= points @ towards > STANDS_OUT * reach
+    return np.asarray(points[found])
 
 
 def _face_corners(outline: Floats, inset: float) -> Floats:

@@ -65,11 +65,12 @@ SQUARE = {"type": "square_tube", "side": 0.05, "thickness": 0.002}
 ROUND = {"type": "circular_tube", "diameter": 0.05, "thickness": 0.002}
 
 
-def tips_of_three(directions, section=SQUARE):
-    """Tips at the origin of three members that lead away from it."""
+def tips_of_three(directions, section=SQUARE, normal=(1.0, 1.0, 1.0)):
+    """Tips at the origin of three members that lead away from it, before a plane."""
     nodes = {"o": (0.0, 0.0, 0.0)} | {f"n{i}": direction for i, direction in enumerate(directions)}
     members = {f"m{i}": member("o", f"n{i}") for i in range(3)}
-    whole = structure(nodes=nodes, members=members, sections={"tube": section}, supports={})
+    wall = {"wall": {"type": "plane", "point": (-1.0, -1.0, -1.0), "normal": normal}}
+    whole = structure(nodes=nodes, members=members, sections={"tube": section}, supports={}, obstacles=wall)
     found = end_corners(whole, link(whole).pieces)
     return [(ball.first, of) for ball, of, node in found if node is None]
 
@@ -79,6 +80,8 @@ def test_three_square_tubes_make_the_corner_of_a_cube():
     ((place, owners),) = tips_of_three(axes)
     assert place == pytest.approx(np.full(3, -0.025 * (1.0 - 1e-3)))
     assert owners == {"m0", "m1", "m2"}
+    # a plane along a face meets the capsules as early
+    assert tips_of_three(axes, normal=(1.0, 0.0, 0.0)) == []
     # round tubes meet in edges that are nearly flat, which points do not describe
     assert tips_of_three(axes, ROUND) == []
 
