@@ -16,7 +16,7 @@ from crumple.hinge.bending.dented import DentedLaw
 from crumple.hinge.dent import Dent, dent_of, left_in_bending
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
-from crumple.section import AXES, Axis, CircularTube, ClosedHat, RectangularTube, half_fold_length
+from crumple.section import AXES, Axis, CircularTube, RectangularTube, half_fold_length
 from crumple.structure.hinges.automatic import strikes_on
 from crumple.structure.hinges.law_choice import automatic_law
 from crumple.structure.hinges.runs.straight_runs import straight_run
@@ -51,8 +51,10 @@ def with_dent(
     reference, law
         What the input says of its law, which it may name itself; and the law.
     """
+    if not structure.obstacles:
+        return law
     section = _walls(structure, member)
-    if not structure.obstacles or section is None:
+    if section is None:
         return law
     strike = strikes_on(structure, member).get(name)
     if strike is None or automatic_law(structure, reference) is None:
@@ -149,7 +151,8 @@ def _dented(structure: StructureParts, member: str, place: StruckPlace) -> Dente
     else:
         across = structure.frame_of(member).axes[1:] @ outwards
         # of a hat the crown alone
-        struck = across[1:] if isinstance(structure.section_of(member), ClosedHat) else np.abs(across)
+        tube = isinstance(structure.section_of(member), RectangularTube)
+        struck = np.abs(across) if tube else across[1:]
         if isinstance(structure.obstacles[place.obstacle], SphereObstacle) or struck.max() < SQUARE:
             return None
         depth = float((section.width, section.depth)[int(np.argmax(np.abs(across)))])
@@ -163,9 +166,13 @@ def _dented(structure: StructureParts, member: str, place: StruckPlace) -> Dente
 def _walls(structure: StructureParts, member: str) -> CircularTube | RectangularTube | None:
     """The tube whose walls an obstacle dents: of a closed hat crown and webs; None of other sections."""
     section = structure.section_of(member)
+    if isinstance(section, CircularTube | RectangularTube):
+        return section
+    from crumple.section import ClosedHat  # noqa: PLC0415  (its walls take time to load)
+
     if isinstance(section, ClosedHat):
         return RectangularTube(section.width, section.depth, section.thickness)
-    return section if isinstance(section, CircularTube | RectangularTube) else None
+    return None
 
 
 def _metal(structure: StructureParts, member: str) -> Material:
