@@ -70,7 +70,7 @@ BENDING: Registry[LawType] = Registry(
         "wierzbicki": "crumple.hinge.bending.wierzbicki:WierzbickiLaw",
         "oblique": "crumple.hinge.bending.oblique:ObliqueLaw",
         "circular": "crumple.hinge.bending.circular:CircularLaw",
-        "folded_profile": "crumple.hinge.bending.folded_profile:FoldedProfileLaw",
+        "folded_profile": "crumple.hinge.bending.profiles.folded_profile:FoldedProfileLaw",
         "mitred_corner": "crumple.hinge.corner.mitred_corner:MitredCornerLaw",
         "mitred_corner_across": "crumple.hinge.corner.mitred_corner_across:MitredCornerAcrossLaw",
         "measured": "crumple.hinge.measured.measured_law:MeasuredLaw",

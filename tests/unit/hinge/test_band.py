@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from crumple.errors import InputError
 from crumple.hinge import ConstantLaw, HingeLaw, KecmanLaw, record_of
 from crumple.hinge.band import Bound, ScaledLaw, band_of
-from crumple.hinge.bending.folded_profile import FoldedProfileLaw
+from crumple.hinge.bending.profiles.folded_profile import FoldedProfileLaw
 from crumple.material import Material
 from crumple.section import Channel, RectangularTube
 

@@ -64,7 +64,9 @@ def with_dent(
     for tube in (tube for obstacle in strike.obstacles for tube in dented_tubes(structure, obstacle)):
         bends = isinstance(section, CircularTube) or abs(float(tube.outwards @ across)) >= SQUARE
         if tube.member in run and bends:
-            material, moment = _metal(structure, member), float(law.moment_capacity(0.0))
+            # the struck wall is compressed: +z by a negative rotation about y, +y by a positive one about z
+            sense = 1 if (float(tube.outwards @ across) > 0.0) == (axis == "z") else -1
+            material, moment = _metal(structure, member), float(law.moment_capacity(0.0, sense))
             left = left_in_bending(section, material, tube.depth, moment, strike.spans, strike.held)
             return DentedLaw(law, left)
     return law

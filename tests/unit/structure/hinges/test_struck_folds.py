@@ -6,7 +6,10 @@ import pytest
 
 from crumple import loads
 from crumple.hinge.bending.dented import DentedLaw
+from crumple.hinge.dent import left_in_bending
+from crumple.section import RectangularTube
 from crumple.structure import dented_tubes, hinge_places, law_uses, plastic_hinges
+from crumple.structure.hinges.automatic import strikes_on
 from crumple.structure.hinges.places import law_of
 
 TEXT = """
@@ -179,3 +182,28 @@ def test_a_hat_is_dented_like_the_tube_of_its_crown_and_webs():
     text = text.replace("SOFT", f"{{{soft}}}")
     (softer,) = dented_tubes(loads(text).structure, "pole")
     assert softer.dent.at(0.01) == pytest.approx(hat.dent.at(0.01) / 2.0)
+
+
+@pytest.mark.parametrize("roll", ["0 deg", "180 deg"])
+def test_a_struck_hat_bends_with_its_crown_compressed(roll):
+    """The dent grows until its force bends the hat, whose moment then is that of the compressed crown."""
+    below = HIGH.replace("HEIGHT", "90")
+    strike = "velocity: [0 m/s, 0 m/s, -5 m/s], guide: [0, 0, -1]"
+    # thin walls: the plate buckles later than the crown
+    text = TEXT.replace("2 mm, flange", "1.2 mm, flange")
+    text = text.replace("SECTION", f"hat, roll: {roll}").replace("LOWER", "0")
+    if roll != "0 deg":
+        below = below.replace("90 mm", "-90 mm")
+        text = text.replace(strike, "velocity: [0 m/s, 0 m/s, 5 m/s], guide: [0, 0, 1]")
+    structure = loads(text.replace("OBSTACLE", below)).structure
+    (law,) = [hinge.law for hinge in plastic_hinges(structure) if isinstance(hinge.law, DentedLaw)]
+    section, strike = structure.section_of("beam"), strikes_on(structure, "beam")["beam-pole"]
+    moments = {sense: float(law.law.moment_capacity(0.0, sense)) for sense in (1, -1)}
+    tube = RectangularTube(section.width, section.depth, section.thickness)
+    left = {
+        sense: left_in_bending(
+            tube, structure.material_of("beam"), tube.depth, moment, strike.spans, strike.held
+        )
+        for sense, moment in moments.items()
+    }
+    assert law.left == left[-1] != left[1]

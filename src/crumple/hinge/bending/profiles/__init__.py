@@ -1,0 +1,1 @@
+"""Channels and hats in bending: mechanisms of their faces and free edges."""
