@@ -94,7 +94,7 @@ DEFAULT_BENDING = {
 Fold = Literal["free", "clamped"]
 """Whether a fold lies between joints and clamps, or beside one, which keeps the section in shape."""
 FOLD_BENDING: dict[Fold, dict[str, str]] = {
-    "free": {"circular_tube": "library"},
+    "free": {"circular_tube": "library", "rectangular_tube": "library"},
     "clamped": {"circular_tube": "clamped_tube"},
 }
 """Law that goes before the formula in such folds: docs/theory/tube_library.md."""

@@ -109,7 +109,7 @@ class HingeAxes(Spec):
     """Section axis that the moment vector lies along; without it the one across the plane of bending."""
     law: LawReference | None = None
     """Name of a hinge law or of a law type, or a law itself; without it, or `auto`, a stored law, else the
-    library (automatic hinges of round tubes) or the formula of the section's shape, else an estimate."""
+    library (automatic hinges of tubes) or the formula of the section's shape, else an estimate."""
     axes: Annotated[tuple[HingeAxis, ...], Field(min_length=1, max_length=3)] | None = None
     """All section axes that it turns about, in place of `axis`: y and z bend, x is twist."""
     laws: AxisLaws | None = None

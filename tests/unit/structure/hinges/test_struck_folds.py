@@ -164,6 +164,17 @@ def test_folds_of_round_tubes_have_the_laws_of_the_library(wall, free, clamped, 
     assert uses["beam-pole"].origin == origin
 
 
+@pytest.mark.parametrize(("wall", "free", "origin"), [(2, "library", "library"), (5, "kecman", "formula")])
+def test_free_folds_of_rectangular_tubes_have_the_library(wall, free, origin):
+    """Within its range; those beside joints and clamps keep the formula."""
+    thick = ("square_tube, side: 60 mm, thickness: 2 mm", f"square_tube, side: 60 mm, thickness: {wall} mm")
+    whole = structure_of("square", HIGH + ", dents: false", thick)
+    laws = {hinge.name: hinge.law.name for hinge in plastic_hinges(whole) if hinge.member == "beam"}
+    assert laws.pop("beam-pole") == free
+    assert set(laws.values()) == {"kecman"}
+    assert law_uses(whole)["beam-pole"].origin == origin
+
+
 def test_a_law_that_the_input_names_stays():
     named = ("hinges: auto", "hinges: {law: {type: constant, moment: 2 kN*m}}")
     structure = structure_of("round", HIGH, named)
