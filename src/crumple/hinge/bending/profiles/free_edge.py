@@ -50,6 +50,8 @@ class FreeEdgeMechanism:
         w_t [m].
     lip
         Width of a sheet along each free edge, across the wall [m].
+    weight
+        Factor on the work [-].
 
     References
     ----------
@@ -62,6 +64,7 @@ class FreeEdgeMechanism:
     flow_stress: float
     stretched_face: float
     lip: float = 0.0
+    weight: float = 1.0
 
     @property
     def half_length(self) -> float:
@@ -95,7 +98,7 @@ class FreeEdgeMechanism:
         inclined = np.arctan(at["z_A"] * length / (at["y_A"] * at["x_P"]))
         folds = WALLS * (b * middle + 2.0 * length * inclined) + self.stretched_face * np.asarray(rotation)
         edge = WALLS * self.flow_stress * t * self.lip**2 * np.arcsin(at["z_A"] / h)
-        return np.asarray(line_moment * folds + edge)
+        return np.asarray(self.weight * (line_moment * folds + edge))
 
     def moment(self, rotation: ArrayLike) -> Floats:
         """Moment dW/dtheta [N m]; grows without bound as the rotation [rad] goes to zero."""
