@@ -28,6 +28,7 @@ from crumple.numeric.rotation import turned
 from crumple.result import Caution
 from crumple.section import plastic_interaction
 from crumple.structure import Structure
+from crumple.structure.hinges.lengthening.nodes_met import supports_met
 from crumple.units import format_quantity
 
 FALL = 1e-3
@@ -79,7 +80,7 @@ def physics_cautions(structure: Structure, solved: Solved) -> tuple[Caution, ...
         *overloaded_sections(structure, solved),
         *torques_without_twist(structure, solved),
         *fast_nodes(structure, solved, total),
-        *impact_losses(solved, total),
+        *impact_losses(structure, solved, total),
         *jammed_folds(solved),
         *closed_crush_zones(structure, solved),
         *crushed_walls(structure, solved),
@@ -228,13 +229,17 @@ def moving_mass(structure: Structure, solved: Solved) -> float:
     return pieces + sum(lump_mass(structure, lump).mass for lump in lumps)
 
 
-def impact_losses(solved: Solved, total: float) -> Iterator[Caution]:
-    """Energy that was lost in impacts between rigid bodies."""
+def impact_losses(structure: Structure, solved: Solved, total: float) -> Iterator[Caution]:
+    """Energy that was lost in impacts between rigid bodies, and obstacles that supports stop."""
     lost = _lost_in_impacts(solved)
     where = "impacts between rigid bodies, which store no elastic energy and do not fold at the impact"
     if solved.crushed:
         where = "walls that are crushed at contacts, since nothing else can give way"
     if lost > IMPACT * total:
+        stopped = "".join(
+            f" Obstacle {obstacle} meets node {node}, which supports hold."
+            for obstacle, node in supports_met(structure)
+        )
         yield Caution(
             "impact_loss",
             lost,
@@ -242,7 +247,7 @@ def impact_losses(solved: Solved, total: float) -> Iterator[Caution]:
             "J",
             "",
             f"{format_quantity(lost, 'J', 4)} of {format_quantity(total, 'J', 4)} energy input "
-            f"({lost / total:.0%}) are lost in {where}; a shell run shows where it goes.",
+            f"({lost / total:.0%}) are lost in {where}; a shell run shows where it goes.{stopped}",
         )
 
 

@@ -11,6 +11,7 @@ from crumple.multibody import Run, solve_multibody
 from crumple.multibody.checks import physics
 from crumple.result import Caution, CrumpledEnd, sentences
 from crumple.structure import MultibodySettings, Structure
+from crumple.structure.hinges.lengthening.nodes_met import supports_met
 
 
 def solve(structure, duration=0.05, **settings):
@@ -155,15 +156,49 @@ def test_a_crash_box_that_bottoms_out_is_a_caution():
 
 
 def test_energy_lost_in_rigid_impacts_is_a_caution_from_a_tenth():
+    structure = cantilever(constant_law(100.0))
     energy = {"contact": np.array([0.0, 11.0])}
-    (found,) = physics.impact_losses(SimpleNamespace(energy=energy, crushed=(), crumpled=()), 100.0)
+    (found,) = physics.impact_losses(
+        structure, SimpleNamespace(energy=energy, crushed=(), crumpled=()), 100.0
+    )
     assert (found.code, found.value, found.limit) == ("impact_loss", 11.0, 10.0)
     assert "(11%)" in found.text
     no_impact = SimpleNamespace(energy={"contact": np.array([0.0, 9.0])}, crushed=(), crumpled=())
-    assert not list(physics.impact_losses(no_impact, 100.0))
+    assert not list(physics.impact_losses(structure, no_impact, 100.0))
     # what crumples is not lost in an impact
     end = CrumpledEnd("rail", "tip", "wall", 0.01, 2.0)
-    assert not list(physics.impact_losses(SimpleNamespace(energy=energy, crushed=(), crumpled=(end,)), 100.0))
+    crumples = SimpleNamespace(energy=energy, crushed=(), crumpled=(end,))
+    assert not list(physics.impact_losses(structure, crumples, 100.0))
+
+
+@pytest.mark.parametrize(
+    ("x", "supported", "expected"),
+    [
+        # the plane meets the whole post, its clamp too
+        (0.0, "foot", ["foot"]),
+        # the post leans away from the plane: the corner is met first
+        (-0.1, "foot", []),
+        # the node that is met is held across the blow alone
+        (0.0, "guided", []),
+    ],
+)
+def test_what_an_obstacle_meets_at_a_support_is_named(x, supported, expected):
+    held = {"foot": "all", "guided": ["y", "z", "rx", "ry", "rz"]}[supported]
+    structure = Structure(
+        nodes={"foot": (0.0, 0.0, 0.0), "corner": (x, 0.0, 0.7), "end": (0.8, 0.0, 0.7)},
+        members={
+            name: {"nodes": nodes, "section": "tube", "material": "steel"}
+            for name, nodes in {"post": ("foot", "corner"), "beam": ("corner", "end")}.items()
+        },
+        sections={"tube": {"type": "square_tube", "side": 0.05, "thickness": 0.002}},
+        materials={"steel": STEEL},
+        supports={"foot": {"node": "foot", "fix": held}},
+        obstacles={"ram": {"type": "plane", "point": (-0.2, 0.0, 0.0), "normal": (1.0, 0.0, 0.0)}},
+    )
+    assert list(supports_met(structure)) == [("ram", node) for node in expected]
+    solved = SimpleNamespace(energy={"contact": np.array([0.0, 50.0])}, crushed=(), crumpled=())
+    (found,) = physics.impact_losses(structure, solved, 100.0)
+    assert ("Obstacle ram meets node foot" in found.text) == bool(expected)
 
 
 def test_a_violation_changes_the_status(monkeypatch):

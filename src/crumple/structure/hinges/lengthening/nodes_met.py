@@ -21,6 +21,8 @@ from crumple.structure.struck_places import LEAST, PLACES, axis_gaps
 
 FLAT = math.radians(25.0)
 """Angle by which members at a node may lead towards a plane that meets it."""
+TOGETHER = 1e-3
+"""Difference of the distances from an obstacle to nodes that it meets at the same time [m]."""
 HELD = 1e-6
 """Part of a blow along the directions that supports leave that is none."""
 
@@ -33,6 +35,19 @@ def nodes_met(structure: StructureParts, obstacle: Obstacle) -> Iterator[tuple[s
         driven = any(not freedom.startswith("r") for support in supports for freedom in support.driven)
         if not driven and np.linalg.norm(free_directions(structure, node) @ outwards) > HELD:
             yield node, outwards
+
+
+def supports_met(structure: StructureParts) -> Iterator[tuple[str, str]]:
+    """Obstacles, and the nodes that they meet first or together with the first, and that supports hold."""
+    for name, obstacle in structure.obstacles.items():
+        nodes = list(_first(structure, obstacle))
+        if not nodes:
+            continue
+        gaps = gap(obstacle, np.array([structure.nodes[node] for node in nodes], float))
+        yielding = {node for node, _ in nodes_met(structure, obstacle)}
+        for node, distance in zip(nodes, gaps - gaps.min(), strict=True):
+            if node not in yielding and distance <= TOGETHER:
+                yield name, node
 
 
 def _first(structure: StructureParts, obstacle: Obstacle) -> Iterator[str]:
