@@ -155,6 +155,12 @@ def test_each_sense_compresses_the_documented_side():
             assert float(law.moment_capacity(0.0, sense)) == pytest.approx(expected, rel=1e-12)
 
 
+def test_a_thicker_plate_that_is_stretched_counts_by_its_own_plastic_moment():
+    thin, thick = (ClosedHat(0.05, 0.04, 0.0015, 0.015, plate_thickness=t) for t in (0.0015, 0.003))
+    a, b = (build_law("folded_profile", hat, STEEL).negative.mechanism for hat in (thin, thick))
+    assert b.stretched_face - a.stretched_face == pytest.approx(3.0 * 0.08)
+
+
 def compressed(hat, material=STEEL):
     return build_law("folded_profile", hat, material).positive.mechanism
 

@@ -5,14 +5,16 @@ Per sense min(Mmax, M_mech), with Mmax the section's own moment capacity and the
 compressed:
 
     a closed face (web of a channel,          the tube's mechanism with the faces that exist
-    crown or plate of a hat)
+    crown of a hat)
+    the plate of a closed hat                 plate and flanges folding as strips
+                                              (crumple.hinge.bending.profiles.compressed_plate)
     an open side (edges, with lips or         the same with those lips alone as its face, or walls folding
     outward flanges)                          sideways (crumple.hinge.bending.profiles.free_edge)
 
 Of two mechanisms the one that needs less work up to half the smaller jamming angle governs.  A closing plate
-of another thickness or metal counts by its own m_p.  Limits: lip -> 0 leaves the free edge; a face as wide as
-the webs are apart on both sides is the tube.  Positive rotation about y compresses the lower side (-z), about
-z the right side (+y).
+of another thickness or metal counts by its own m_p and yield force.  Limits: lip -> 0 leaves the free edge;
+a face as wide as the webs are apart on both sides is the tube.  Positive rotation about y compresses the
+lower side (-z), about z the right side (+y).
 """
 
 from __future__ import annotations
@@ -44,7 +46,7 @@ from crumple.section.shapes.hat import Hat
 
 SOURCE = Source(
     "Kecman-type mechanism with the faces of the profile, and folding of free edges",
-    Trust.DERIVED,
+    Trust.FITTED,
     "after D. Kecman, Int. J. Mech. Sci. 25 (1983) 623-636 for the idea; which lines a profile has, and the "
     "folding of free edges, are derived here; the work of the latter has a factor from shells",
 )
