@@ -136,14 +136,8 @@ class FoldedProfileLaw:
         """
         after = choice("after_jamming", after_jamming, AfterJamming)
         weight = number_between("rolling_weight", rolling_weight, 0.0, 1.0)
-        ways = _mechanisms(section, material, axis, weight)
         peaks = [moment_capacity(section, material, axis, sense=sense) for sense in (1, -1)]
-        positive, negative = (
-            CappedMechanism(peak.moment, _governing(mechanisms))
-            for peak, mechanisms in zip(peaks, ways, strict=True)
-        )
-        if isinstance(section, ClosedHat):
-            positive = _plate_compressed(section, material, peaks[0], positive.jamming_angle)
+        positive, negative = _folds(section, material, axis, weight, peaks)
         jamming = min(positive.jamming_angle, negative.jamming_angle)
         length = section.flange_width(axis)
         stop = Stop(jamming, material.youngs_modulus * section.second_moment(axis) / length)
@@ -196,63 +190,50 @@ class FoldedProfileLaw:
         return self.positive if sense > 0 else self.negative
 
 
-def _mechanisms(
-    section: Section, material: Material, axis: Axis, weight: float
-) -> tuple[list[Mechanism], list[Mechanism]]:
-    """Possible mechanisms in the positive and in the negative sense."""
-    if isinstance(section, Channel) and axis == "z":
-        return _open_profile(section.depth, section.width, section.lip, section.thickness, material, weight)
-    if isinstance(section, Hat) and axis == "y":
-        return _open_profile(
-            section.width, section.depth, section.flange, section.thickness, material, weight
-        )
+def _folds(
+    section: Section, material: Material, axis: Axis, weight: float, peaks: list[MomentCapacity]
+) -> tuple[CappedMechanism, CappedMechanism]:
+    """Governing mechanism of the positive and of the negative sense, under its largest moment."""
     if isinstance(section, ClosedHat) and axis == "y":
-        return _closed_hat(section, material, weight)
-    allowed = "a channel about z, a hat or a closed hat about y"
-    what, todo = (
-        "no folding mechanism is available for this section and axis",
-        "use a table or a constant law",
-    )
-    raise InputError(Problem(what, f"{section.title} about {axis}", allowed, todo, "section"))
-
-
-def _open_profile(
-    spacing: float, depth: float, edge: float, thickness: float, material: Material, weight: float
-) -> tuple[list[Mechanism], list[Mechanism]]:
-    """Open side compressed, closed face compressed; ``edge`` is the width of one lip or flange [m]."""
-    flow = material.flow_stress
-    sizes = (spacing, depth, thickness, flow, weight)
-    opened: list[Mechanism] = [
-        FreeEdgeMechanism(depth, thickness, flow, spacing, edge, FREE_EDGE),
+        return _closed_hat(section, material, weight, peaks)
+    if isinstance(section, Channel) and axis == "z":
+        spacing, depth, edge = section.depth, section.width, section.lip
+    elif isinstance(section, Hat) and axis == "y":
+        spacing, depth, edge = section.width, section.depth, section.flange
+    else:
+        allowed = "a channel about z, a hat or a closed hat about y"
+        what, todo = (
+            "no folding mechanism is available for this section and axis",
+            "use a table or a constant law",
+        )
+        raise InputError(Problem(what, f"{section.title} about {axis}", allowed, todo, "section"))
+    sizes = (spacing, depth, section.thickness, material.flow_stress, weight)
+    opened = _governing(
+        FreeEdgeMechanism(depth, section.thickness, material.flow_stress, spacing, edge, FREE_EDGE),
         ProfileMechanism(*sizes, compressed_face=2.0 * edge, stretched_face=spacing),
-    ]
-    return opened, [ProfileMechanism(*sizes, compressed_face=spacing, stretched_face=2.0 * edge)]
+    )
+    closed = ProfileMechanism(*sizes, compressed_face=spacing, stretched_face=2.0 * edge)
+    return CappedMechanism(peaks[0].moment, opened), CappedMechanism(peaks[1].moment, closed)
 
 
 def _closed_hat(
-    section: ClosedHat, material: Material, weight: float
-) -> tuple[list[Mechanism], list[Mechanism]]:
-    """Plate compressed, crown compressed."""
+    section: ClosedHat, material: Material, weight: float, peaks: list[MomentCapacity]
+) -> tuple[CappedMechanism, CappedMechanism]:
+    """Plate compressed, up to the rotation at which a folded crown jams; crown compressed."""
     hat, plate = section.hat_material or material, section.plate_material or material
     layer = (section.plate_thickness or section.thickness) / section.thickness
     doubled = 2.0 * section.flange
     plate_face = doubled + (section.width + doubled) * layer**2 * plate.flow_stress / hat.flow_stress
     sizes = (section.width, section.depth, section.thickness, hat.flow_stress, weight)
-    under = ProfileMechanism(*sizes, compressed_face=plate_face, stretched_face=section.width)
     crown = ProfileMechanism(*sizes, compressed_face=section.width, stretched_face=plate_face)
-    return [under], [crown]
+    flat, folded = (
+        CompressedPlate.of(section, material, crown.jamming_angle, flows=flows) for flows in (False, True)
+    )
+    start = min(flat.peak, peaks[0].plastic_moment)
+    return CappedMechanism(start, folded), CappedMechanism(peaks[1].moment, crown)
 
 
-def _plate_compressed(
-    section: ClosedHat, material: Material, peak: MomentCapacity, jamming: float
-) -> CappedMechanism:
-    """Plate and flanges fold, up to the rotation at which the faces of a tube's mechanism would touch."""
-    flat = CompressedPlate.of(section, material, jamming, flows=False)
-    folded = CompressedPlate.of(section, material, jamming, flows=True)
-    return CappedMechanism(min(flat.peak, peak.plastic_moment), folded)
-
-
-def _governing(mechanisms: list[Mechanism]) -> Mechanism:
+def _governing(*mechanisms: Mechanism) -> Mechanism:
     """Mechanism that needs the least work up to half the smallest jamming angle."""
     reach = min(each.jamming_angle for each in mechanisms) / 2.0
     return min(mechanisms, key=lambda each: float(each.energy(np.float64(reach))))
