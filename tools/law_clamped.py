@@ -16,7 +16,6 @@ are two tubes without hardening and one with it.  Nobody chooses anything by the
 
 from __future__ import annotations
 
-import argparse
 import json
 import math
 import time
@@ -25,28 +24,15 @@ from pathlib import Path
 
 import numpy as np
 from tools.law_design import COARSE, NOMINAL, Kind, Point, Role, points
-from tools.law_fit import KNOTS, Solved, best_fit
-from tools.law_library import (
-    CHOICES,
-    LARGEST,
-    PROVENANCE,
-    band_of,
-    entry,
-    error_of,
-    lines_of,
-    points_of,
-    ranges,
-    settings,
-)
+from tools.law_fit import Solved
+from tools.law_library import LARGEST, error_of, fits_of, percents, run_verb, write_table
 
 from crumple.analysis import Analysis, solve
 from crumple.characterisation.curve import law_curve
 from crumple.characterisation.resolution import Resolution
 from crumple.hinge.tube_library.clamped import TABLE
-from crumple.hinge.tube_library.table import table_of
 from crumple.section import CircularTube, fold_distance, half_fold_length
 from crumple.structure import Structure
-from crumple.version import __version__
 
 KIND: Kind = "circular_tube"
 METHOD = "clamped cantilevers, driven across at their tips, docs/theory/tube_library.md"
@@ -161,43 +147,13 @@ def read(folder: Path, *, held_out: bool) -> list[Solved]:
 def table(folder: Path) -> None:
     """Fit and write the table, with errors at tubes that were left out or held out."""
     fitted, held_out = read(folder, held_out=False), read(folder, held_out=True)
-    fits = [best_fit(choice, points_of(choice, KIND, fitted)) for choice in CHOICES[KIND]]
-    fit = min(fits, key=lambda one: one.score)
-    written = {
-        "provenance": PROVENANCE
-        | {"method": METHOD, "imperfection": "none", "crumple": __version__}
-        | {"elements along half a fold": [COARSE, NOMINAL]},
-        "coordinates": [asdict(one) for one in fit.coordinates],
-        "ranges": ranges(KIND),
-        "rotation_deg": KNOTS.tolist(),
-        "band": 0.0,
-        "fit": settings(fit) | fit.entries,
-        "points": [
-            *(entry(one, errors) for one, errors in zip(fitted, fit.left_out, strict=True)),
-            *(entry(one) for one in held_out),
-        ],
-    }
-    found = table_of(written)
-    written["band"] = band_of(found, held_out)
-    path = Path(__file__).parent.parent / "src/crumple/hinge/tube_library" / f"{TABLE}.json"
-    path.write_text(lines_of(written) + "\n")
+    provenance = {"method": METHOD, "imperfection": "none"}
+    found = write_table(TABLE, KIND, provenance, fits_of(KIND, fitted), (fitted, held_out))
     for one, own in zip((*fitted, *held_out), found.facts["points"], strict=True):
         errors = own.get("left_out", error_of(found, one))
         place = " ".join(f"{own[key]:8.4g}" for key in ("slenderness", "yield_strain", "hardening"))
-        print(f"{own['role']:9} {place}   {' '.join(f'{100.0 * error:+6.1f}' for error in errors)} %")
-
-
-def main() -> None:
-    """Verbs."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    verbs = {"solve": solve_missing, "table": table}
-    parser.add_argument("verb", choices=list(verbs))
-    parser.add_argument("folder", type=Path)
-    given = parser.parse_args()
-    verbs[given.verb](given.folder)
+        print(f"{own['role']:9} {place}   {percents(errors)}")
 
 
 if __name__ == "__main__":
-    main()
+    run_verb(__doc__, {"solve": solve_missing, "table": table})

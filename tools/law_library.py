@@ -15,7 +15,7 @@ import json
 import math
 import os
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
@@ -189,7 +189,7 @@ def table(folder: Path) -> None:
     for kind in TRAINING:
         fitted = [one for role in ROLES for one in read(folder, kind, role)]
         held_out = [one for role in HELD_OUT for one in read(folder, kind, role)]
-        fits = [best_fit(coordinates, points_of(coordinates, kind, fitted)) for coordinates in CHOICES[kind]]
+        fits = fits_of(kind, fitted)
         for one in fits:
             keys = [coordinate.key for coordinate in one.coordinates]
             print(kind, keys, f"degree {one.degree}, step {[keys[number] for number in one.step]}")
@@ -197,23 +197,61 @@ def table(folder: Path) -> None:
                 f"  noise {one.noise:.2g}, variance of the step {one.step_variance:.2g}, "
                 f"lengths {one.lengths.round(2)}; left out, root mean square {math.sqrt(one.score):.2%}"
             )
-        fit = min(fits, key=lambda one: one.score)
-        written = {
-            "provenance": PROVENANCE
-            | {"crumple": __version__, "elements along half a fold": sorted({COARSE, NOMINAL})},
-            "coordinates": [asdict(one) for one in fit.coordinates],
-            "ranges": ranges(kind),
-            "rotation_deg": KNOTS.tolist(),
-            "band": 0.0,
-            "fit": settings(fit) | fit.entries,
-            "points": [
-                *(entry(one, errors) for one, errors in zip(fitted, fit.left_out, strict=True)),
-                *(entry(one) for one in held_out),
-            ],
-        }
-        written["band"] = max(SOLID[kind], band_of(table_of(written), held_out))
-        path = Path(__file__).parent.parent / "src/crumple/hinge/tube_library" / f"{kind}.json"
-        path.write_text(lines_of(written) + "\n")
+        write_table(kind, kind, {}, fits, (fitted, held_out), least_band=SOLID[kind])
+
+
+def fits_of(kind: str, fitted: list[Solved]) -> list[Fit]:
+    """Best fit by each choice of coordinates."""
+    return [best_fit(choice, points_of(choice, kind, fitted)) for choice in CHOICES[kind]]
+
+
+def write_table(
+    name: str,
+    kind: str,
+    provenance: dict[str, str],
+    fits: list[Fit],
+    solved: tuple[list[Solved], list[Solved]],
+    *,
+    least_band: float = 0.0,
+) -> TubeTable:
+    """Write the table that is shipped, by the best of its fits.
+
+    Parameters
+    ----------
+    name
+        Of the table.
+    kind
+        Of its sections.
+    provenance
+        What differs from `PROVENANCE`.
+    fits
+        By each choice of coordinates.
+    solved
+        Points that are fitted, and points that are held out.
+    least_band
+        Half-width that its band has at least [-].
+    """
+    fitted, held_out = solved
+    fit = min(fits, key=lambda one: one.score)
+    written = {
+        "provenance": PROVENANCE
+        | provenance
+        | {"crumple": __version__, "elements along half a fold": [COARSE, NOMINAL]},
+        "coordinates": [asdict(one) for one in fit.coordinates],
+        "ranges": ranges(kind),
+        "rotation_deg": KNOTS.tolist(),
+        "band": 0.0,
+        "fit": settings(fit) | fit.entries,
+        "points": [
+            *(entry(one, errors) for one, errors in zip(fitted, fit.left_out, strict=True)),
+            *(entry(one) for one in held_out),
+        ],
+    }
+    found = table_of(written)
+    written["band"] = max(least_band, band_of(found, held_out))
+    path = Path(__file__).parent.parent / "src/crumple/hinge/tube_library" / f"{name}.json"
+    path.write_text(lines_of(written) + "\n")
+    return found
 
 
 def band_of(found: TubeTable, held_out: list[Solved]) -> float:
@@ -330,16 +368,19 @@ def check(folder: Path) -> None:
 
 
 def _row(one: Solved, errors: Floats) -> str:
-    place = " ".join(f"{one.point[key]:8.4g}" for key in PLACE)
-    return f"{place}   {' '.join(f'{100.0 * error:+6.1f}' for error in errors)} %"
+    return f"{' '.join(f'{one.point[key]:8.4g}' for key in PLACE)}   {percents(errors)}"
 
 
-def main() -> None:
-    """Verbs."""
+def percents(errors: Floats) -> str:
+    """Errors in a row of a list."""
+    return f"{' '.join(f'{100.0 * error:+6.1f}' for error in errors)} %"
+
+
+def run_verb(description: str | None, verbs: dict[str, Callable[[Path], None]]) -> None:
+    """Run the verb of the command line on the folder of solved points."""
     parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+        description=description, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    verbs = {"solve": solve_missing, "list": show, "table": table, "check": check}
     parser.add_argument("verb", choices=list(verbs))
     parser.add_argument("folder", type=Path)
     given = parser.parse_args()
@@ -347,4 +388,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    run_verb(__doc__, {"solve": solve_missing, "list": show, "table": table, "check": check})
