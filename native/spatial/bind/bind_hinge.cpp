@@ -105,6 +105,11 @@ Surface make_surface(const nb::dict& d, int n) {
         require(!s.rows.empty() && s.rows.size() % static_cast<size_t>(n) == 0, "rows must have one column per component");
         require(s.power >= 2 && s.torque_power >= 2, "the powers of a surface are at least 2");
         require(s.torsion >= -1 && s.torsion < n, "the torque is no component");
+        for (int k = 0; k < n; k++) {
+            double capacity[most_components] = {};
+            capacity[k] = 1;
+            s.alone[k] = gauge(s, n, capacity, nullptr);
+        }
     }
     return s;
 }

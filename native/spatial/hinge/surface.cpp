@@ -19,6 +19,8 @@ constexpr double smallest_load = 1e-280;
 constexpr double converged = 1e-15;
 // The same where only the value is asked: at the maximum its error is of second order, the square of this over a curvature of the surface.
 constexpr double value_converged = 1e-9;
+// Bound of g up to which a point is inside whatever the rounding of g itself.
+constexpr double surely_inside = 1 - 1e-9;
 
 // v^p for v >= 0; multiples of one half, which fits use, without the general power, which takes most of the time otherwise
 double to_power(double v, double p) {
@@ -323,6 +325,18 @@ double half_square(const Surface& s, int n, const double* x, double* gradient, d
     return section ? at.g * at.g : dot(n, x, x);
 }
 
+namespace {
+
+// Whether a bound shows that g <= 1: g is a norm, so it is at most the sum over the components alone.  Most hinges of a structure are
+// loaded so little that this decides.
+bool surely_within(const Surface& s, int n, const double* x) {
+    double bound = 0;
+    for (int k = 0; k < n; k++) bound += std::fabs(x[k]) * s.alone[k];
+    return s.coupling == Coupling::section && bound <= surely_inside;
+}
+
+}  // namespace
+
 SurfacePoint nearest(const Surface& s, int n, const double* y, const double* m, const double* guess, double* derivative,
                      bool value_only) {
     SurfacePoint p;
@@ -334,7 +348,7 @@ SurfacePoint nearest(const Surface& s, int n, const double* y, const double* m, 
     }
     double largest = 0;
     for (int k = 0; k < n; k++) largest = std::max(largest, std::fabs(y[k]));
-    const double g = inside && largest > smallest_load ? gauge(s, n, p.x, nullptr) : 0;
+    const double g = inside && largest > smallest_load && !surely_within(s, n, p.x) ? gauge(s, n, p.x, nullptr) : 0;
     if (largest > smallest_load && (!inside || g > 1)) {
         const SurfacePoint free = p;
         double load[most], metric[most];

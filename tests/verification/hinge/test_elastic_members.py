@@ -19,7 +19,7 @@ Shear: the flow in a thin square tube of the side b is t b s/2 from the middle o
 t (3 b^2/8 - s^2/2) from that of its webs, so that A_s = 5/3 b t. Members shorter than ten depths deflect by
 F L/(G A_s) more (Timoshenko), within 0.5 %.
 
-Folds of a portal with 6 and 8 segments are those with 16 within 4 %, in at most three times the steps of
+Folds of a portal with 6 and 8 segments are those with 24 within 4 %, in at most three times the steps of
 rigid bars.
 
 Kind: closed form; invariant.  Source: textbook; derived here.
