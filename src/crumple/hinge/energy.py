@@ -13,20 +13,20 @@ GAUSS_POINTS = 8
 """Per interval of a smooth piece."""
 HALVINGS = 16
 """Intervals of a piece halve towards its start, where folding curves fall like a power of the rotation."""
+_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(GAUSS_POINTS)
+_SHARES = np.concatenate([[0.0], 0.5 ** np.arange(HALVINGS, -1.0, -1.0)])
 
 
 def absorbed_energy(law: HingeLaw, rotation: float, sense: int = 1) -> float:
     """Integral of the quasi-static capacity from 0 to a rotation [rad], in [J]."""
     ends = [0.0, *(kink for kink in law.kinks(sense) if 0.0 < kink < rotation), rotation]
-    shares = np.concatenate([[0.0], 0.5 ** np.arange(HALVINGS, -1.0, -1.0)])
-    graded = [low + (high - low) * shares for low, high in pairwise(ends) if high > low]
+    graded = [low + (high - low) * _SHARES for low, high in pairwise(ends) if high > low]
     if not graded:
         return 0.0
     lows = np.concatenate([interval[:-1] for interval in graded])
     lengths = np.concatenate([np.diff(interval) for interval in graded])
-    place, weight = np.polynomial.legendre.leggauss(GAUSS_POINTS)
-    at: Floats = lows[:, None] + lengths[:, None] * (place + 1.0) / 2.0
-    return float(lengths @ law.moment_capacity(at, sense) @ weight) / 2.0
+    at: Floats = lows[:, None] + lengths[:, None] * (_POINTS + 1.0) / 2.0
+    return float(lengths @ law.moment_capacity(at, sense) @ _WEIGHTS) / 2.0
 
 
 def rotation_absorbing(law: HingeLaw, energy: float, sense: int = 1) -> float:

@@ -16,7 +16,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from crumple.material import Material
 from crumple.multibody.answer.forces import on_second
 from crumple.multibody.answer.poses import SpatialHistory, SpatialPoses
 from crumple.multibody.answer.solved import Solved
@@ -25,23 +24,12 @@ from crumple.multibody.checks.names import named
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import turned
 from crumple.result import Caution
-from crumple.section import (
-    Axis,
-    InteractionFit,
-    Section,
-    fitted_interaction,
-    half_fold_length,
-    plastic_interaction,
-)
+from crumple.section import Axis, half_fold_length
 from crumple.structure import Structure
-from crumple.structure.remembered import remembered
+from crumple.structure.hinges.spatial_hinges import interaction_fit_of
 
 USED = 1.1
 """Use of a section's capacity above which a caution is given: the fit of the interaction is up to 6 % off."""
-ROWS = 16
-"""Linear forms of the fitted interaction, as in hinges."""
-KEPT = 64
-"""Interactions kept; a structure has few pairs of section and material."""
 AXES: tuple[Axis, ...] = ("y", "z")
 
 
@@ -101,14 +89,9 @@ def _use(structure: Structure, poses: SpatialHistory, member: str, node: str) ->
     moment = sum((wrench.about(section) for wrench in wrenches), np.zeros_like(section))
     axes = turned(poses.quaternion(body)[:, None], structure.frame_of(member).axes[None])
     along, bent = (np.einsum("nki,ni->nk", axes, values) for values in (force, moment))
-    fit = _capacity(structure.section_of(member), structure.material_of(member))
+    fit = interaction_fit_of(structure.section_of(member), structure.material_of(member))
     use = fit.gauge(np.column_stack([along[:, 0], bent[:, 1], bent[:, 2], bent[:, 0]]))
     return float(np.minimum(use[1:], use[:-1]).max())
-
-
-@remembered(KEPT)
-def _capacity(section: Section, material: Material) -> InteractionFit:
-    return fitted_interaction(plastic_interaction(section, material), rows=ROWS)
 
 
 def _loads(structure: Structure, linkage: Linkage, member: str, node: str) -> list[tuple[int, bool]]:

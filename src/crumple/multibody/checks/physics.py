@@ -26,9 +26,9 @@ from crumple.multibody.checks.torque import torques_without_twist
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import turned
 from crumple.result import Caution
-from crumple.section import plastic_interaction
 from crumple.structure import Structure
 from crumple.structure.hinges.lengthening.nodes_met import supports_met
+from crumple.structure.hinges.spatial_hinges import interaction_of
 from crumple.units import format_quantity
 
 FALL = 1e-3
@@ -149,7 +149,7 @@ def tensions(structure: Structure, solved: Solved) -> Iterator[Caution]:
     for member, force in axial_tensions(structure, solved):
         pulled[member] = max(force, pulled.get(member, 0.0))
     for member, force in pulled.items():
-        limit = plastic_interaction(structure.section_of(member), structure.material_of(member)).squash_force
+        limit = interaction_of(structure.section_of(member), structure.material_of(member)).squash_force
         if force > limit:
             yield Caution(
                 "axial_tension",

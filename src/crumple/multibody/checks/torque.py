@@ -19,9 +19,9 @@ from crumple.multibody.answer.solved import Solved
 from crumple.multibody.checks.names import named
 from crumple.numeric.rotation import turned
 from crumple.result import Caution
-from crumple.section import plastic_interaction
 from crumple.structure import Structure
 from crumple.structure.hinges.automatic import twists
+from crumple.structure.hinges.spatial_hinges import interaction_of
 
 
 def torques_without_twist(structure: Structure, solved: Solved) -> Iterator[Caution]:
@@ -34,9 +34,8 @@ def torques_without_twist(structure: Structure, solved: Solved) -> Iterator[Caut
     """
     found: dict[str, tuple[float, float]] = {}
     for member, torque in _torques(structure, solved):
-        limit = plastic_interaction(
-            structure.section_of(member), structure.material_of(member)
-        ).plastic_torque
+        metal = structure.section_of(member), structure.material_of(member)
+        limit = interaction_of(*metal).plastic_torque
         if torque > max(limit, found.get(member, (0.0, 0.0))[0]):
             found[member] = torque, limit
     if found:

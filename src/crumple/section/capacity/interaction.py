@@ -129,13 +129,16 @@ class PlasticInteraction:
             share = np.divide(drive, total, out=np.zeros_like(drive), where=total > 0.0)
             return np.asarray(np.sign(twist) * share)
         # slope of the dissipation over T falls from w to minus infinity or stays positive up to T_p
+        found, driven = np.zeros_like(drive), drive > 0.0
+        drive, slope = drive[driven], use**2 * dissipated[driven]
         low, high = np.zeros_like(drive), np.ones_like(drive)
-        for _ in range(50):
+        for _ in range(50 if driven.any() else 0):
             share = (low + high) / 2.0
             left = np.sqrt(np.maximum(1.0 - (use * share[:, None]) ** 2, 1e-300))
-            rising = drive > share * (use**2 * dissipated / left).sum(axis=1)
+            rising = drive > share * (slope / left).sum(axis=1)
             low, high = np.where(rising, share, low), np.where(rising, high, share)
-        return np.asarray(np.sign(twist) * np.where(drive > 0.0, (low + high) / 2.0, 0.0))
+        found[driven] = (low + high) / 2.0
+        return np.asarray(np.sign(twist) * found)
 
     def multiplier(self, load: ArrayLike) -> float:
         """Largest factor on a load (N, M_y, M_z, T) that the body carries, shape (4,).

@@ -16,7 +16,7 @@ rounded, and there the error is largest.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -58,21 +58,16 @@ class InteractionFit:
 
     def gauge(self, resultants: ArrayLike) -> Floats:
         """Value g of resultants (N, M_y, M_z, T), shapes (...) and (..., 4): 1 on the surface."""
-        return self.gauge_and_gradient(resultants)[0]
+        x = np.asarray(resultants, float) / self.scales
+        direct = _direct(x, self.rows, self.power)[0]
+        return _with_twist(direct, np.abs(x[..., 3]), self.torque_power)
 
     def gauge_and_gradient(self, resultants: ArrayLike) -> tuple[Floats, Floats]:
         """Value g and its gradient [1/N, 1/(N m), ...], shapes (...) and (..., 4); zero at the origin."""
         x = np.asarray(resultants, float) / self.scales
-        forms = x[..., :3] @ self.rows.T
-        largest = np.abs(forms).max(axis=-1, keepdims=True)
-        # the largest form taken out, so that high powers neither overflow nor vanish
-        ratio = np.divide(forms, largest, out=np.zeros_like(forms), where=largest > 0.0)
-        total = (np.abs(ratio) ** self.power).sum(axis=-1)
-        direct = np.where(total > 0.0, largest[..., 0] * total ** (1.0 / self.power), 0.0)
+        direct, ratio, total = _direct(x, self.rows, self.power)
         twist, r = np.abs(x[..., 3]), self.torque_power
-        top = np.maximum(direct, twist)
-        safe = np.where(top > 0.0, top, 1.0)
-        g = top * ((direct / safe) ** r + (twist / safe) ** r) ** (1.0 / r)
+        g = _with_twist(direct, twist, r)
         over = np.where(g > 0.0, g, 1.0)
         weight = np.sign(ratio) * np.abs(ratio) ** (self.power - 1.0)
         scale = np.where(total > 0.0, total, 1.0) ** (1.0 / self.power - 1.0)
@@ -98,15 +93,37 @@ def fitted_interaction(interaction: PlasticInteraction, *, rows: int = 24) -> In
     """
     scales = interaction.scales
     points, normals = _surface(interaction, 24, 13, 1)
-    seen = _surface(interaction, 23, 14, 3)[0] * scales
+    # to resultants and back, as a solver asks
+    seen = _surface(interaction, 23, 14, 3)[0] * scales / scales
+    twist = np.abs(seen[:, 3])
     fits = []
     for power in POWERS:
         chosen = _rows(points[:, :3], normals[:, :3], power, rows)
+        # the exponents of the torque share it
+        direct = _direct(seen, chosen, power)[0]
         for torque_power in TORQUE_POWERS:
-            fit = InteractionFit(scales, chosen, power, torque_power)
-            off = np.abs(1.0 / fit.gauge(seen) - 1.0)
-            fits.append(replace(fit, error=float(off.max()), mean_error=float(off.mean())))
+            off = np.abs(1.0 / _with_twist(direct, twist, torque_power) - 1.0)
+            error, mean = float(off.max()), float(off.mean())
+            fits.append(InteractionFit(scales, chosen, power, torque_power, error, mean))
     return min(fits, key=lambda fit: fit.error)
+
+
+def _direct(x: Floats, rows: Floats, power: float) -> tuple[Floats, Floats, Floats]:
+    """Value of the part without torque, (...); forms over the largest, (..., k), and their sum of powers."""
+    forms = x[..., :3] @ rows.T
+    largest = np.abs(forms).max(axis=-1, keepdims=True)
+    # the largest form taken out, so that high powers neither overflow nor vanish
+    ratio = np.divide(forms, largest, out=np.zeros_like(forms), where=largest > 0.0)
+    total = (np.abs(ratio) ** power).sum(axis=-1)
+    return np.where(total > 0.0, largest[..., 0] * total ** (1.0 / power), 0.0), ratio, total
+
+
+def _with_twist(direct: Floats, twist: Floats, r: float) -> Floats:
+    """Value g of both parts, none of them negative, all of shape (...)."""
+    top = np.maximum(direct, twist)
+    safe = np.where(top > 0.0, top, 1.0)
+    g: Floats = top * ((direct / safe) ** r + (twist / safe) ** r) ** (1.0 / r)
+    return g
 
 
 def _surface(

@@ -79,14 +79,14 @@ def spatial_hinge_record(
     if keys.axial is not None:
         components.append(HingeComponent(Freedom.AXIAL, _axial(keys.axial, crush, first, metal, shares)))
     coupling = Coupling(keys.coupling or "section")
-    several = len(components) > 1
     if coupling is Coupling.SECTION and isinstance(section, CircularTube) and keys.axial is None:
         # its walls share every moment alike, so the ellipsoid is their interaction and needs no fit
         coupling = Coupling.ELLIPSOID
+    fitted = len(components) > 1 and coupling is Coupling.SECTION
     return spatial_record(
         components,
         coupling=coupling,
-        interaction=_fit(section, material) if several and coupling is Coupling.SECTION else None,
+        interaction=interaction_fit_of(section, material) if fitted else None,
         arm=(section.bending_depth(bending[0]) - section.thickness) / 2.0,
         fracture=math.inf if keys.fracture is None else keys.fracture,
     )
@@ -130,7 +130,7 @@ def _axial(
 ) -> HingeRecord:
     (section, material), length = metal, shares.stretch
     stiffness = material.youngs_modulus * section.area / length
-    squash = _interaction(section, material).squash_force
+    squash = interaction_of(section, material).squash_force
     tension = keys.tension or squash
     crushing: AxialLaw | None = None
     if keys.law is not None:
@@ -152,14 +152,16 @@ def _axial(
 
 
 @remembered(KEPT)
-def _interaction(section: Section, material: Material) -> PlasticInteraction:
+def interaction_of(section: Section, material: Material) -> PlasticInteraction:
+    """Plastic interaction of a section, as the hinges of all its members share it."""
     from crumple.section import plastic_interaction  # noqa: PLC0415  (tubes with plain hinges need no walls)
 
     return plastic_interaction(section, material)
 
 
 @remembered(KEPT)
-def _fit(section: Section, material: Material) -> InteractionFit:
+def interaction_fit_of(section: Section, material: Material) -> InteractionFit:
+    """The same as its hinges have it: a compact fit."""
     from crumple.section import fitted_interaction  # noqa: PLC0415
 
-    return fitted_interaction(_interaction(section, material), rows=ROWS)
+    return fitted_interaction(interaction_of(section, material), rows=ROWS)
