@@ -30,10 +30,10 @@ struct Surface {
     std::vector<double> rows;  // section: (rows, n), a column per component in their order; the torque's column is zero
     double power = 2, torque_power = 2;
     int torsion = -1;          // section: component that is the torque, or -1
-    double alone[4] = {};      // section: g of the capacity of every component alone
     double arm = 0;              // tension flange: distance of the flange from the centroid [m]
     std::vector<ArmGain> gains;  // tension flange: compression moves the axis of the fold outwards
     hinge::Curve growth;         // tension flange: share of `arm` over the largest plastic rotation so far; empty: 1
+    double alone[4] = {};        // section: g of the capacity of every component alone
 };
 
 // Solution of the problem: point x, value of the maximum, multiplier of g <= 1 (zero inside).

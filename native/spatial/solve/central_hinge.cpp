@@ -11,7 +11,7 @@ constexpr int most = most_components;
 // Largest share of the distance to the boundary that a step takes (step to the boundary rule).
 constexpr double inside = 0.99;
 
-const Surface ellipsoid{Coupling::ellipsoid, {}, 2, 2, -1, 0, {}, {}};
+const Surface ellipsoid{Coupling::ellipsoid, {}, 2, 2, -1, 0, {}, {}, {}};
 
 // One surface: components first to first + n of a hinge.
 struct Part {
