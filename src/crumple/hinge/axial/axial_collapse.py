@@ -63,6 +63,7 @@ class AxialCollapse:
 
     name: ClassVar[str] = "axial_collapse"
     symmetric: ClassVar[bool] = False
+    straight: ClassVar[bool] = True
     title: ClassVar[str] = "axial collapse"
 
     peak: float

@@ -48,6 +48,7 @@ class ConstantLaw:
 
     name: ClassVar[str] = "constant"
     symmetric: ClassVar[bool] = True
+    straight: ClassVar[bool] = True
 
     moment: float
     source: Source = CHOSEN

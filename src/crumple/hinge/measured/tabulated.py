@@ -82,6 +82,7 @@ class TabulatedLaw:
 
     name: ClassVar[str] = "table"
     file_keys: ClassVar[tuple[Key, ...]] = FILE_KEYS
+    straight: ClassVar[bool] = True
 
     rotation: Curve
     moment: Curve

@@ -2,7 +2,8 @@
 
 A chord of length l over a curve of curvature M'' errs by l^2 |M''|/8, so pieces of equal relative error have
 lengths ~ sqrt(8 error M/|M''|): points are spread by the integral of its inverse, between kinks.  All
-stretches between kinks are sampled together, so that a law is called a few times for many rotations.
+stretches between kinks are sampled together, so that a law is called a few times for many rotations.  A law
+that says so is straight between its kinks, and these are all points.
 """
 
 from __future__ import annotations
@@ -53,6 +54,11 @@ def sampled_envelope(
         is not smooth between the kinks that the law reports: extremely thin walls, an unreported kink.
     """
     ends = np.array([0.0, *sorted({k for k in law.kinks(sense) if 0.0 < k < rotation_max}), rotation_max])
+    # not inherited: what derives from a straight law may curve
+    if vars(type(law)).get("straight", False):
+        capacity = law.moment_capacity(ends, sense)
+        _refuse_without_capacity(law, ends, capacity)
+        return _shared(ends, capacity)
     dense = ends[:-1, None] + (ends[1:] - ends[:-1])[:, None] * DENSE
     exact = law.moment_capacity(dense.ravel(), sense).reshape(dense.shape)
     _refuse_without_capacity(law, dense, exact)
@@ -74,9 +80,7 @@ def sampled_envelope(
         off_dense = np.abs(np.interp(dense, points, moment) / exact - 1.0)
         too_far = np.maximum(np.maximum.reduceat(off_chord, first[:-1]), off_dense.max(axis=1)) >= error
         if not too_far.any():
-            # hinges share it
-            points.flags.writeable = moment.flags.writeable = False
-            return Envelope(points, moment)
+            return _shared(points, moment)
         counts = np.where(too_far, np.maximum(counts + 1, np.ceil(1.05 * counts)), counts).astype(np.int64)
     low, high = np.degrees(ends[np.argmax(counts) :][:2])
     what = f"the capacity of the law '{law.title}' changes too steeply for a table"
@@ -86,6 +90,12 @@ def sampled_envelope(
     )
     todo = "give thicker walls, or a measured law; a law of your own must report its kinks"
     raise InputError(Problem(what, came, allowed, todo))
+
+
+def _shared(points: Floats, moment: Floats) -> Envelope:
+    """Envelope that hinges share, and so cannot change."""
+    points.flags.writeable = moment.flags.writeable = False
+    return Envelope(points, moment)
 
 
 def _refuse_without_capacity(law: HingeLaw, rotation: Floats, capacity: Floats) -> None:

@@ -47,6 +47,7 @@ class PlasticTorsion:
 
     name: ClassVar[str] = "plastic"
     symmetric: ClassVar[bool] = True
+    straight: ClassVar[bool] = True
 
     initial_torque: float
     steady_torque: float

@@ -1,4 +1,5 @@
 import math
+from dataclasses import fields
 
 import numpy as np
 import pytest
@@ -14,6 +15,9 @@ from crumple.hinge import (
     record_of,
     tributary_stiffness,
 )
+from crumple.hinge.axial.axial_collapse import AxialCollapse
+from crumple.hinge.record.sampling import sampled_envelope
+from crumple.hinge.torsion.plastic import PlasticTorsion
 from crumple.material import CowperSymonds, Material
 from crumple.section import RectangularTube
 
@@ -37,6 +41,28 @@ def test_table_is_kept_point_by_point():
     np.testing.assert_array_equal(record.positive.rotation[:3], [0.0, 0.1, 0.4])
     np.testing.assert_array_equal(record.positive.moment, [900.0, 1000.0, 500.0, 500.0])
     np.testing.assert_array_equal(record.negative.moment, 300.0)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize(
+    "law",
+    [
+        ConstantLaw(1000.0),
+        TabulatedLaw([0.0, 0.1, 0.4, 3.0, 3.3], [900.0, 1000.0, 500.0, 700.0, 100.0], [0.0], [300.0]),
+        PlasticTorsion.of(TUBE, STEEL, 0.1),
+        AxialCollapse.given(9e3, 4e3, 0.2, tension=8e3, fold=0.03),
+    ],
+    ids=lambda law: law.name,
+)
+def test_straight_laws_have_the_points_that_sampling_finds(law, sense):
+    class Unsaid(type(law)):
+        pass
+
+    unsaid = Unsaid(**{key.name: getattr(law, key.name) for key in fields(law) if key.init})
+    found, sampled = sampled_envelope(law, sense), sampled_envelope(unsaid, sense)
+    np.testing.assert_array_equal(found.rotation, sampled.rotation)
+    np.testing.assert_array_equal(found.moment, sampled.moment)
+    assert not found.moment.flags.writeable
 
 
 def test_points_grow_with_the_root_of_the_accuracy():
