@@ -162,19 +162,20 @@ def nonnegative_least_squares(matrix: Floats, right: Floats, most: int) -> Float
     free = np.zeros(len(x), bool)
     small = 1e-10 * float(np.abs(goal).max())
     for _ in range(3 * most):
-        gain = np.where(free, -np.inf, goal - product @ x)
+        gain = goal - product @ x
+        gain[free] = -np.inf
         # the first of those that are alike but for rounding, as mirrored columns are: the choice must not
         # jump with the last digit of the matrix
-        enter = int(np.argmax(gain >= gain.max() - small))
+        enter = int((gain >= gain.max() - small).argmax())
         if gain[enter] <= small or free.sum() >= most:
             break
         free[enter] = True
         while True:
-            trial = np.zeros_like(x)
-            block = product[np.ix_(free, free)]
-            block = block + 1e-12 * np.trace(block) * np.eye(len(block))
-            trial[free] = np.linalg.solve(block, goal[free])
-            if (trial[free] > 0.0).all():
+            at, trial = np.flatnonzero(free), np.zeros_like(x)
+            block = product[at[:, None], at]
+            block.flat[:: len(at) + 1] += 1e-12 * block.trace()
+            trial[at] = np.linalg.solve(block, goal[at])
+            if (trial[at] > 0.0).all():
                 break
             # as far towards the trial as all stay positive; entries that reach zero leave the active set
             falling = free & (trial <= 0.0)

@@ -14,6 +14,9 @@ from crumple.numeric.arrays import Floats
 from crumple.numeric.monotone_root import rising_root
 from crumple.section.geometry.skeleton import Complexes
 
+BLOCK = 1 << 15
+"""Lines times corners that are worked on at once: what a processor's cache holds."""
+
 
 class Moments(NamedTuple):
     """Integrals over polygons: area, y, z, y^2, z^2, y z [m^2 to m^4]; each of shape (m,)."""
@@ -67,21 +70,28 @@ def above(polygons: Complexes, angle: Floats, level: Floats) -> Above:
     Above
         Each of shape (d, m); along = y cos(angle) + z sin(angle).
     """
-    turned = polygons[None, :, :] * np.exp(-1j * angle)[:, None, None]
+    together = max(BLOCK // polygons.size, 1)
+    if len(angle) > together:
+        borders = list(range(together, len(angle), together))
+        blocks = zip(np.split(angle, borders), np.split(level, borders), strict=True)
+        parts = zip(*(above(polygons, *block) for block in blocks), strict=True)
+        return Above(*(np.concatenate(part) for part in parts))
+    # corners come first: numpy adds up and shifts whole tables faster than rows of four
+    turned = np.ascontiguousarray(polygons.T)[:, None, :] * np.exp(-1j * angle)[:, None]
     u1, h1 = turned.real, turned.imag
-    u2, h2 = np.roll(u1, -1, axis=2), np.roll(h1, -1, axis=2)
-    line = level[:, None, None]
+    u2, h2 = np.roll(u1, -1, axis=0), np.roll(h1, -1, axis=0)
+    line = level[:, None]
     # ends of each side moved along it onto the line where they lie below
     rise = h2 - h1
     level_side = np.abs(rise) < 1e-14 * np.abs(polygons).max()
-    slope = np.divide(u2 - u1, rise, out=np.zeros_like(rise), where=~level_side)
+    slope = (u2 - u1) / np.where(level_side, np.inf, rise)
     g1, g2 = np.maximum(h1, line), np.maximum(h2, line)
     v1, v2 = u1 + slope * (g1 - h1), u2 + slope * (g2 - h2)
     step = g2 - g1
     return Above(
-        (step * (v1 + v2)).sum(2) / 2.0,
-        (step * (v1 * (2.0 * g1 + g2) + v2 * (g1 + 2.0 * g2))).sum(2) / 6.0,
-        (step * (v1 * v1 + v1 * v2 + v2 * v2)).sum(2) / 6.0,
+        (step * (v1 + v2)).sum(0) / 2.0,
+        (step * (v1 * (2.0 * g1 + g2) + v2 * (g1 + 2.0 * g2))).sum(0) / 6.0,
+        (step * (v1 * v1 + v1 * v2 + v2 * v2)).sum(0) / 6.0,
     )
 
 
