@@ -12,6 +12,7 @@ the plastic moment is held.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -129,7 +130,14 @@ class AutoLaw:
         return build_law(automatic_type(section, material, axis), section, material, axis)
 
 
-def automatic_type(section: Section, material: Material, axis: Axis, fold: Fold | None = None) -> str:
+def automatic_type(
+    section: Section,
+    material: Material,
+    axis: Axis,
+    fold: Fold | None = None,
+    *,
+    build: Callable[[str, Section, Material, Axis], HingeLaw] = build_law,
+) -> str:
     """Type of the law that a hinge without a law and without a stored one has.
 
     Parameters
@@ -138,13 +146,15 @@ def automatic_type(section: Section, material: Material, axis: Axis, fold: Fold 
         Of the hinge.
     fold
         Whether a joint or clamp beside it keeps the section in shape; None: not known.
+    build
+        Builds a law by its name.
     """
     for laws in (FOLD_BENDING[fold] if fold else {}, DEFAULT_BENDING):
         name = laws.get(section.kind)
         if name is None:
             continue
         try:
-            build_law(name, section, material, axis)
+            build(name, section, material, axis)
         except InputError:
             # the shape has this law, but not about this axis, with these proportions or this metal
             continue

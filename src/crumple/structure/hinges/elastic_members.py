@@ -25,6 +25,7 @@ from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section
 from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import any_automatic
+from crumple.structure.hinges.law_choice import formula
 from crumple.structure.keys.member import Member
 from crumple.structure.parts import StructureParts
 from crumple.structure.remembered import remembered
@@ -174,7 +175,8 @@ def _yielding(section: Section, material: Material, axis: Axis, rigidity: float)
     stress = material.flow_stress if curve is None else curve.yield_stress
     curvature = CURVATURES * stress * section.elastic_section_modulus(axis) / rigidity
     moment = bending_moment(section, material, axis, curvature)
-    fold = build_law(automatic_type(section, material, axis), section, material, axis)
+    kind = automatic_type(section, material, axis, build=formula)
+    fold = formula(kind, section, material, axis)
     moment = np.minimum(moment, float(fold.moment_capacity(0.0)))
     plastic = np.maximum.accumulate(curvature - moment / rigidity)
     kept = np.concatenate([[True], np.diff(plastic) > 1e-9 * plastic[-1]])

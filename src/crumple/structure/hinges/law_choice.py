@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from crumple.hinge.bending.estimate import automatic_type
+from crumple.hinge.law import HingeLaw
 from crumple.hinge.measured.library import by_place
 from crumple.hinge.measured.place_hash import Load, place_hash
-from crumple.hinge.registry import AUTO, Fold
-from crumple.section import Axis
+from crumple.hinge.registry import AUTO, Fold, build_law
+from crumple.material import Material
+from crumple.section import Axis, Section
 from crumple.structure.keys.law import LawKeys, LawReference
 from crumple.structure.parts import StructureParts
 from crumple.structure.remembered import remembered
@@ -46,7 +48,7 @@ def chosen_law(
         text = stored_text(structure, place_hash(section, material, axis)) if structure.laws else None
         if text is not None:
             return with_type(asked, "file", text=text)
-        kind = automatic_type(section, material, axis, fold)
+        kind = automatic_type(section, material, axis, fold, build=formula)
         return plain_law(kind) if asked == plain_law(AUTO) else with_type(asked, kind)
 
     return structure.kept.once("chosen law", (spec.section, spec.material, axis, asked, fold), choose)
@@ -75,6 +77,13 @@ def with_type(asked: LawKeys, kind: str, **own: str | float) -> LawKeys:
     """Keys of a law of another type, with those that every law has."""
     common = {key: getattr(asked, key) for key in LawKeys.model_fields if key in asked.model_fields_set}
     return LawKeys(**{**common, **own, "type": kind})
+
+
+# which law a hinge has, the hinge, and what yields in its member ask for the same
+@remembered(KEPT)
+def formula(kind: str, section: Section, material: Material, axis: Axis) -> HingeLaw:
+    """Law of a type that follows from a section and a material alone."""
+    return build_law(kind, section, material, axis)
 
 
 # the same for every hinge of a chain

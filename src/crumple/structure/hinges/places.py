@@ -16,7 +16,7 @@ from crumple.section import Axis, Section, fold_distance
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges.asked import where_automatic
 from crumple.structure.hinges.automatic import fold_of, hinges_of
-from crumple.structure.hinges.law_choice import automatic_law, chosen_law, plain_law
+from crumple.structure.hinges.law_choice import automatic_law, chosen_law, formula, plain_law
 from crumple.structure.hinges.runs.ends import holds_rotation
 from crumple.structure.hinges.struck_folds import with_dent
 from crumple.structure.keys.hinge_axes import HingeAxes
@@ -178,4 +178,9 @@ def _law(section: Section, material: Material, axis: Axis, spec: LawKeys) -> Hin
     options = set(hinge.law_options(spec.type))
     if "elastic_stiffness" in options and not isinstance(spec.elastic_stiffness, str):
         given["elastic_stiffness"] = spec.elastic_stiffness
-    return hinge.bounded(hinge.build_law(spec.type, section, material, axis, **given), spec.bound)
+    law = (
+        hinge.build_law(spec.type, section, material, axis, **given)
+        if given
+        else formula(spec.type, section, material, axis)
+    )
+    return hinge.bounded(law, spec.bound)
