@@ -23,6 +23,9 @@ from crumple.structure import Structure
 from crumple.structure.hinges.automatic import twists
 from crumple.structure.hinges.spatial_hinges import interaction_of
 
+ROUNDED = 1.0 - 1e-9
+"""Share of the limit below which a moment is, whatever the rounding of its part along the member."""
+
 
 def torques_without_twist(structure: Structure, solved: Solved) -> Iterator[Caution]:
     """One caution for all members of closed sections that would yield in torsion, and cannot.
@@ -33,10 +36,8 @@ def torques_without_twist(structure: Structure, solved: Solved) -> Iterator[Caut
         The structure and the result of its run.  The planar kernel gives no forces, and so no caution.
     """
     found: dict[str, tuple[float, float]] = {}
-    for member, torque in _torques(structure, solved):
-        metal = structure.section_of(member), structure.material_of(member)
-        limit = interaction_of(*metal).plastic_torque
-        if torque > max(limit, found.get(member, (0.0, 0.0))[0]):
+    for member, torque, limit in _torques(structure, solved):
+        if torque > found.get(member, (limit, limit))[0]:
             found[member] = torque, limit
     if found:
         one, most = len(found) == 1, max(torque / limit for torque, limit in found.values())
@@ -49,17 +50,26 @@ def torques_without_twist(structure: Structure, solved: Solved) -> Iterator[Caut
             yield Caution("torque_without_twist", torque, limit, "N*m", f"member {member}", text)
 
 
-def _torques(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:
-    """Members without a hinge that twists, and the largest torque [N m] that persists for two outputs."""
+def _torques(structure: Structure, solved: Solved) -> Iterator[tuple[str, float, float]]:
+    """Members without a hinge that twists, with torques that persist for two outputs and the limit [N m].
+
+    Connections whose whole moment stays below the limit are left out.
+    """
     poses = solved.poses
     if not isinstance(poses, SpatialPoses) or poses.rows < 2:
         return
     connections = poses.linkage.connections
     hinged = [(i, one.first, one.hinge.member) for i, one in enumerate(connections) if one.hinge is not None]
     twisting = {member for i, _, member in hinged if int(Freedom.X) in connections[i].free}
+    sizes = np.linalg.norm(poses.record.joint_force[..., 3:], axis=-1)
+    most = np.minimum(sizes[1:], sizes[:-1]).max(axis=0)
     for i, body, member in hinged:
         if member in twisting or not twists(structure, member):
             continue
+        metal = structure.section_of(member), structure.material_of(member)
+        limit = interaction_of(*metal).plastic_torque
+        if most[i] < ROUNDED * limit:
+            continue
         axis = turned(poses.quaternion(body), structure.frame_of(member).x)
         torque = np.abs(np.einsum("ni,ni->n", on_second(poses, i).moment, axis))
-        yield member, float(np.minimum(torque[1:], torque[:-1]).max())
+        yield member, float(np.minimum(torque[1:], torque[:-1]).max()), limit
