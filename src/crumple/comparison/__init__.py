@@ -5,7 +5,6 @@ from crumple.comparison.comparison import Comparison, Opening, Source, Timing, T
 from crumple.comparison.measure.energy import energy_put_in
 from crumple.comparison.measure.metrics import HingeComparison, HingeMetrics
 from crumple.comparison.measure.motion import HingeMotion, rate_of
-from crumple.comparison.measure.sections import at_times
 from crumple.comparison.rating.curve_file import CurveFile, read_curves
 from crumple.comparison.rating.pairing import Pair
 from crumple.comparison.rating.rating import EDITION, SAMPLING_RATE, Rating, rating
@@ -35,7 +34,6 @@ __all__ = [
     "Source",
     "Timing",
     "Trust",
-    "at_times",
     "compare",
     "energy_put_in",
     "picture_times",

@@ -17,7 +17,6 @@ from crumple.comparison.measure.in_ranges import values_in_ranges
 from crumple.comparison.measure.measures import measurable, measure
 from crumple.comparison.measure.metrics import HingeComparison, compared, metrics_of
 from crumple.comparison.measure.motion import Measured, channel_motions, measured, member_sections
-from crumple.comparison.measure.sections import at_times
 from crumple.comparison.measure.t_joint_motion import with_t_joints
 from crumple.comparison.rating.curve_file import CurveFile
 from crumple.comparison.rating.pairing import RELEVANT, pairs_of
@@ -165,7 +164,7 @@ def _distinct(result: Result) -> Result:
     if result.states is None or times.size < 2:
         return result
     apart = np.diff(times, prepend=-np.inf) > SAME_TIME * float(times[-1] - times[0])
-    return result if apart.all() else replace(result, states=at_times(result.states, times[apart]))
+    return result if apart.all() else replace(result, states=result.states.at_times(times[apart]))
 
 
 def _until(source: Source, end: float) -> Source:

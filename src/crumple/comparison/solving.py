@@ -14,7 +14,6 @@ import numpy as np
 from crumple.analysis import Analysis, input_hash, solve, with_law_range, with_modes
 from crumple.comparison.comparing import compare
 from crumple.comparison.comparison import Comparison, Timing
-from crumple.comparison.measure.sections import at_times
 from crumple.comparison.rating.curve_file import CurveFile
 from crumple.comparison.variant import variants_of
 from crumple.errors import CancelledError, InputError, Problem, Status
@@ -170,7 +169,7 @@ def with_pictures(result: Result, times: Sequence[float]) -> Result:
     if result.states is None or not len(result.states.times):
         return result
     reached = np.array([t for t in times if t <= result.states.times[-1] * (1 + 1e-9)])
-    return replace(result, states=at_times(result.states, reached)) if reached.size else result
+    return replace(result, states=result.states.at_times(reached)) if reached.size else result
 
 
 def _stopped(cancel: Cancel | None) -> bool:

@@ -8,12 +8,12 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from crumple.comparison import Comparison
 from crumple.portable import write_text
 from crumple.report.report import MAX_INPUT, ReportInput, embedded, write_figures
 from crumple.report.wording.curve_wording import curve_notes
 
 if TYPE_CHECKING:
+    from crumple.comparison import Comparison
     from crumple.report.scene.scene import Scene
 
 MOST_HINGES = 4

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import cached_property
 from math import isnan
 from typing import TYPE_CHECKING, Any
@@ -182,6 +182,17 @@ class States:
     displacement: Floats
     point_data: Mapping[str, Floats] = field(default_factory=dict)
     cell_data: Mapping[str, Floats] = field(default_factory=dict)
+
+    def at_times(self, times: Floats) -> States:
+        """The states nearest to given times, (n,) [s]."""
+        rows = np.array([int(np.argmin(np.abs(self.times - t))) for t in times], dtype=np.int64)
+        return replace(
+            self,
+            times=self.times[rows],
+            displacement=self.displacement[rows],
+            point_data={name: values[rows] for name, values in self.point_data.items()},
+            cell_data={name: values[rows] for name, values in self.cell_data.items()},
+        )
 
 
 @dataclass(frozen=True)

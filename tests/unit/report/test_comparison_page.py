@@ -15,7 +15,7 @@ from tests.unit.comparison.cautions.test_trust import shortened
 
 import crumple.report
 from crumple.analysis import solve
-from crumple.comparison import CurveFile, Signal, at_times, compare, with_frames
+from crumple.comparison import CurveFile, Signal, compare, with_frames
 from crumple.comparison.variant import with_elastic_hinges
 from crumple.report import ReportInput, write_comparison
 from crumple.report.comparison_page import scene_of
@@ -89,7 +89,7 @@ def test_both_results_are_drawn_and_move_in_step(browser, page, found):
     assert first[2] != last[2]
     assert browser.evaluate("document.querySelector('#player output').textContent") == "40.0 ms"
     for model, source in enumerate((found.candidate, found.reference)):
-        states = at_times(source.result.states, np.array([0.04]))
+        states = source.result.states.at_times(np.array([0.04]))
         moved = states.points + states.displacement[0]
         for point in (0, len(moved) // 2, len(moved) - 1):
             assert browser.evaluate(f"crumplePlayer.place({model}, {point})") == pytest.approx(

@@ -14,7 +14,7 @@ section that carries the axis is not followed.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -183,15 +183,3 @@ def _planes(points: Floats) -> tuple[Floats, Floats]:
     area = np.cross(arm, np.roll(arm, -1, axis=1)).sum(axis=1)
     side = np.where(np.einsum("ti,ti->t", normal, area) < 0.0, -1.0, 1.0)
     return centre, normal * side[:, None]
-
-
-def at_times(states: States, times: Floats) -> States:
-    """The states nearest to given times, (n,) [s]."""
-    rows = np.array([int(np.argmin(np.abs(states.times - t))) for t in times], dtype=np.int64)
-    return replace(
-        states,
-        times=states.times[rows],
-        displacement=states.displacement[rows],
-        point_data={name: values[rows] for name, values in states.point_data.items()},
-        cell_data={name: values[rows] for name, values in states.cell_data.items()},
-    )

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from crumple.comparison import Comparison, at_times
+from crumple.comparison import Comparison
 from crumple.numeric.arrays import Floats
 from crumple.report.drawing.style import INK, MUTED, WIDTH, add_axes, new_figure, to_svg
 from crumple.report.drawing.view import View, choose_view
@@ -39,7 +39,7 @@ def shapes_side_by_side(comparison: Comparison, times: Sequence[float]) -> str |
     shown = np.array([t for t in times if t <= end * (1 + 1e-9)])
     if not shown.size:
         return None
-    chosen = [at_times(states, shown) for states in both]
+    chosen = [states.at_times(shown) for states in both]
     view = choose_view(both[1])
     low, high = _limits(chosen, view)
     width, height = high - low

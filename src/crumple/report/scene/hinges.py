@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crumple.comparison import HingeMotion, Source
 from crumple.numeric.arrays import Floats
 from crumple.report.figures.shape import hinge_places
 from crumple.result import HingeSummary, Result, States
+
+if TYPE_CHECKING:
+    from crumple.comparison import HingeMotion, Source
 
 CLOSED, TURNING, RESTING = 0, 1, 2
 """States of a hinge."""

@@ -17,7 +17,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from crumple.comparison import at_times
 from crumple.numeric.arrays import Floats
 from crumple.report.drawing.view import View, choose_view
 from crumple.report.figures.shape import finite_states
@@ -89,7 +88,7 @@ def write_scene(models: Sequence[Shown], title: str = "", *, compression: int = 
     times = frame_times(drawn)
     if times is None:
         return None
-    shown = [at_times(s, times) for s in drawn]
+    shown = [s.at_times(times) for s in drawn]
     moved = [s.points + s.displacement for s in shown]
     low = np.min([m.reshape(-1, 3).min(axis=0) for m in moved], axis=0)
     high = np.max([m.reshape(-1, 3).max(axis=0) for m in moved], axis=0)

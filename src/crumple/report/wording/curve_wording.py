@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from crumple.comparison import Comparison, CurveFile
 from crumple.result.format import former_names_note
 from crumple.text.names import listed
+
+if TYPE_CHECKING:
+    from crumple.comparison import Comparison, CurveFile
 
 MOST_COLUMNS = 8
 """Number of columns listed per file; the table of ratings contains all."""

@@ -9,7 +9,7 @@ from tests.support.result.folded_tube import MOMENT, analysis, angle_over_time, 
 from crumple.comparison.measure.fold_moment import conjugate_moment
 from crumple.comparison.measure.folds import find_folds
 from crumple.comparison.measure.motion import far_rotation, matched, measured
-from crumple.comparison.measure.sections import at_times, sections_of
+from crumple.comparison.measure.sections import sections_of
 from crumple.structure import placed_hinges
 
 TIMES = np.linspace(0.0, 0.1, 101)
@@ -155,6 +155,6 @@ def test_a_fold_far_from_any_hinge_belongs_to_none():
 
 
 def test_states_are_taken_at_the_nearest_times():
-    states = at_times(one_fold(), np.array([0.0, 0.0504]))
+    states = one_fold().at_times(np.array([0.0, 0.0504]))
     assert states.times == pytest.approx([0.0, 0.05])
     assert len(states.displacement) == len(states.cell_data["plastic_strain"]) == 2
