@@ -136,6 +136,10 @@ def name_axes(axes: Axes, x: str, y: str) -> None:
     x, y = short(x, 60), short(y, 60)
     offset: dict[str, Any] = {"textcoords": "offset points", "annotation_clip": False, "fontsize": 8.0}
     axes.set_label(f"{x}\n{y}")
+    # matplotlib would measure all numbers again to place its own names and title, which stay empty
+    axes.set_title("", y=1.0)
+    axes.xaxis.set_label_coords(0.5, 0.0)
+    axes.yaxis.set_label_coords(0.0, 0.5)
     axes.annotate(y, (0, 1), (0, 7), xycoords="axes fraction", ha="left", va="bottom", color=INK, **offset)
     axes.annotate(x, (1, 0), (0, -16), xycoords="axes fraction", ha="right", va="top", color=MUTED, **offset)
 
