@@ -192,8 +192,12 @@ def fold_of(structure: StructureParts, member: str, hinge: str) -> Fold | None:
 
 def _candidates(structure: StructureParts, member: str) -> list[Candidate]:
     """Candidates on a member, if its hinges are automatic."""
-    asked = automatic_of(structure, member)
-    if asked is None:
-        return []
-    run, (_, axes) = straight_run(structure, member), _keys(structure, member, asked)
-    return candidates_on(structure, run, axes, asked.spacing).get(member, [])
+
+    def find() -> list[Candidate]:
+        asked = automatic_of(structure, member)
+        if asked is None:
+            return []
+        run, (_, axes) = straight_run(structure, member), _keys(structure, member, asked)
+        return candidates_on(structure, run, axes, asked.spacing).get(member, [])
+
+    return structure.kept.once("candidates", member, find)
