@@ -69,7 +69,7 @@ def assumptions(structure: Structure, solver: Solver) -> tuple[str, ...]:
             for end in crumpling_ends(structure)
         ),
         *_dents(structure),
-        *free_parts(link(structure, solver.hinges)),
+        *free_parts(link(structure)),
         *solver.notes,
     ]
     for name, welds in structure.spot_welds.items():
