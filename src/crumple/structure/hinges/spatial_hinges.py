@@ -33,7 +33,7 @@ BENDING = {"y": Freedom.Y, "z": Freedom.Z}
 ROWS = 16
 """Linear forms of the fitted surface: 3 to 4 % off for tubes, as with more, and cheap at every step."""
 KEPT = 64
-"""Interactions kept; a structure has few pairs of section and material."""
+"""Interactions and laws kept; a structure has few pairs of section and material."""
 
 
 def spatial_hinge_record(
@@ -74,7 +74,8 @@ def spatial_hinge_record(
     first = components[0].record
     if "x" in (keys.axes or ()):
         law = torsion if keys.twist is None else None
-        twist = _twist(law or _torsion_law(keys.twist or Twist(), metal, shares), first, metal, shares)
+        law = law or _torsion_law(keys.twist or Twist(), section, material, shares.stretch)
+        twist = _twist(law, first, metal, shares)
         components.append(HingeComponent(Freedom.X, twist))
     if keys.axial is not None:
         components.append(HingeComponent(Freedom.AXIAL, _axial(keys.axial, crush, first, metal, shares)))
@@ -108,9 +109,10 @@ def _like(
     )
 
 
-def _torsion_law(keys: Twist, metal: tuple[Section, Material], shares: HingeShares) -> HingeLaw:
-    section, material = metal
-    return build_torsion_law(keys.law, section, material, shares.stretch, **keys.own)
+# the hinges of a member, and of members of one section and length, share the laws of twist and collapse
+@remembered(KEPT)
+def _torsion_law(keys: Twist, section: Section, material: Material, length: float) -> HingeLaw:
+    return build_torsion_law(keys.law, section, material, length, **keys.own)
 
 
 def _twist(
@@ -128,7 +130,16 @@ def _axial(
     metal: tuple[Section, Material],
     shares: HingeShares,
 ) -> HingeRecord:
-    (section, material), length = metal, shares.stretch
+    section, material = metal
+    law = _collapse(keys, stored, section, material, shares.stretch)
+    elastic = material.youngs_modulus * section.area / shares.axial
+    return _like(first, law, elastic, one_sided=True)
+
+
+@remembered(KEPT)
+def _collapse(
+    keys: AxialSlip, stored: StoredLaw | None, section: Section, material: Material, length: float
+) -> AxialCollapse:
     stiffness = material.youngs_modulus * section.area / length
     squash = interaction_of(section, material).squash_force
     tension = keys.tension or squash
@@ -138,17 +149,14 @@ def _axial(
     elif keys.yields and stored is not None:
         crushing = StoredCrushing.of(stored)
     if crushing is not None:
-        law = AxialCollapse.of(crushing, length, tension=tension, closed_stiffness=stiffness)
-    else:
-        law = AxialCollapse.given(
-            keys.peak or squash,
-            keys.mean or squash,
-            keys.stroke or math.inf,
-            tension=tension,
-            closed_stiffness=stiffness,
-        )
-    elastic = material.youngs_modulus * section.area / shares.axial
-    return _like(first, law, elastic, one_sided=True)
+        return AxialCollapse.of(crushing, length, tension=tension, closed_stiffness=stiffness)
+    return AxialCollapse.given(
+        keys.peak or squash,
+        keys.mean or squash,
+        keys.stroke or math.inf,
+        tension=tension,
+        closed_stiffness=stiffness,
+    )
 
 
 @remembered(KEPT)
