@@ -44,6 +44,7 @@ private:
     bool solve_laws();
     void forget_laws();
     const Evaluated& evaluate(size_t link, const double* w);
+    double finest_tolerance() const;
     int most_iterations() const;
     bool narrow_ramps();
     void widen(double width, bool& narrowest);
