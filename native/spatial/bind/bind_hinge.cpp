@@ -137,6 +137,9 @@ SpatialHinge make_hinge(const nb::dict& d) {
     require(size(h) >= 1 && size(h) <= most_components, "a hinge has one to four components");
     h.surface = make_surface(d, size(h));
     h.fracture = entry<double>(d, "fracture");
+    const auto loss = entry<Doubles>(d, "shear_loss");
+    require(loss.size() == 2 && loss[0] >= 0 && loss[1] >= 0, "a shear force along y and one along z take no negative share of the torque");
+    std::copy(loss.begin(), loss.end(), h.shear_loss);
     for (const Component& c : h.components) {
         require(c.like < size(h) && (c.like >= 0 || c.shift.values().empty()), "a component with a shift is like another one of its hinge");
     }

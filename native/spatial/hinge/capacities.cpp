@@ -14,6 +14,8 @@ constexpr double smallest_mean = 1e-7;
 constexpr double smallest_flow = 1e-8;
 // Share of the capacity in one sense up to which the centre of the set moves in that sense, so that the set keeps both halves.
 constexpr double farthest = 0.9;
+// Share of the torque that shear forces leave at least: those above what the walls carry are of vibration.
+constexpr double least_torque = 0.1;
 
 bool shifts(const SpatialHinge& hinge) {
     for (const Component& c : hinge.components) {
@@ -46,6 +48,13 @@ double capacity_over(const hinge::Curve& curve, double a, double b, bool at_end,
 }
 
 }  // namespace
+
+// The walls of a round tube share every shear force alike; in others each pair of walls loses its own part.
+double left_by_shear(const SpatialHinge& hinge, double along_y, double along_z) {
+    const double y = hinge.shear_loss[0] * std::fabs(along_y), z = hinge.shear_loss[1] * std::fabs(along_z);
+    const bool alike = hinge.surface.coupling != Coupling::section;
+    return std::max(least_torque, 1 - (alike ? std::hypot(y, z) : y + z));
+}
 
 double first_capacity(const SpatialHinge& hinge, int k, int sense) {
     int hint = 0;
@@ -171,6 +180,10 @@ void set_coupled_capacity(const SpatialHinge& hinge, const SpatialHingeState& s,
                           FrozenSpatialHinge& f) {
     mean_capacities(hinge, s, e, flow, f);
     if (rate != nullptr) apply_rate_factor(hinge, rate, f);
+    for (int k = 0; k < size(hinge); k++) {
+        if (hinge.components[static_cast<size_t>(k)].freedom != 3) continue;
+        for (double& capacity : f.component[k].capacity) capacity *= s.torque_left;
+    }
     shift_centre(hinge, f);
 }
 

@@ -46,6 +46,7 @@ struct SpatialHinge {
     std::vector<Component> components;
     Surface surface;
     double fracture = std::numeric_limits<double>::infinity();  // plastic rotation [rad] at which the hinge fractures
+    double shear_loss[2] = {0, 0};  // share of the torque that a shear force along local y, z takes from the walls [1/N]
 };
 
 // State of one hinge.  Used of each component: plastic rotation, moment (mean over the last step; elastic-plastic: at its end),
@@ -61,6 +62,7 @@ struct SpatialHingeState {
     double fracture_time = -1;  // -1: not fractured
     double fracture_moment = 0;  // resultant moment just before fracture [N m]
     double fracture_energy = 0;  // elastic energy released at fracture [J]; part of the dissipated energy
+    double torque_left = 1;     // share of the torque that shear forces leave
     bool sliding = false;
 };
 
@@ -113,6 +115,8 @@ bool follow_impulse(const SpatialHinge& hinge, const FrozenSpatialHinge& f, cons
 double impulse_scale(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, int k);
 // d impulse_i / d ln C_j at fixed rates and ramp (n x n, row i): for implicit differentiation of a converged step
 void capacity_sensitivity(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* derivative);
+// share of the torque that a shear force (local y, z) [N] leaves
+double left_by_shear(const SpatialHinge& hinge, double along_y, double along_z);
 // updates the state variables; `turn` (n): the rotations and slip over the step, h (w0 + w1)/2
 void commit(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHingeState& state, double t0, const double* q0,
             const double* w1, double* turn);

@@ -71,6 +71,7 @@ bool EndOfStep::commit(State& s, double h, bool search) {
     turn_hinges(s);
     work_of_loads(s, h);
     show_forces(s, h);
+    if (!s.contact.impact) leave_to_torque(s, h);
     for (size_t i = 0; i < p_.end.size(); i++) {
         s.acceleration[i] = p_.stage.quasi_static ? Twist{} : (1 / h) * (p_.velocity[i] - s.velocity[i]);
         s.velocity[i] = p_.stage.quasi_static ? Twist{} : p_.velocity[i];
@@ -118,6 +119,17 @@ void EndOfStep::turn_hinges(State& s) {
             // a quasi-static step begins from rest, so its end rate is twice the mean, which is the true one
             s.rate[k + at(i)] = (p_.stage.quasi_static ? 0.5 : 1) * p_.w[row + at(i)];
         }
+    }
+}
+
+// What shear forces leave of torques in the next step, without vibration that is not resolved: with the forces of single steps, torques and
+// shear forces would keep each other in vibration.
+void EndOfStep::leave_to_torque(State& s, double h) {
+    const double followed = 1 - std::exp(-h * p_.model.resolved_frequency);
+    for (size_t j = 0; j < p_.model.hinges.size(); j++) {
+        const Vec3 force = s.joint_force[at(p_.model.hinge_joint[j])].v;
+        double& left = s.hinge[j].torque_left;
+        left += followed * (left_by_shear(p_.model.hinges[j], force.y, force.z) - left);
     }
 }
 

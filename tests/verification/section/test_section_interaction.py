@@ -56,6 +56,32 @@ def test_torque_of_the_box(record_figure):
         record_figure(f"multiplier at T = {share:g} T_p", BOX.multiplier(load), 1.0, 1e-3)
 
 
+def test_torque_lost_to_shear(record_figure):
+    """Walls that yield in shear on their own: T/T_p = 1 - V/(2 V_p) in a box; 1 - (2/pi) asin(V/V_p) in a ring."""
+    yields = T * 488e6 / math.sqrt(3)
+    for axis, side, lost in zip("yz", (A, B), BOX.torque_lost_to_shear, strict=True):
+        record_figure(f"box, share per force along {axis}", lost * 2 * side * yields, 0.5, 1e-9)
+    radius = 25 * MM
+    ring = plastic_interaction(CircularTube(2 * radius + T, T), STEEL)
+    half = math.asin(0.5) * 2 / math.pi / 0.5
+    for axis, lost in zip("yz", ring.torque_lost_to_shear, strict=True):
+        record_figure(f"ring, share per force along {axis}", lost * 4 * radius * yields, half, 5e-3)
+    # no cell: the torque is that of strips, in which shear flows otherwise
+    assert HAT.torque_lost_to_shear == (0.0, 0.0)
+
+
+def test_walls_without_torque_carry_shear_first(record_figure):
+    """The middle wall of two equal cells has no flow of the torque, so it takes a sixth more at no loss."""
+    tube = MultiCellTube(80 * MM, 40 * MM, 1 * MM, columns=2, inner_thickness=1 * MM)
+    plain = plastic_interaction(RectangularTube(80 * MM, 40 * MM, 1 * MM), STEEL)
+    two = plastic_interaction(tube, STEEL)
+    wall = 39 * MM * 1 * MM * 488e6 / math.sqrt(3)
+    # half of three walls' force, of which the middle wall has one share and the outer pair the rest
+    share = (1.5 - 1.0) / 2.0 * 0.5 / (1.5 * wall)
+    record_figure("two cells, share per force along z", two.torque_lost_to_shear[1], share, 0.02, "1/N", relative=True)
+    assert plain.torque_lost_to_shear[1] > two.torque_lost_to_shear[1]
+
+
 def test_plastic_torque_of_cells(record_figure):
     tube = MultiCellTube(122 * MM, 42 * MM, 2 * MM, columns=3, inner_thickness=1 * MM)
     # the outer wall limits every cell: the roof is flat and the inner walls carry nothing

@@ -170,7 +170,7 @@ class SpatialHinge:
     """Plastic hinge in freedoms of a joint that are not held.
 
     Codes of form and softening variable are those of `crumple._core.planar.simulation.TreeHinge`.
-    It opens for good at the plastic rotation `fracture` [rad].
+    It opens for good at the plastic rotation `fracture` [rad].  `shear_loss`: see `SpatialHingeRecord`.
     """
 
     joint: int
@@ -179,6 +179,7 @@ class SpatialHinge:
     form: int = 0
     softening: int = 0
     fracture: float = math.inf
+    shear_loss: tuple[float, float] = (0.0, 0.0)
 
     @cached_property
     def constants(self) -> dict[str, Any]:
@@ -189,6 +190,7 @@ class SpatialHinge:
             "form": self.form,
             "softening": self.softening,
             "fracture": self.fracture,
+            "shear_loss": list(self.shear_loss),
             "components": [component.component() for component in self.components],
             "coupling": int(surface.coupling),
             "rows": as_list(np.asarray(surface.rows, float).reshape(-1)),

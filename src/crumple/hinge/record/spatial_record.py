@@ -152,11 +152,14 @@ class SpatialHingeRecord:
         Their interaction.
     fracture
         Plastic rotation (length of the vector) [rad] at which the hinge breaks; inf: never.
+    shear_loss
+        Share of the torque that a shear force along local y, and one along z, takes from the walls [1/N].
     """
 
     components: tuple[HingeComponent, ...]
     surface: HingeSurface
     fracture: float = math.inf
+    shear_loss: tuple[float, float] = (0.0, 0.0)
 
     @property
     def freedoms(self) -> tuple[Freedom, ...]:

@@ -122,6 +122,7 @@ def _hinge(joint: int, connection: Connection) -> SpatialHinge:
         FORMS[spatial.form],
         SOFTENING[spatial.softening_variable],
         spatial.fracture,
+        spatial.shear_loss,
     )
 
 

@@ -27,7 +27,7 @@ from numpy.typing import ArrayLike
 
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
-from crumple.section.properties.plastic_torsion import plastic_torsion
+from crumple.section.properties.plastic_torsion import plastic_torsion, torque_lost_to_shear
 from crumple.section.properties.polygons import above, moments
 from crumple.section.section import Axis, Section
 from crumple.section.wall_section import walls_of
@@ -76,6 +76,13 @@ class PlasticInteraction:
     @cached_property
     def _torsion(self) -> tuple[float, Floats]:
         return plastic_torsion(self.section.skeleton, self.yields)
+
+    @cached_property
+    def torque_lost_to_shear(self) -> tuple[float, float]:
+        """Share of the torque that a shear force along y, and one along z, takes from the walls [1/N]."""
+        skeleton, centre = self.section.skeleton, complex(*self.section.properties.centroid)
+        lost = [torque_lost_to_shear(skeleton, self.yields, centre, angle) for angle in (0.0, math.pi / 2.0)]
+        return lost[0], lost[1]
 
     @cached_property
     def scales(self) -> Floats:

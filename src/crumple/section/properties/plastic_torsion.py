@@ -20,6 +20,9 @@ import numpy as np
 from crumple.numeric.arrays import Floats
 from crumple.section.geometry.skeleton import Skeleton
 
+HALF = 0.5
+"""Share of the largest shear force at which the loss of torque is read: it grows a little faster than the force."""
+
 
 def plastic_torsion(skeleton: Skeleton, yields: Floats) -> tuple[float, Floats]:
     """Fully plastic torque and its shear in each wall.
@@ -37,10 +40,50 @@ def plastic_torsion(skeleton: Skeleton, yields: Floats) -> tuple[float, Floats]:
         Torque [N m]; part of the shear yield stress that each edge uses, 0 to 1, shape (m,).
     """
     strength = skeleton.thickness * yields / math.sqrt(3.0)
-    cells = skeleton.cells
-    if not cells:
+    if not skeleton.cells:
         torque = float((skeleton.length * skeleton.thickness * strength).sum()) / 2.0
         return torque, np.where(skeleton.thickness > 0.0, 1.0, 0.0)
+    torque, flow = _flow(skeleton, strength)
+    used = np.abs(flow) / np.where(skeleton.thickness > 0.0, strength, np.inf)
+    return torque, np.minimum(used, 1.0)
+
+
+def torque_lost_to_shear(skeleton: Skeleton, yields: Floats, centre: complex, angle: float) -> float:
+    """Share of the plastic torque that a shear force takes, over the force [1/N]; 0 without cells.
+
+    Every wall is taken to yield in shear on its own, which needs corners that carry the differences of flow
+    along the member: docs/theory/interaction.md.
+
+    Parameters
+    ----------
+    skeleton, yields
+        As for `plastic_torsion`.
+    centre
+        Point y + i z about which the torque is taken [m].
+    angle
+        Direction of the force from y towards z [rad].
+    """
+    strength = skeleton.thickness * yields / math.sqrt(3.0)
+    if not skeleton.cells:
+        return 0.0
+    torque, flow = _flow(skeleton, strength)
+    start, end = (skeleton.nodes[skeleton.ends[:, k]] for k in (0, 1))
+    along = ((end - start) * np.exp(-1j * angle)).real
+    arm = (np.conj(start - centre) * (end - start)).imag * np.sign(flow)
+    # walls in which the flow of the torque is against the force: first those that lose least torque for it
+    against = np.flatnonzero((along * flow < 0.0) & (arm > 0.0))
+    against = against[np.argsort(arm[against] / np.abs(along[against]))]
+    spare = float(((strength - np.abs(flow)) * np.abs(along)).sum())
+    largest = float((strength * np.abs(along)).sum())
+    gained = 2.0 * np.cumsum(np.abs(flow * along)[against])
+    lost = 2.0 * np.cumsum((np.abs(flow) * arm)[against])
+    share = np.interp(HALF * largest - spare, np.append(0.0, gained), np.append(0.0, lost)) / torque
+    return float(share) / (HALF * largest)
+
+
+def _flow(skeleton: Skeleton, strength: Floats) -> tuple[float, Floats]:
+    """Plastic torque of cells [N m], and the shear flow along each edge [N/m]."""
+    cells = skeleton.cells
     # region on the left of each half-edge: 0 outside, then the cells
     region = np.zeros(2 * len(strength), int)
     for number, (_, halves) in enumerate(cells, start=1):
@@ -53,5 +96,4 @@ def plastic_torsion(skeleton: Skeleton, yields: Floats) -> tuple[float, Floats]:
         np.minimum.at(height, left, height[right] + cost)
         np.minimum.at(height, right, height[left] + cost)
     torque = 2.0 * sum(area * float(height[number]) for number, (area, _) in enumerate(cells, start=1))
-    used = np.abs(height[left] - height[right]) / np.where(skeleton.thickness > 0.0, strength, np.inf)
-    return torque, np.minimum(used, 1.0)
+    return torque, np.asarray(height[left] - height[right])

@@ -288,7 +288,9 @@ def spatial_record_of(
     if corner is None:
         plain = corner_of(structure, place.name)
         return record if plain is None else with_corner_slip(record, plain, metal[0])
-    sprung = with_corner_springs(record, corner, metal, shares.twist, torsion)
+    # a corner's twist is about another axis, and its law contains what its walls carry besides
+    own = replace(record, shear_loss=(0.0, 0.0))
+    sprung = with_corner_springs(own, corner, metal, shares.twist, torsion)
     shifted = with_corner_shift(sprung, corner, metal[0])
     return with_corner_press(shifted, corner, metal[0], metal[1].yield_stress * metal[0].area)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from crumple.hinge import (
@@ -84,13 +85,16 @@ def spatial_hinge_record(
         # its walls share every moment alike, so the ellipsoid is their interaction and needs no fit
         coupling = Coupling.ELLIPSOID
     fitted = len(components) > 1 and coupling is Coupling.SECTION
-    return spatial_record(
+    record = spatial_record(
         components,
         coupling=coupling,
         interaction=interaction_fit_of(section, material) if fitted else None,
         arm=(section.bending_depth(bending[0]) - section.thickness) / 2.0,
         fracture=math.inf if keys.fracture is None else keys.fracture,
     )
+    if record.surface.coupling is Coupling.NONE or Freedom.X not in record.freedoms:
+        return record
+    return replace(record, shear_loss=interaction_of(section, material).torque_lost_to_shear)
 
 
 def _like(
