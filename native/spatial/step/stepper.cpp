@@ -82,10 +82,11 @@ void Stepper::gather(State& s, double h, double gain) {
     newton_.relinked();
 }
 
-// Predicts the middle of the step, with the motion of bodies and loads, and the velocities without impulses of joints.
+// Predicts the middle of the step, with the motion of bodies and loads, and the velocities without impulses of joints.  The gaps of held
+// rows at the middle are of second order, which is enough for a step of second order.  Redundant rows need no more: they were chosen
+// where the state satisfies all rows, not at the middle, where those of a mechanism like Bricard's are independent and would lock it.
 void Stepper::place_middle(const State& s, double h) {
     predict(s, h);
-    if (redundant_ > 0 || p_.system.redundant() > 0) project_middle(s, s.t + h / 2);
     p_.set_mobilities(p_.middle);
     set_free(s);
     p_.locate_all(s, p_.middle, s.t + h / 2, p_.rows, p_.error.data());
@@ -105,24 +106,6 @@ void Stepper::predict(const State& s, double h) {
         const Vec3 arm = turned(p_.middle[at(load.body)].q, load.arm);
         Twist& m = momentum_[at(load.body)];
         m = m + factor * Twist{load.moment + cross(arm, load.force), load.force};
-    }
-}
-
-// Projects the predicted middle onto the held rows.  Needed if redundant constraints leave mobility only at consistent
-// positions: Bricard's mechanism is locked at any other.
-void Stepper::project_middle(const State& s, double t) {
-    p_.locate_all(s, p_.middle, t, p_.rows, p_.error.data());
-    p_.set_mobilities(p_.middle);
-    p_.hold_rows();
-    for (int pass = 0; pass < 2; pass++) {
-        for (size_t c = 0; c < p_.connections.size(); c++) {
-            const Link& link = p_.system.links()[c];
-            for (int i = 0; i < link.rows(); i++) p_.x[at(p_.start(c) + i)] = i < link.held ? p_.error[at(p_.start(c) + i)] : 0;
-        }
-        std::fill(direction_.begin(), direction_.end(), Twist{});
-        p_.system.solve(p_.x.data(), 1e-12 * p_.model.length, direction_.data());
-        for (size_t i = 0; i < p_.middle.size(); i++) p_.middle[i] = moved(p_.middle[i], direction_[i]);
-        p_.locate_all(s, p_.middle, t, p_.rows, p_.error.data());
     }
 }
 

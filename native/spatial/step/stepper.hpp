@@ -83,7 +83,6 @@ private:
     // parts of the stages
     void gather(State& s, double h, double gain);
     void predict(const State& s, double h);
-    void project_middle(const State& s, double t);
     void set_free(const State& s);
     void freeze_spring(const State& s, double h, size_t link);
     bool turned_back();
